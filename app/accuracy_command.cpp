@@ -10,7 +10,7 @@
 #include "app/verb.h"
 #include "studies/accuracy/accuracy_findings.h"
 
-namespace kurbel::app {
+namespace kurbel::app::accuracy_command {
 namespace {
 
 struct AccuracyArguments {
@@ -86,4 +86,4 @@ const Verb verb{{.place = 110,
                  .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::accuracy_command

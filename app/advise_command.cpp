@@ -10,7 +10,7 @@
 #include "studies/advise/advise_findings.h"
 #include "studies/files/whole_file.h"
 
-namespace kurbel::app {
+namespace kurbel::app::advise_command {
 namespace {
 
 struct AdviseArguments {
@@ -64,4 +64,4 @@ const Verb verb{{.place = 100,
                  .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::advise_command

@@ -19,7 +19,6 @@
 
 #include "app/terminal.h"
 #include "engine/scene/printable.h"
-#include "library/option_values.h"
 #include "studies/files/result_set.h"
 #include "studies/files/spawn.h"
 #include "studies/measured/measurement.h"
@@ -236,13 +235,6 @@ SimulateOptions simulate_options(const StudyOptions& options, Progress& progress
   simulation.watch = watch_of(options, progress);
   return simulation;
 }
-
-double quantity_of(const std::string& option, const std::string& text, const std::string& what,
-                   const std::string& example, const Domain& domain) {
-  return kurbel::quantity_of(option, text, what, example, domain);
-}
-
-Moment moment_of(const std::string& at, std::optional<double>& speed) { return kurbel::moment_of(at, speed); }
 
 namespace {
 

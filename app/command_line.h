@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/command.h"
-#include "engine/analysis/moment.h"
 #include "engine/scene/scene.h"
+#include "library/option_values.h"
 #include "studies/run/simulate.h"
 #include "studies/sheet/paper.h"
 
@@ -77,15 +77,6 @@ void add_former_name(OptionList& command, const std::string& name, std::string& 
 
 // Options of a simulation within a study: the same, and traces for the report.
 SimulateOptions simulate_options(const StudyOptions& options, Progress& progress);
-
-// A quantity in SI from an option; the example shows its unit: quantity_of("--until", "3 s", "a time > 0", "3 s",
-// positive). Throws std::invalid_argument in words.
-double quantity_of(const std::string& option, const std::string& text, const std::string& what,
-                   const std::string& example, const Domain& domain);
-
-// --at: after "step 2" of the operating sequence, at "1.5 s", or at a speed, which goes to `speed` [rad/s]. Throws
-// std::invalid_argument for anything else.
-Moment moment_of(const std::string& at, std::optional<double>& speed);
 
 // Of commands that can write the classical sheet of positions, sheet.html beside the report.
 struct SheetOptions {

@@ -8,7 +8,7 @@
 #include "app/verb.h"
 #include "studies/effects/effect_study_findings.h"
 
-namespace kurbel::app {
+namespace kurbel::app::effects_command {
 namespace {
 
 int list_effects() {
@@ -50,4 +50,4 @@ const Verb verb{{.place = 90,
                  .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::effects_command

@@ -10,7 +10,7 @@
 #include "library/words.h"
 #include "studies/dictionary/dictionary.h"
 
-namespace kurbel::app {
+namespace kurbel::app::explain_command {
 namespace {
 
 int explain(const std::string& asked, bool names) {
@@ -41,4 +41,4 @@ const Verb verb{{.place = 135,
                  .of_scene = false}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::explain_command

@@ -11,7 +11,7 @@
 #include "studies/forces/forces_findings.h"
 #include "studies/handout/forces_sheet.h"
 
-namespace kurbel::app {
+namespace kurbel::app::forces_command {
 namespace {
 
 struct ForcesArguments {
@@ -78,4 +78,4 @@ const Verb verb{
      .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::forces_command

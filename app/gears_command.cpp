@@ -9,7 +9,7 @@
 #include "studies/gears/bevel_worm.h"
 #include "studies/gears/gears.h"
 
-namespace kurbel::app {
+namespace kurbel::app::gears_command {
 namespace {
 
 struct GearsArguments {
@@ -138,4 +138,4 @@ const Verb verb{{.place = 60,
                  .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::gears_command

@@ -9,7 +9,7 @@
 #include "app/verb.h"
 #include "studies/modes/modes_findings.h"
 
-namespace kurbel::app {
+namespace kurbel::app::modes_command {
 namespace {
 
 struct ModesArguments {
@@ -98,4 +98,4 @@ const Verb verb{
      .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::modes_command

@@ -8,7 +8,7 @@
 #include "studies/handout/reduce_sheet.h"
 #include "studies/reduce/reduce.h"
 
-namespace kurbel::app {
+namespace kurbel::app::reduce_command {
 namespace {
 
 struct ReduceArguments {
@@ -81,4 +81,4 @@ const Verb verb{{.place = 30,
                  .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::reduce_command

@@ -20,7 +20,7 @@
 #include "studies/run/run_findings.h"
 #include "studies/trials/trials_findings.h"
 
-namespace kurbel::app {
+namespace kurbel::app::run_command {
 namespace {
 
 constexpr std::uintmax_t most_state_bytes = 256u << 20;
@@ -229,4 +229,4 @@ const Verb compare_verb{{.place = 20,
                          .set_up = set_up_compare}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::run_command

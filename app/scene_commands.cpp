@@ -21,7 +21,7 @@
 #include "studies/scenes/schema.h"
 #include "studies/scenes/templates.h"
 
-namespace kurbel::app {
+namespace kurbel::app::scene_commands {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,4 +234,4 @@ const Verb commands_verb{{.place = 170,
                           .of_scene = false}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::scene_commands

@@ -7,7 +7,7 @@
 #include "app/verb.h"
 #include "studies/size/size.h"
 
-namespace kurbel::app {
+namespace kurbel::app::size_command {
 namespace {
 
 struct SizeArguments {
@@ -79,4 +79,4 @@ const Verb verb{{.place = 40,
                  .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::size_command

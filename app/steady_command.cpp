@@ -13,7 +13,7 @@
 #include "studies/run/compare.h"
 #include "studies/steady/steady_findings.h"
 
-namespace kurbel::app {
+namespace kurbel::app::steady_command {
 namespace {
 
 struct SteadyArguments {
@@ -102,4 +102,4 @@ const Verb verb{{.place = 80,
                  .set_up = set_up}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::steady_command

@@ -19,7 +19,7 @@
 #include "studies/sweep/sweep_findings.h"
 #include "studies/uncertainty/uncertainty.h"
 
-namespace kurbel::app {
+namespace kurbel::app::sweep_command {
 namespace {
 
 constexpr int most_threads = 1024;
@@ -346,4 +346,4 @@ const Verb difference_verb{
      .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | what one value does"}}};
 
 }  // namespace
-}  // namespace kurbel::app
+}  // namespace kurbel::app::sweep_command

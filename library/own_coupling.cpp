@@ -59,18 +59,18 @@ class OwnCoupling {
   std::shared_ptr<const CouplingLaw> law_;
 };
 
-struct OwnKind {
+struct OwnCouplingKind {
   std::vector<Parameter> parameters;
   MakeCoupling make;
 };
 std::mutex own_couplings_mutex;
-std::map<std::string, OwnKind>& own_couplings() {
-  static std::map<std::string, OwnKind> kinds;
+std::map<std::string, OwnCouplingKind>& own_couplings() {
+  static std::map<std::string, OwnCouplingKind> kinds;
   return kinds;
 }
 
 void build_own_coupling(const Section& section, Network& net, Messages& messages) {
-  const OwnKind kind = [&] {
+  const OwnCouplingKind kind = [&] {
     const std::scoped_lock lock(own_couplings_mutex);
     return own_couplings().at(section.kind->name);
   }();

@@ -55,14 +55,14 @@ class OwnBodies final : public MechanismBodies {
   OwnMechanismData data_;
 };
 
-struct OwnKind {
+struct OwnMechanismKind {
   std::vector<Parameter> parameters;
   MakeMechanism make;
   double number = 0;
 };
 std::mutex own_mechanisms_mutex;
-std::map<std::string, OwnKind>& own_mechanisms() {
-  static std::map<std::string, OwnKind> kinds;
+std::map<std::string, OwnMechanismKind>& own_mechanisms() {
+  static std::map<std::string, OwnMechanismKind> kinds;
   return kinds;
 }
 
@@ -100,7 +100,7 @@ void check_motion(const OwnMechanismData& data) {
 }
 
 void build_own_mechanism(const Section& section, Network& net, Messages& messages) {
-  const OwnKind kind = [&] {
+  const OwnMechanismKind kind = [&] {
     const std::scoped_lock lock(own_mechanisms_mutex);
     return own_mechanisms().at(section.kind->name);
   }();

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace kurbel {
+namespace kurbel::mutants_test {
 namespace {
 
 struct Mutant {
@@ -82,4 +82,4 @@ TEST(Mutants, EveryOriginalTextStandsOnceInItsFile) {
   }
 }
 
-}  // namespace kurbel
+}  // namespace kurbel::mutants_test

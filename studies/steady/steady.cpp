@@ -235,18 +235,19 @@ class Study {
     return cycle.end == ReturnMap::End::interrupted || cycle.kind == Regime::Kind::interrupted;
   }
 
-  // Several times what the mean torques would need; where they do not suffice, what the rated torque would.
+  // Several times what the mean torques would need; where they do not suffice, or hardly, what the rated torque would.
   double start_limit(double target) const {
     RigidMachine machine(rigid_);
     const double inertia = machine.constant_inertia() + machine.mechanism_inertia(1).value;
+    const double by_rated_torque = inertia * target / rigid_->torque_scale;
     double time = 0;
     const std::vector<MeanTorques>& curve = out_.diagram->curve;
     for (std::size_t i = 0; i + 1 < curve.size() && std::abs(curve[i + 1].omega) < target; ++i) {
       const double net = std::min(curve[i].net(), curve[i + 1].net());
-      if (net <= 0) return 100 * inertia * target / rigid_->torque_scale;
+      if (net <= 0) return 100 * by_rated_torque;
       time += inertia * std::abs(curve[i + 1].omega - curve[i].omega) / net;
     }
-    return 5 * time;
+    return std::min(5 * time, 1000 * by_rated_torque);
   }
 
   void find_start() {

@@ -17,7 +17,7 @@
 
 #include "tests/support/files.h"
 
-namespace kurbel {
+namespace kurbel::command_line_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -552,4 +552,4 @@ TEST_F(CommandLine, SteadyFindsTheCycleAndSaysWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::command_line_test

@@ -11,7 +11,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::crash_inputs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ TEST_F(CrashInputs, ForcesOfEqualLinksEnd) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::crash_inputs_test

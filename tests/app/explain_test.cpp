@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-namespace kurbel {
+namespace kurbel::explain_test {
 namespace {
 
 struct Said {
@@ -67,4 +67,4 @@ TEST(Explain, WithoutANameAllAreListed) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::explain_test

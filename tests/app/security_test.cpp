@@ -26,7 +26,7 @@
 #include "engine/scene/document.h"
 #include "tests/support/files.h"
 
-namespace kurbel {
+namespace kurbel::security_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -430,4 +430,4 @@ TEST_F(Security, EndsByItsBudgetAndByCtrlC) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::security_test

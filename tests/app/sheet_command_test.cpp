@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-namespace kurbel {
+namespace kurbel::sheet_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,4 +69,4 @@ TEST(SheetCommand, WhatCannotBeDrawnEndsWithTwoInWordsAndWritesNothing) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::sheet_command_test

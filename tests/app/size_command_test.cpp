@@ -10,7 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-namespace kurbel {
+namespace kurbel::size_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,4 +121,4 @@ TEST(ReduceCommand, TablesAtAnyNumberOfPositionsAndRefusals) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::size_command_test

@@ -16,7 +16,7 @@
 
 #include "tests/support/files.h"
 
-namespace kurbel {
+namespace kurbel::streams_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -214,4 +214,4 @@ TEST_F(Streams, ScenesOfOddNamesAreReadAndCompletionDoesNotWaitForThem) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::streams_test

@@ -14,7 +14,7 @@
 #include "studies/sweep/store.h"
 #include "studies/sweep/sweep_findings.h"
 
-namespace kurbel {
+namespace kurbel::sweep_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ TEST_F(SweepCommand, AnInterruptKeepsWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::sweep_command_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace kurbel {
+namespace kurbel::tasks_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ TEST(Tasks, EveryPageAndSceneIsUsed) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::tasks_test

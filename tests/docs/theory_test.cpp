@@ -20,7 +20,7 @@
 #include "studies/report/render.h"
 #include "studies/report/theory.h"
 
-namespace kurbel {
+namespace kurbel::theory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -321,4 +321,4 @@ TEST(Theory, ReportsListWhatTheyCite) {
   EXPECT_EQ(html_of(Report{.title = "Press"}).find("\"theory\":"), std::string::npos);
 }
 
-}  // namespace kurbel
+}  // namespace kurbel::theory_test

@@ -9,7 +9,7 @@
 #include "tests/support/elements.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::backlash_test {
 namespace {
 
 using test::Against;
@@ -217,4 +217,4 @@ TEST(Backlash, EnergyBalanceCloses) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::backlash_test

@@ -8,7 +8,7 @@
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::bearing_test {
 namespace {
 
 using test::figure;
@@ -214,4 +214,4 @@ TEST(Bearing, OffItLeavesNoTrace) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::bearing_test

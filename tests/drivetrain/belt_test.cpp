@@ -9,7 +9,7 @@
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::belt_test {
 namespace {
 
 using test::digits;
@@ -175,4 +175,4 @@ TEST(ElasticBelt, JacobianEqualsDifferencesInEveryMode) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::belt_test

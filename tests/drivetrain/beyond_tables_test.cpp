@@ -15,7 +15,7 @@
 #include "studies/validity/outside_data.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::beyond_tables_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ TEST(BeyondTables, OfAllScenesEachLeavingIsTold) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::beyond_tables_test

@@ -17,7 +17,7 @@
 #include "drivetrain/gears/gear_mesh.h"
 #include "engine/elements/any_connection.h"
 
-namespace kurbel {
+namespace kurbel::connections_test {
 namespace {
 
 std::mt19937 random_numbers(23);
@@ -162,4 +162,4 @@ TEST(UniversalJointOnBothSides, TakesGPrimeTau) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::connections_test

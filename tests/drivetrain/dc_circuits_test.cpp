@@ -12,7 +12,7 @@
 #include "tests/support/elements.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::dc_circuits_test {
 namespace {
 
 using test::Against;
@@ -292,4 +292,4 @@ TEST(DcShuntCircuit, RampThroughZeroPassesItsModesAsEvents) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::dc_circuits_test

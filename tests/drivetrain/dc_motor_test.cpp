@@ -6,7 +6,7 @@
 #include "drivetrain/motors/dc_series_motor.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::dc_motor_test {
 namespace {
 
 using test::figure;
@@ -84,4 +84,4 @@ TEST(DcSeriesMotor, DrivenBackwardsEndsInWordsBeforeThePole) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::dc_motor_test

@@ -16,7 +16,7 @@
 #include "engine/elements/element_pool.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::elements_test {
 namespace {
 
 using test::figure;
@@ -357,4 +357,4 @@ TEST(SeveralMechanisms, KeepTheirPhases) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::elements_test

@@ -8,7 +8,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::engine_torque_test {
 namespace {
 
 using test::run;
@@ -175,4 +175,4 @@ accuracy = 1e-10
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::engine_torque_test

@@ -8,7 +8,7 @@
 #include "tests/support/jacobians.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::field_weakening_test {
 namespace {
 
 using test::Against;
@@ -149,4 +149,4 @@ TEST(FieldWeakening, WithoutTransientsIsItsLine) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::field_weakening_test

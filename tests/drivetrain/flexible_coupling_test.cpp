@@ -11,7 +11,7 @@
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::flexible_coupling_test {
 namespace {
 
 using test::digits;
@@ -321,4 +321,4 @@ TEST(RubberCoupling, JacobianEqualsDifferences) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::flexible_coupling_test

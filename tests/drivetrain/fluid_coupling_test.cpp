@@ -8,7 +8,7 @@
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::fluid_coupling_test {
 namespace {
 
 using test::digits;
@@ -150,4 +150,4 @@ TEST(ViscousDamper, JacobianEqualsDifferences) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::fluid_coupling_test

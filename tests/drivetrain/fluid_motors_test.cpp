@@ -8,7 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::fluid_motors_test {
 namespace {
 
 using test::figure;
@@ -141,4 +141,4 @@ accuracy = 1e-10
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::fluid_motors_test

@@ -10,7 +10,7 @@
 #include "engine/reading/settings.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::formulas_in_scenes_test {
 namespace {
 
 using test::figure;
@@ -310,4 +310,4 @@ accuracy = 1e-9
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::formulas_in_scenes_test

@@ -9,7 +9,7 @@
 
 #include "drivetrain/gears/gear_pair.h"
 
-namespace kurbel {
+namespace kurbel::gear_interference_test {
 namespace {
 
 constexpr double mm = 1e-3, degree = std::numbers::pi / 180, pi = std::numbers::pi;
@@ -160,4 +160,4 @@ TEST(GearInterference, TipDiameterThatIsAdvisedEndsItExactly) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gear_interference_test

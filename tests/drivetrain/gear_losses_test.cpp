@@ -11,7 +11,7 @@
 #include "tests/support/jacobians.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::gear_losses_test {
 namespace {
 
 using test::Against;
@@ -304,4 +304,4 @@ run = {{ start = {{ speed = "{} rad/s" }}, until = "0.1 s", samples = 3, accurac
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gear_losses_test

@@ -10,7 +10,7 @@
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::gear_mesh_test {
 namespace {
 
 using test::digits;
@@ -160,4 +160,4 @@ TEST(GearMesh, JacobianEqualsDifferencesInEveryMode) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gear_mesh_test

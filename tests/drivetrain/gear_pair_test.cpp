@@ -10,7 +10,7 @@
 #include "drivetrain/gears/bevel_worm.h"
 #include "drivetrain/gears/planetary.h"
 
-namespace kurbel {
+namespace kurbel::gear_pair_test {
 namespace {
 
 constexpr double mm = 1e-3, degree = std::numbers::pi / 180, pi = std::numbers::pi;
@@ -227,22 +227,49 @@ TEST(GearPair, SlidingIsTheDifferenceOfTheFlanksSpeedsAlongTheTangent) {
   }
 }
 
-// How deep a point lies inside the material of a wheel: > 0 inside; from half tooth and radius.
-double depth_inside(const GearWheel& w, const std::vector<FlankPoint>& half, double x, double y) {
-  const double radius = std::hypot(x, y), pitch = 2 * pi / std::abs(w.teeth);
-  const double angle = std::abs(std::remainder(std::atan2(y, x), pitch));
-  double deepest = -1;
-  // Material at this angle: out to (external) or from (internal) the radius of the flank there.
-  for (std::size_t i = 0; i + 1 < half.size(); ++i) {
-    const FlankPoint &a = half[i], &b = half[i + 1];
-    const double low = std::min(a.angle, b.angle), high = std::max(a.angle, b.angle);
-    if (angle < low || angle > high || high == low) continue;
-    const double flank = a.radius + (b.radius - a.radius) * (angle - a.angle) / (b.angle - a.angle);
-    const double depth = w.internal() ? radius - flank : flank - radius;
-    deepest = deepest == -1 ? depth : std::min(deepest, depth);
+// A wheel's material: its half tooth, whose pieces are found by their angle.
+class Material {
+ public:
+  Material(const GearWheel& wheel, std::vector<FlankPoint> half)
+      : half_(std::move(half)), pitch_(2 * pi / std::abs(wheel.teeth)), internal_(wheel.internal()), at_(bins) {
+    for (std::size_t i = 0; i + 1 < half_.size(); ++i) {
+      const double low = std::min(half_[i].angle, half_[i + 1].angle);
+      const double high = std::max(half_[i].angle, half_[i + 1].angle);
+      if (high == low) continue;
+      for (std::size_t k = bin_of(low); k <= bin_of(high); ++k) at_[k].push_back({low, high, i});
+    }
   }
-  return deepest;
-}
+
+  // How deep a point lies inside, > 0 inside: at its angle, from the radius of the flank there, outwards or inwards.
+  double depth(double x, double y) const {
+    const double radius = std::hypot(x, y), angle = std::abs(std::remainder(std::atan2(y, x), pitch_));
+    double deepest = -1;
+    for (const Piece& piece : at_[bin_of(angle)]) {
+      if (angle < piece.low || angle > piece.high) continue;
+      const FlankPoint &a = half_[piece.first], &b = half_[piece.first + 1];
+      const double flank = a.radius + (b.radius - a.radius) * (angle - a.angle) / (b.angle - a.angle);
+      const double depth = internal_ ? radius - flank : flank - radius;
+      deepest = deepest == -1 ? depth : std::min(deepest, depth);
+    }
+    return deepest;
+  }
+
+ private:
+  static constexpr std::size_t bins = 512;
+  struct Piece {
+    double low, high;
+    std::size_t first;
+  };
+  // Over half a pitch; what lies beyond it is in the first or the last.
+  std::size_t bin_of(double angle) const {
+    return static_cast<std::size_t>(std::clamp(angle / (0.5 * pitch_), 0.0, 1.0) * (bins - 1));
+  }
+
+  std::vector<FlankPoint> half_;
+  double pitch_;
+  bool internal_;
+  std::vector<std::vector<Piece>> at_;
+};
 
 TEST(GearWheel, RackRollsOnTheWheelTouchingItAndCuttingNothing) {
   std::vector<GearWheel> wheels;
@@ -254,7 +281,7 @@ TEST(GearWheel, RackRollsOnTheWheelTouchingItAndCuttingNothing) {
     wheels.push_back(solve_gear_pair(d).wheel[0]);
   }
   for (const GearWheel& w : wheels) {
-    const std::vector<FlankPoint> half = half_tooth(w, 2000);
+    const Material material(w, half_tooth(w, 2000));
     const double m = w.module, alpha = w.rack.pressure_angle, rho = w.rack.root_radius * m;
     const double centre_depth = w.rack.dedendum() * m - rho, pitch_radius = 0.5 * w.reference_diameter;
     const double centre_half = m * pi / 4 - centre_depth * std::tan(alpha) - rho / std::cos(alpha);
@@ -264,7 +291,7 @@ TEST(GearWheel, RackRollsOnTheWheelTouchingItAndCuttingNothing) {
       const auto depth = [&](double half_width, double below) {
         const double x = half_width / std::cos(w.helix) + travel, y = pitch_radius - below + w.generating_shift * m;
         const double angle = std::atan2(x, y) - travel / pitch_radius + pi / w.teeth, r = std::hypot(x, y);
-        return depth_inside(w, half, r * std::cos(angle), r * std::sin(angle));
+        return material.depth(r * std::cos(angle), r * std::sin(angle));
       };
       for (int i = 0; i <= 40; ++i) {
         const double psi = alpha + (pi / 2 - alpha) * i / 40;
@@ -297,7 +324,7 @@ TEST(GearPair, DrawnWheelsDoNotOverlapAtAnyAngle) {
     for (const GearVerdict& v : verdicts(p)) sound = sound && v.finding != Finding::fault;
     if (!sound) continue;
     ++drawn;
-    const std::vector<FlankPoint> half_2 = half_tooth(p.wheel[1], 400);
+    const Material material(p.wheel[1], half_tooth(p.wheel[1], 400));
     const std::vector<OutlinePoint> outline = wheel_outline(p.wheel[0], 12);
     double deepest = -1;
     for (int step = 0; step < 12; ++step) {
@@ -308,7 +335,7 @@ TEST(GearPair, DrawnWheelsDoNotOverlapAtAnyAngle) {
         const double x = c1 * q.x - s1 * q.y - p.centre_distance, y = s1 * q.x + c1 * q.y;
         const double r = std::hypot(x, y);
         if (p.internal() ? r < 0.5 * std::abs(p.wheel[1].tip_diameter) : r > 0.5 * p.wheel[1].tip_diameter) continue;
-        deepest = std::max(deepest, depth_inside(p.wheel[1], half_2, c2 * x + s2 * y, -s2 * x + c2 * y));
+        deepest = std::max(deepest, material.depth(c2 * x + s2 * y, -s2 * x + c2 * y));
       }
     }
     EXPECT_LT(deepest, 2e-4 * p.data.module) << p.data.teeth[0] << " " << p.data.teeth[1];
@@ -380,7 +407,7 @@ TEST(GearVerdicts, TipFoulingOfInternalPairsAgreesWithTheDrawing) {
     d.teeth = {50, -50 - difference};
     d.rack.root_radius = 0;
     const GearPair p = solve_gear_pair(d);
-    const std::vector<FlankPoint> half = half_tooth(p.wheel[1], 300);
+    const Material material(p.wheel[1], half_tooth(p.wheel[1], 300));
     const std::vector<OutlinePoint> outline = wheel_outline(p.wheel[0], 40);
     double deepest = -1;
     for (int step = 0; step < 40; ++step) {
@@ -390,7 +417,7 @@ TEST(GearVerdicts, TipFoulingOfInternalPairsAgreesWithTheDrawing) {
         const double x = c1 * q.x - s1 * q.y - p.centre_distance, y = s1 * q.x + c1 * q.y;
         if (std::hypot(x, y) < 0.5 * std::abs(p.wheel[1].tip_diameter)) continue;
         const double c2 = std::cos(place.angle_2), s2 = std::sin(place.angle_2);
-        deepest = std::max(deepest, depth_inside(p.wheel[1], half, c2 * x + s2 * y, -s2 * x + c2 * y));
+        deepest = std::max(deepest, material.depth(c2 * x + s2 * y, -s2 * x + c2 * y));
       }
     }
     const double margin = tip_fouling_margin(p);
@@ -494,4 +521,4 @@ TEST(PlanetaryTrain, TorquesBalanceAndLossesTakePower) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gear_pair_test

@@ -9,7 +9,7 @@
 #include "tests/support/jacobians.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::gearbox_housing_test {
 namespace {
 
 using test::Against;
@@ -194,4 +194,4 @@ run = { until = "0.5 s" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gearbox_housing_test

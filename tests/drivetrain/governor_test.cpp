@@ -10,7 +10,7 @@
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::governor_test {
 namespace {
 
 using test::figure;
@@ -136,4 +136,4 @@ TEST(SpeedGovernor, JacobianEqualsDifferencesInEveryMode) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::governor_test

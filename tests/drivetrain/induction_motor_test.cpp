@@ -9,7 +9,7 @@
 #include "drivetrain/induction/started_motor.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::induction_motor_test {
 namespace {
 
 using test::figure;
@@ -426,4 +426,4 @@ TEST(StartedMotors, ByCataloguePointsCloseTheEnergyBalance) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::induction_motor_test

@@ -9,7 +9,7 @@
 #include "engine/model/model.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::later_and_geared_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -58,4 +58,4 @@ run = { until = "1 s", accuracy = 1e-9 }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::later_and_geared_test

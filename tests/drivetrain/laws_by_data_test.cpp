@@ -17,7 +17,7 @@
 #include "drivetrain/motors/motors.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::laws_by_data_test {
 namespace {
 
 using test::figure;
@@ -254,4 +254,4 @@ TEST(GearVerdicts, SayWhichTipsAreTooThinForHardenedTeeth) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::laws_by_data_test

@@ -17,7 +17,7 @@
 #include "drivetrain/motors/governor.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::laws_off_neutral_test {
 namespace {
 
 using test::figure;
@@ -299,4 +299,4 @@ load = { kind = "load", quadratic = "0.02 N*m*s2/rad2", inertia = "0.9 kg*m2" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::laws_off_neutral_test

@@ -12,7 +12,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::misfire_test {
 namespace {
 
 using test::figure;
@@ -249,4 +249,4 @@ TEST(FiringOrder, GivesThePhaseAndTellsOneThatIsAnother) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::misfire_test

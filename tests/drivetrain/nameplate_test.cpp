@@ -12,7 +12,7 @@
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::nameplate_test {
 namespace {
 
 using test::figure;
@@ -202,4 +202,4 @@ TEST(Nameplate, PullUpWithoutItsSpeedLiesAtTheSeventhHarmonics) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::nameplate_test

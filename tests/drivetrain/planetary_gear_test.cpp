@@ -9,7 +9,7 @@
 #include "tests/support/jacobians.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::planetary_gear_test {
 namespace {
 
 using test::Against;
@@ -208,4 +208,4 @@ line = ["right"]
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::planetary_gear_test

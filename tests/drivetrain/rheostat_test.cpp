@@ -8,7 +8,7 @@
 #include "tests/published/published.h"
 #include "tests/support/jacobians.h"
 
-namespace kurbel {
+namespace kurbel::rheostat_test {
 namespace {
 
 using test::figure;
@@ -224,4 +224,4 @@ TEST(Rheostat, JacobianEqualsDifferences) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::rheostat_test

@@ -11,7 +11,7 @@
 #include "engine/scene/messages.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::tables_of_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ brake = {{ kind = "load", damping = "0.8 N*m*s/rad" }}
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::tables_of_files_test

@@ -15,7 +15,7 @@
 #include "tests/support/jacobians.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::translation_test {
 namespace {
 
 using test::Against;
@@ -279,4 +279,4 @@ run = {{ start = {{ speed = "{} rad/s" }}, until = "3 s", accuracy = 1e-9, sampl
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::translation_test

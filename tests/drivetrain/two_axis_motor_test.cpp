@@ -11,7 +11,7 @@
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::two_axis_motor_test {
 namespace {
 
 using test::figure;
@@ -238,4 +238,4 @@ inertia = "0.2 kg*m2"
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::two_axis_motor_test

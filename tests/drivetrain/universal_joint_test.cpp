@@ -9,7 +9,7 @@
 #include "tests/support/elements.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::universal_joint_test {
 namespace {
 
 using test::Against;
@@ -181,4 +181,4 @@ TEST(UniversalJoint, JacobianEqualsDifferences) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::universal_joint_test

@@ -12,7 +12,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::bad_scenes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ TEST(BadScenes, LargeScenesAreReadInSeconds) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::bad_scenes_test

@@ -13,7 +13,7 @@
 #include "studies/modes/modes.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::behind_gears_test {
 namespace {
 
 using test::figure;
@@ -280,4 +280,4 @@ run = { start = { speed = "30 rad/s" } }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::behind_gears_test

@@ -10,7 +10,7 @@
 #include "engine/linear/coordinates.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::closed_loops_test {
 namespace {
 
 using test::figure;
@@ -337,4 +337,4 @@ TEST(ClosedLoop, BandAndLockUpTogetherStopTheMachine) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::closed_loops_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace kurbel {
+namespace kurbel::constraints_test {
 namespace {
 
 __extension__ typedef __float128 Quad;
@@ -324,4 +324,4 @@ TEST(Ties, OfPrescribedShaftsSayWhenTheyAreNotKept) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::constraints_test

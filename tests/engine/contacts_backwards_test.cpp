@@ -11,7 +11,7 @@
 #include "tests/support/elements.h"
 #include "tests/support/jacobians.h"
 
-namespace kurbel {
+namespace kurbel::contacts_backwards_test {
 namespace {
 
 using test::figure;
@@ -211,4 +211,4 @@ run = { until = "0.125 s", accuracy = 1e-9, start = { speed = "10 rad/s" } }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::contacts_backwards_test

@@ -12,7 +12,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::contacts_test {
 namespace {
 
 using test::Against;
@@ -362,4 +362,4 @@ TEST(Contacts, WithoutEventsTheyMoveOnByTheirOwnLaw) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::contacts_test

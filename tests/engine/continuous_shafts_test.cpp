@@ -15,7 +15,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/waiting.h"
 
-namespace kurbel {
+namespace kurbel::continuous_shafts_test {
 namespace {
 
 using test::figure;
@@ -321,4 +321,4 @@ TEST(ContinuousShaft, costs_nothing_while_it_is_rigid) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::continuous_shafts_test

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace kurbel {
+namespace kurbel::curve_test {
 namespace {
 
 using Form = Curve::Form;
@@ -108,4 +108,4 @@ TEST(Curve, UnfitPointsAreRefused) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::curve_test

@@ -7,7 +7,7 @@
 #include "engine/run/recorders.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::cycle_extremes_test {
 namespace {
 
 // The link's speed at many places of every step.
@@ -72,4 +72,4 @@ TEST_P(CycleExtremes, AreThoseOfTheSolution) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::cycle_extremes_test

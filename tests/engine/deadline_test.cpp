@@ -11,7 +11,7 @@
 #include "studies/steady/steady.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::deadline_test {
 namespace {
 
 void work_until_told() {
@@ -122,4 +122,4 @@ TEST(Deadline, AnInterruptEndsTheExtractionOfAMechanism) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::deadline_test

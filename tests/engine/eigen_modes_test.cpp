@@ -13,7 +13,7 @@
 #include "engine/events/equations.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::eigen_modes_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -318,4 +318,4 @@ TEST(Linearisation, RefusesARigidMachineInWords) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::eigen_modes_test

@@ -8,7 +8,7 @@
 #include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::equations_test {
 namespace {
 
 using test::figure;
@@ -350,4 +350,4 @@ TEST(Everything, BalancesItsEnergyAndKeepsItsAngles) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::equations_test

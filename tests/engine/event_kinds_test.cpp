@@ -12,7 +12,7 @@
 #include "tests/published/published.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::event_kinds_test {
 namespace {
 
 // By the words, which people read.
@@ -94,4 +94,4 @@ TEST(EventKinds, HaveANameEach) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::event_kinds_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace kurbel {
+namespace kurbel::fields_test {
 namespace {
 
 enum class Side { left, right };
@@ -230,4 +230,4 @@ TEST(Fields, MemberThatNoKeyFillsCannotBeAskedFor) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::fields_test

@@ -12,7 +12,7 @@
 #include "engine/matrices/periodic_schur.h"
 #include "tests/published/published.h"
 
-namespace kurbel::test {
+namespace kurbel::test::floquet_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -287,4 +287,4 @@ TEST(Floquet, AStruckCrankDriveRingsDownByItsExponent) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::floquet_test

@@ -14,7 +14,7 @@
 #include "engine/numerics/curve.h"
 #include "engine/values/formula_reader.h"
 
-namespace kurbel {
+namespace kurbel::formula_test {
 namespace {
 
 FormulaNames names_of_x() {
@@ -463,4 +463,4 @@ TEST(Formula, LengthAndDepthAreBounded) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::formula_test

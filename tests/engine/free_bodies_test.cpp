@@ -12,7 +12,7 @@
 #include "tests/support/free_bodies.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::free_bodies_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -212,4 +212,4 @@ crank = { kind = "slider-crank", radius = "50 mm", rod = "300 mm", crank_inertia
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::free_bodies_test

@@ -6,7 +6,7 @@
 #include "studies/run/simulate.h"
 #include "tests/coverage/variant.h"
 
-namespace kurbel {
+namespace kurbel::implicit_at_kinks_test {
 namespace {
 
 struct Broken {
@@ -31,4 +31,4 @@ TEST(ImplicitMethods, PassEventsAtKinksOfTheirLaws) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::implicit_at_kinks_test

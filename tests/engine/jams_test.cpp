@@ -14,7 +14,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::jams_test {
 namespace {
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
@@ -266,4 +266,4 @@ run = { start = { angle = "185 deg", speed = "20 rad/s" }, until = "0.3 s", accu
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::jams_test

@@ -7,7 +7,7 @@
 #include "tests/published/published.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::light_shafts_test {
 namespace {
 
 using test::figure;
@@ -132,4 +132,4 @@ TEST(LightShafts, WithoutInertiaAreRefusedWhereNothingFixesTheirMotion) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::light_shafts_test

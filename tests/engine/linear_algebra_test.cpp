@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace kurbel {
+namespace kurbel::linear_algebra_test {
 namespace {
 
 // [[0, 1], [−ω², −2ζω]]: λ = −ζω ± i ω √(1 − ζ²).
@@ -32,4 +32,4 @@ TEST(Eigenpairs, WhatIsNoNumberIsRefused) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::linear_algebra_test

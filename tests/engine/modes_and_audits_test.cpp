@@ -15,7 +15,7 @@
 #include "studies/modes/modes.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::modes_and_audits_test {
 namespace {
 
 using test::run;
@@ -235,4 +235,4 @@ TEST_P(InAnyUnit, StepsAreThoseOfTheScaledStates) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::modes_and_audits_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace kurbel {
+namespace kurbel::newton_test {
 namespace {
 
 // Whoever keeps what the last evaluation gave (an image of the return map) has that of the solution, with derivative, also
@@ -57,4 +57,4 @@ TEST(Newton, ReachesAFarSolutionByLimitedSteps) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::newton_test

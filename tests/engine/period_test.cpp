@@ -18,7 +18,7 @@
 #include "engine/numerics/curve.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::period_test {
 namespace {
 
 using std::numbers::pi;
@@ -265,4 +265,4 @@ TEST(Period, ExampleScenesDoNotSeeTheTurnTheyBeginOn) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::period_test

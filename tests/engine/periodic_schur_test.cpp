@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace kurbel {
+namespace kurbel::periodic_schur_test {
 namespace {
 
 using Eigen::Index;
@@ -193,4 +193,4 @@ TEST(PeriodicSchur, EndsForMatricesOfEveryKind) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::periodic_schur_test

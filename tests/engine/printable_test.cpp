@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-namespace kurbel {
+namespace kurbel::printable_test {
 namespace {
 
 TEST(Printable, TextOfAllScriptsStaysAsItIs) {
@@ -56,4 +56,4 @@ TEST(Printable, NoBytesGetThrough) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::printable_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::regime_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -326,4 +326,4 @@ TEST(Regime, WaitingIsNoCycle) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::regime_test

@@ -10,7 +10,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel::test {
+namespace kurbel::test::return_map_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -375,4 +375,4 @@ TEST(ReturnMap, LawsOfOneShaftRepeatAfterTheirCommonPeriod) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::return_map_test

@@ -11,7 +11,7 @@
 #include "mechanisms/linkages/slider_crank_geometry.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::rigid_machine_test {
 namespace {
 
 using std::numbers::pi;
@@ -245,4 +245,4 @@ until = "1 s"
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::rigid_machine_test

@@ -15,7 +15,7 @@
 #include "studies/modes/modes.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::rounds_and_steps_test {
 namespace {
 
 using std::numbers::pi;
@@ -375,4 +375,4 @@ TEST(Modes, OfAMechanismBehindAGearCountItsMeanInertia) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::rounds_and_steps_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::scene_test {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -211,4 +211,4 @@ TEST(Scene, MessagesOfOneFileComeSortedByLine) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::scene_test

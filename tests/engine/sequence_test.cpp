@@ -5,7 +5,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::sequence_test {
 namespace {
 
 using test::figure;
@@ -199,4 +199,4 @@ TEST(Sequence, BrakesToRest) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::sequence_test

@@ -14,7 +14,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::settings_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -230,4 +230,4 @@ TEST(Settings, ReachEveryTextOfEveryScene) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::settings_test

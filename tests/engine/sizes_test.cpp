@@ -9,7 +9,7 @@
 #include "studies/steady/steady.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::sizes_test {
 namespace {
 
 using test::scene_from;
@@ -241,4 +241,4 @@ TEST(Bounds, TenThousandMissingComponentsAreNamedInSeconds) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::sizes_test

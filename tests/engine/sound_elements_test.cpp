@@ -6,7 +6,7 @@
 
 #include "mechanisms/loads/slider_loads.h"
 
-namespace kurbel {
+namespace kurbel::sound_elements_test {
 namespace {
 
 // --- connections ---
@@ -419,4 +419,4 @@ TEST(SoundElements, AMisspeltMemberIsRefusedWhenItIsCompiled) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::sound_elements_test

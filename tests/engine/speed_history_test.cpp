@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-namespace kurbel {
+namespace kurbel::speed_history_test {
 namespace {
 
 using Curve = std::function<double(double)>;
@@ -87,4 +87,4 @@ TEST(BandHistory, WhatIsAppendedCountsAsIfItHadBeenAddedStepByStep) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::speed_history_test

@@ -12,7 +12,7 @@
 
 #include "engine/tables/table_file.h"
 
-namespace kurbel {
+namespace kurbel::spreadsheet_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,4 +131,4 @@ TEST_F(Spreadsheet, ASheetOfATextIsRefused) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::spreadsheet_test

@@ -8,7 +8,7 @@
 #include "engine/numerics/index.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::start_test {
 namespace {
 
 constexpr double degree = M_PI / 180;
@@ -133,4 +133,4 @@ TEST(Start, GivenSpeedsOfMembersKeepTheRelation) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::start_test

@@ -8,7 +8,7 @@
 #include "engine/rigid/work_equation.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::starts_and_edges_test {
 namespace {
 
 using test::figure;
@@ -86,4 +86,4 @@ run = { until = "0.125 s", budget = "1 s", start = { speed = "10 rad/s" } }
   EXPECT_TRUE(r.complete) << r.diagnosis.substr(0, 60);
 }
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::starts_and_edges_test

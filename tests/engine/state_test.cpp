@@ -14,7 +14,7 @@
 #include "tests/hard/random_machine.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::state_test {
 namespace {
 
 using test::scene_from;
@@ -273,4 +273,4 @@ TEST(State, AnotherMachinesStateIsRefusedWithWhatDiffers) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::state_test

@@ -7,7 +7,7 @@
 #include "engine/run/diagnosis.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::step_limits_test {
 namespace {
 
 // Five masses in a row that swing; the spring `stiff` is ten thousand times as stiff as the others.
@@ -116,4 +116,4 @@ TEST(Diagnosis, OfALostValueNamesTheStateItsElementAndTheLastEvents) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::step_limits_test

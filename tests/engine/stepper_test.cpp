@@ -12,7 +12,7 @@
 
 #include "engine/steppers/butcher_tables.h"
 
-namespace kurbel {
+namespace kurbel::stepper_test {
 namespace {
 
 using Vector = std::vector<double>;
@@ -684,4 +684,4 @@ TEST(Stepper, SenselessErrorControlIsRefused) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::stepper_test

@@ -11,7 +11,7 @@
 
 #include "engine/tables/heading.h"
 
-namespace kurbel {
+namespace kurbel::table_file_test {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -245,4 +245,4 @@ TEST(TableFile, OneTableInAllFormsIsTheSame) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::table_file_test

@@ -7,7 +7,7 @@
 
 #include "engine/run/tape.h"
 
-namespace kurbel {
+namespace kurbel::tape_test {
 namespace {
 
 template <class T>
@@ -56,4 +56,4 @@ TEST(Tape, RefusesACountThatIsNone) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::tape_test

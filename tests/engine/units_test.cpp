@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace kurbel {
+namespace kurbel::units_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -236,4 +236,4 @@ TEST(Units, NearestFindsSlipsAndLeavesStrangersAlone) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::units_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::vanishing_damping_test {
 namespace {
 
 double damping_of(const Model& model, const std::string& component) {
@@ -91,4 +91,4 @@ d = { kind = "coupling", stiffness = "1 kN*m/rad", inertia_out = "0 kg*m2" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::vanishing_damping_test

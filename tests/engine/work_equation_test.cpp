@@ -12,7 +12,7 @@
 #include "mechanisms/linkages/slider_crank_geometry.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::work_equation_test {
 namespace {
 
 using std::numbers::pi;
@@ -368,4 +368,4 @@ TEST(WorkEquation, RefusesInWordsWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::work_equation_test

@@ -14,7 +14,7 @@
 #include "tests/fuzz/targets.h"
 #include "tests/fuzz/toml_text.h"
 
-namespace kurbel::fuzz {
+namespace kurbel::fuzz::fuzz_test {
 namespace {
 
 class Attack {
@@ -152,4 +152,4 @@ TEST(Fuzz, AMessageBehindTheEndOfItsLineIsAFault) {
 }
 
 }  // namespace
-}  // namespace kurbel::fuzz
+}  // namespace kurbel::fuzz::fuzz_test

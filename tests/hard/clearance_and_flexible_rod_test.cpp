@@ -9,7 +9,7 @@
 #include "engine/run/run.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::clearance_and_flexible_rod_test {
 namespace {
 
 // All joints with clearance, the rod flexible, gravity, friction and a press: energy is in balance (conservation law).
@@ -48,4 +48,4 @@ start = { speed = "60 rad/s" }
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::clearance_and_flexible_rod_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::dips_test {
 namespace {
 
 // Two free masses on a spring that is four times as stiff beyond θ₁, swinging just over it:
@@ -36,4 +36,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, KneeBarelyPassed,
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::dips_test

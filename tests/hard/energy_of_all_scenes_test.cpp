@@ -4,7 +4,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::energy_of_all_scenes_test {
 namespace {
 
 std::vector<std::string> all_scenes() {
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(OfScenes, EnergyBalance, ::testing::ValuesIn(all_scenes
                          [](const auto& info) { return info.param; });
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::energy_of_all_scenes_test

@@ -5,7 +5,7 @@
 
 #include "tests/hard/families.h"
 
-namespace kurbel::hard {
+namespace kurbel::hard::growth_of_errors_test {
 namespace {
 
 double angle_error(const HardCase& machine, const Result& result) {
@@ -35,4 +35,4 @@ TEST(GrowthOfErrors, OverTimeEnergyDriftsInProportionAndPhaseAsTheSquare) {
 }
 
 }  // namespace
-}  // namespace kurbel::hard
+}  // namespace kurbel::hard::growth_of_errors_test

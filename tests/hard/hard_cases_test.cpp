@@ -8,7 +8,7 @@
 
 #include "tests/hard/families.h"
 
-namespace kurbel::hard {
+namespace kurbel::hard::hard_cases_test {
 namespace {
 
 // Methods of low order need ten times the steps for three digits more: they are asked for less.
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(All, HardCases, ::testing::ValuesIn(numbers()), [](cons
 });
 
 }  // namespace
-}  // namespace kurbel::hard
+}  // namespace kurbel::hard::hard_cases_test

@@ -4,7 +4,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::large_angle_test {
 namespace {
 
 using test::figure;
@@ -105,4 +105,4 @@ TEST(LargeAngle, BackwardMillionsBehaveAlike) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::large_angle_test

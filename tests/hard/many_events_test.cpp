@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::many_events_test {
 namespace {
 
 // Twelve shafts, two clutches, two brakes, a one-way clutch, a torque limiter and three gaps under shaking torques
@@ -37,4 +37,4 @@ TEST(ManyEvents, ClutchesBrakesAndGapsRunWithoutChatter) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::many_events_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::methods_agree_test {
 namespace {
 
 // Prescribed speed with a sine on it, elastic coupling, variable inertia, resistance of the medium: work done by the
@@ -83,4 +83,4 @@ TEST(Methods, FehlbergAndVernerFindThePeakOfTheChain) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::methods_agree_test

@@ -8,7 +8,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::order_of_tables_test {
 namespace {
 
 using test::project_text;
@@ -184,4 +184,4 @@ TEST(EffectOff, ACouplingWithoutHubsMayAsWellBeAbsent) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::order_of_tables_test

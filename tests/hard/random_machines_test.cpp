@@ -8,7 +8,7 @@
 #include "tests/hard/random_machine.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::random_machines_test {
 namespace {
 
 using namespace test;  // NOLINT: the machines' names
@@ -185,4 +185,4 @@ TEST(RandomMachines, StiffnessShiftsModesByItsRoot) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::random_machines_test

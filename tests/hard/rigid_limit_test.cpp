@@ -6,7 +6,7 @@
 #include "studies/run/compare.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::rigid_limit_test {
 namespace {
 
 using test::figure;
@@ -174,4 +174,4 @@ TEST(RigidLimit, ComparisonSaysThatAStepDoublesThePeakTorque) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::rigid_limit_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::speed_table_test {
 namespace {
 
 // A load by table with its knot exactly at the mean speed: the slider-crank's inertia carries the speed across it twice
@@ -40,4 +40,4 @@ kind = "load"
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::speed_table_test

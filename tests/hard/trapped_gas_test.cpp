@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::trapped_gas_test {
 namespace {
 
 // x′ = r at φ = 270°, where the slider approaches the extended end: 1000 N resist there, 200 N push on the way back.
@@ -82,4 +82,4 @@ TEST(DeadCentre, StartAtRestWithoutTorqueIsSaidInWords) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::trapped_gas_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace kurbel {
+namespace kurbel::rooms_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -326,4 +326,4 @@ TEST(House, LinksBetweenDocumentsResolve) {
   EXPECT_GT(links, 30);
 }
 
-}  // namespace kurbel
+}  // namespace kurbel::rooms_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace kurbel {
+namespace kurbel::version_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,4 +62,4 @@ TEST(Version, TheProgramSaysIt) {
   EXPECT_EQ(text_of(out), "kurbel " + version_of_project() + "\n");
 }
 
-}  // namespace kurbel
+}  // namespace kurbel::version_test

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace kurbel {
+namespace kurbel::facade_test {
 namespace {
 
 const char* const two_masses = R"(
@@ -357,4 +357,4 @@ TEST(Facade, ASweepOfAFunctionKeepsItsRowsAndSaysWhatFailed) {
   std::filesystem::remove(file);
 }
 
-}  // namespace kurbel
+}  // namespace kurbel::facade_test

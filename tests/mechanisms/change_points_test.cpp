@@ -9,7 +9,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "mechanisms/reduced/newton_euler.h"
 
-namespace kurbel {
+namespace kurbel::change_points_test {
 namespace {
 
 using std::numbers::pi;
@@ -311,4 +311,4 @@ TEST(ChangePoint, ReactionsGrowWithTheInverseOfTheDistance) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::change_points_test

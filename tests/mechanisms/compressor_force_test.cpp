@@ -8,7 +8,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::compressor_force_test {
 namespace {
 
 using test::figure;
@@ -132,4 +132,4 @@ TEST(CompressorForce, DerivativesAreExact) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::compressor_force_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::deforming_directions_test {
 namespace {
 
 std::string crank(const std::string& more, const std::string& run) {
@@ -84,4 +84,4 @@ TEST(DeformingDirections, SliderThatFallsUpwardsHitsItsGuideAsHard) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::deforming_directions_test

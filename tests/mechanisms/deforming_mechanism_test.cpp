@@ -14,7 +14,7 @@
 #include "tests/support/elements.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::deforming_mechanism_test {
 namespace {
 
 // A small crank with `more` keys; `line` and `drive` put something before it.
@@ -394,4 +394,4 @@ TEST(FlexibleRod, ARodWithoutMassIsTold) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::deforming_mechanism_test

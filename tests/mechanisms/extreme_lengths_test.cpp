@@ -18,7 +18,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::extreme_lengths_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ run = { until = "1 s" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::extreme_lengths_test

@@ -8,7 +8,7 @@
 
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 
-namespace kurbel {
+namespace kurbel::friction_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -69,4 +69,4 @@ TEST(Friction, SenselessArgumentsAreRefused) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::friction_test

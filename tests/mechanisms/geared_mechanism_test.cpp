@@ -6,7 +6,7 @@
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::geared_mechanism_test {
 namespace {
 
 struct Gear {
@@ -118,4 +118,4 @@ TEST(GearedMechanism, LossInItsJointsIsTheEnergyThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::geared_mechanism_test

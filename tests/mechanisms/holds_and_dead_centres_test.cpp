@@ -12,7 +12,7 @@
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::holds_and_dead_centres_test {
 namespace {
 
 using test::figure;
@@ -214,4 +214,4 @@ TEST(RoundedProfile, RepeatedTableIsRoundedAtItsSeamToo) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::holds_and_dead_centres_test

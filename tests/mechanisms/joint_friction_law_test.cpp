@@ -13,7 +13,7 @@
 #include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::joint_friction_law_test {
 namespace {
 
 class Draw {
@@ -208,4 +208,4 @@ TEST(JointFrictionLaw, JacobianIsExactOnTheSidesThatHold) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::joint_friction_law_test

@@ -8,7 +8,7 @@
 #include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::joint_friction_run_test {
 namespace {
 
 std::string crank(const std::string& effects, const std::string& run, const std::string& more = "") {
@@ -123,4 +123,4 @@ TEST(JointFrictionEffect, IsRefusedWhereNoJointHasFriction) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::joint_friction_run_test

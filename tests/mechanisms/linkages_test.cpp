@@ -7,7 +7,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/mechanisms/linkage_truth.h"
 
-namespace kurbel {
+namespace kurbel::linkages_test {
 namespace {
 
 using std::numbers::pi;
@@ -412,4 +412,4 @@ TEST(Linkages, SenselessDataAreRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::linkages_test

@@ -8,7 +8,7 @@
 #include "tests/mechanisms/linkage_truth.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::mechanism_loads_test {
 namespace {
 
 using std::numbers::pi;
@@ -276,4 +276,4 @@ TEST(Linkages, MultibodyRunIsRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::mechanism_loads_test

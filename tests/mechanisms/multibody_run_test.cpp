@@ -12,7 +12,7 @@
 
 #include "tests/mechanisms/mechanism_examples.h"
 
-namespace kurbel {
+namespace kurbel::multibody_run_test {
 namespace {
 
 struct CrankState {
@@ -160,4 +160,4 @@ TEST(MultibodyRun, RefusesSenselessProblems) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::multibody_run_test

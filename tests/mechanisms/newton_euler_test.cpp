@@ -13,7 +13,7 @@
 #include "tests/mechanisms/linkage_truth.h"
 #include "tests/mechanisms/mechanism_examples.h"
 
-namespace kurbel {
+namespace kurbel::newton_euler_test {
 namespace {
 
 double uniform(std::mt19937& random, double from, double to) {
@@ -232,4 +232,4 @@ TEST(ReactionsOfAllLinks, AreSimbodysInAKnucklePress) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::newton_euler_test

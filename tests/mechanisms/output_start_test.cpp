@@ -9,7 +9,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::output_start_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -96,4 +96,4 @@ TEST(OutputStart, RunBeginsThere) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::output_start_test

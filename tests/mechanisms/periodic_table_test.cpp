@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace kurbel {
+namespace kurbel::periodic_table_test {
 namespace {
 
 void harmonics(double phi, std::span<double> values) {
@@ -118,4 +118,4 @@ TEST(PeriodicTable, RefusesSenselessRequests) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::periodic_table_test

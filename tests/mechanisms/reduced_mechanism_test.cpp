@@ -12,7 +12,7 @@
 
 #include "tests/mechanisms/mechanism_examples.h"
 
-namespace kurbel {
+namespace kurbel::reduced_mechanism_test {
 namespace {
 
 using Channel = ReducedMechanism::Channel;
@@ -169,4 +169,4 @@ TEST(ReducedMechanism, SaysWhenThePiecesDoNotSuffice) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::reduced_mechanism_test

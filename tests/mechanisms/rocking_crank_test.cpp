@@ -16,7 +16,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/support/jacobians.h"
 
-namespace kurbel {
+namespace kurbel::rocking_crank_test {
 namespace {
 
 using test::figure;
@@ -286,4 +286,4 @@ TEST(RockingCrank, JacobianIsThatOfDifferences) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::rocking_crank_test

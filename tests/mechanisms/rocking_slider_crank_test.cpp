@@ -14,7 +14,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/support/jacobians.h"
 
-namespace kurbel {
+namespace kurbel::rocking_slider_crank_test {
 namespace {
 
 using test::figure;
@@ -237,4 +237,4 @@ TEST(RockingSliderCrank, FrictionInItsJointsTakesWhatTheEnergyLacks) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::rocking_slider_crank_test

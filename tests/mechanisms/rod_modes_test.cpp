@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-namespace kurbel {
+namespace kurbel::rod_modes_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, length = 0.42, mass = 1.7;
@@ -69,4 +69,4 @@ TEST(RodModes, StretchingDecaysWithItsDampingRatio) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::rod_modes_test

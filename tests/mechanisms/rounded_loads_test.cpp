@@ -7,7 +7,7 @@
 #include "mechanisms/loads/rounded_profile.h"
 #include "tests/support/elements.h"
 
-namespace kurbel {
+namespace kurbel::rounded_loads_test {
 namespace {
 
 using test::figure;
@@ -148,4 +148,4 @@ load = { kind = "medium", viscous = "90 N*s/m" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::rounded_loads_test

@@ -16,7 +16,7 @@
 #include "tests/mechanisms/mechanism_examples.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::second_extraction_test {
 namespace {
 
 using std::numbers::pi;
@@ -229,4 +229,4 @@ TEST(SecondExtraction, CompilesToTheSameMachine) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::second_extraction_test

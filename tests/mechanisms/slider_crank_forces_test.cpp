@@ -8,7 +8,7 @@
 #include "mechanisms/linkages/simbody_reactions.h"
 #include "tests/mechanisms/mechanism_examples.h"
 
-namespace kurbel {
+namespace kurbel::slider_crank_forces_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -302,4 +302,4 @@ TEST(JointFriction, BadDataAreRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::slider_crank_forces_test

@@ -9,7 +9,7 @@
 
 #include "tests/mechanisms/mechanism_examples.h"
 
-namespace kurbel {
+namespace kurbel::slider_crank_geometry_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -227,4 +227,4 @@ TEST(SliderCrankGeometry, RefusesWhatCannotMove) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::slider_crank_geometry_test

@@ -10,7 +10,7 @@
 
 #include "tests/mechanisms/mechanism_examples.h"
 
-namespace kurbel {
+namespace kurbel::slider_crank_simbody_test {
 namespace {
 
 // Some channel vanishes when masses do; rounding is then measured by the terms that cancel.
@@ -118,4 +118,4 @@ TEST(SliderCrankBodies, InertiaNeedsMass) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::slider_crank_simbody_test

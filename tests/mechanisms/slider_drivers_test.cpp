@@ -11,7 +11,7 @@
 
 #include "tests/support/jacobians.h"
 
-namespace kurbel {
+namespace kurbel::slider_drivers_test {
 namespace {
 
 using test::figure;
@@ -177,4 +177,4 @@ TEST(SliderDriver, JacobianEqualsDifferences) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::slider_drivers_test

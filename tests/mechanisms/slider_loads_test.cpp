@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::slider_loads_test {
 namespace {
 
 using test::figure;
@@ -112,4 +112,4 @@ accuracy = 1e-8
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::slider_loads_test

@@ -11,7 +11,7 @@
 #include "tests/published/published.h"
 #include "tests/support/files.h"
 
-namespace kurbel {
+namespace kurbel::switched_loads_test {
 namespace {
 
 using test::figure;
@@ -210,4 +210,4 @@ TEST(SwitchedLoads, ForcesOfARepeatedSequenceHaveTheLoadsAsTheyCome) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::switched_loads_test

@@ -4,7 +4,7 @@
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::closed_forms_test {
 namespace {
 
 using test::Against;
@@ -400,4 +400,4 @@ accuracy = 1e-10
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::closed_forms_test

@@ -13,7 +13,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::coupling_selection_test {
 namespace {
 
 using test::Against;
@@ -116,4 +116,4 @@ TEST(CouplingSelection, LectureExampleOfAnElectricMotor) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::coupling_selection_test

@@ -11,7 +11,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/validation.h"
 
-namespace kurbel::test {
+namespace kurbel::test::deforming_slider_crank_test {
 namespace {
 
 // B. Simeon's slider crank (Test Set for IVP Solvers): crank at 150 rad/s, slender rod with two modes of bending and
@@ -168,4 +168,4 @@ TEST(JointClearance, FirstContactOfFloresSliderCrank) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::deforming_slider_crank_test

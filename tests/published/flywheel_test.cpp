@@ -8,7 +8,7 @@
 
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::flywheel_test {
 namespace {
 
 using test::Against;
@@ -213,4 +213,4 @@ TEST(Fl01, Example23PunchingForceOfTheSheet) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::flywheel_test

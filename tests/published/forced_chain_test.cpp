@@ -7,7 +7,7 @@
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::forced_chain_test {
 namespace {
 
 using test::Against;
@@ -200,4 +200,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return fmt::format("At{:.0f}RadPerSecond", info.param.omega); });
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::forced_chain_test

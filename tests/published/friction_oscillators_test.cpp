@@ -5,7 +5,7 @@
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::friction_oscillators_test {
 namespace {
 
 using test::Against;
@@ -108,4 +108,4 @@ samples = 10001
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::friction_oscillators_test

@@ -7,7 +7,7 @@
 #include "drivetrain/gears/planetary.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::gears_test {
 namespace {
 
 using test::Against;
@@ -201,4 +201,4 @@ TEST(PlanetaryTrain, InertiaReducedToTheSun) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gears_test

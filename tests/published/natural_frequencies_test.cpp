@@ -6,7 +6,7 @@
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::natural_frequencies_test {
 namespace {
 
 using fmt::format;
@@ -150,4 +150,4 @@ TEST(ShaftLine, GearedWindTurbineHasThePublishedFrequencyAndDampingRatio) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::natural_frequencies_test

@@ -11,7 +11,7 @@
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::reference_problems_test {
 namespace {
 
 using test::Against;
@@ -221,4 +221,4 @@ TEST(EqualChain, EqualToleranceGivesEqualAccuracyAtAnyLength) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::reference_problems_test

@@ -11,7 +11,7 @@
 #include "engine/steppers/stepper.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::slider_crank_forces_test {
 namespace {
 
 using test::Against;
@@ -265,4 +265,4 @@ TEST(IdasSliderCrankProblem, MovesAsPrintedBySundials) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::slider_crank_forces_test

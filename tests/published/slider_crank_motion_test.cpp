@@ -5,7 +5,7 @@
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::slider_crank_motion_test {
 namespace {
 
 using test::Against;
@@ -186,4 +186,4 @@ TEST(SliderCrankAtPrescribedSpeed, DriveDoesTheWorkThatTheReducedInertiaAsksFor)
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::slider_crank_motion_test

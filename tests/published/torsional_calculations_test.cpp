@@ -9,7 +9,7 @@
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::torsional_calculations_test {
 namespace {
 
 using fmt::format;
@@ -388,4 +388,4 @@ TEST(HolzerTable, NaturalFrequenciesLeaveNoTorqueOverAndShapesAreTheTables) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::torsional_calculations_test

@@ -12,7 +12,7 @@
 #include "studies/report/render.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::accuracy_test {
 namespace {
 
 TEST(ParetoFront, KeepsWhatNothingBeatsInErrorAndTime) {
@@ -218,4 +218,4 @@ run = { until = "1 s" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::accuracy_test

@@ -8,7 +8,7 @@
 #include "tests/agreement/agreement.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::advise_test {
 namespace {
 
 FigureChange change(const std::string& figure, double relative, double error) {
@@ -144,4 +144,4 @@ TEST(Advise, CoversTheSettledMotionAndNotTheStartAlone) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::advise_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel::agreement {
+namespace kurbel::agreement::agreement_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -183,4 +183,4 @@ TEST(Agreement, SizedMachineHasTheFluctuationThatIsTold) {
 }
 
 }  // namespace
-}  // namespace kurbel::agreement
+}  // namespace kurbel::agreement::agreement_test

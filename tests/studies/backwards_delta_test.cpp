@@ -7,7 +7,7 @@
 #include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::backwards_delta_test {
 namespace {
 
 // δ = (|ω|_max − |ω|_min)/|ω|_mean of each shaft; rigid, it is the same on all, also behind a gear that reverses.
@@ -32,4 +32,4 @@ run = { start = { speed = "8 rad/s" } }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::backwards_delta_test

@@ -11,7 +11,7 @@
 #include "studies/size/flywheel.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::by_hand_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -106,4 +106,4 @@ TEST(Counterweights, BalanceTheRotatingMassesAndTheirShareOfTheReciprocatingOnes
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::by_hand_test

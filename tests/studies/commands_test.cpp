@@ -12,7 +12,7 @@
 #include "tests/agreement/agreement.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::commands_test {
 namespace {
 
 struct CommandGiven {
@@ -119,4 +119,4 @@ TEST(Commands, ChangeTheRunOrAreRefused) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::commands_test

@@ -14,7 +14,7 @@
 #include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::conclusions_test {
 namespace {
 
 TEST(Headline, RoundsToFourDigitsAndDropsErrorsThatNobodySees) {
@@ -190,4 +190,4 @@ TEST(KeyFigures, HoldWhatIsJudgedAndWhatTheMotorGives) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::conclusions_test

@@ -9,7 +9,7 @@
 #include "tests/coverage/statistics.h"
 #include "tests/coverage/variant.h"
 
-namespace kurbel::coverage {
+namespace kurbel::coverage::coverage_test {
 namespace {
 
 JudgedFigure judged(double stated, double error) {
@@ -79,4 +79,4 @@ TEST(Coverage, StatedErrorsCoverTrueOnesInVariantsOfAllScenes) {
 }
 
 }  // namespace
-}  // namespace kurbel::coverage
+}  // namespace kurbel::coverage::coverage_test

@@ -11,7 +11,7 @@
 #include "engine/numerics/index.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::critical_speeds_test {
 namespace {
 
 // An induction motor, synchronous at 100 rad/s, that breaks down at a slip of 0.2; behind it an elastic shaft.
@@ -198,4 +198,4 @@ TEST(KeptSpeeds, NothingIsBarredWhereTheMachineCannotStay) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::critical_speeds_test

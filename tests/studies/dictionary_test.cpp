@@ -15,7 +15,7 @@
 #include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::dictionary_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST(Dictionary, APageDefinesTheFiguresThatItShowsAndNoOthers) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::dictionary_test

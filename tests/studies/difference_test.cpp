@@ -8,7 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::difference_test {
 namespace {
 
 std::vector<SceneChange> changes(const std::string& a, const std::string& b) {
@@ -116,4 +116,4 @@ TEST(Difference, OfAMachineThatFailsIsIncomplete) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::difference_test

@@ -13,7 +13,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::drive_figures_test {
 namespace {
 
 using test::figure;
@@ -192,4 +192,4 @@ TEST(Compressor, EachOfTwoOnAPistonHasItsVolumetricEfficiency) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::drive_figures_test

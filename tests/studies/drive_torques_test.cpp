@@ -9,7 +9,7 @@
 #include "studies/duty/work_periods.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::drive_torques_test {
 namespace {
 
 using test::figure;
@@ -154,4 +154,4 @@ TEST(Efficiency, CountsTheChangeOfStoredEnergy) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::drive_torques_test

@@ -19,7 +19,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::duty_test {
 namespace {
 
 using test::figure;
@@ -377,4 +377,4 @@ TEST(LoopWork, IsTheAreaOfTheIndicatorDiagram) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::duty_test

@@ -12,7 +12,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/without_effect.h"
 
-namespace kurbel {
+namespace kurbel::effects_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ TEST(Advise, ScreensClearanceByImpactsAndARodByItsFrequency) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::effects_test

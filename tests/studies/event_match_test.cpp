@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace kurbel {
+namespace kurbel::event_match_test {
 namespace {
 
 TEST(EventMatch, PairsByKindInOrderThoughTheOrderOfKindsDiffers) {
@@ -65,4 +65,4 @@ TEST(EventMatch, FindsEventsThatMovedALittleAmongMissingOnes) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::event_match_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-namespace kurbel {
+namespace kurbel::figure_text_test {
 namespace {
 
 std::string shown(double value, double error) { return with_error(value, error, ""); }
@@ -60,4 +60,4 @@ TEST(FigureText, CoversWhatItStandsForAndNoDigitIsBeyondTheError) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::figure_text_test

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace kurbel {
+namespace kurbel::flywheel_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -180,4 +180,4 @@ TEST(Flywheel, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::flywheel_test

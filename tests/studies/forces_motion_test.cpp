@@ -14,7 +14,7 @@
 #include "tests/agreement/agreement.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::forces_motion_test {
 namespace {
 
 constexpr double same_physics = 1e-10;  // of the largest torque: what tables of the mechanism leave
@@ -222,4 +222,4 @@ TEST(ForcesInALinkage, PushTheWayThatTheirColumnsName) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::forces_motion_test

@@ -13,7 +13,7 @@
 #include "studies/report/render.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::forces_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -316,4 +316,4 @@ TEST(ForcesStudy, OutputHoldsBothProblemsAndIsValidJson) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::forces_test

@@ -11,7 +11,7 @@
 #include "studies/gears/gears.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::gear_errors_test {
 namespace {
 
 using Real = long double;
@@ -213,4 +213,4 @@ TEST(GearErrors, of_bevel_and_worm_pairs_cover_the_difference_to_long_double) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gear_errors_test

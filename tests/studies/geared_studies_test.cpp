@@ -12,7 +12,7 @@
 #include "studies/size/size.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::geared_studies_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -287,4 +287,4 @@ run = {{ start = {{ speed = "{:.17g} rad/s" }}, until = "0.1 ms", accuracy = 1e-
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::geared_studies_test

@@ -14,7 +14,7 @@
 #include "studies/report/render.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::gears_test {
 namespace {
 
 std::string train(const std::string& stage) {
@@ -182,4 +182,4 @@ TEST(GearsCommand, BadInputEndsWithTwoInWords) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gears_test

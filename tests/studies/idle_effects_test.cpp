@@ -9,7 +9,7 @@
 #include "studies/validity/idle_effects.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::idle_effects_test {
 namespace {
 
 Scene worn_pin() {
@@ -70,4 +70,4 @@ TEST(IdleEffects, no_set_that_names_what_does_nothing_is_advised) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::idle_effects_test

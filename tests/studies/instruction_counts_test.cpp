@@ -4,7 +4,7 @@
 #include "bench/instruction_counts.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::instruction_counts_test {
 namespace {
 
 struct Pair {
@@ -33,4 +33,4 @@ TEST_P(EffectOffCosts, NotOneInstruction) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::instruction_counts_test

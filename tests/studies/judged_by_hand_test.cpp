@@ -14,7 +14,7 @@
 #include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::judged_by_hand_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -234,4 +234,4 @@ run = { until = "2 s" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::judged_by_hand_test

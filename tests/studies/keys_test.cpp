@@ -9,7 +9,7 @@
 #include "studies/scenes/kinds.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::keys_test {
 namespace {
 
 TEST(Documents, KeysAreThoseOfTheReader) {
@@ -100,4 +100,4 @@ TEST(Documents, AnswerOfTheReadmeIsThatOfTheProgram) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::keys_test

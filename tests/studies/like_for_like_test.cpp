@@ -11,7 +11,7 @@
 #include "studies/run/compare.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::like_for_like_test {
 namespace {
 
 std::vector<std::string> machines() {
@@ -173,4 +173,4 @@ run = { until = "0.2 s", start = "rest" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::like_for_like_test

@@ -13,7 +13,7 @@
 #include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::limits_from_rest_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -376,4 +376,4 @@ TEST(BarredRanges, EndsAreRootsWhereTheLoadsAreKnownBetweenThePoints) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::limits_from_rest_test

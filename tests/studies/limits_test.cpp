@@ -12,7 +12,7 @@
 #include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::limits_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -156,4 +156,4 @@ TEST(Limits, ResonancesBelowTheOperatingSpeedArePassedAndBarredUpToTheLimit) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::limits_test

@@ -10,7 +10,7 @@
 #include "studies/forces/forces_findings.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::linkage_forces_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -208,4 +208,4 @@ TEST(ForcesInALinkage, AgreesWithTheSliderCranksOwn) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::linkage_forces_test

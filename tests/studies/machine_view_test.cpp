@@ -5,7 +5,7 @@
 #include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::machine_view_test {
 namespace {
 
 struct Drawn {
@@ -93,4 +93,4 @@ TEST(MachineView, TellsSlipApartFromTwist) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::machine_view_test

@@ -11,7 +11,7 @@
 #include "studies/run/simulate.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::measured_errors_test {
 namespace {
 
 std::vector<Figure> figures(const std::vector<double>& values, double scale = 1) {
@@ -181,4 +181,4 @@ run = {{ start = {{ a = {{ speed = "{:.17g} rad/s" }}, b = {{ speed = "1 rad/s" 
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::measured_errors_test

@@ -19,7 +19,7 @@
 #include "studies/tables/trajectory_rows.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::measured_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -293,4 +293,4 @@ TEST_F(Measured, UnitsOfHeadingsAndOptionsAreConvertedToSi) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::measured_test

@@ -9,7 +9,7 @@
 #include "studies/size/size.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::messages_test {
 namespace {
 
 bool any_says(const std::vector<std::string>& notes, const std::string& words) {
@@ -112,4 +112,4 @@ pump = { kind = "slider-crank", radius = "20 mm", rod = "100 mm", crank_inertia 
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::messages_test

@@ -12,7 +12,7 @@
 #include "studies/modes/modes_findings.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::modes_at_rest_test {
 namespace {
 
 using std::numbers::pi;
@@ -171,4 +171,4 @@ TEST(ModesAtRest, WithoutWeightsThereIsNothingToSwingBy) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::modes_at_rest_test

@@ -17,7 +17,7 @@
 #include "tests/published/published.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::modes_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -476,4 +476,4 @@ TEST(ModesStudy, RefusesAnUnknownTorqueAndRangesTheWrongWayRound) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::modes_test

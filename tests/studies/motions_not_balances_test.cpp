@@ -18,7 +18,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/waiting.h"
 
-namespace kurbel::test {
+namespace kurbel::test::motions_not_balances_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, rpm = pi / 30;
@@ -296,4 +296,4 @@ TEST(CrossingBelowBreakdown, IsListed) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::motions_not_balances_test

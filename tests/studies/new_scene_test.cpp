@@ -15,7 +15,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::new_scene_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,4 +182,4 @@ TEST_F(NewScene, CompletionKnowsTheCouplingsOfAScene) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::new_scene_test

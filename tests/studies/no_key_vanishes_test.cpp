@@ -23,7 +23,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::no_key_vanishes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -238,4 +238,4 @@ TEST(NoKeyVanishes, damping_beside_a_flange_without_inertia_has_an_effect) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::no_key_vanishes_test

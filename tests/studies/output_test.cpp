@@ -10,7 +10,7 @@
 #include "studies/report/write_output.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::output_test {
 namespace {
 
 using test::figure;
@@ -213,4 +213,4 @@ accuracy = 1e-7
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::output_test

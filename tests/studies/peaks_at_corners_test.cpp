@@ -9,7 +9,7 @@
 #include "tests/agreement/agreement.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::peaks_at_corners_test {
 namespace {
 
 // The gas force of the diagram is greatest at its point at 390°.
@@ -41,4 +41,4 @@ TEST(PeakAtACorner, IsThatOfSimbodyInTheRunsStates) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::peaks_at_corners_test

@@ -8,7 +8,7 @@
 #include "tests/agreement/agreement.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::periodic_swings_test {
 namespace {
 
 ModesStudy modes_of(const std::string& file) {
@@ -66,4 +66,4 @@ TEST(PeriodicSwings, WhatSticksOnceARoundDoesNotSwingOn) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::periodic_swings_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::periods_test {
 namespace {
 
 using test::run;
@@ -245,4 +245,4 @@ TEST_P(FiguresOf, AScenesRunAreTheSameWhateverIsSampled) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::periods_test

@@ -11,7 +11,7 @@
 #include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::ratings_test {
 namespace {
 
 using test::figure;
@@ -288,4 +288,4 @@ TEST(Ratings, ContinuousDutyIsThatOfTheSteadyCycle) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::ratings_test

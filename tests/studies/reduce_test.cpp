@@ -9,7 +9,7 @@
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 
-namespace kurbel {
+namespace kurbel::reduce_test {
 namespace {
 
 using test::Against;
@@ -274,4 +274,4 @@ TEST(Reduce, RefusesInWords) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::reduce_test

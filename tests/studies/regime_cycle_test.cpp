@@ -16,7 +16,7 @@
 #include "studies/steady/steady.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::regime_cycle_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -258,4 +258,4 @@ TEST(RegimeCycle, IsThatOfTheLawsOverAnAngleInEveryScene) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::regime_cycle_test

@@ -20,7 +20,7 @@
 #include "studies/scenes/kinds.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::report_test {
 namespace {
 
 // The data that the page's script reads.
@@ -341,4 +341,4 @@ TEST(Report, MapsOfUnevenPlacesHaveCellsThatMeet) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::report_test

@@ -19,7 +19,7 @@
 #include "studies/files/whole_file.h"
 #include "tests/support/files.h"
 
-namespace kurbel {
+namespace kurbel::result_set_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -289,4 +289,4 @@ TEST(Sha256, OfFips180AndOfEveryLengthAroundABlock) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::result_set_test

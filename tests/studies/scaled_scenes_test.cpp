@@ -12,7 +12,7 @@
 #include "studies/scenes/kinds.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::scaled_scenes_test {
 namespace {
 
 // By its dimension, whatever the unit is called.
@@ -116,4 +116,4 @@ TEST(ScaledSpeeds, are_also_those_that_a_sequence_waits_for) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::scaled_scenes_test

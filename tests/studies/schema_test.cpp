@@ -13,7 +13,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::schema_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -177,4 +177,4 @@ TEST(Schema, SlipsDoNotFit) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::schema_test

@@ -17,7 +17,7 @@
 #include "studies/shafts/stress_findings.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::shaft_stress_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, megapascal = 1e6;
@@ -343,4 +343,4 @@ TEST(Misfire, EveryCylinderOfTheShipsEngineIsTakenInTurn) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::shaft_stress_test

@@ -17,7 +17,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/sheet_page.h"
 
-namespace kurbel {
+namespace kurbel::sheet_test {
 namespace {
 
 using test::cell_at;
@@ -337,4 +337,4 @@ start = { speed = "300 rpm" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::sheet_test

@@ -13,7 +13,7 @@
 #include "studies/steady/steady_simulation.h"
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::size_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -266,4 +266,4 @@ TEST(Size, RefusesInWords) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::size_test

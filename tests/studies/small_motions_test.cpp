@@ -14,7 +14,7 @@
 #include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::small_motions_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -214,4 +214,4 @@ TEST(Coordinates, MotionsWithoutTwistLeaveEveryTwistAtRest) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::small_motions_test

@@ -13,7 +13,7 @@
 #include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::speed_unit_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -64,4 +64,4 @@ TEST(SpeedUnits, OnlyWordsAndTheNameOfTheUnitChange) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::speed_unit_test

@@ -10,7 +10,7 @@
 #include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::spot_checks_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -155,4 +155,4 @@ run = { until = "2 s" }
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::spot_checks_test

@@ -13,7 +13,7 @@
 #include "studies/steady/steady_findings.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::static_curve_test {
 namespace {
 
 // The crank press, with keys put into its motor.
@@ -141,4 +141,4 @@ TEST(StaticCurve, the_press_amplifies_less_the_nearer_its_motor_is_to_a_real_one
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::static_curve_test

@@ -11,7 +11,7 @@
 #include "studies/steady/steady_findings.h"
 #include "tests/published/published.h"
 
-namespace kurbel::test {
+namespace kurbel::test::steady_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -388,4 +388,4 @@ TEST(Steady, WorksOfACycleAreWithinTheirErrors) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::steady_test

@@ -7,7 +7,7 @@
 
 #include "tests/published/published.h"
 
-namespace kurbel {
+namespace kurbel::stopping_test {
 namespace {
 
 using test::figure;
@@ -60,4 +60,4 @@ TEST(Stopping, IsNoneWithoutASignal) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::stopping_test

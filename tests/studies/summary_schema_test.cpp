@@ -23,7 +23,7 @@
 #include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::summary_schema_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -194,4 +194,4 @@ TEST(SummarySchema, HoldsForSweepsAndTolerances) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::summary_schema_test

@@ -10,7 +10,7 @@
 #include "studies/sweep/sweep_findings.h"
 #include "studies/sweep/sweep_plots.h"
 
-namespace kurbel {
+namespace kurbel::sweep_report_test {
 namespace {
 
 // A 2 × 2 × 2 grid of a, b, c ∈ {0, 1} with y = 10 a + 4 b + c, known to ± 2.
@@ -104,4 +104,4 @@ TEST(SweepIndices, OfACompleteTableAreThoseOfItsSums) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::sweep_report_test

@@ -20,7 +20,7 @@
 #include "studies/sweep/sweep_plots.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::sweep_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -466,4 +466,4 @@ TEST(SweepMachine, AMergeRemovesWhatAKilledOneLeft) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::sweep_test

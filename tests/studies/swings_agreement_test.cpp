@@ -17,7 +17,7 @@
 #include "tests/agreement/free_swing.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::agreement {
+namespace kurbel::agreement::swings_agreement_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -238,4 +238,4 @@ TEST(AgreementOfSwings, ForcesSpeakOfTheTorqueThatTheCouplingHandsOn) {
 }
 
 }  // namespace
-}  // namespace kurbel::agreement
+}  // namespace kurbel::agreement::swings_agreement_test

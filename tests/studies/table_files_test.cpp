@@ -19,7 +19,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::table_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST(TableFiles, EveryStudysTablesAreMade) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::table_files_test

@@ -11,7 +11,7 @@
 #include "tests/published/published.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::torque_history_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -217,4 +217,4 @@ TEST(Rainflow, RippleBelowWhatIsResolvedCountsForNothing) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::torque_history_test

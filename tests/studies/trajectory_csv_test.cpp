@@ -13,7 +13,7 @@
 #include "studies/run/simulate.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::test {
+namespace kurbel::test::trajectory_csv_test {
 namespace {
 
 struct Csv {
@@ -102,4 +102,4 @@ TEST(TrajectoryCsv, EquidistantRowsStay) {
 }
 
 }  // namespace
-}  // namespace kurbel::test
+}  // namespace kurbel::test::trajectory_csv_test

@@ -8,7 +8,7 @@
 #include "studies/trials/trials_findings.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::trials_test {
 namespace {
 
 SimulateOptions quick() { return {.measure_error = true, .method = {}, .accuracy = 1e-5, .until = {}}; }
@@ -139,4 +139,4 @@ TEST(Trials, WhatIsNotTriedIsNamedWithItsReason) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::trials_test

@@ -10,7 +10,7 @@
 #include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::troubles_test {
 namespace {
 
 std::string first_sentence(const Result& r) {
@@ -140,4 +140,4 @@ TEST(Troubles, ABeltThatSlipsToTheEndIsSaid) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::troubles_test

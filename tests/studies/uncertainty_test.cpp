@@ -14,7 +14,7 @@
 #include "studies/run/simulate.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::uncertainty_test {
 namespace {
 
 constexpr double j1 = 0.2, j2 = 1.5, stiffness = 4000, deviation = 200;  // of k: 10 % / 2
@@ -254,4 +254,4 @@ TEST(Uncertainty, WhatGradientsDoNotFollowIsToldByItsSamples) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::uncertainty_test

@@ -13,7 +13,7 @@
 #include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::verdicts_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -328,4 +328,4 @@ TEST(Effects, VerdictsDoNotDependOnTheScaleOfAFigure) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::verdicts_test

@@ -11,7 +11,7 @@
 #include "studies/reduce/reduce.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::blind_spots_test {
 namespace {
 
 using test::figure;
@@ -429,4 +429,4 @@ acts = "always"
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::blind_spots_test

@@ -9,7 +9,7 @@
 #include "tests/support/scenes.h"
 #include "tests/twins/twin_gears.h"
 
-namespace kurbel {
+namespace kurbel::gear_twins_test {
 namespace {
 
 using namespace test;  // NOLINT: the scenes' names
@@ -286,4 +286,4 @@ TEST(TwinScenes, HoldEveryKindOfComponent) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::gear_twins_test

@@ -5,7 +5,7 @@
 #include "tests/support/scenes.h"
 #include "tests/twins/twin_gears.h"
 
-namespace kurbel {
+namespace kurbel::metamorphic_test {
 namespace {
 
 using namespace test;  // NOLINT: the scenes' names
@@ -238,4 +238,4 @@ start = "rest"
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::metamorphic_test

@@ -11,7 +11,7 @@
 #include "tests/support/scenes.h"
 #include "tests/twins/twin_gears.h"
 
-namespace kurbel {
+namespace kurbel::relabelled_test {
 namespace {
 
 using namespace test;  // NOLINT: the scenes' names
@@ -220,4 +220,4 @@ TEST_P(Relabelled, ReductionSaysTheSame) {
 INSTANTIATE_TEST_SUITE_P(All, Relabelled, ::testing::Range<std::size_t>(0, twin_scenes().size()), name_of_twin);
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::relabelled_test
