@@ -57,11 +57,11 @@ FigureLimit parse_limit(const std::string& text, const std::vector<SweptFigure>&
 
 Interval clopper_pearson(std::size_t successes, std::size_t trials, double confidence) {
   if (trials == 0) return {};
-  using boost::math::binomial_distribution;
+  namespace policies = boost::math::policies;  // in double throughout, as in tolerated.cpp
+  using Binomial = boost::math::binomial_distribution<double, policies::policy<policies::promote_double<false>>>;
   const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
   const double tail = (1 - confidence) / 2;
-  return {binomial_distribution<>::find_lower_bound_on_p(n, k, tail),
-          binomial_distribution<>::find_upper_bound_on_p(n, k, tail)};
+  return {Binomial::find_lower_bound_on_p(n, k, tail), Binomial::find_upper_bound_on_p(n, k, tail)};
 }
 
 }  // namespace kurbel

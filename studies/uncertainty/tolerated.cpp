@@ -14,6 +14,11 @@
 namespace kurbel {
 namespace {
 
+// In double throughout: boost's constants in long double are set at every start of the program, and not under valgrind.
+using Normal =
+    boost::math::normal_distribution<double,
+                                     boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+
 using enum Tolerance::Distribution;
 
 double factor_of(const std::string& unit) {
@@ -48,7 +53,7 @@ double Tolerated::distribution(double x) const {
   const double a = given_.low, b = given_.high, c = given_.value;
   if (given_.distribution == normal) {
     if (std::isinf(x)) return x > 0 ? 1 : 0;
-    return boost::math::cdf(boost::math::normal(c, deviation()), x);
+    return boost::math::cdf(Normal(c, deviation()), x);
   }
   if (x <= a) return 0;
   if (x >= b) return 1;
@@ -60,7 +65,7 @@ double Tolerated::inverse(double share) const {
   const double a = given_.low, b = given_.high, c = given_.value;
   if (given_.distribution == normal) {
     constexpr double least = 1e-300, most = 1 - 1e-16;
-    return boost::math::quantile(boost::math::normal(c, deviation()), std::clamp(share, least, most));
+    return boost::math::quantile(Normal(c, deviation()), std::clamp(share, least, most));
   }
   if (given_.distribution == uniform) return a + share * (b - a);
   const double at_mode = (c - a) / (b - a);

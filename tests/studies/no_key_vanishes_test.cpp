@@ -1,6 +1,6 @@
 // no_key_vanishes_test.cpp — every number that a scene states has an effect: changed by a tenth it changes how the machine
 // moves, a figure, a verdict, a note, or it is refused. The short form takes every few numbers and looks at the equations
-// and a short run; KURBEL_ALL_KEYS=1 takes all of them, with whole runs and the modes.
+// and a short run; the thorough form (scripts/test --thorough) takes all of them, with whole runs and the modes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,13 +22,12 @@
 #include "studies/report/render.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
+#include "tests/support/thorough.h"
 
 namespace kurbel::no_key_vanishes_test {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool all_keys() { return std::getenv("KURBEL_ALL_KEYS") != nullptr; }
 
 // A number of a scene's text, and the key that it stands behind.
 struct Stated {
@@ -143,7 +142,7 @@ Seen run_of(const Scene& scene) {
   try {
     SimulateOptions options;
     options.measure_error = false;
-    if (!all_keys()) options.until = std::min(scene.run.until, 20.0);
+    if (!test::thorough()) options.until = std::min(scene.run.until, 20.0);
     const Result r = simulate(scene, scene.effects, "", options);
     for (const Figure& f : r.figures) seen.numbers.push_back(f.value);
     for (const std::string& note : r.notes) seen.words += note + "\n";
@@ -188,7 +187,7 @@ std::vector<std::string> idle_numbers(const std::string& file, std::size_t first
     if (!(equations_of(*other) == usual)) continue;
     if (!usual_run) usual_run = run_of(scene);
     if (!(run_of(*other) == *usual_run)) continue;
-    if (all_keys()) {
+    if (test::thorough()) {
       if (!usual_modes) usual_modes = modes_of(scene);
       if (!(modes_of(*other) == *usual_modes)) continue;
     }
@@ -198,7 +197,7 @@ std::vector<std::string> idle_numbers(const std::string& file, std::size_t first
   return idle;
 }
 
-// Keys that no run reads, and what does; KURBEL_ALL_KEYS=1 asks modes, too, and then only the others remain.
+// Keys that no run reads, and what does; the thorough form asks modes, too, and then only the others remain.
 const std::set<std::string>& read_elsewhere() {
   static const std::set<std::string> keys = {
       "application_factor",
@@ -219,10 +218,10 @@ std::vector<std::string> scenes() {
 }
 
 TEST(NoKeyVanishes, numbers_of_the_scenes_have_an_effect) {
-  const std::size_t step = all_keys() ? 1 : 29;
+  const std::size_t step = test::thorough() ? 1 : 29;
   std::size_t first = 0;
   for (const std::string& file : scenes()) {
-    for (const std::string& idle : idle_numbers(file, all_keys() ? 0 : first % step, step)) {
+    for (const std::string& idle : idle_numbers(file, test::thorough() ? 0 : first % step, step)) {
       const std::size_t begin = idle.find(": ", idle.find(".toml")) + 2;
       const std::string key = idle.substr(begin, idle.find(' ', begin) - begin);
       EXPECT_TRUE(read_elsewhere().contains(key)) << idle;

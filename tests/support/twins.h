@@ -157,6 +157,7 @@ struct TwinScene {
   std::vector<std::string> travels = {};        // slides, whose travel counts the angle that their shaft starts with
   bool reversible = true;                       // the far group has a mirrored form
   std::size_t gears = 4;                        // behind the first of these: laws over the angle fit few ratios
+  bool dear = false;                            // modes and reduction take 20 s and more: only in the thorough form
 };
 
 inline std::string line_of(const std::vector<std::vector<std::string>>& groups) {

@@ -35,6 +35,11 @@ inertia = <J 1.2>
           .gears = 2};
 }
 
+inline TwinScene dear(TwinScene scene) {
+  scene.dear = true;
+  return scene;
+}
+
 inline const char* const twin_slider_crank = R"(
 kind          = "slider-crank"
 radius        = "90 mm"
@@ -87,18 +92,18 @@ slider_pin   = { radius = "25 mm", friction = 0.08 }
 guide        = { friction = 0.07, length = "150 mm", middle = "20 mm", width = "110 mm", slider_com = "15 mm", force_offset = <^0+ m 0.02> }
 )",
                       1, "joint_friction = true\n"),
-      mechanism_scene("slider-crank with a worn crank pin", slider + R"(
+      dear(mechanism_scene("slider-crank with a worn crank pin", slider + R"(
 clearance = [
   { kind = "crank pin", gap = "0.4 mm", stiffness = "12 kN/mm", exponent = 1.3, damping = "0.9 s/m", friction = 0.05, radius = "30 mm" },
 ]
 load = { kind = "medium", viscous = "60 N*s/m" }
 )",
-                      1, "", "speed = <w+ 9>, angle = <a+ 0.4>", "0.05 s"),
-      mechanism_scene("slider-crank with a flexible rod", slider + R"(
+                           1, "", "speed = <w+ 9>, angle = <a+ 0.4>", "0.05 s")),
+      dear(mechanism_scene("slider-crank with a flexible rod", slider + R"(
 rod_flexibility = { modulus = "200 GPa", height = "9 mm", width = "30 mm", modes = 2, damping_ratio = 0.03 }
 load = { kind = "medium", viscous = "60 N*s/m" }
 )",
-                      1, "", "speed = <w+ 9>, angle = <a+ 0.4>, equilibrium = true", "0.1 s"),
+                           1, "", "speed = <w+ 9>, angle = <a+ 0.4>, equilibrium = true", "0.1 s")),
       mechanism_scene("four-bar linkage", R"(
 kind            = "four-bar"
 crank           = "80 mm"
@@ -296,7 +301,8 @@ mesh_phase     = [<a+ 0.4>, <a+ -0.9>]
 damping_ratio  = 0.06
 )",
        .far_text = drive,
-       .end = end("0.15 s")},
+       .end = end("0.15 s"),
+       .dear = true},
       {.name = "engine by its indicator diagram",
        .near = {"engine"},
        .far = {"flexible", "drive", "sink"},
