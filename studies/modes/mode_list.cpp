@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "engine/linear/shaft_waves.h"
 #include "engine/model/cycle_of.h"
@@ -82,22 +83,40 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
   for (std::size_t k = 0; k < found.modes.size(); ++k) found.modes[k].number = static_cast<int>(k) + 1;
 }
 
+// Within how much of ω the drive with continuous shafts has a mode: one step of Newton's method, and where the exact
+// stiffness can count modes, doubled until a mode is counted there. Nothing: none is within a tenth of ω.
+std::optional<double> distance_of_wave_mode(const ModesStudy& found, const Mode& mode, bool countable) {
+  constexpr double carried = 0.1;
+  double within = wave_error(found.drive, mode.shape, mode.omega);
+  for (; within <= carried * mode.omega; within *= 2) {
+    if (!countable) return within;
+    within = std::max(within, 1e-12 * mode.omega);
+    const double reach = within + mode.error;
+    if (continuous_modes_below(found.drive, mode.omega + reach) >
+        continuous_modes_below(found.drive, mode.omega - reach))
+      return within;
+  }
+  return std::nullopt;
+}
+
 // What the elements of continuous shafts leave open is part of each mode's error; modes that they do not carry are left
 // out, and whether any is missing is counted by the exact stiffness.
 void add_wave_errors(ModesStudy& found) {
-  constexpr double carried = 0.1;             // of the frequency: more than that is no mode of the shaft
-  constexpr Eigen::Index most_counted = 300;  // coordinates
+  constexpr Eigen::Index most_confirmed = 120, most_counted = 300;  // coordinates
+  const bool springs_alone =
+      std::none_of(found.modes.begin(), found.modes.end(), [](const Mode& mode) { return mode.of_own_states; });
+  const bool countable = springs_alone && found.drive.is_symmetric();
   std::vector<Mode> kept;
   for (Mode& mode : found.modes) {
-    const double error = wave_error(found.drive, mode.shape, mode.omega);
-    mode.error += error;
-    if (error <= carried * mode.omega || kept.empty()) kept.push_back(std::move(mode));
+    const std::optional<double> within =
+        distance_of_wave_mode(found, mode, countable && found.drive.size() <= most_confirmed);
+    if (!within && !kept.empty()) continue;
+    mode.error += within.value_or(wave_error(found.drive, mode.shape, mode.omega));
+    kept.push_back(std::move(mode));
   }
   found.modes = std::move(kept);
   for (std::size_t k = 0; k < found.modes.size(); ++k) found.modes[k].number = static_cast<int>(k) + 1;
-  const bool springs_alone =
-      std::none_of(found.modes.begin(), found.modes.end(), [](const Mode& mode) { return mode.of_own_states; });
-  if (found.modes.empty() || !springs_alone || !found.drive.is_symmetric() || found.drive.size() > most_counted) return;
+  if (found.modes.empty() || !countable || found.drive.size() > most_counted) return;
   const Mode& last = found.modes.back();
   const double above = last.omega + last.error + 1e-9 * last.omega;
   const int really = continuous_modes_below(found.drive, above) - found.undamped.rigid;

@@ -161,39 +161,36 @@ TEST(ContinuousShaft, modes_of_the_case_lie_within_their_errors) {
 
 // Random trains, stepped and geared, some without an inertia between: every mode that is listed is one, within its error,
 // and none below the last one is missing.
-// Waits: of modes near the end of what the cut resolves the stated error is too small.
 TEST(ContinuousShaft, modes_of_random_trains_are_those_of_transfer_matrices) {
-  test::waits_for_part(2, [] {
-    std::mt19937 random(5);
-    const auto some = [&](double low, double high) {
-      return low * std::pow(high / low, std::uniform_real_distribution<>()(random));
-    };
-    for (int repeat = 0; repeat < 20; ++repeat) {
-      Train train{{some(1, 500)}, {}, {}};
-      for (int k = 0; k < 1 + repeat % 3; ++k) {
-        train.shaft.push_back({some(0.3, 30), some(0.08, 0.4)});
-        train.ratio.push_back(repeat % 4 == 1 ? std::round(40 * some(0.5, 4)) / 40 : 1);
-        train.inertia.push_back(repeat % 5 == 2 && k == 0 && repeat % 3 > 0 ? 0 : some(1, 500));
-      }
-      SCOPED_TRACE(train.scene());
-      const ModesStudy study = modes_of(train.scene(), 3);
-      ASSERT_GE(study.modes.size(), train.shaft.size());
-      const double last = study.modes.back().omega + 2 * study.modes.back().error;
-      const std::vector<double> roots = train.roots(1.3 * last);
-      for (const Mode& mode : study.modes) {
-        double nearest = HUGE_VAL;
-        for (const double root : roots) nearest = std::min(nearest, std::abs(root - mode.omega));
-        EXPECT_LE(nearest, 1.2 * mode.error + 1e-9 * mode.omega) << mode.omega;
-      }
-      const double above = study.modes.back().omega * 1.0001 + study.modes.back().error;
-      const auto below = std::count_if(roots.begin(), roots.end(), [&](double w) { return w < above; });
-      EXPECT_EQ(continuous_modes_below(study.drive, above), below + 1);
-      const bool told = std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
-        return note.find("continuous shafts have") != std::string::npos;
-      });
-      EXPECT_TRUE(told || static_cast<std::size_t>(below) == study.modes.size());
+  std::mt19937 random(5);
+  const auto some = [&](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<>()(random));
+  };
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    Train train{{some(1, 500)}, {}, {}};
+    for (int k = 0; k < 1 + repeat % 3; ++k) {
+      train.shaft.push_back({some(0.3, 30), some(0.08, 0.4)});
+      train.ratio.push_back(repeat % 4 == 1 ? std::round(40 * some(0.5, 4)) / 40 : 1);
+      train.inertia.push_back(repeat % 5 == 2 && k == 0 && repeat % 3 > 0 ? 0 : some(1, 500));
     }
-  });
+    SCOPED_TRACE(train.scene());
+    const ModesStudy study = modes_of(train.scene(), 3);
+    ASSERT_GE(study.modes.size(), train.shaft.size());
+    const double last = study.modes.back().omega + 2 * study.modes.back().error;
+    const std::vector<double> roots = train.roots(1.3 * last);
+    for (const Mode& mode : study.modes) {
+      double nearest = HUGE_VAL;
+      for (const double root : roots) nearest = std::min(nearest, std::abs(root - mode.omega));
+      EXPECT_LE(nearest, 1.2 * mode.error + 1e-9 * mode.omega) << mode.omega;
+    }
+    const double above = study.modes.back().omega * 1.0001 + study.modes.back().error;
+    const auto below = std::count_if(roots.begin(), roots.end(), [&](double w) { return w < above; });
+    EXPECT_EQ(continuous_modes_below(study.drive, above), below + 1);
+    const bool told = std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
+      return note.find("continuous shafts have") != std::string::npos;
+    });
+    EXPECT_TRUE(told || static_cast<std::size_t>(below) == study.modes.size());
+  }
 }
 
 // Torques at the ends are those of a free body: what the inertias on either side take as all accelerate together.
