@@ -76,8 +76,8 @@ TileText tile_text(double value, const std::optional<double>& error, int digits)
   return {headline_number(value), std::move(known), text.error};
 }
 
-std::string with_error(double value, const std::optional<double>& error, std::string_view unit) {
-  const FigureText text = figure_text(value, error);
+std::string with_error(const Estimate& estimate, std::string_view unit) {
+  const FigureText text = figure_text(estimate.value, estimate.error);
   return text.value + (text.error.empty() ? "" : " " + text.error) + (unit.empty() ? "" : " " + pretty_unit(unit));
 }
 
@@ -90,8 +90,8 @@ std::string told_shortly(double value, const std::string& si_unit, const SpeedUn
 FigureCells figure_cells(double value, const std::optional<double>& error, const std::string& si_unit,
                          const SpeedUnit& speed) {
   if (si_unit != "rad/s") return {figure_text(value, error).value, error_cell(value, error), pretty_unit(si_unit)};
-  const std::optional<double> shown = error ? std::optional(speed.of(*error)) : std::nullopt;
-  return {figure_text(speed.of(value), shown).value, error_cell(speed.of(value), shown), pretty_unit(speed.name)};
+  const Estimate shown = Estimate{value, error} / speed.size;
+  return {figure_text(shown.value, shown.error).value, error_cell(shown.value, shown.error), pretty_unit(speed.name)};
 }
 
 std::string error_cell(double value, const std::optional<double>& error) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/estimate.h"
 #include "engine/scene/speed_unit.h"
 
 namespace kurbel {
@@ -31,7 +32,7 @@ struct TileText {
 TileText tile_text(double value, const std::optional<double>& error, int digits = 0);  // digits: 0: by the error
 
 // "6257.16998 ± 0.00006 N·m"; without an error "6257.17 N·m".
-std::string with_error(double value, const std::optional<double>& error, std::string_view unit);
+std::string with_error(const Estimate& estimate, std::string_view unit);
 
 // As a sentence has it, four digits in a unit that is read easily: 19092.63 N·m → "19.09 kN·m"; a speed in its unit.
 std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed = {});

@@ -166,7 +166,7 @@ Rows rainflow_table(const TorqueHistory& h) {
   return table_of("", "Rainflow count (ASTM E1049)", std::move(list))
       .headed(fmt::format("rainflow count of the simulated {} (ASTM E1049), equivalent amplitude at m = {:g}: {}; "
                           "ranges up to {} are not told from none",
-                          h.channel, load_exponent, with_error(h.equivalent_amplitude, h.equivalent_error, "N*m"),
+                          h.channel, load_exponent, with_error({h.equivalent_amplitude, h.equivalent_error}, "N*m"),
                           torque_text(h.resolution)))
       .text_in(0)
       .always()
@@ -186,9 +186,13 @@ Rows spectral_table(const TorqueHistory& h, const char* key, const char* of, con
   return table_of("", fmt::format("Strongest lines of the simulated {} over {}", h.channel, of), lines)
       .headed(fmt::format("strongest lines of the simulated {} over {}", h.channel, of))
       .text_in(0)
-      .only_for_people(key, [](const SpectralLine& l) { return with_error(l.frequency, l.frequency_error, ""); })
-      .only_for_people("amplitude",
-                       [error](const SpectralLine& l) { return with_error(l.amplitude, error(l), "N*m"); });
+      .only_for_people(key,
+                       [](const SpectralLine& l) {
+                         return with_error({l.frequency, l.frequency_error}, "");
+                       })
+      .only_for_people("amplitude", [error](const SpectralLine& l) {
+        return with_error({l.amplitude, error(l)}, "N*m");
+      });
 }
 
 std::string point_text(const ModesStudy& m) {
@@ -350,8 +354,8 @@ void say_history(Findings& f, Chapter in, const ModesStudy& m) {
   const TorqueHistory& h = *m.history;
   if (!h.lines.empty()) f.draw(in, [&] { return history_plots(m, h); });
   f.say(in, Sentences{.lines = {fmt::format("simulated {}: from {} to {}", h.channel,
-                                            with_error(h.least, h.least_error, "N*m"),
-                                            with_error(h.greatest, h.greatest_error, "N*m"))},
+                                            with_error({h.least, h.least_error}, "N*m"),
+                                            with_error({h.greatest, h.greatest_error}, "N*m"))},
                       .indent = "  ",
                       .apart = true});
   if (!h.strongest.empty()) f.say(in, spectral_table(h, "frequency [Hz]", "frequency", h.strongest));

@@ -23,9 +23,9 @@ namespace {
 // --- tables ---
 
 std::string time_of(const Result& r, std::size_t event) {
-  if (r.event_errors.empty()) return with_error(r.events[event].t, {}, "");
+  if (r.event_errors.empty()) return with_error({r.events[event].t}, "");
   const std::optional<double>& error = r.event_errors[event];
-  return with_error(r.events[event].t, error, "") + (error ? "" : " (in the finer run only)");
+  return with_error({r.events[event].t, error}, "") + (error ? "" : " (in the finer run only)");
 }
 
 Rows events_table(const Result& r) {

@@ -47,8 +47,9 @@ Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_termi
                    .only_for_people("unit", [&](F f) { return cells(f).unit; });
   // The page's heading names the unit of the time.
   if (on_terminal) return table.not_on_page().only_for_people("at", at_time);
-  return table.not_on_terminal().only_for_people(
-      "at [s]", [](F f) { return f.at ? with_error(*f.at, f.at_error, "") : std::string(); });
+  return table.not_on_terminal().only_for_people("at [s]", [](F f) {
+    return f.at ? with_error({*f.at, f.at_error}, "") : std::string();
+  });
 }
 
 Rows figures_table(const Result& r, bool on_terminal) { return rows_of_figures(r, r.figures, on_terminal); }
@@ -106,7 +107,7 @@ void show_amplification(Findings& f, Chapter in, const Comparison& c) {
                    .title = fmt::format("Torque amplification in {} (theory 14.2)", joint),
                    .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
                    .numbers = fmt::format("K = |{}| / |{}| = {}", figure_text(b->value, b->error).value,
-                                          figure_text(a->value, a->error).value, with_error(*row.b, row.b_error, "")),
+                                          figure_text(a->value, a->error).value, with_error({*row.b, row.b_error}, "")),
                    .note = "Largest transmitted torques, each at its own time."});
   }
 }
@@ -193,10 +194,8 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
     std::string note;
     if (other) {
       const double factor = other->unit == "rad/s" ? speed.of(1) : 1;
-      note = fmt::format(
-          "{}: {}{}", c.a.label,
-          with_error(factor * other->value, other->error ? std::optional(factor * *other->error) : std::nullopt, ""),
-          other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "");
+      note = fmt::format("{}: {}{}", c.a.label, with_error(factor * Estimate{other->value, other->error}, ""),
+                         other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "");
     }
     figures.push_back(key_of(*figure, note, speed));
   };

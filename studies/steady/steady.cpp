@@ -279,9 +279,8 @@ class Study {
       const Figure* delta = c.find("delta." + out_.link);
       const char* begin = c.kind == Regime::Kind::equilibrium ? "Equilibrium, " : "Steady cycle, ";
       text += fmt::format("{}{}: mean speed {}{}, {}", text.empty() ? begin : "; ", c.label,
-                          with_error(unit.of(mean->value),
-                                     mean->error ? std::optional(unit.of(*mean->error)) : std::nullopt, unit.name),
-                          delta ? ", δ = " + with_error(delta->value, delta->error, "") : "", c.stability);
+                          with_error(Estimate{mean->value, mean->error} / unit.size, unit.name),
+                          delta ? ", δ = " + with_error({delta->value, delta->error}, "") : "", c.stability);
       if (options_.mid_speed)
         text +=
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),

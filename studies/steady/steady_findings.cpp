@@ -354,7 +354,7 @@ void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
                            .numbers = fmt::format("δ = ({:.6g} − {:.6g}) {} / {} = {}", unit.of(max->value),
                                                   unit.of(min->value), pretty_unit(unit.name),
                                                   unit.text(0.5 * (max->value + min->value)),
-                                                  with_error(delta->value, delta->error, "")),
+                                                  with_error({delta->value, delta->error}, "")),
                            .note = ""});
   }
 }

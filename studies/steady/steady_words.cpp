@@ -66,15 +66,16 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   for (const OperatingPoint& p : d.points)
     words.push_back(fmt::format(
         "Operating point {}{} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad", d.estimate ? "about " : "",
-        with_error(d.speed_unit.of(p.mean.omega), d.told(p, d.speed_unit.of(p.speed_error)), d.speed_unit.name),
-        with_error(p.mean.load, d.told(p, p.torque_error), "N*m"), p.stable() ? "stable" : "unstable",
+        with_error({d.speed_unit.of(p.mean.omega), d.told(p, d.speed_unit.of(p.speed_error))}, d.speed_unit.name),
+        with_error({p.mean.load, d.told(p, p.torque_error)}, "N*m"), p.stable() ? "stable" : "unstable",
         beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
-    words.push_back(fmt::format("Margin: the drive gives at most {} in the mean (at {}), {}",
-                                with_unit(d.strongest.drive, "N*m", 5), d.speed_unit.text(d.strongest.omega, 5),
-                                std::isfinite(d.margin(*p))
-                                    ? with_error(d.margin(*p), d.told(*p, d.margin_error(*p)), "") + " times what it needs"
-                                    : "and it needs nothing"));
+    words.push_back(
+        fmt::format("Margin: the drive gives at most {} in the mean (at {}), {}",
+                    with_unit(d.strongest.drive, "N*m", 5), d.speed_unit.text(d.strongest.omega, 5),
+                    std::isfinite(d.margin(*p))
+                        ? with_error({d.margin(*p), d.told(*p, d.margin_error(*p))}, "") + " times what it needs"
+                        : "and it needs nothing"));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;
 }
@@ -95,7 +96,7 @@ std::vector<std::string> words_of_start(const SteadyStudy& s) {
   std::vector<std::string> words;
   if (s.start)
     words.push_back(s.start->reached ? fmt::format("Start: from rest to 95 % of the steady speed in {}",
-                                                   with_error(s.start->time, s.start->error, "s"))
+                                                   with_error({s.start->time, s.start->error}, "s"))
                                      : "Start: " + s.start->why);
   for (const RatioSearch& r : s.ratios)
     words.push_back(fmt::format(

@@ -10,7 +10,7 @@
 namespace kurbel::figure_text_test {
 namespace {
 
-std::string shown(double value, double error) { return with_error(value, error, ""); }
+std::string shown(double value, double error) { return with_error({value, error}, ""); }
 
 TEST(FigureText, EndsWhereTheErrorBegins) {
   EXPECT_EQ(shown(6257.169983, 5.3e-5), "6257.16998 ± 0.00006");
@@ -21,11 +21,11 @@ TEST(FigureText, EndsWhereTheErrorBegins) {
   EXPECT_EQ(shown(7, 0), "7 ± 0");
   EXPECT_EQ(shown(1e-3, 0.3), "0.0 ± 0.4");
   EXPECT_EQ(shown(1.23456e-7, 3e-11), "1.2346e-07 ± 4e-11");
-  EXPECT_EQ(with_error(724.88551234, 1e-6, "N*m"), "724.885512 ± 2e-06 N·m");
+  EXPECT_EQ(with_error({724.88551234, 1e-6}, "N*m"), "724.885512 ± 2e-06 N·m");
 }
 
 TEST(FigureText, WithoutAnErrorHasSixDigitsAtMostAndSaysSo) {
-  EXPECT_EQ(with_error(724.88551234, {}, "N*m"), "724.886 N·m");
+  EXPECT_EQ(with_error({724.88551234}, "N*m"), "724.886 N·m");
   EXPECT_EQ(error_cell(724.88551234, {}), "not measured");
   EXPECT_EQ(error_cell(1, std::numeric_limits<double>::infinity()), "not measured");
 }
