@@ -209,11 +209,16 @@ class RowsOf : public Rows {
     return *this;
   }
 
-  // `get` gives an Estimate: KEY and KEY_error for programs, "6257.16998 ± 0.00006" for people.
+  // `get` gives an Estimate, or none: KEY and KEY_error for programs, "6257.16998 ± 0.00006" for people.
+  template <class Get>
+  RowsOf& estimate_for_programs(const std::string& its_key, Get get) {
+    const auto of = [&](const T& row) -> std::optional<Estimate> { return std::invoke(get, row); };
+    only_for_programs(its_key, [&](const T& row) { return of(row) ? std::optional(of(row)->value) : std::nullopt; });
+    return only_for_programs(its_key + "_error", [&](const T& row) { return of(row).value_or(Estimate{}).error; });
+  }
   template <class Get>
   RowsOf& estimate(const std::string& its_key, std::string its_heading, Get get) {
-    only_for_programs(its_key, [&](const T& row) { return std::invoke(get, row).value; });
-    only_for_programs(its_key + "_error", [&](const T& row) { return std::invoke(get, row).error; });
+    estimate_for_programs(its_key, get);
     return only_for_people(std::move(its_heading), [&](const T& row) { return with_error(std::invoke(get, row), ""); });
   }
 

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "studies/experiments/parameter.h"
 #include "studies/sweep/database.h"
 
@@ -37,10 +38,8 @@ struct SweepIdentity {
   std::size_t rows = 0;  // of all shards
 };
 
-struct RowFigure {
+struct RowFigure : Estimate {
   std::size_t figure = 0;  // its number
-  double value = 0;
-  std::optional<double> error = {};
 };
 
 enum class RowState { done, unconfirmed, failed };

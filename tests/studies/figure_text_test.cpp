@@ -26,8 +26,8 @@ TEST(FigureText, EndsWhereTheErrorBegins) {
 
 TEST(FigureText, WithoutAnErrorHasSixDigitsAtMostAndSaysSo) {
   EXPECT_EQ(with_error({724.88551234}, "N*m"), "724.886 N·m");
-  EXPECT_EQ(error_cell(724.88551234, {}), "not measured");
-  EXPECT_EQ(error_cell(1, std::numeric_limits<double>::infinity()), "not measured");
+  EXPECT_EQ(error_cell({724.88551234}), "not measured");
+  EXPECT_EQ(error_cell({1, std::numeric_limits<double>::infinity()}), "not measured");
 }
 
 // Of a thousand values and errors over many decades: what is printed covers the true interval, wastes no more than a
@@ -38,7 +38,7 @@ TEST(FigureText, CoversWhatItStandsForAndNoDigitIsBeyondTheError) {
   for (int i = 0; i < 20000; ++i) {
     const double value = (i % 2 ? 1 : -1) * mantissa(random) * std::pow(10, std::floor(decade(random)));
     const double error = std::abs(value) * std::pow(10, relative(random));
-    const FigureText text = figure_text(value, error);
+    const FigureText text = figure_text({value, error});
     ASSERT_TRUE(text.error.starts_with("± ")) << text.error;
     const double printed = std::stod(text.value), printed_error = std::stod(text.error.substr(4 - 1));
     const double round_off = 1e-14 * std::abs(value);
