@@ -165,7 +165,8 @@ until = "1 s"
   ASSERT_TRUE(fast.simulated && slow.simulated);
   EXPECT_NEAR(fast.simulated->cycle, 4 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(slow.simulated->cycle, 2 * std::numbers::pi, 1e-12);
-  EXPECT_NEAR(fast.simulated->mean_speed.value, 2 * slow.simulated->mean_speed.value, 1e-9 * fast.simulated->mean_speed.value);
+  EXPECT_NEAR(fast.simulated->mean_speed.value, 2 * slow.simulated->mean_speed.value,
+              1e-9 * fast.simulated->mean_speed.value);
   EXPECT_LT(*fast.simulated->machine_residual, same_physics);
   EXPECT_EQ(fast.simulated->rows.size(), 13U);  // of one cycle
   EXPECT_EQ(fast.simulated->positions.size(), 1441U);

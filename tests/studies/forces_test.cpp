@@ -53,7 +53,8 @@ TEST(ShakingForce, HasTheOrdersOfTheSlidersAcceleration) {
   EXPECT_NEAR(x[0].amplitude.value, u, 1e-12 * u);
   EXPECT_NEAR(x[1].amplitude.value, u * a2, 1e-5 * u);  // the series' next term is 2205 λ⁹/65536 ≈ 2e-6
   EXPECT_NEAR(x[3].amplitude.value, u * a4, 2e-5 * u);
-  for (const int odd : {2, 4, 6}) EXPECT_NEAR(x[static_cast<std::size_t>(odd)].amplitude.value, 0, 1e-11 * u) << odd + 1;
+  for (const int odd : {2, 4, 6})
+    EXPECT_NEAR(x[static_cast<std::size_t>(odd)].amplitude.value, 0, 1e-11 * u) << odd + 1;
   EXPECT_NEAR(x[0].phase, 0, 1e-12);
   for (const ForceHarmonic& h : f.prescribed->shaking_y) EXPECT_NEAR(h.amplitude.value, 0, 1e-11 * u);
 }
@@ -191,7 +192,8 @@ TEST(SimulatedForces, FrictionTakesItsShareOfTheWorkThatGoesIn) {
   const Forces f = forces_of(fmt::format(fmt::runtime(pump), 0, rough, 30));
   ASSERT_TRUE(f.simulated);
   for (const ForceCycle* c : {&*f.prescribed, &*f.simulated}) {
-    EXPECT_NEAR(c->input.value, c->useful.value + c->harmful.value + c->kinetic_change.value, 1e-7 * c->input.value) << c->label;
+    EXPECT_NEAR(c->input.value, c->useful.value + c->harmful.value + c->kinetic_change.value, 1e-7 * c->input.value)
+        << c->label;
     EXPECT_GT(c->harmful.value, 0.02 * c->input.value);
     EXPECT_NEAR(c->efficiency->value, c->useful.value / c->input.value, 1e-15);
     EXPECT_LT(c->friction_residual, 1e-12);
