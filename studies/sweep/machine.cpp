@@ -330,7 +330,8 @@ Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& 
     row.state = answer.state;
     row.diagnosis = std::move(answer.diagnosis);
     for (const Figure& f : answer.figures)
-      if (const auto found = numbers.find(f.name); found != numbers.end()) row.figures.push_back({f, found->second});
+      if (const auto found = numbers.find(f.name); found != numbers.end())
+        row.figures.push_back({found->second, f.value, f.error});
     std::sort(row.figures.begin(), row.figures.end(),
               [](const RowFigure& a, const RowFigure& b) { return a.figure < b.figure; });
     return true;

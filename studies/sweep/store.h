@@ -19,7 +19,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/estimate.h"
 #include "studies/experiments/parameter.h"
 #include "studies/sweep/database.h"
 
@@ -38,8 +37,10 @@ struct SweepIdentity {
   std::size_t rows = 0;  // of all shards
 };
 
-struct RowFigure : Estimate {
+struct RowFigure {
   std::size_t figure = 0;  // its number
+  double value = 0;
+  std::optional<double> error = {};
 };
 
 enum class RowState { done, unconfirmed, failed };
