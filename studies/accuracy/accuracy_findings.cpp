@@ -147,7 +147,7 @@ Rows level_table(const AccuracyStudy& study) {
             study.figures[i].name +
                 (study.figures[i].unit.empty() ? "" : fmt::format(" [{}]", pretty_unit(study.figures[i].unit))),
             [i](L m) {
-              return std::isnan(m.value[i]) ? "—" : figure_text(m.value[i], m.floor[i] * std::abs(m.value[i])).value;
+              return std::isnan(m.value[i]) ? "—" : figure_text({m.value[i], m.floor[i] * std::abs(m.value[i])}).value;
             })
         .only_for_people("model error", [i](L m) {
           return std::isnan(m.model_error[i]) ? "—" : fmt::format("{:.2g} %", 100 * m.model_error[i]);

@@ -9,30 +9,25 @@
 
 namespace kurbel {
 
-std::optional<double> FigureDifference::change() const {
+std::optional<Estimate> FigureDifference::change() const {
   if (!a || !b) return {};
   return *b - *a;
 }
 
-std::optional<double> FigureDifference::error() const {
-  if (!a_error || !b_error) return {};
-  return *a_error + *b_error;
-}
-
 std::optional<double> FigureDifference::relative() const {
-  if (!a || !b || !(std::abs(*a) > a_error.value_or(0)) || *a == 0) return {};
-  return *b / *a - 1;
+  if (!a || !b || !(std::abs(a->value) > a->error.value_or(0)) || a->value == 0) return {};
+  return b->value / a->value - 1;
 }
 
 double FigureDifference::weight() const {
   if (!a || !b) return 0;
-  const double most = std::max({std::abs(*a), std::abs(*b), scale});
-  return most > 0 ? std::abs(*b - *a) / most : 0;
+  const double most = std::max({std::abs(a->value), std::abs(b->value), scale});
+  return most > 0 ? std::abs(change()->value) / most : 0;
 }
 
 bool FigureDifference::differs() const {
-  if (!a || !b) return true;
-  return std::abs(*b - *a) > error().value_or(0);
+  const auto by = change();
+  return !by || std::abs(by->value) > by->error.value_or(0);
 }
 
 namespace {
@@ -59,15 +54,14 @@ MachineDifference difference_between(const MachineQuestion& a, const MachineQues
   const Answered first = answered(a), second = answered(b);
   MachineDifference d{.of = of, .a = first.machine, .b = second.machine, .speed_unit = first.answer.speed_unit};
   for (const Figure& f : first.answer.figures) {
-    FigureDifference row{
-        .name = f.name, .unit = f.unit, .a = f.value, .a_error = f.error, .scale = f.scale, .telling = is_telling(f)};
+    FigureDifference row{.name = f.name, .unit = f.unit, .a = f, .scale = f.scale, .telling = is_telling(f)};
     d.figures.push_back(std::move(row));
   }
   for (const Figure& f : second.answer.figures) {
     auto row = std::find_if(d.figures.begin(), d.figures.end(), [&](const auto& r) { return r.name == f.name; });
     if (row == d.figures.end())
       row = d.figures.insert(row, {.name = f.name, .unit = f.unit, .scale = f.scale, .telling = is_telling(f)});
-    row->b = f.value, row->b_error = f.error;
+    row->b = f;
   }
   d.changes = scene_changes(parse_toml(d.a.text, d.a.file), parse_toml(d.b.text, d.b.file));
   return d;

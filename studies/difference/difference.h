@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "studies/difference/scene_changes.h"
 #include "studies/findings/findings.h"
 #include "studies/sweep/machine.h"
@@ -14,13 +15,11 @@ namespace kurbel {
 // A figure of both machines, in SI.
 struct FigureDifference {
   std::string name, unit;
-  std::optional<double> a = {}, b = {};              // nothing: that machine has no such figure
-  std::optional<double> a_error = {}, b_error = {};  // nothing: not measured
-  double scale = 0;                                  // what is usual of it
-  bool telling = false;                              // a peak, a speed, a fluctuation: worth a headline
+  std::optional<Estimate> a = {}, b = {};  // nothing: that machine has no such figure
+  double scale = 0;                        // what is usual of it
+  bool telling = false;                    // a peak, a speed, a fluctuation: worth a headline
 
-  std::optional<double> change() const;    // b − a
-  std::optional<double> error() const;     // of the change: both errors; nothing where one is not known
+  std::optional<Estimate> change() const;  // b − a
   std::optional<double> relative() const;  // b/a − 1; nothing where a does not differ from nothing
   double weight() const;                   // |b − a| over the greatest of |a|, |b| and what is usual
   bool differs() const;                    // by more than both errors; where none is known, at all

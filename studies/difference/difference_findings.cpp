@@ -61,20 +61,19 @@ std::string conclusion(const MachineDifference& d) {
   std::string text;
   for (std::size_t i = 0; i < list.size() && i < 3; ++i)
     text += fmt::format("{}{} {} → {} ({})", i ? ", " : "", list[i]->name,
-                        told_shortly(*list[i]->a, list[i]->unit, d.speed_unit),
-                        told_shortly(*list[i]->b, list[i]->unit, d.speed_unit), percent(*list[i]->relative()));
+                        told_shortly(list[i]->a->value, list[i]->unit, d.speed_unit),
+                        told_shortly(list[i]->b->value, list[i]->unit, d.speed_unit), percent(*list[i]->relative()));
   return fmt::format("\"{}\" against \"{}\": {}{}{} of {} figures differ by more than their errors; {}", names.b,
                      names.a, text, text.empty() ? "" : "; ", count, d.figures.size(), keys_in_words(d));
 }
 
 // In the unit that people read.
-double read_in(const MachineDifference& d, const FigureDifference& f, double value) {
-  return f.unit == "rad/s" ? d.speed_unit.of(value) : value;
+Estimate read_in(const MachineDifference& d, const FigureDifference& f, const Estimate& figure) {
+  return f.unit == "rad/s" ? figure / d.speed_unit.size : figure;
 }
-std::string cell(const MachineDifference& d, const FigureDifference& f, const std::optional<double>& value,
-                 const std::optional<double>& error) {
-  if (!value) return "—";
-  const FigureCells cells = figure_cells(*value, error, f.unit, d.speed_unit);
+std::string cell(const MachineDifference& d, const FigureDifference& f, const std::optional<Estimate>& figure) {
+  if (!figure) return "—";
+  const FigureCells cells = figure_cells(*figure, f.unit, d.speed_unit);
   return cells.error.empty() ? cells.value : cells.value + " " + cells.error;
 }
 
@@ -83,21 +82,18 @@ Rows figure_table(const MachineDifference& d) {
   const Names names = names_of(d);
   return table_of("figures", "Figure by figure", d.figures)
       .column("name", "figure", &FigureDifference::name)
-      .only_for_programs("a", &FigureDifference::a)
-      .only_for_programs("a_error", &FigureDifference::a_error)
-      .only_for_programs("b", &FigureDifference::b)
-      .only_for_programs("b_error", &FigureDifference::b_error)
-      .only_for_programs("difference", &FigureDifference::change)
-      .only_for_programs("difference_error", &FigureDifference::error)
+      .estimate_for_programs("a", &FigureDifference::a)
+      .estimate_for_programs("b", &FigureDifference::b)
+      .estimate_for_programs("difference", &FigureDifference::change)
       .only_for_programs("relative", &FigureDifference::relative)
-      .only_for_people(names.a, [&d](F f) { return cell(d, f, f.a, f.a_error); })
-      .only_for_people(names.b, [&d](F f) { return cell(d, f, f.b, f.b_error); })
+      .only_for_people(names.a, [&d](F f) { return cell(d, f, f.a); })
+      .only_for_people(names.b, [&d](F f) { return cell(d, f, f.b); })
       .column("unit", "unit", &FigureDifference::unit,
               [&d](const std::string& unit) { return unit == "rad/s" ? d.speed_unit.name : pretty_unit(unit); })
       .only_for_people("difference",
                        [&d](F f) {
                          if (!f.change()) return std::string(f.a ? "only the first has it" : "only the second has it");
-                         return read_as(read_in(d, f, *f.change()), {.digits = 4});
+                         return read_as(read_in(d, f, *f.change()).value, {.digits = 4});
                        })
       .only_for_people("relative", [](F f) { return f.relative() ? percent(*f.relative()) : std::string("—"); })
       .column("differs", "more than the errors", &FigureDifference::differs,
@@ -154,13 +150,13 @@ Findings findings_of(const MachineDifference& d) {
              .diagnosis = d.a.done ? d.b.diagnosis : d.a.diagnosis};
   f.answer(d.complete() ? Question::figures : Question::runs, conclusion(d), d.complete() ? 0 : 1);
   for (const FigureDifference* figure : by_size(d))
-    if (f.figures.size() < 5)
-      f.figures.push_back({figure->name, read_in(d, *figure, *figure->b),
-                           figure->unit == "rad/s" ? d.speed_unit.name : figure->unit,
-                           figure->b_error ? std::optional(read_in(d, *figure, *figure->b_error)) : std::nullopt,
+    if (f.figures.size() < 5) {
+      const Estimate b = read_in(d, *figure, *figure->b);
+      f.figures.push_back({figure->name, b.value, figure->unit == "rad/s" ? d.speed_unit.name : figure->unit, b.error,
                            fmt::format("{} from {}", percent(*figure->relative()),
-                                       told_shortly(*figure->a, figure->unit, d.speed_unit)),
+                                       told_shortly(figure->a->value, figure->unit, d.speed_unit)),
                            0, figure->name});
+    }
   const Chapter figures = f.chapter("Figures"), scenes = f.chapter("Scenes");
   f.draw(figures, [&d] { return picture(d); });
   f.say(scenes, change_table(d));

@@ -48,9 +48,10 @@ double units_of(double error, int place) { return std::ceil(error / power_of_ten
 
 }  // namespace
 
-FigureText figure_text(double value, const std::optional<double>& error) {
-  if (!std::isfinite(value)) return {"—", ""};
-  value += 0.0;  // no −0
+FigureText figure_text(const Estimate& estimate) {
+  if (!std::isfinite(estimate.value)) return {"—", ""};
+  const double value = estimate.value + 0.0;  // no −0
+  const std::optional<double>& error = estimate.error;
   if (!error || !std::isfinite(*error)) return {rounded_number(value, digits_without_error), ""};
   if (*error == 0) return {rounded_number(value, digits_if_exact), "± 0"};
   // The place of the error's last digit, then of the value's.
@@ -69,15 +70,15 @@ FigureText figure_text(double value, const std::optional<double>& error) {
                                                      : fmt::format("{:.{}e}", upper, units >= 10 ? 1 : 0))};
 }
 
-TileText tile_text(double value, const std::optional<double>& error, int digits) {
-  const FigureText text = figure_text(value, error);
-  std::string known = digits > 0 ? rounded_number(value, digits) : text.value;
+TileText tile_text(const Estimate& estimate, int digits) {
+  const FigureText text = figure_text(estimate);
+  std::string known = digits > 0 ? rounded_number(estimate.value, digits) : text.value;
   if (significant_digits(known) <= headline_digits) return {std::move(known), "", text.error};
-  return {headline_number(value), std::move(known), text.error};
+  return {headline_number(estimate.value), std::move(known), text.error};
 }
 
-std::string with_error(double value, const std::optional<double>& error, std::string_view unit) {
-  const FigureText text = figure_text(value, error);
+std::string with_error(const Estimate& estimate, std::string_view unit) {
+  const FigureText text = figure_text(estimate);
   return text.value + (text.error.empty() ? "" : " " + text.error) + (unit.empty() ? "" : " " + pretty_unit(unit));
 }
 
@@ -87,15 +88,14 @@ std::string told_shortly(double value, const std::string& si_unit, const SpeedUn
   return unit.unit.empty() ? number : number + " " + pretty_unit(unit.unit);
 }
 
-FigureCells figure_cells(double value, const std::optional<double>& error, const std::string& si_unit,
-                         const SpeedUnit& speed) {
-  if (si_unit != "rad/s") return {figure_text(value, error).value, error_cell(value, error), pretty_unit(si_unit)};
-  const std::optional<double> shown = error ? std::optional(speed.of(*error)) : std::nullopt;
-  return {figure_text(speed.of(value), shown).value, error_cell(speed.of(value), shown), pretty_unit(speed.name)};
+FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed) {
+  const bool turns = si_unit == "rad/s";
+  const Estimate shown = turns ? estimate / speed.size : estimate;
+  return {figure_text(shown).value, error_cell(shown), pretty_unit(turns ? speed.name : si_unit)};
 }
 
-std::string error_cell(double value, const std::optional<double>& error) {
-  const FigureText text = figure_text(value, error);
+std::string error_cell(const Estimate& estimate) {
+  const FigureText text = figure_text(estimate);
   return text.error.empty() ? "not measured" : text.error;
 }
 

@@ -9,10 +9,10 @@
 // by construction.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
+#include "engine/base/estimate.h"
 #include "engine/scene/speed_unit.h"
 
 namespace kurbel {
@@ -22,16 +22,16 @@ struct FigureText {
   std::string error;  // "± 0.00006"; "± 0": exact; empty: not known
 };
 
-FigureText figure_text(double value, const std::optional<double>& error);
+FigureText figure_text(const Estimate& estimate);
 
 // A figure on a tile: rounded as a headline rounds, and below it what is known where that is more.
 struct TileText {
   std::string value, known, error;  // "6257", "6257.16998", "± 0.00006"
 };
-TileText tile_text(double value, const std::optional<double>& error, int digits = 0);  // digits: 0: by the error
+TileText tile_text(const Estimate& estimate, int digits = 0);  // digits: 0: by the error
 
 // "6257.16998 ± 0.00006 N·m"; without an error "6257.17 N·m".
-std::string with_error(double value, const std::optional<double>& error, std::string_view unit);
+std::string with_error(const Estimate& estimate, std::string_view unit);
 
 // As a sentence has it, four digits in a unit that is read easily: 19092.63 N·m → "19.09 kN·m"; a speed in its unit.
 std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed = {});
@@ -40,10 +40,9 @@ std::string told_shortly(double value, const std::string& si_unit, const SpeedUn
 struct FigureCells {
   std::string value, error, unit;  // "6257.16998", "± 0.00006", "N·m"
 };
-FigureCells figure_cells(double value, const std::optional<double>& error, const std::string& si_unit,
-                         const SpeedUnit& speed);
+FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed);
 
 // What a column of errors says where none was measured.
-std::string error_cell(double value, const std::optional<double>& error);
+std::string error_cell(const Estimate& estimate);
 
 }  // namespace kurbel

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "engine/run/recorders.h"
 #include "studies/conclusions/conclusion.h"
 
@@ -14,12 +15,11 @@ namespace kurbel {
 
 struct Traces;
 
-struct Figure {
-  std::string name;  // dotted and stable: "peak_torque.main_coupling"
-  double value = 0;  // SI
-  std::string unit;
-  std::optional<double> error;              // measured, by other runs (measured_errors.h)
-  std::optional<double> at;                 // time it belongs to [s]
+// Its error is measured by other runs (measured_errors.h).
+struct Figure : Estimate {
+  std::string name = {};                    // dotted and stable: "peak_torque.main_coupling"
+  std::string unit = {};                    // SI
+  std::optional<double> at = {};            // time it belongs to [s]
   double scale = 0;                         // rated quantity that the error is judged by; 0: the error is not judged
   double resolution = 0;                    // part of the error that all runs share: what location leaves open
   std::optional<double> at_error = {};      // of the time, measured as the error of the value is [s]
@@ -29,17 +29,15 @@ struct Figure {
 
   // Of a name: its words, its quantity and its owner.
   static Figure of_name(Name name, double value = 0, std::string unit = {}, double scale = 0) {
-    Figure figure{std::move(name.text), value, std::move(unit), {}, {}, scale};
+    Figure figure{{value}, std::move(name.text), std::move(unit), {}, scale};
     figure.what = name.what, figure.of = std::move(name.of);
     return figure;
   }
 };
 
 struct ComponentState {
-  double angle = 0, speed = 0;                 // of its (driving) shaft [rad, rad/s]
-  std::optional<double> angle_out, speed_out;  // of its driven shaft, where it has two
-  // Measured errors of these four.
-  std::optional<double> angle_error = {}, speed_error = {}, angle_out_error = {}, speed_out_error = {};
+  Estimate angle, speed;                                   // of its (driving) shaft [rad, rad/s]
+  std::optional<Estimate> angle_out = {}, speed_out = {};  // of its driven shaft, where it has two
 };
 
 // Run-up, steady motion and run-down of the reduction link; times in s. Defined in periods.h.

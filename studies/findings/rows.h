@@ -23,7 +23,9 @@
 #include <variant>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "studies/conclusions/headline.h"
+#include "studies/findings/figure_text.h"
 #include "studies/findings/report.h"
 
 namespace kurbel {
@@ -100,6 +102,13 @@ List each(const Items& items, F&& value) {
   List list;
   for (const auto& item : items) list.push_back(Value(std::invoke(value, item)));
   return list;
+}
+
+// An estimate of its own, or as KEY and KEY_error among others.
+inline Record estimate_record(const Estimate& e) { return {{"value", e.value}, {"error", e.error}}; }
+inline void tell_estimate(Record& among, const std::string& key, const Estimate& e) {
+  among.push_back({key, e.value});
+  among.push_back({key + "_error", e.error});
 }
 
 // --- readings, for people ---
@@ -198,6 +207,19 @@ class RowsOf : public Rows {
     Column& made = columns.emplace_back(Column{.key = std::move(its_key), .heading = "", .for_people = false});
     for (const T& row : rows_) made.values.emplace_back(std::invoke(get, row));
     return *this;
+  }
+
+  // `get` gives an Estimate, or none: KEY and KEY_error for programs, "6257.16998 ± 0.00006" for people.
+  template <class Get>
+  RowsOf& estimate_for_programs(const std::string& its_key, Get get) {
+    const auto of = [&](const T& row) -> std::optional<Estimate> { return std::invoke(get, row); };
+    only_for_programs(its_key, [&](const T& row) { return of(row) ? std::optional(of(row)->value) : std::nullopt; });
+    return only_for_programs(its_key + "_error", [&](const T& row) { return of(row).value_or(Estimate{}).error; });
+  }
+  template <class Get>
+  RowsOf& estimate(const std::string& its_key, std::string its_heading, Get get) {
+    estimate_for_programs(its_key, get);
+    return only_for_people(std::move(its_heading), [&](const T& row) { return with_error(std::invoke(get, row), ""); });
   }
 
   // Whose rows are figures: `get` gives a row's name in the dictionary.

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <tuple>
 #include <utility>
 
 #include "engine/numerics/angles.h"
@@ -32,7 +31,7 @@ std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turn
       sum += values[i] * std::polar(1.0, -k * turn * turns * static_cast<double>(i) / static_cast<double>(n));
     sum /= static_cast<double>(n);
     if (k == 0 && mean) *mean = sum.real();
-    if (k > 0) orders.push_back({k, 2 * std::abs(sum), -std::arg(sum)});
+    if (k > 0) orders.push_back({k, {2 * std::abs(sum)}, -std::arg(sum)});
   }
   return orders;
 }
@@ -43,7 +42,8 @@ std::vector<ForceHarmonic> measured_harmonics(const std::vector<double>& values,
   for (std::size_t i = 0; i < values.size(); i += 2) half.push_back(values[i]);
   const std::vector<ForceHarmonic> other = harmonics(half, turns);
   for (std::size_t k = 0; k < orders.size(); ++k)
-    orders[k].error = std::abs(orders[k].amplitude - other[k].amplitude) + rounding_of_forces * scale;
+    orders[k].amplitude =
+        estimate_from(orders[k].amplitude.value, other[k].amplitude.value, rounding_of_forces * scale);
   return orders;
 }
 
@@ -68,14 +68,13 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
                           .at;
   std::vector<double> phi;
   for (const CyclePosition& p : turn_of_crank.samples()) phi.push_back(p.state.phi);
-  const auto peak = [&](auto&& value) {
+  const auto peak = [&](auto&& value) -> Estimate {
     std::vector<double> values;
     for (const CyclePosition& p : turn_of_crank.samples()) values.push_back(value(p));
     double largest = 0;
     for (const double v : values) largest = std::max(largest, v);
-    const Peak found = measured_peak_of(
+    return measured_peak_of(
         phi, values, [&](double x) { return value(turn_of_crank.at(x)); }, largest);
-    return std::pair{found.value, found.error.value_or(0)};
   };
   std::vector<Counterweight> proposals;
   const auto propose = [&](const std::string& name, double moment) {
@@ -89,15 +88,13 @@ std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& stat
       x.push_back(c.shaking.back().x);
       y.push_back(c.shaking.back().y);
     }
-    std::tie(c.peak_force, c.peak_force_error) = peak([&](const CyclePosition& p) { return shaking(moment, p); });
+    c.peak_force = peak([&](const CyclePosition& p) { return shaking(moment, p); });
     // The bearing carries it: the frame's force on the crank is less by the counterweight's inertia force.
-    std::tie(c.peak_bearing, c.peak_bearing_error) =
+    c.peak_bearing =
         peak([&](const CyclePosition& p) { return (p.forces.main_bearing - added(moment, p)).magnitude(); });
     const int turns = static_cast<int>(std::lround((positions.back().state.phi - positions.front().state.phi) / turn));
-    const ForceHarmonic first_x = measured_harmonics(x, turns, c.peak_force).front(),
-                        first_y = measured_harmonics(y, turns, c.peak_force).front();
-    c.first_x = first_x.amplitude, c.first_x_error = first_x.error;
-    c.first_y = first_y.amplitude, c.first_y_error = first_y.error;
+    c.first_x = measured_harmonics(x, turns, c.peak_force.value).front().amplitude;
+    c.first_y = measured_harmonics(y, turns, c.peak_force.value).front().amplitude;
     proposals.push_back(std::move(c));
   };
   propose("as it is", 0);

@@ -211,20 +211,17 @@ std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, 
 
 // --- peaks ---
 
-SpeedRange speed_range(const std::vector<MotionSample>& samples) {
+std::pair<Estimate, Estimate> speed_range(const std::vector<MotionSample>& samples) {
   const auto with_step = [&](std::size_t step) {
-    SpeedRange range{HUGE_VAL, -HUGE_VAL, 0};
-    for (std::size_t i = 0; i < samples.size(); i += step) {
-      range.least = std::min(range.least, samples[i].motion.omega);
-      range.greatest = std::max(range.greatest, samples[i].motion.omega);
-    }
+    std::pair range{HUGE_VAL, -HUGE_VAL};
+    for (std::size_t i = 0; i < samples.size(); i += step)
+      range = {std::min(range.first, samples[i].motion.omega), std::max(range.second, samples[i].motion.omega)};
     return range;
   };
-  SpeedRange fine = with_step(1);
-  const SpeedRange wide = with_step(2);
-  fine.error = std::max(wide.least - fine.least, fine.greatest - wide.greatest) +
-               rounding_of_forces * std::max(std::abs(fine.least), std::abs(fine.greatest));
-  return fine;
+  const auto [least, greatest] = with_step(1);
+  const auto [least_of_half, greatest_of_half] = with_step(2);
+  const double rounding = rounding_of_forces * std::max(std::abs(least), std::abs(greatest));
+  return {estimate_from(least, least_of_half, rounding), estimate_from(greatest, greatest_of_half, rounding)};
 }
 
 Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
@@ -233,10 +230,10 @@ Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
   constexpr double may_grow = 1e-3;   // of its value: by more no peak between samples so close rises above them
   double largest = 0;
   for (const double v : values) largest = std::max(largest, std::abs(v));
-  Peak peak{values.front(), phi.front(), {}};
+  Peak peak{{values.front()}, phi.front()};
   if (largest == 0) return peak;
   const auto consider = [&](double v, double where) {
-    if (std::abs(v) > (1 + same_peak) * std::abs(peak.value)) peak = {v, where, {}};
+    if (std::abs(v) > (1 + same_peak) * std::abs(peak.value)) peak = {{v}, where};
   };
   constexpr int most_refined = 16;  // a force that stays the same has a peak of rounding at every other sample
   int refined = 0;
@@ -245,7 +242,7 @@ Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
     const double here = std::abs(values[i]);
     if (here < (1 - may_grow) * largest) continue;
     if ((i > 0 && std::abs(values[i - 1]) > here) || (i + 1 < n && std::abs(values[i + 1]) > here)) continue;
-    Peak local{values[i], phi[i], {}};
+    Peak local{{values[i]}, phi[i]};
     const double sense = values[i] < 0 ? -1 : 1;
     const bool refine = ++refined <= most_refined;
     for (const std::size_t k : {i, i + 1}) {  // the pieces before and after it
@@ -253,7 +250,7 @@ Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
       // Within an edge nothing is to be found that its two sides do not say.
       if (k == 0 || k >= n || !(phi[k] - phi[k - 1] > 2.5 * beside)) continue;
       const auto [where, found] = find_maximum([&](double x) { return sense * value(x); }, phi[k - 1], phi[k], 40);
-      if (found > sense * local.value) local = {sense * found, where, {}};
+      if (found > sense * local.value) local = {{sense * found}, where};
     }
     consider(local.value, local.phi);
   }

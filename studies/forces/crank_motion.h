@@ -88,11 +88,8 @@ struct MotionSample {
 // Motion between samples that ascend by angle.
 CrankMotion motion_between(const std::vector<MotionSample>& samples, double phi);
 
-// Least and greatest speed among samples, and what every other sample finds otherwise.
-struct SpeedRange {
-  double least = 0, greatest = 0, error = 0;  // [rad/s]
-};
-SpeedRange speed_range(const std::vector<MotionSample>& samples);
+// Least and greatest speed among samples [rad/s]; errors: what every other sample finds otherwise.
+std::pair<Estimate, Estimate> speed_range(const std::vector<MotionSample>& samples);
 
 // The largest magnitude of a function of the crank's angle. Local peaks of the samples near the largest one are
 // refined by the golden section between their neighbours, so that the peak is one of the function, not of the samples;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 #include "engine/model/model.h"
 #include "engine/numerics/angles.h"
@@ -21,10 +22,10 @@ namespace kurbel {
 CycleBuilder::CycleBuilder(const SliderCrankStatics& statics, OutputLoads& loads, ForceCycle& cycle)
     : statics_(statics), geometry_(statics.data()), loads_(loads), cycle_(cycle) {
   for (const WorkAccount& account : loads.model().accounts)
-    cycle_.work.push_back({account.name, name_of(account.kind), 0, 0, 0});
-  cycle_.work.push_back({"balancing torque", "driving", 0, 0, 0});
+    cycle_.work.push_back({account.name, name_of(account.kind)});
+  cycle_.work.push_back({"balancing torque", "driving"});
   for (std::size_t k = 0; k < joint_count; ++k)
-    cycle_.work.push_back({std::string("friction of ") + name_of(static_cast<Joint>(k)), "harmful", 0, 0, 0});
+    cycle_.work.push_back({std::string("friction of ") + name_of(static_cast<Joint>(k)), "harmful"});
 }
 
 CyclePosition CycleBuilder::at(double phi, CrankMotion motion) const {
@@ -61,7 +62,7 @@ void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
   const auto share = loads_.shares(where.place(), motion);
   std::size_t k = 0;
   const auto account = [&](double power) {
-    cycle_.work[k].work += power * dt;
+    cycle_.work[k].work.value += power * dt;
     cycle_.work[k++].turnover += std::abs(power) * dt;
   };
   for (const double torque : share) account(torque * motion.omega);
@@ -71,16 +72,16 @@ void CycleBuilder::add(const Abscissa& where, CrankMotion motion) {
 }
 
 void CycleBuilder::finish() {
-  cycle_.mean_speed = std::copysign(cycle_.cycle / time_, cycle_.positions.front().state.omega);
-  cycle_.mean_speed_error = rounding_of_forces * std::abs(cycle_.mean_speed);
+  const double mean_speed = std::copysign(cycle_.cycle / time_, cycle_.positions.front().state.omega);
+  cycle_.mean_speed = {mean_speed, rounding_of_forces * std::abs(mean_speed)};
   // Speeds at both ends in the order of time.
   cycle_.first_speed = cycle_.positions.front().state.omega;
   cycle_.last_speed = cycle_.positions.back().state.omega;
-  cycle_.closure = (cycle_.last_speed - cycle_.first_speed) / cycle_.mean_speed;
+  cycle_.closure = {(cycle_.last_speed - cycle_.first_speed) / mean_speed, 2 * rounding_of_forces};
   const auto kinetic = [&](const CyclePosition& p) {
     return 0.5 * geometry_.inertia(p.state.phi).value * p.state.omega * p.state.omega;
   };
-  cycle_.kinetic_change = kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front());
+  cycle_.kinetic_change = {kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front()), 0.0};
   for (const CyclePosition& p : cycle_.positions) cycle_.kinetic_most = std::max(cycle_.kinetic_most, kinetic(p));
   const auto by_angle = [](const CyclePosition& a, const CyclePosition& b) { return a.state.phi < b.state.phi; };
   for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows}) std::sort(list->begin(), list->end(), by_angle);
@@ -111,9 +112,7 @@ void CycleBuilder::find_extremes() {
   cycle_.shaking_moment = largest([](const CyclePosition& p) { return p.forces.shaking_moment; });
   call_rounding_zero();
   cycle_.at_torque_peak = at(cycle_.torque.phi);
-  const SpeedRange speeds = speed_range(motion_);
-  cycle_.least_speed = speeds.least, cycle_.greatest_speed = speeds.greatest, cycle_.speed_error = speeds.error;
-  cycle_.closure_error = 2 * rounding_of_forces;
+  std::tie(cycle_.least_speed, cycle_.greatest_speed) = speed_range(motion_);
   for (const CyclePosition& p : samples_) {
     cycle_.friction_residual = std::max(cycle_.friction_residual, p.forces.residual);
     cycle_.most_iterations = std::max(cycle_.most_iterations, p.forces.iterations);
@@ -129,7 +128,7 @@ void CycleBuilder::call_rounding_zero() {
   const double torque = force * (statics_.data().radius + statics_.data().rod_length);
   const auto clean = [](Peak& p, double scale) {
     if (std::abs(p.value) <= rounding * scale) p = {};
-    p.error = p.error.value_or(0) + rounding * scale, p.scale = scale;
+    p.widen(rounding * scale), p.scale = scale;
   };
   for (Peak& p : cycle_.reaction) clean(p, force);
   clean(cycle_.shaking_force, force);
@@ -152,16 +151,16 @@ void CycleBuilder::collect_curves() {
 }
 
 void CycleBuilder::find_harmonics() {
-  const auto orders_of = [&](auto&& value, double* mean = nullptr) {
+  const auto orders_of = [&](auto&& value, Estimate* mean = nullptr) {
     std::vector<double> values;
     for (const CyclePosition& p : cycle_.positions) values.push_back(value(p));
     const int turns = static_cast<int>(std::lround(cycle_.cycle / turn));
     if (mean) {
       std::vector<double> half;
       for (std::size_t k = 0; k < values.size(); k += 2) half.push_back(values[k]);
-      double other = 0;
-      harmonics(values, turns, mean), harmonics(half, turns, &other);
-      cycle_.torque_mean_error = std::abs(*mean - other) + rounding_of_forces * std::abs(cycle_.torque.value);
+      double fine = 0, other = 0;
+      harmonics(values, turns, &fine), harmonics(half, turns, &other);
+      *mean = estimate_from(fine, other, rounding_of_forces * std::abs(cycle_.torque.value));
     }
     double largest = 0;
     for (const double v : values) largest = std::max(largest, std::abs(v));
@@ -190,9 +189,33 @@ void CycleBuilder::balance_powers() {
 
 // The works of a cycle make its change of kinetic energy: what is left over is every work's error.
 void CycleBuilder::find_errors_of_works() {
-  double left = -cycle_.kinetic_change;
-  for (const CycleWork& w : cycle_.work) left += w.work;
-  for (CycleWork& w : cycle_.work) w.error = std::abs(left) + rounding_of_forces * w.turnover;
+  double left = -cycle_.kinetic_change.value;
+  for (const CycleWork& w : cycle_.work) left += w.work.value;
+  for (CycleWork& w : cycle_.work) w.work.error = std::abs(left) + rounding_of_forces * w.turnover;
+}
+
+void widen_peak(Peak& peak, const Peak& other, double times) {
+  peak.widen(times * std::abs(std::abs(other.value) - std::abs(peak.value)));
+}
+
+void CycleOfForces::widen_to(const CycleOfForces& other, double times) {
+  using C = CycleOfForces;
+  for (auto figure :
+       {&C::mean_speed, &C::least_speed, &C::greatest_speed, &C::closure, &C::torque_mean, &C::kinetic_change})
+    (this->*figure).widen_to(other.*figure, times);
+  for (auto peak : {&C::torque, &C::shaking_force, &C::shaking_moment}) widen_peak(this->*peak, other.*peak, times);
+  for (auto orders : {&C::shaking_x, &C::shaking_y, &C::shaking_couple, &C::torque_orders})
+    for (std::size_t k = 0; k < (this->*orders).size(); ++k)
+      (this->*orders)[k].amplitude.widen_to((other.*orders)[k].amplitude, times);
+  for (std::size_t k = 0; k < work.size(); ++k) work[k].work.widen_to(other.work[k].work, times);
+}
+
+void ForceCycle::widen_to(const ForceCycle& other, double times) {
+  CycleOfForces::widen_to(other, times);
+  for (std::size_t k = 0; k < joint_count; ++k) widen_peak(reaction[k], other.reaction[k], times);
+  for (auto flow : {&ForceCycle::input, &ForceCycle::useful, &ForceCycle::harmful})
+    (this->*flow).widen_to(other.*flow, times);
+  if (efficiency && other.efficiency) efficiency->widen_to(*other.efficiency, times);
 }
 
 // --- works ---
@@ -210,8 +233,8 @@ std::string why_no_efficiency(const ForceCycle& c, double spent, double uncertai
   if (uncertain > enough * spent)
     return fmt::format("the works of the cycle, {} spent, are only known to within {} together",
                        with_unit(spent, "J", 4), with_unit(uncertain, "J", 2));
-  if (!(c.useful > uncertain))
-    return c.harmful > 0 ? "no useful work is done: what goes in is lost" : "no useful work is done";
+  if (!(c.useful.value > uncertain))
+    return c.harmful.value > 0 ? "no useful work is done: what goes in is lost" : "no useful work is done";
   return "";
 }
 
@@ -224,28 +247,28 @@ void judge_works(ForceCycle& c) {
   constexpr double steady = 1e-6;     // of the input: less is no change of the motion's energy
   double largest = c.kinetic_most;
   for (const CycleWork& w : c.work) largest = std::max(largest, w.turnover);
-  c.input = c.useful = c.harmful = 0;
+  double uncertain = c.kinetic_change.error.value_or(0), input = 0, useful = 0, harmful = 0;
   c.efficiency.reset();
-  double uncertain = c.kinetic_error;
   for (CycleWork& w : c.work) {
-    uncertain += w.error;
-    if (std::abs(w.work) <= rounding * largest) w.work = 0;  // of weights round a cycle
-    if (w.name == "balancing torque") w.kind = w.work < 0 ? "useful" : "driving";
-    if (std::abs(w.work) <= w.error + nothing_left * largest) continue;
-    if (w.work > 0) c.input += w.work;
-    if (w.work < 0) (w.kind == "harmful" ? c.harmful : c.useful) -= w.work;
+    double& work = w.work.value;
+    uncertain += *w.work.error;
+    if (std::abs(work) <= rounding * largest) work = 0;  // of weights round a cycle
+    if (w.name == "balancing torque") w.kind = work < 0 ? "useful" : "driving";
+    if (std::abs(work) <= *w.work.error + nothing_left * largest) continue;
+    if (work > 0) input += work;
+    if (work < 0) (w.kind == "harmful" ? harmful : useful) -= work;
   }
   uncertain += nothing_left * largest;
-  c.work_error = uncertain;
-  c.spent = std::abs(c.kinetic_change) <= steady * c.input ? c.input : c.input - c.kinetic_change;
+  c.input = {input, uncertain}, c.useful = {useful, uncertain}, c.harmful = {harmful, uncertain};
+  c.spent = std::abs(c.kinetic_change.value) <= steady * input ? input : input - c.kinetic_change.value;
   c.no_efficiency = why_no_efficiency(c, c.spent, uncertain);
   if (!c.no_efficiency.empty()) return;
-  const double ratio = c.useful / c.spent;
+  const double ratio = useful / c.spent;
   if (ratio > 1 + uncertain / c.spent + steady)
-    c.no_efficiency = fmt::format("the works do not balance: {} come out of {}", with_unit(c.useful, "J", 4),
+    c.no_efficiency = fmt::format("the works do not balance: {} come out of {}", with_unit(useful, "J", 4),
                                   with_unit(c.spent, "J", 4));
   else
-    c.efficiency = std::min(1.0, ratio), c.efficiency_error = (1 + ratio) * uncertain / c.spent;
+    c.efficiency = {std::min(1.0, ratio), (1 + ratio) * uncertain / c.spent};
 }
 
 }  // namespace kurbel

@@ -34,33 +34,6 @@ ForceCycle cycle_along(const SliderCrankStatics& statics, OutputLoads& loads, co
   return cycle;
 }
 
-// To each error `times` the difference between the two.
-void add_errors(const ForceCycle& other, double times, ForceCycle& cycle) {
-  const auto apart = [times](double a, double b) { return times * std::abs(a - b); };
-  const auto add = [&](const Peak& a, Peak& b) {
-    b.error = b.error.value_or(0) + apart(std::abs(a.value), std::abs(b.value));
-  };
-  for (std::size_t k = 0; k < joint_count; ++k) add(other.reaction[k], cycle.reaction[k]);
-  add(other.torque, cycle.torque);
-  add(other.shaking_force, cycle.shaking_force);
-  add(other.shaking_moment, cycle.shaking_moment);
-  for (auto orders :
-       {&ForceCycle::shaking_x, &ForceCycle::shaking_y, &ForceCycle::shaking_couple, &ForceCycle::torque_orders})
-    for (std::size_t k = 0; k < (cycle.*orders).size(); ++k)
-      (cycle.*orders)[k].error += apart((cycle.*orders)[k].amplitude, (other.*orders)[k].amplitude);
-  for (std::size_t k = 0; k < cycle.work.size(); ++k)
-    cycle.work[k].error += apart(other.work[k].work, cycle.work[k].work);
-  cycle.torque_mean_error += apart(other.torque_mean, cycle.torque_mean);
-  cycle.mean_speed_error += apart(other.mean_speed, cycle.mean_speed);
-  cycle.speed_error +=
-      std::max(apart(other.least_speed, cycle.least_speed), apart(other.greatest_speed, cycle.greatest_speed));
-  cycle.closure_error += apart(other.closure, cycle.closure);
-  cycle.work_error += std::max(
-      {apart(other.input, cycle.input), apart(other.useful, cycle.useful), apart(other.harmful, cycle.harmful)});
-  if (cycle.efficiency && other.efficiency) cycle.efficiency_error += apart(*other.efficiency, *cycle.efficiency);
-  cycle.kinetic_error += apart(other.kinetic_change, cycle.kinetic_change);
-}
-
 // What the machine's own equations have otherwise than rigid links in ideal joints, pointwise at most: an error of every
 // figure that it touches.
 struct Missed {
@@ -89,18 +62,17 @@ Missed missed_by(const SliderCrankStatics& statics, OutputLoads& loads, const Si
 }
 
 void add_missed(const Missed& missed, const SliderCrankData& d, ForceCycle& cycle) {
-  const auto add = [](Peak& p, double by) { p.error = p.error.value_or(0) + by; };
   const double force = missed.reaction[0] + missed.reaction[3];  // what the frame feels
   const double moment = missed.torque + missed.reaction[3] * (d.radius + d.rod_length);
-  for (std::size_t k = 0; k < joint_count; ++k) add(cycle.reaction[k], missed.reaction[k]);
-  add(cycle.torque, missed.torque);
-  add(cycle.shaking_force, force);
-  add(cycle.shaking_moment, moment);
-  for (auto [orders, by] :
+  for (std::size_t k = 0; k < joint_count; ++k) cycle.reaction[k].widen(missed.reaction[k]);
+  cycle.torque.widen(missed.torque);
+  cycle.shaking_force.widen(force);
+  cycle.shaking_moment.widen(moment);
+  for (const auto& [orders, by] :
        {std::pair{&ForceCycle::shaking_x, force}, std::pair{&ForceCycle::shaking_y, force},
         std::pair{&ForceCycle::shaking_couple, moment}, std::pair{&ForceCycle::torque_orders, missed.torque}})
-    for (ForceHarmonic& h : cycle.*orders) h.error += 2 * by;  // 2/N Σ, each at most this
-  cycle.torque_mean_error += missed.torque;
+    for (ForceHarmonic& h : cycle.*orders) h.amplitude.widen(2 * by);  // 2/N Σ, each at most this
+  cycle.torque_mean.widen(missed.torque);
 }
 
 std::string words_of(const Missed& missed, const ForceCycle& cycle) {
@@ -185,7 +157,7 @@ class Study {
     LinkageCycle links = linkage_cycle(out_.data, *loads_, simulated ? simulated->along : prescribed_);
     if (simulated)
       for (const SimulatedMotion::Other& other : simulated->others)
-        add_errors(linkage_cycle(out_.data, *loads_, other.motion), other.times, links);
+        links.widen_to(linkage_cycle(out_.data, *loads_, other.motion), other.times);
     mark_unbounded(out_.unbounded, links);
     out_.links = std::make_shared<const LinkageCycle>(std::move(links));
     for (std::optional<ForceCycle>* cycle : {&out_.prescribed, &out_.simulated})
@@ -224,7 +196,7 @@ class Study {
         "friction in the joints is left out{}: in the first problem it would take {} a cycle, and the crank's torque "
         "would peak at {} instead of {}",
         machine_->deforms() ? ", for clearance and a rod that bends cannot be had with it" : "",
-        with_unit(cycle.harmful, "J", 4), with_unit(std::abs(cycle.torque.value), "N*m", 5),
+        with_unit(cycle.harmful.value, "J", 4), with_unit(std::abs(cycle.torque.value), "N*m", 5),
         with_unit(std::abs(out_.prescribed->torque.value), "N*m", 5)));
   }
 
@@ -232,7 +204,7 @@ class Study {
     ForceCycle& cycle = out_.simulated.emplace(cycle_along(*statics_, *loads_, simulated.along));
     for (std::size_t i = 0; i < simulated.others.size(); ++i) {
       const SimulatedMotion::Other& other = simulated.others[i];
-      add_errors(cycle_along(*statics_, *loads_, other.motion), other.times, cycle);
+      cycle.widen_to(cycle_along(*statics_, *loads_, other.motion), other.times);
       if (i == 0) judge_works(cycle);  // of this cycle itself, whether or not it comes again
     }
     cycle.label = "simulated";

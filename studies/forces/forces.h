@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "engine/scene/scene.h"
 #include "mechanisms/reduced/newton_euler.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
@@ -73,73 +74,83 @@ struct CyclePosition {
 // Order k of the crank's turn: amplitude and phase of A cos(k φ − phase).
 struct ForceHarmonic {
   int order = 0;
-  double amplitude = 0, phase = 0;
-  double error = 0;  // of the amplitude
+  Estimate amplitude;
+  double phase = 0;
 };
 inline constexpr int highest_order = 8;
 
-// A figure of the cycle with where it is reached.
-struct Peak {
-  double value = 0;
-  double phi = 0;               // [rad]
-  std::optional<double> error;  // theory 9.13
-  double scale = 0;             // of the forces or moments that it is the sum of: what it is rounded by
-  bool unbounded = false;       // it grows without bound; the value is that a thousandth of the way beside the place
+// A figure of the cycle with where it is reached; its error: theory 9.13.
+struct Peak : Estimate {
+  double phi = 0;          // [rad]
+  double scale = 0;        // of the forces or moments that it is the sum of: what it is rounded by
+  bool unbounded = false;  // it grows without bound; the value is that a thousandth of the way beside the place
   double told() const { return unbounded ? HUGE_VAL : value; }
+};
+
+struct NamedPeak {
+  std::string name;   // "crank pin: crank on coupler"
+  std::string unit;   // SI
+  std::string means;  // its name in the dictionary
+  Peak peak;
 };
 
 struct CycleWork {
   std::string name;
   std::string kind;     // driving, useful, harmful, weight
-  double work = 0;      // done on the mechanism [J]
+  Estimate work = {};   // done on the mechanism [J]
   double turnover = 0;  // ∫|dA|: what goes to and fro [J]
-  double error = 0;     // [J]
 };
 
-// One of the two problems over one cycle.
-struct ForceCycle {
-  std::string label;                                           // "prescribed", "simulated"
-  std::string description;                                     // for people
-  double cycle = 0;                                            // [rad]
-  double mean_speed = 0, least_speed = 0, greatest_speed = 0;  // of the crank [rad/s]
+// What either problem tells of one cycle of any mechanism.
+struct CycleOfForces {
+  std::string label;                                 // "prescribed", "simulated"
+  std::string description;                           // for people
+  double cycle = 0;                                  // [rad]
+  Estimate mean_speed, least_speed, greatest_speed;  // of the crank; the mean over the time [rad/s]
+  Estimate closure;                                  // speed at the end − at the begin, over the mean: 0 if steady
+  Peak torque, shaking_force, shaking_moment;
+  std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
+  Estimate torque_mean;                    // over the angle [N·m]
+  std::vector<CycleWork> work;             // by account: loads, weight, the balancing torque, friction of each joint
+  Estimate kinetic_change;                 // of the mechanism over the cycle [J]
+  double power_residual = 0;               // largest, of the powers' balance at a position
+  std::optional<double> machine_residual;  // of the torque, from the compiled machine's own, over the largest
+
+  // Every error by `times` the difference to the other one; peaks are compared by magnitude.
+  void widen_to(const CycleOfForces& other, double times);
+};
+void widen_peak(Peak& peak, const Peak& other, double times);
+
+// One of the two problems of a slider-crank.
+struct ForceCycle : CycleOfForces {
   double first_speed = 0, last_speed = 0;  // of the crank at the cycle's begin and end in time [rad/s]
-  double closure = 0;                      // speed at the end − at the begin, over the mean: steady motion has none
   std::vector<CyclePosition> positions;    // 720 of a turn, evenly, both ends, whatever is asked for
   std::vector<CyclePosition> rows;         // those asked for, both ends
   std::vector<CyclePosition> curve;        // positions, both sides of every load edge, and the peaks
   Peak reaction[joint_count];              // [N]
-  Peak torque, shaking_force, shaking_moment;
   CyclePosition at_torque_peak;
-  int both_edges = 0;  // positions where both edges bear
-  std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
-  double torque_mean = 0, torque_mean_error = 0;  // [N·m]
-  double mean_speed_error = 0, speed_error = 0;   // the latter of the least and the greatest [rad/s]
-  double closure_error = 0;
-  std::vector<CycleWork> work;                  // by account: crank, loads, weight, friction of each joint
-  double kinetic_change = 0, kinetic_most = 0;  // of the mechanism over the cycle, greatest [J]
-  double kinetic_error = 0;                     // of the change, as that of a work [J]
-  double input = 0, useful = 0, harmful = 0;    // work that goes in, comes out usefully, is lost [J], ≥ 0
-  double spent = 0;                             // input less what the motion stores [J]
-  std::optional<double> efficiency;             // useful/spent, where works beyond their errors make one: 0 … 1
-  double work_error = 0, efficiency_error = 0;  // of input, useful, harmful work [J]; of the efficiency
-  std::string no_efficiency;                    // else why
-  double power_residual = 0;                    // largest
-  double friction_residual = 0;                 // largest, of the friction laws
-  std::optional<double> machine_residual;       // of the torque, from the compiled machine's own, over the largest
+  int both_edges = 0;                  // positions where both edges bear
+  double kinetic_most = 0;             // of the mechanism, greatest [J]
+  Estimate input, useful, harmful;     // work that goes in, comes out usefully, is lost [J], ≥ 0
+  double spent = 0;                    // input less what the motion stores [J]
+  std::optional<Estimate> efficiency;  // useful/spent, where works beyond their errors make one: 0 … 1
+  std::string no_efficiency;           // else why
+  double friction_residual = 0;        // largest, of the friction laws
   int most_iterations = 0;
+
+  void widen_to(const ForceCycle& other, double times);
 };
 
 struct LinkageCycle;  // linkage_cycle.h
 
 struct Counterweight {
   std::string name;
-  double moment = 0;                // mass · radius opposite to the pin [kg·m]; < 0: on the pin's side
-  double reciprocating_share = 0;   // of the first order's reciprocating mass that it balances
-  double peak_force = 0;            // of the shaking force that remains [N]
-  double first_x = 0, first_y = 0;  // its first order along and across the stroke [N]
-  double peak_bearing = 0;          // reaction of the main bearing [N]
-  double peak_force_error = 0, first_x_error = 0, first_y_error = 0, peak_bearing_error = 0;
-  std::vector<Force2> shaking;  // over the turn, as the positions of the first problem
+  double moment = 0;               // mass · radius opposite to the pin [kg·m]; < 0: on the pin's side
+  double reciprocating_share = 0;  // of the first order's reciprocating mass that it balances
+  Estimate peak_force;             // of the shaking force that remains [N]
+  Estimate first_x, first_y;       // its first order along and across the stroke [N]
+  Estimate peak_bearing;           // reaction of the main bearing [N]
+  std::vector<Force2> shaking;     // over the turn, as the positions of the first problem
 };
 
 struct Forces {
@@ -160,6 +171,20 @@ struct Forces {
   bool complete = true;
   std::string diagnosis;
 };
+
+// Of a study of forces: the problems that were solved, the first of them first; the last one is the machine's own motion,
+// where there is one.
+template <class Study>
+auto problems_of(const Study& f) {
+  std::vector<decltype(&*f.prescribed)> problems;
+  for (const auto* problem : {&f.prescribed, &f.simulated})
+    if (*problem) problems.push_back(&**problem);
+  return problems;
+}
+template <class Study>
+const auto& front_of(const Study& f) {
+  return f.simulated ? *f.simulated : *f.prescribed;
+}
 
 // Throws SceneError where the scene makes no machine; std::invalid_argument where it has no mechanism or options
 // are senseless, or the mechanism is of another kind; std::runtime_error with the position where the joints jam.

@@ -17,21 +17,12 @@ namespace {
 // "12.3 kN": in the unit that reads easily.
 // --- figures ---
 
-struct NamedPeak {
-  std::string name, unit;  // as in JSON
-  const Peak* peak;
-  std::string means;  // its name in the dictionary
-};
-
 std::vector<NamedPeak> peaks_of(const ForceCycle& c) {
   std::vector<NamedPeak> peaks;
   for (std::size_t k = 0; k < joint_count; ++k)
     peaks.push_back(
-        {fmt::format("reaction of the {}", name_of(static_cast<Joint>(k))), "N", &c.reaction[k], "reaction"});
-  peaks.push_back({"balancing torque", "N*m", &c.torque, "balancing_torque"});
-  peaks.push_back({"shaking force", "N", &c.shaking_force, "shaking_force"});
-  peaks.push_back({"shaking moment", "N*m", &c.shaking_moment, "shaking_moment"});
-  return peaks;
+        {fmt::format("reaction of the {}", name_of(static_cast<Joint>(k))), "N", "reaction", c.reaction[k]});
+  return with_torque_and_shaking(std::move(peaks), c);
 }
 
 bool has_friction(const Forces& f) { return !f.joints.frictionless(); }
@@ -39,14 +30,15 @@ bool has_friction(const Forces& f) { return !f.joints.frictionless(); }
 // With its error where that shows.
 std::string efficiency_text(const ForceCycle& c) {
   constexpr double shows = 5e-5;
-  return c.efficiency_error > shows ? fmt::format("{:.3g} ± {:.1g} %", 100 * *c.efficiency, 100 * c.efficiency_error)
-                                    : fmt::format("{:.4g} %", 100 * *c.efficiency);
+  const double value = c.efficiency->value, error = *c.efficiency->error;
+  return error > shows ? fmt::format("{:.3g} ± {:.1g} %", 100 * value, 100 * error)
+                       : fmt::format("{:.4g} %", 100 * value);
 }
 
 std::string conclusion_of(const Forces& f) {
   const ForceCycle& c = front_of(f);
   const Peak& bearing = c.reaction[0];
-  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(c.mean_speed, 4));
+  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(c.mean_speed.value, 4));
   std::string text = fmt::format("{}, {}, the shaking force peaks at {}",
                                  f.unbounded.any() ? begin_unbounded(moving, f.unbounded)
                                                    : fmt::format("{}: the main bearing carries up to {} (at {})",
@@ -56,29 +48,16 @@ std::string conclusion_of(const Forces& f) {
                                                                     in_words(c.torque, "N*m"), at_angle(c.torque)),
                                  in_words(c.shaking_force, "N"));
   if (has_friction(f))
-    text += c.efficiency ? fmt::format("; efficiency of the cycle {}{}", efficiency_text(c),
-                                       c.harmful > 0 ? fmt::format(", {} of {} lost", with_unit(c.harmful, "J", 4),
-                                                                   with_unit(c.spent, "J", 4))
-                                                     : "")
-                         : fmt::format("; no efficiency of the cycle: {}", c.no_efficiency);
+    text += c.efficiency
+                ? fmt::format("; efficiency of the cycle {}{}", efficiency_text(c),
+                              c.harmful.value > 0 ? fmt::format(", {} of {} lost", with_unit(c.harmful.value, "J", 4),
+                                                                with_unit(c.spent, "J", 4))
+                                                  : "")
+                : fmt::format("; no efficiency of the cycle: {}", c.no_efficiency);
   return text + ".";
 }
 
 // --- tables ---
-
-// The largest values of all problems side by side.
-Rows peak_table(const Forces& f) {
-  const std::vector<NamedPeak> of_first = peaks_of(*f.prescribed);
-  auto table = table_of("", "", numbers_below(of_first.size()));
-  const auto unit_of = [&](std::size_t i) { return readable_unit(of_first[i].peak->value, of_first[i].unit); };
-  table.not_on_page().only_for_people("largest", [&](std::size_t i) { return of_first[i].name; });
-  for (const ForceCycle* c : problems_of(f)) {
-    const std::vector<NamedPeak> peaks = peaks_of(*c);
-    table.only_for_people(c->label, [&](std::size_t i) { return peak_text(*peaks[i].peak, unit_of(i).factor); })
-        .only_for_people("at", [&](std::size_t i) { return at_angle(*peaks[i].peak); });
-  }
-  return table.only_for_people("unit", [&](std::size_t i) { return unit_of(i).unit; });
-}
 
 // Rounding errors beside large forces read as zero.
 double or_zero(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
@@ -103,60 +82,17 @@ Rows position_table(const ForceCycle& c) {
       });
 }
 
-Rows work_table(const Forces& f) {
-  std::vector<std::size_t> acting;
-  for (std::size_t i = 0; i < f.prescribed->work.size(); ++i)
-    for (const ForceCycle* c : problems_of(f))
-      if (c->work[i].work != 0 && (acting.empty() || acting.back() != i)) acting.push_back(i);
-  auto table = table_of("", "Work done on the mechanism in a cycle", std::move(acting));
-  table.text_in(2).always();
-  table.only_for_people("work of a cycle", [&](std::size_t i) { return f.prescribed->work[i].name; })
-      .only_for_people("line", [&](std::size_t i) { return front_of(f).work[i].kind; });
-  for (const ForceCycle* c : problems_of(f))
-    table.only_for_people(c->label, [&](std::size_t i) { return with_error(c->work[i].work, c->work[i].error, ""); });
-  return table.only_for_people("unit", [](std::size_t) { return std::string("J"); });
-}
-
 Rows counterweight_table(const Forces& f) {
-  using C = Counterweight;
-  const auto measured = [](double C::*value, double C::*error) {
-    return [=](const C& c) { return with_error(c.*value, c.*error, ""); };
-  };
   return table_of("counterweights", "Counterweights beyond what the crank has: what they leave", f.counterweights)
       .headed("counterweights opposite to the crank pin, beyond what the crank has (at constant speed)")
       .always()
       .column("name", "counterweight", &Counterweight::name)
       .column("moment", "m·r [kg·m]", &Counterweight::moment, {.digits = 5})
       .column("reciprocating_share", "share of reciprocating", &Counterweight::reciprocating_share, {.digits = 3})
-      .only_for_programs("peak_shaking_force", &Counterweight::peak_force)
-      .only_for_programs("peak_shaking_force_error", &Counterweight::peak_force_error)
-      .only_for_people("peak of shaking force [N]", measured(&C::peak_force, &C::peak_force_error))
-      .only_for_programs("first_order_along", &Counterweight::first_x)
-      .only_for_programs("first_order_along_error", &Counterweight::first_x_error)
-      .only_for_people("order 1 along [N]", measured(&C::first_x, &C::first_x_error))
-      .only_for_programs("first_order_across", &Counterweight::first_y)
-      .only_for_programs("first_order_across_error", &Counterweight::first_y_error)
-      .only_for_people("order 1 across [N]", measured(&C::first_y, &C::first_y_error))
-      .only_for_programs("peak_main_bearing", &Counterweight::peak_bearing)
-      .only_for_programs("peak_main_bearing_error", &Counterweight::peak_bearing_error)
-      .only_for_people("peak of main bearing [N]", measured(&C::peak_bearing, &C::peak_bearing_error));
-}
-
-Rows harmonic_table(const Forces& f, const ForceCycle& c) {
-  const auto amplitude = [](const std::vector<ForceHarmonic>& orders) {
-    return [&](std::size_t k) { return with_error(orders[k].amplitude, orders[k].error, ""); };
-  };
-  auto table = table_of("", fmt::format("Amplitudes by order, {} motion", c.label), numbers_below(c.shaking_x.size()))
-                   .headed(fmt::format("harmonics, {} motion", c.label))
-                   .fold()
-                   .always()
-                   .only_for_people("order", [&](std::size_t k) { return c.shaking_x[k].order; })
-                   .only_for_people("along [N]", amplitude(c.shaking_x))
-                   .only_for_people("across [N]", amplitude(c.shaking_y))
-                   .only_for_people("moment [N·m]", amplitude(c.shaking_couple))
-                   .only_for_people("balancing torque [N·m]", amplitude(c.torque_orders));
-  table.terminal = &c == &front_of(f);
-  return table;
+      .estimate("peak_shaking_force", "peak of shaking force [N]", &Counterweight::peak_force)
+      .estimate("first_order_along", "order 1 along [N]", &Counterweight::first_x)
+      .estimate("first_order_across", "order 1 across [N]", &Counterweight::first_y)
+      .estimate("peak_main_bearing", "peak of main bearing [N]", &Counterweight::peak_bearing);
 }
 
 std::string checks_of(const ForceCycle& c) {
@@ -207,50 +143,19 @@ Record position_record(const CyclePosition& p) {
           {"power_residual", p.power.residual}};
 }
 
-Record work_record(const CycleWork& w) {
-  Record r = {{"name", w.name}, {"line", w.kind}, {"work", w.work}};
-  if (w.error > 0) r.push_back({"error", w.error});
-  return r;
-}
-
 Record cycle_record(const ForceCycle& c) {
-  Record r = {{"description", c.description},
-              {"cycle", c.cycle},
-              {"mean_speed", c.mean_speed},
-              {"least_speed", c.least_speed},
-              {"greatest_speed", c.greatest_speed},
-              {"closure", c.closure},
-              {"mean_speed_error", c.mean_speed_error},
-              {"speed_extremes_error", c.speed_error},
-              {"closure_error", c.closure_error}};
+  Record r = common_record(c, peaks_of(c));
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
-  tell("peaks", each(peaks_of(c), [](const NamedPeak& p) {
-         return Record{{"name", p.name},
-                       {"value", p.peak->told()},
-                       {"unit", p.unit},
-                       {"error", p.peak->error},
-                       {"phi", p.peak->phi}};
-       }));
-  tell("work", each(c.work, work_record));
-  tell("efficiency", c.efficiency);
-  if (c.efficiency) tell("efficiency_error", c.efficiency_error);
-  if (!c.efficiency) tell("no_efficiency", c.no_efficiency);
-  tell("work_in", c.input);
-  tell("work_useful", c.useful);
-  tell("work_harmful", c.harmful);
-  tell("works_error", c.work_error);
-  tell("kinetic_change", c.kinetic_change);
-  tell("kinetic_change_error", c.kinetic_error);
-  tell("power_residual", c.power_residual);
+  if (c.efficiency)
+    tell_estimate(r, "efficiency", *c.efficiency);
+  else
+    tell("efficiency", Value()), tell("no_efficiency", c.no_efficiency);
+  tell("work_in", c.input.value);
+  tell("work_useful", c.useful.value);
+  tell("work_harmful", c.harmful.value);
+  tell("works_error", std::max({*c.input.error, *c.useful.error, *c.harmful.error}));
   tell("friction_residual", c.friction_residual);
-  tell("machine_residual", c.machine_residual);
   tell("positions_on_both_edges", c.both_edges);
-  tell("harmonics", Record{{"shaking_force_along", order_list(c.shaking_x)},
-                           {"shaking_force_across", order_list(c.shaking_y)},
-                           {"shaking_moment", order_list(c.shaking_couple)},
-                           {"balancing_torque", order_list(c.torque_orders)},
-                           {"balancing_torque_mean", c.torque_mean},
-                           {"balancing_torque_mean_error", c.torque_mean_error}});
   tell("positions", each(c.rows, position_record));
   return r;
 }
@@ -327,12 +232,13 @@ FormulaCard mass_formula(const Forces& f) {
 
 void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
   if (c.efficiency)
-    to.show(in,
-            FormulaCard{.title = fmt::format("Efficiency of the cycle, {} motion", c.label),
-                        .symbols = "η = A_useful / (A_in − ΔT)",
-                        .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful, c.spent, *c.efficiency),
-                        .note = fmt::format("{}. Harmful work {:.5g} J, kinetic energy gained {:.5g} J.",
-                                            efficiency_text(c), c.harmful, or_zero(c.kinetic_change, 1e3 * c.spent))});
+    to.show(in, FormulaCard{.title = fmt::format("Efficiency of the cycle, {} motion", c.label),
+                            .symbols = "η = A_useful / (A_in − ΔT)",
+                            .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful.value, c.spent,
+                                                   c.efficiency->value),
+                            .note = fmt::format("{}. Harmful work {:.5g} J, kinetic energy gained {:.5g} J.",
+                                                efficiency_text(c), c.harmful.value,
+                                                or_zero(c.kinetic_change.value, 1e3 * c.spent))});
   else
     to.show(in, Text{.title = fmt::format("No efficiency of the cycle, {} motion", c.label),
                      .body = c.no_efficiency + "."});
@@ -357,7 +263,7 @@ constexpr const char* signs =
     "−I ε on the frame, moments about the crank's axis; loads and weights are not in them.";
 
 void say_positions(Findings& to, Chapter in, const Forces& f) {
-  to.say(in, peak_table(f));
+  to.say(in, peak_table(f, peaks_of).text_in(1).not_on_page());
   for (const ForceCycle* c : problems_of(f)) {
     to.say(in, position_table(*c));
     to.say(in, Sentences{.lines = {checks_of(*c)}, .indent = "  ", .page = false});
@@ -367,7 +273,8 @@ void say_positions(Findings& to, Chapter in, const Forces& f) {
 }
 
 void say_friction(Findings& to, Chapter in, const Forces& f) {
-  to.say(in, work_table(f));
+  const auto problems = problems_of(f);
+  to.say(in, work_table({problems.begin(), problems.end()}));
   show_efficiency(to, in, front_of(f));
   if (!has_friction(f)) {
     to.show(in, Text{.title = "",
@@ -385,7 +292,7 @@ void say_shaking(Findings& to, Chapter in, const Forces& f) {
   to.draw(in, [&f] { return shaking_plots(f); });
   for (const ForceCycle* c : problems_of(f)) {
     to.draw(in, [c] { return harmonic_plot(*c); });
-    to.say(in, harmonic_table(f, *c));
+    to.say(in, harmonic_table(*c, c == &front_of(f)));
   }
   to.draw(in, [&f] { return counterweight_plot(f); });
   to.say(in, counterweight_table(f));
@@ -406,9 +313,7 @@ Findings findings_of(const Forces& f) {
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
   to.answer(f.complete ? Question::figures : Question::runs, conclusion_of(f), f.complete ? 0 : 100);
-  for (const NamedPeak& p : peaks_of(front_of(f)))
-    to.figures.push_back({"largest " + p.name, p.peak->told(), p.unit, p.peak->error,
-                          fmt::format("at φ = {}", at_angle(*p.peak)), 0, p.means});
+  for (const NamedPeak& p : peaks_of(front_of(f))) to.figures.push_back(key_figure(p));
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
                 links = to.chapter("Links: motion, inertia forces, shares"),
                 polar = to.chapter("Polar diagrams of the bearings' loads"),

@@ -19,10 +19,24 @@ bool is_nothing(const Peak& p);
 std::string in_words(const Peak& p, const std::string& si_unit);
 std::string peak_text(const Peak& p, double factor = 1);
 
+// What both kinds of study say of a cycle: its largest values side by side, works, orders, and the record for programs.
+std::vector<NamedPeak> with_torque_and_shaking(std::vector<NamedPeak> reactions, const CycleOfForces& cycle);
+KeyFigure key_figure(const NamedPeak& peak);
+RowsOf<std::size_t> peak_table(const std::vector<std::string>& labels, const std::vector<std::vector<NamedPeak>>& of);
+template <class Study, class Cycle>
+RowsOf<std::size_t> peak_table(const Study& study, std::vector<NamedPeak> (*peaks_of)(const Cycle&)) {
+  std::vector<std::string> labels;
+  std::vector<std::vector<NamedPeak>> peaks;
+  for (const Cycle* c : problems_of(study)) labels.push_back(c->label), peaks.push_back(peaks_of(*c));
+  return peak_table(labels, peaks);
+}
+Rows work_table(const std::vector<const CycleOfForces*>& problems);
+Rows harmonic_table(const CycleOfForces& cycle, bool on_terminal);
+Record common_record(const CycleOfForces& cycle, const std::vector<NamedPeak>& peaks);
+
 // Motion, inertia forces and shares of the links; the cycle must outlive the findings.
 void say_links(Findings& to, Chapter in, const LinkageCycle& cycle);
 List links_list(const LinkageCycle& cycle);
-List order_list(const std::vector<ForceHarmonic>& orders);
 std::string csv_of_links(const LinkageCycle& cycle);
 
 }  // namespace kurbel

@@ -88,15 +88,6 @@ Plot locus(const Forces& f, const std::string& title, const std::string& x, cons
 
 }  // namespace
 
-std::vector<const ForceCycle*> problems_of(const Forces& f) {
-  std::vector<const ForceCycle*> problems;
-  if (f.prescribed) problems.push_back(&*f.prescribed);
-  if (f.simulated) problems.push_back(&*f.simulated);
-  return problems;
-}
-
-const ForceCycle& front_of(const Forces& f) { return f.simulated ? *f.simulated : *f.prescribed; }
-
 Plot torque_plot(const Forces& f) {
   return both(f, "Torque that the shaft must give the crank", "balancing torque M", "N*m",
               [](const CyclePosition& p) { return p.forces.torque; });
@@ -143,7 +134,8 @@ std::vector<Plot> shaking_plots(const Forces& f) {
 
 Plot harmonic_plot(const ForceCycle& c) {
   const auto bars = [](const char* name, Role role, const std::vector<ForceHarmonic>& orders) {
-    return series_of(name, role, orders, &ForceHarmonic::order, &ForceHarmonic::amplitude);
+    return series_of(name, role, orders, &ForceHarmonic::order,
+                     [](const ForceHarmonic& h) { return h.amplitude.value; });
   };
   return {.title = fmt::format("Orders of the shaking force, {} motion", c.label),
           .x = {"order of the crank's turn", ""},
@@ -160,7 +152,7 @@ Plot counterweight_plot(const Forces& f) {
             .note = "Tip of the force on the frame over a turn."};
   double largest = 0;
   for (const Counterweight& c : f.counterweights) {
-    largest = std::max(largest, c.peak_force);
+    largest = std::max(largest, c.peak_force.value);
     const std::size_t i = plot.series.size();
     plot.series.push_back(
         series_of(c.name, i == 0 ? Role::reference : further_role(i - 1), c.shaking, &Force2::x, &Force2::y));

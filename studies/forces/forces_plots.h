@@ -29,10 +29,6 @@ auto force_curves_of(const Study& f) {
   return curves;
 }
 
-// The problems that were solved; the simulated motion, where there is one, is the machine's own.
-std::vector<const ForceCycle*> problems_of(const Forces& forces);
-const ForceCycle& front_of(const Forces& forces);
-
 Plot torque_plot(const Forces& forces);
 std::vector<Plot> reaction_plots(const Forces& forces);
 std::vector<Plot> polar_plots(const Forces& forces);

@@ -32,7 +32,7 @@ class Builder {
       return a.forces.state.phi < b.forces.state.phi;
     };
     const auto kinetic = [](const PositionForces& p) { return p.forces.kinetic_energy; };
-    cycle_.kinetic_change = kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front());
+    cycle_.kinetic_change.value = kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front());
     for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows}) std::sort(list->begin(), list->end(), by_angle);
     for (const PositionForces& p : samples_) {
       phi_.push_back(p.forces.state.phi);
@@ -63,12 +63,12 @@ class Builder {
     for (const PositionForces& p : samples_) values.push_back(value(p));
     Peak found = measured_peak_of(
         phi_, values, [&](double x) { return value(at(x, motion_between(motion_, x))); }, scale);
-    if (std::abs(found.value) <= rounding_of_forces * scale) found = {0, 0, rounding_of_forces * scale};
+    if (std::abs(found.value) <= rounding_of_forces * scale) found = {{0, rounding_of_forces * scale}};
     found.scale = scale;
     return found;
   }
   // Of positions that are even over the cycle: all of them, and every other one.
-  MeanFigure mean(const LinkageQuantity& value, const LinkageQuantity& weight) const {
+  Estimate mean(const LinkageQuantity& value, const LinkageQuantity& weight) const {
     const auto with_step = [&](std::size_t step) {
       double sum = 0, weights = 0;
       for (std::size_t i = 0; i + 1 < cycle_.positions.size(); i += step) {
@@ -79,7 +79,7 @@ class Builder {
       return sum / weights;
     };
     const double fine = with_step(1);
-    return {fine, std::abs(fine - with_step(2)) + rounding_of_forces * std::abs(fine)};
+    return estimate_from(fine, with_step(2), rounding_of_forces * std::abs(fine));
   }
 
   const MechanismData& data_;
@@ -104,13 +104,13 @@ void Builder::add(const Abscissa& where, CrankMotion motion) {
   if (where.weight == 0) return;
   if (cycle_.work.empty()) {
     for (const WorkAccount& account : loads_.model().accounts)
-      cycle_.work.push_back({account.name, name_of(account.kind), 0, 0, 0});
-    cycle_.work.push_back({"balancing torque", "driving", 0, 0, 0});
+      cycle_.work.push_back({account.name, name_of(account.kind)});
+    cycle_.work.push_back({"balancing torque", "driving"});
   }
   const double dt = where.weight / std::abs(motion.omega);
   std::size_t k = 0;
   const auto account = [&](double power) {
-    cycle_.work[k].work += power * dt;
+    cycle_.work[k].work.value += power * dt;
     cycle_.work[k++].turnover += std::abs(power) * dt;
   };
   for (const double torque : loads_.shares(where.place(), motion)) account(torque * motion.omega);
@@ -119,10 +119,9 @@ void Builder::add(const Abscissa& where, CrankMotion motion) {
 
 void Builder::find_speeds() {
   cycle_.mean_speed = {along_.mean_speed(), rounding_of_forces * std::abs(along_.mean_speed())};
-  cycle_.closure = (along_.motion.back().omega - along_.motion.front().omega) / cycle_.mean_speed.value;
-  cycle_.closure_error = 2 * rounding_of_forces;
-  const SpeedRange speeds = speed_range(motion_);
-  cycle_.least_speed = speeds.least, cycle_.greatest_speed = speeds.greatest, cycle_.speed_error = speeds.error;
+  cycle_.closure = {(along_.motion.back().omega - along_.motion.front().omega) / cycle_.mean_speed.value,
+                    2 * rounding_of_forces};
+  std::tie(cycle_.least_speed, cycle_.greatest_speed) = speed_range(motion_);
 }
 
 void Builder::find_scales() {
@@ -155,21 +154,17 @@ void Builder::find_peaks() {
       cycle_.reactions.push_back({name + ", moment", "N*m", "reaction_moment",
                                   peak([k](const PositionForces& p) { return p.forces.joints[k].moment; }, moment_)});
   }
-  cycle_.torque = {"balancing torque", "N*m", "balancing_torque",
-                   peak([](const PositionForces& p) { return p.forces.torque; }, moment_)};
-  cycle_.shaking_force = {"shaking force", "N", "shaking_force",
-                          peak([](const PositionForces& p) { return p.forces.shaking_force.magnitude(); }, force_)};
-  cycle_.shaking_moment = {"shaking moment", "N*m", "shaking_moment",
-                           peak([](const PositionForces& p) { return p.forces.shaking_moment; }, moment_)};
+  cycle_.torque = peak([](const PositionForces& p) { return p.forces.torque; }, moment_);
+  cycle_.shaking_force = peak([](const PositionForces& p) { return p.forces.shaking_force.magnitude(); }, force_);
+  cycle_.shaking_moment = peak([](const PositionForces& p) { return p.forces.shaking_moment; }, moment_);
 }
 
 void Builder::find_links() {
   const LinkageQuantity time = [](const PositionForces& p) { return 1 / std::abs(p.forces.state.omega); };
-  const MeanFigure inertia = mean([](const PositionForces& p) { return p.forces.reduced_inertia; }, {});
-  const MeanFigure energy = mean([](const PositionForces& p) { return p.forces.kinetic_energy; }, time);
-  const auto share = [](const MeanFigure& part, const MeanFigure& whole) -> MeanFigure {
-    if (!(whole.value > 0)) return {0, 0.0};
-    return {part.value / whole.value, (*part.error + part.value / whole.value * *whole.error) / whole.value};
+  const Estimate inertia = mean([](const PositionForces& p) { return p.forces.reduced_inertia; }, {});
+  const Estimate energy = mean([](const PositionForces& p) { return p.forces.kinetic_energy; }, time);
+  const auto share = [](const Estimate& part, const Estimate& whole) {
+    return whole.value > 0 ? part / whole : Estimate{0, 0.0};
   };
   for (std::size_t k = 0; k < samples_.front().forces.links.size(); ++k) {
     using P = const PositionForces&;
@@ -184,7 +179,7 @@ void Builder::find_links() {
     out.name = link(samples_.front()).name;
     const auto omega = [](const LinkForces& l) { return l.omega; };
     const auto alpha = [](const LinkForces& l) { return l.alpha; };
-    const double speed = std::max(std::abs(cycle_.least_speed), std::abs(cycle_.greatest_speed));
+    const double speed = std::max(std::abs(cycle_.least_speed.value), std::abs(cycle_.greatest_speed.value));
     out.omega = peak_of_link(omega, std::max(speed, largest(omega)));
     out.alpha = peak_of_link(alpha, std::max(speed * speed, largest(alpha)));
     out.inertia_force = peak_of_link([](const LinkForces& l) { return l.inertia_force.magnitude(); }, force_);
@@ -202,9 +197,10 @@ void Builder::find_links() {
       }
       return range;
     };
-    std::tie(out.least_share, out.greatest_share) = shares(1);
-    const auto [least, greatest] = shares(2);
-    out.share_error = std::max(least - out.least_share, out.greatest_share - greatest) + rounding_of_forces;
+    const auto [least, greatest] = shares(1);
+    const auto [least_of_half, greatest_of_half] = shares(2);
+    out.least_share = estimate_from(least, least_of_half, rounding_of_forces);
+    out.greatest_share = estimate_from(greatest, greatest_of_half, rounding_of_forces);
     cycle_.links.push_back(std::move(out));
   }
 }
@@ -226,12 +222,12 @@ void Builder::find_orders() {
   const LinkageQuantity torque = [](const PositionForces& p) { return p.forces.torque; };
   cycle_.torque_orders = orders_of(torque, moment_);
   cycle_.torque_mean = mean(torque, {});
-  *cycle_.torque_mean.error += rounding_of_forces * moment_;
+  cycle_.torque_mean.widen(rounding_of_forces * moment_);
 }
 
 // The works of a cycle make its change of kinetic energy: what is left over is every work's error.
 void Builder::balance() {
-  double scale = 0, left = -cycle_.kinetic_change;
+  double scale = 0, left = -cycle_.kinetic_change.value;
   for (const PositionForces& p : samples_)
     for (const double power : {p.power.crank, p.power.load, p.power.weight, p.power.kinetic_rate})
       scale = std::max(scale, std::abs(power));
@@ -242,12 +238,13 @@ void Builder::balance() {
       cycle_.power_residual = std::max(cycle_.power_residual, std::abs(p.power.residual));
       cycle_.equation_residual = std::max(cycle_.equation_residual, p.forces.residual);
     }
-  for (const CycleWork& w : cycle_.work) left += w.work;
-  cycle_.kinetic_error = std::abs(left) + rounding_of_forces * std::abs(cycle_.positions.front().forces.kinetic_energy);
+  for (const CycleWork& w : cycle_.work) left += w.work.value;
+  cycle_.kinetic_change.error =
+      std::abs(left) + rounding_of_forces * std::abs(cycle_.positions.front().forces.kinetic_energy);
   for (CycleWork& w : cycle_.work) {
-    w.error = std::abs(left) + rounding_of_forces * w.turnover;
-    if (std::abs(w.work) <= rounding_of_forces * w.turnover) w.work = 0;
-    if (w.name == "balancing torque" && w.work < 0) w.kind = "useful";
+    w.work.error = std::abs(left) + rounding_of_forces * w.turnover;
+    if (std::abs(w.work.value) <= rounding_of_forces * w.turnover) w.work.value = 0;
+    if (w.name == "balancing torque" && w.work.value < 0) w.kind = "useful";
   }
 }
 
@@ -259,16 +256,11 @@ void Builder::collect_curve() {
     cycle_.curve.push_back(samples_[i]);
   }
   const auto add_peak = [&](const Peak& p) { cycle_.curve.push_back(at(p.phi, motion_between(motion_, p.phi))); };
-  for (const LinkageFigure& figure : cycle_.reactions) add_peak(figure.peak);
-  for (const LinkageFigure* f : {&cycle_.torque, &cycle_.shaking_force, &cycle_.shaking_moment}) add_peak(f->peak);
+  for (const NamedPeak& reaction : cycle_.reactions) add_peak(reaction.peak);
+  for (const Peak* p : {&cycle_.torque, &cycle_.shaking_force, &cycle_.shaking_moment}) add_peak(*p);
   std::stable_sort(cycle_.curve.begin(), cycle_.curve.end(), [](const PositionForces& a, const PositionForces& b) {
     return a.forces.state.phi < b.forces.state.phi;
   });
-}
-
-template <class Figure>
-void add_difference(const Figure& other, double times, Figure& figure) {
-  figure.error = figure.error.value_or(0) + times * std::abs(std::abs(other.value) - std::abs(figure.value));
 }
 
 }  // namespace
@@ -300,7 +292,7 @@ UnboundedReactions unbounded_reactions(const MechanismData& data, OutputLoads& l
 
 void mark_unbounded(const UnboundedReactions& unbounded, LinkageCycle& cycle) {
   const auto& joints = cycle.positions.front().forces.joints;
-  for (LinkageFigure& reaction : cycle.reactions)
+  for (NamedPeak& reaction : cycle.reactions)
     for (std::size_t k = 0; k < unbounded.of_joint.size(); ++k)
       if (unbounded.of_joint[k] && reaction.name.starts_with(joints[k].name)) reaction.peak.unbounded = true;
 }
@@ -313,32 +305,16 @@ std::string begin_unbounded(const std::string& mechanism, const UnboundedReactio
                      fmt::join(angles, ", "), with_unit(unbounded.greatest, "N", 4), unbounded.beside);
 }
 
-void add_errors(const LinkageCycle& other, double times, LinkageCycle& cycle) {
-  for (std::size_t k = 0; k < cycle.reactions.size(); ++k)
-    add_difference(other.reactions[k].peak, times, cycle.reactions[k].peak);
-  for (auto figure : {&LinkageCycle::torque, &LinkageCycle::shaking_force, &LinkageCycle::shaking_moment})
-    add_difference((other.*figure).peak, times, (cycle.*figure).peak);
-  for (std::size_t k = 0; k < cycle.links.size(); ++k) {
-    for (auto peak :
-         {&LinkOfCycle::omega, &LinkOfCycle::alpha, &LinkOfCycle::inertia_force, &LinkOfCycle::inertia_couple})
-      add_difference(other.links[k].*peak, times, cycle.links[k].*peak);
-    for (auto figure :
-         {&LinkOfCycle::reduced_inertia, &LinkOfCycle::inertia_share, &LinkOfCycle::energy, &LinkOfCycle::energy_share})
-      add_difference(other.links[k].*figure, times, cycle.links[k].*figure);
+void LinkageCycle::widen_to(const LinkageCycle& other, double times) {
+  using L = LinkOfCycle;
+  CycleOfForces::widen_to(other, times);
+  for (std::size_t k = 0; k < reactions.size(); ++k) widen_peak(reactions[k].peak, other.reactions[k].peak, times);
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    for (auto peak : {&L::omega, &L::alpha, &L::inertia_force, &L::inertia_couple})
+      widen_peak(links[k].*peak, other.links[k].*peak, times);
+    for (auto figure : {&L::reduced_inertia, &L::inertia_share, &L::energy, &L::energy_share})
+      (links[k].*figure).widen_to(other.links[k].*figure, times);
   }
-  for (auto orders : {&LinkageCycle::shaking_x, &LinkageCycle::shaking_y, &LinkageCycle::shaking_couple,
-                      &LinkageCycle::torque_orders})
-    for (std::size_t k = 0; k < (cycle.*orders).size(); ++k)
-      (cycle.*orders)[k].error += times * std::abs((cycle.*orders)[k].amplitude - (other.*orders)[k].amplitude);
-  const auto apart = [times](double a, double b) { return times * std::abs(a - b); };
-  cycle.speed_error +=
-      std::max(apart(other.least_speed, cycle.least_speed), apart(other.greatest_speed, cycle.greatest_speed));
-  cycle.closure_error += apart(other.closure, cycle.closure);
-  cycle.kinetic_error += apart(other.kinetic_change, cycle.kinetic_change);
-  add_difference(other.mean_speed, times, cycle.mean_speed);
-  add_difference(other.torque_mean, times, cycle.torque_mean);
-  for (std::size_t k = 0; k < cycle.work.size(); ++k)
-    cycle.work[k].error += times * std::abs(other.work[k].work - cycle.work[k].work);
 }
 
 namespace {
@@ -361,9 +337,9 @@ void hold_against_machine(const MechanismData& data, OutputLoads& loads, const S
   }
   cycle.machine_residual = greatest > 0 ? missed / greatest : 0;
   if (missed <= same_physics * greatest) return;
-  for (MeanFigure* mean : {&cycle.torque_mean}) *mean->error += missed;
-  *cycle.torque.peak.error += missed;
-  for (ForceHarmonic& h : cycle.torque_orders) h.error += 2 * missed;
+  cycle.torque_mean.widen(missed);
+  cycle.torque.widen(missed);
+  for (ForceHarmonic& h : cycle.torque_orders) h.amplitude.widen(2 * missed);
   notes.push_back(fmt::format(
       "the mechanism counts as its links are; the machine's own equations have a crank torque that differs by up to {} "
       "in the same motion, which is counted as an error of the torque",
@@ -408,7 +384,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   if (!motion) return out;
   out.simulated = linkage_cycle(data, loads, motion->along);
   for (const SimulatedMotion::Other& other : motion->others)
-    add_errors(linkage_cycle(data, loads, other.motion), other.times, *out.simulated);
+    out.simulated->widen_to(linkage_cycle(data, loads, other.motion), other.times);
   hold_against_machine(data, loads, *motion, *out.simulated, out.notes);
   out.simulated->label = "simulated";
   out.simulated->description = motion->description;

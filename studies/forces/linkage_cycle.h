@@ -23,52 +23,27 @@ struct PositionForces {
   ActingLoads loads = all_loads;
 };
 
-// A figure over the cycle, its largest magnitude and where.
-struct LinkageFigure {
-  std::string name;   // "crank pin: crank on coupler"
-  std::string unit;   // SI
-  std::string means;  // its name in the dictionary
-  Peak peak;
-};
-
-struct MeanFigure {
-  double value = 0;
-  std::optional<double> error;
-};
-
 // One link over the cycle.
 struct LinkOfCycle {
   std::string name;
-  Peak omega, alpha;                           // [rad/s], [rad/s²]
-  Peak inertia_force, inertia_couple;          // |−m a_S| [N], −I ε [N·m]
-  MeanFigure reduced_inertia;                  // its part of I_r, mean over the angle [kg·m²]
-  MeanFigure inertia_share;                    // of the mean I_r
-  double least_share = 0, greatest_share = 0;  // of I_r at a position
-  double share_error = 0;                      // of these two
-  MeanFigure energy;                           // its kinetic energy, mean over the time [J]
-  MeanFigure energy_share;                     // of the mechanism's
+  Peak omega, alpha;                     // [rad/s], [rad/s²]
+  Peak inertia_force, inertia_couple;    // |−m a_S| [N], −I ε [N·m]
+  Estimate reduced_inertia;              // its part of I_r, mean over the angle [kg·m²]
+  Estimate inertia_share;                // of the mean I_r
+  Estimate least_share, greatest_share;  // of I_r at a position
+  Estimate energy;                       // its kinetic energy, mean over the time [J]
+  Estimate energy_share;                 // of the mechanism's
 };
 
-struct LinkageCycle {
-  std::string label, description;  // "prescribed", "simulated"; for people
-  double cycle = 0;                // [rad]
-  MeanFigure mean_speed;           // of the crank, over the time [rad/s]
-  double least_speed = 0, greatest_speed = 0, closure = 0;
-  double speed_error = 0, closure_error = 0;  // of the least and the greatest [rad/s]; of the closure
-  std::vector<PositionForces> positions;      // 720 of a turn, evenly, both ends, whatever is asked for
-  std::vector<PositionForces> rows;           // those asked for, both ends
-  std::vector<PositionForces> curve;          // positions, both sides of every load edge, and the peaks
-  std::vector<LinkageFigure> reactions;       // of each joint; of a slide its normal force, then its moment
-  LinkageFigure torque, shaking_force, shaking_moment;
+struct LinkageCycle : CycleOfForces {
+  std::vector<PositionForces> positions;  // 720 of a turn, evenly, both ends, whatever is asked for
+  std::vector<PositionForces> rows;       // those asked for, both ends
+  std::vector<PositionForces> curve;      // positions, both sides of every load edge, and the peaks
+  std::vector<NamedPeak> reactions;       // of each joint; of a slide its normal force, then its moment
   std::vector<LinkOfCycle> links;
-  std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
-  MeanFigure torque_mean;                  // over the angle [N·m]
-  std::vector<CycleWork> work;             // by account: loads, weight, the balancing torque
-  double kinetic_change = 0;               // over the cycle [J]
-  double kinetic_error = 0;                // [J]
-  double power_residual = 0;               // largest, of the powers' balance at a position
-  double equation_residual = 0;            // largest, of the links' equilibrium
-  std::optional<double> machine_residual;  // of the torque, from the compiled machine's own, over the largest
+  double equation_residual = 0;  // largest, of the links' equilibrium
+
+  void widen_to(const LinkageCycle& other, double times);
 };
 
 // At one angle of the crank; of a mechanism that passes change points, beside them.
@@ -82,8 +57,6 @@ void mark_unbounded(const UnboundedReactions& unbounded, LinkageCycle& cycle);
 // "saw at 290 rpm: its joints' reactions have no bound at 90° and 270°, 10.4 kN within 0.01 rad of them": how a conclusion
 // begins; empty where they are bounded.
 std::string begin_unbounded(const std::string& mechanism, const UnboundedReactions& unbounded);
-// To each error `times` the difference between the two.
-void add_errors(const LinkageCycle& other, double times, LinkageCycle& cycle);
 
 // A scene's mechanism.
 struct LinkageStudy {
@@ -100,7 +73,5 @@ struct LinkageStudy {
   std::string diagnosis;
 };
 LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& options);
-
-inline const LinkageCycle& front_of(const LinkageStudy& f) { return f.simulated ? *f.simulated : *f.prescribed; }
 
 }  // namespace kurbel

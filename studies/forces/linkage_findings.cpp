@@ -21,38 +21,118 @@ bool is_nothing(const Peak& p) {
 }
 std::string in_words(const Peak& p, const std::string& si_unit) {
   const ReadableUnit unit = readable_unit(p.value, si_unit);
-  const double error = p.error.value_or(0);
-  if (std::abs(p.value) <= error && !is_nothing(p))  // not told from zero: the number alone would say too much
-    return with_error(unit.factor * p.value, unit.factor * error, unit.unit);
+  if (std::abs(p.value) <= p.error.value_or(0) && !is_nothing(p))  // not told from zero: alone it would say too much
+    return with_error(unit.factor * p, unit.unit);
   return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
 }
-std::string peak_text(const Peak& p, double factor) {
-  const std::optional<double> error = p.error ? std::optional(factor * *p.error) : std::nullopt;
-  return p.unbounded ? "no bound" : with_error(factor * p.value, error, "");
+std::string peak_text(const Peak& p, double factor) { return p.unbounded ? "no bound" : with_error(factor * p, ""); }
+
+std::vector<NamedPeak> with_torque_and_shaking(std::vector<NamedPeak> reactions, const CycleOfForces& c) {
+  reactions.push_back({"balancing torque", "N*m", "balancing_torque", c.torque});
+  reactions.push_back({"shaking force", "N", "shaking_force", c.shaking_force});
+  reactions.push_back({"shaking moment", "N*m", "shaking_moment", c.shaking_moment});
+  return reactions;
+}
+
+KeyFigure key_figure(const NamedPeak& p) {
+  return {
+      "largest " + p.name, p.peak.told(), p.unit, p.peak.error, fmt::format("at φ = {}", at_angle(p.peak)), 0, p.means};
+}
+
+RowsOf<std::size_t> peak_table(const std::vector<std::string>& labels, const std::vector<std::vector<NamedPeak>>& of) {
+  const std::vector<NamedPeak>& first = of.front();
+  auto table = table_of("", "Largest values over the cycle", numbers_below(first.size()));
+  const auto unit_of = [&](std::size_t i) { return readable_unit(first[i].peak.value, first[i].unit); };
+  table.text_in(0).only_for_people("largest", [&](std::size_t i) { return first[i].name; });
+  for (std::size_t k = 0; k < of.size(); ++k)
+    table.only_for_people(labels[k], [&](std::size_t i) { return peak_text(of[k][i].peak, unit_of(i).factor); })
+        .only_for_people("at", [&](std::size_t i) { return at_angle(of[k][i].peak); });
+  return table.only_for_people("unit", [&](std::size_t i) { return unit_of(i).unit; });
+}
+
+Rows work_table(const std::vector<const CycleOfForces*>& problems) {
+  std::vector<std::size_t> acting;
+  for (std::size_t i = 0; i < problems.front()->work.size(); ++i)
+    for (const CycleOfForces* c : problems)
+      if (c->work[i].work.value != 0 && (acting.empty() || acting.back() != i)) acting.push_back(i);
+  auto table = table_of("", "Work done on the mechanism in a cycle", std::move(acting));
+  table.text_in(2).always();
+  table.only_for_people("work of a cycle", [&](std::size_t i) { return problems.front()->work[i].name; })
+      .only_for_people("line", [&](std::size_t i) { return problems.back()->work[i].kind; });
+  for (const CycleOfForces* c : problems)
+    table.only_for_people(c->label, [&](std::size_t i) { return with_error(c->work[i].work, ""); });
+  return table.only_for_people("unit", [](std::size_t) { return std::string("J"); });
+}
+
+Rows harmonic_table(const CycleOfForces& c, bool on_terminal) {
+  const auto amplitude = [](const std::vector<ForceHarmonic>& orders) {
+    return [&](std::size_t k) { return with_error(orders[k].amplitude, ""); };
+  };
+  auto table = table_of("", fmt::format("Amplitudes by order, {} motion", c.label), numbers_below(c.shaking_x.size()))
+                   .headed(fmt::format("harmonics, {} motion", c.label))
+                   .fold()
+                   .always()
+                   .only_for_people("order", [&](std::size_t k) { return c.shaking_x[k].order; })
+                   .only_for_people("along [N]", amplitude(c.shaking_x))
+                   .only_for_people("across [N]", amplitude(c.shaking_y))
+                   .only_for_people("moment [N·m]", amplitude(c.shaking_couple))
+                   .only_for_people("balancing torque [N·m]", amplitude(c.torque_orders));
+  table.terminal = on_terminal;
+  return table;
+}
+
+Record common_record(const CycleOfForces& c, const std::vector<NamedPeak>& peaks) {
+  const auto order_list = [](const std::vector<ForceHarmonic>& orders) {
+    return each(orders, [](const ForceHarmonic& h) {
+      return Record{
+          {"order", h.order}, {"amplitude", h.amplitude.value}, {"phase", h.phase}, {"error", h.amplitude.error}};
+    });
+  };
+  Record r = {{"description", c.description}, {"cycle", c.cycle}};
+  tell_estimate(r, "mean_speed", c.mean_speed);
+  r.push_back({"least_speed", c.least_speed.value});
+  r.push_back({"greatest_speed", c.greatest_speed.value});
+  r.push_back({"speed_extremes_error", larger_error(c.least_speed, c.greatest_speed)});
+  tell_estimate(r, "closure", c.closure);
+  r.push_back({"peaks", each(peaks, [](const NamedPeak& p) {
+                 return Record{{"name", p.name},
+                               {"value", p.peak.told()},
+                               {"unit", p.unit},
+                               {"error", p.peak.error},
+                               {"phi", p.peak.phi}};
+               })});
+  r.push_back({"work", each(c.work, [](const CycleWork& w) {
+                 return Record{{"name", w.name}, {"line", w.kind}, {"work", w.work.value}, {"error", w.work.error}};
+               })});
+  tell_estimate(r, "kinetic_change", c.kinetic_change);
+  r.push_back({"power_residual", c.power_residual});
+  r.push_back({"machine_residual", c.machine_residual});
+  Record harmonics = {{"shaking_force_along", order_list(c.shaking_x)},
+                      {"shaking_force_across", order_list(c.shaking_y)},
+                      {"shaking_moment", order_list(c.shaking_couple)},
+                      {"balancing_torque", order_list(c.torque_orders)}};
+  tell_estimate(harmonics, "balancing_torque_mean", c.torque_mean);
+  r.push_back({"harmonics", std::move(harmonics)});
+  return r;
 }
 
 namespace {
 
 using P = const PositionForces&;
 
-std::vector<const LinkageFigure*> peaks_of(const LinkageCycle& c) {
-  std::vector<const LinkageFigure*> peaks;
-  for (const LinkageFigure& r : c.reactions) peaks.push_back(&r);
-  peaks.insert(peaks.end(), {&c.torque, &c.shaking_force, &c.shaking_moment});
-  return peaks;
-}
+std::vector<NamedPeak> peaks_of(const LinkageCycle& c) { return with_torque_and_shaking(c.reactions, c); }
 
 // The heaviest of all joints.
-const LinkageFigure& heaviest(const LinkageCycle& c) {
-  const LinkageFigure* most = &c.reactions.front();
-  for (const LinkageFigure& r : c.reactions)
+const NamedPeak& heaviest(const LinkageCycle& c) {
+  const NamedPeak* most = &c.reactions.front();
+  for (const NamedPeak& r : c.reactions)
     if (r.unit == "N" && std::abs(r.peak.value) > std::abs(most->peak.value)) most = &r;
   return *most;
 }
 
 std::string conclusion_of(const LinkageStudy& f) {
   const LinkageCycle& c = front_of(f);
-  const LinkageFigure &bearing = c.reactions.front(), &most = heaviest(c);
+  const NamedPeak &bearing = c.reactions.front(), &most = heaviest(c);
   const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(c.mean_speed.value, 4));
   std::string text = f.unbounded.any() ? begin_unbounded(moving, f.unbounded)
                                        : fmt::format("{}: the main bearing carries up to {} (at {})", moving,
@@ -60,14 +140,14 @@ std::string conclusion_of(const LinkageStudy& f) {
   if (&most != &bearing && !f.unbounded.any())
     text += fmt::format(", the heaviest load of a joint is {} ({}, at {})", in_words(most.peak, "N"), most.name,
                         at_angle(most.peak));
-  text += is_nothing(c.torque.peak) ? std::string(", no balancing torque is needed")
-                                    : fmt::format(", the balancing torque peaks at {} (at {})",
-                                                  in_words(c.torque.peak, "N*m"), at_angle(c.torque.peak));
-  if (!is_nothing(c.shaking_force.peak))
-    return text + fmt::format(", the shaking force peaks at {}.", in_words(c.shaking_force.peak, "N"));
-  return text + (is_nothing(c.shaking_moment.peak) ? std::string(", nothing shakes the frame.")
-                                                   : fmt::format(", no force but a moment shakes the frame, up to {}.",
-                                                                 in_words(c.shaking_moment.peak, "N*m")));
+  text += is_nothing(c.torque) ? std::string(", no balancing torque is needed")
+                               : fmt::format(", the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"),
+                                             at_angle(c.torque));
+  if (!is_nothing(c.shaking_force))
+    return text + fmt::format(", the shaking force peaks at {}.", in_words(c.shaking_force, "N"));
+  return text + (is_nothing(c.shaking_moment) ? std::string(", nothing shakes the frame.")
+                                              : fmt::format(", no force but a moment shakes the frame, up to {}.",
+                                                            in_words(c.shaking_moment, "N*m")));
 }
 
 std::string signs_of(const LinkageStudy& f) {
@@ -91,20 +171,6 @@ std::string joints_of(const LinkageStudy& f) {
 
 // --- tables ---
 
-Rows peak_table(const LinkageStudy& f) {
-  const auto first = peaks_of(*f.prescribed);
-  auto table = table_of("", "Largest values over the cycle", numbers_below(first.size()));
-  table.text_in(0);
-  const auto unit_of = [&](std::size_t i) { return readable_unit(first[i]->peak.value, first[i]->unit); };
-  table.only_for_people("largest", [&](std::size_t i) { return first[i]->name; });
-  for (const LinkageCycle* c : problems_of(f)) {
-    const auto peaks = peaks_of(*c);
-    table.only_for_people(c->label, [&](std::size_t i) { return peak_text(peaks[i]->peak, unit_of(i).factor); })
-        .only_for_people("at", [&](std::size_t i) { return at_angle(peaks[i]->peak); });
-  }
-  return table.only_for_people("unit", [&](std::size_t i) { return unit_of(i).unit; });
-}
-
 Rows position_table(const LinkageCycle& c) {
   auto table = table_of("", fmt::format("{}: {}", c.label, c.description), c.rows);
   table.headed(fmt::format("{}: {}", c.label, c.description)).text_in(0).always();
@@ -113,43 +179,12 @@ Rows position_table(const LinkageCycle& c) {
   };
   table.only_for_people("φ [°]", [](P p) { return degrees(p.forces.state.phi); }, {.digits = 5})
       .only_for_people("ω [rad/s]", [](P p) { return p.forces.state.omega; })
-      .only_for_people("M [N·m]", [&](P p) { return clean(p.forces.torque, c.torque.peak.value); });
+      .only_for_people("M [N·m]", [&](P p) { return clean(p.forces.torque, c.torque.value); });
   const double largest = heaviest(c).peak.value;
   for (std::size_t k = 0; k < c.rows.front().forces.joints.size(); ++k)
     table.only_for_people(fmt::format("{} [N]", c.rows.front().forces.joints[k].name),
                           [k, clean, largest](P p) { return clean(force_of(p.forces.joints[k]), largest); });
   return table.only_for_people("shaking [N]", [&](P p) { return clean(p.forces.shaking_force.magnitude(), largest); });
-}
-
-Rows work_table(const LinkageStudy& f) {
-  std::vector<std::size_t> acting;
-  for (std::size_t i = 0; i < f.prescribed->work.size(); ++i)
-    for (const LinkageCycle* c : problems_of(f))
-      if (c->work[i].work != 0 && (acting.empty() || acting.back() != i)) acting.push_back(i);
-  auto table = table_of("", "Work done on the mechanism in a cycle", std::move(acting));
-  table.text_in(2).always();
-  table.only_for_people("work of a cycle", [&](std::size_t i) { return f.prescribed->work[i].name; })
-      .only_for_people("line", [&](std::size_t i) { return front_of(f).work[i].kind; });
-  for (const LinkageCycle* c : problems_of(f))
-    table.only_for_people(c->label, [&](std::size_t i) { return with_error(c->work[i].work, c->work[i].error, ""); });
-  return table.only_for_people("unit", [](std::size_t) { return std::string("J"); });
-}
-
-Rows harmonic_table(const LinkageCycle& c, bool on_terminal) {
-  const auto amplitude = [](const std::vector<ForceHarmonic>& orders) {
-    return [&](std::size_t k) { return with_error(orders[k].amplitude, orders[k].error, ""); };
-  };
-  auto table = table_of("", fmt::format("Amplitudes by order, {} motion", c.label), numbers_below(c.shaking_x.size()))
-                   .headed(fmt::format("harmonics, {} motion", c.label))
-                   .fold()
-                   .always()
-                   .only_for_people("order", [&](std::size_t k) { return c.shaking_x[k].order; })
-                   .only_for_people("along [N]", amplitude(c.shaking_x))
-                   .only_for_people("across [N]", amplitude(c.shaking_y))
-                   .only_for_people("moment [N·m]", amplitude(c.shaking_couple))
-                   .only_for_people("balancing torque [N·m]", amplitude(c.torque_orders));
-  table.terminal = on_terminal;
-  return table;
 }
 
 // --- for programs and files ---
@@ -186,44 +221,14 @@ Record position_record(P p) {
           {"power_residual", p.power.residual}};
 }
 
-Record mean_record(const MeanFigure& m) { return {{"value", m.value}, {"error", m.error}}; }
 Record peak_record(const Peak& p) { return {{"value", p.value}, {"error", p.error}, {"phi", p.phi}}; }
 
 Record cycle_record(const LinkageCycle& c) {
-  return {{"description", c.description},
-          {"cycle", c.cycle},
-          {"mean_speed", c.mean_speed.value},
-          {"mean_speed_error", c.mean_speed.error},
-          {"least_speed", c.least_speed},
-          {"greatest_speed", c.greatest_speed},
-          {"speed_extremes_error", c.speed_error},
-          {"closure", c.closure},
-          {"closure_error", c.closure_error},
-          {"peaks", each(peaks_of(c),
-                         [](const LinkageFigure* p) {
-                           return Record{{"name", p->name},
-                                         {"value", p->peak.told()},
-                                         {"unit", p->unit},
-                                         {"error", p->peak.error},
-                                         {"phi", p->peak.phi}};
-                         })},
-          {"links", links_list(c)},
-          {"work", each(c.work,
-                        [](const CycleWork& w) {
-                          return Record{{"name", w.name}, {"line", w.kind}, {"work", w.work}, {"error", w.error}};
-                        })},
-          {"kinetic_change", c.kinetic_change},
-          {"kinetic_change_error", c.kinetic_error},
-          {"power_residual", c.power_residual},
-          {"equation_residual", c.equation_residual},
-          {"machine_residual", c.machine_residual},
-          {"harmonics", Record{{"shaking_force_along", order_list(c.shaking_x)},
-                               {"shaking_force_across", order_list(c.shaking_y)},
-                               {"shaking_moment", order_list(c.shaking_couple)},
-                               {"balancing_torque", order_list(c.torque_orders)},
-                               {"balancing_torque_mean", c.torque_mean.value},
-                               {"balancing_torque_mean_error", c.torque_mean.error}}},
-          {"positions", each(c.rows, position_record)}};
+  Record r = common_record(c, peaks_of(c));
+  r.push_back({"links", links_list(c)});
+  r.push_back({"equation_residual", c.equation_residual});
+  r.push_back({"positions", each(c.rows, position_record)});
+  return r;
 }
 
 std::string underscored(std::string name) {
@@ -259,12 +264,6 @@ std::string csv_of_forces(const LinkageCycle& c, bool rocks) {
 
 }  // namespace
 
-List order_list(const std::vector<ForceHarmonic>& orders) {
-  return each(orders, [](const ForceHarmonic& h) {
-    return Record{{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}, {"error", h.error}};
-  });
-}
-
 List links_list(const LinkageCycle& c) {
   return each(c.links, [](const LinkOfCycle& l) {
     return Record{{"name", l.name},
@@ -272,50 +271,42 @@ List links_list(const LinkageCycle& c) {
                   {"alpha", peak_record(l.alpha)},
                   {"inertia_force", peak_record(l.inertia_force)},
                   {"inertia_couple", peak_record(l.inertia_couple)},
-                  {"reduced_inertia", mean_record(l.reduced_inertia)},
-                  {"inertia_share", mean_record(l.inertia_share)},
-                  {"least_share", l.least_share},
-                  {"greatest_share", l.greatest_share},
-                  {"share_extremes_error", l.share_error},
-                  {"energy", mean_record(l.energy)},
-                  {"energy_share", mean_record(l.energy_share)}};
+                  {"reduced_inertia", estimate_record(l.reduced_inertia)},
+                  {"inertia_share", estimate_record(l.inertia_share)},
+                  {"least_share", l.least_share.value},
+                  {"greatest_share", l.greatest_share.value},
+                  {"share_extremes_error", larger_error(l.least_share, l.greatest_share)},
+                  {"energy", estimate_record(l.energy)},
+                  {"energy_share", estimate_record(l.energy_share)}};
   });
 }
 
 void say_links(Findings& to, Chapter in, const LinkageCycle& c) {
   using L = const LinkOfCycle&;
-  const auto largest = [](Peak LinkOfCycle::*of) {
-    return [of](L l) { return with_error((l.*of).value, (l.*of).error, ""); };
-  };
-  const auto mean = [](MeanFigure LinkOfCycle::*of, double factor) {
-    return [of, factor](L l) {
-      const MeanFigure& m = l.*of;
-      return with_error(factor * m.value, factor * m.error.value_or(0), "");
-    };
+  const auto told = [](auto LinkOfCycle::*of, double factor = 1) {
+    return [of, factor](L l) { return with_error(factor * (l.*of), ""); };
   };
   to.say(in, table_of("", "Motion and inertia forces of the links, largest over the cycle", c.links)
                  .headed("links: motion and inertia forces, largest over the cycle")
                  .text_in(0)
                  .always()
                  .only_for_people("link", &LinkOfCycle::name)
-                 .only_for_people("ω [rad/s]", largest(&LinkOfCycle::omega))
-                 .only_for_people("ε [rad/s²]", largest(&LinkOfCycle::alpha))
-                 .only_for_people("m a [N]", largest(&LinkOfCycle::inertia_force))
+                 .only_for_people("ω [rad/s]", told(&LinkOfCycle::omega))
+                 .only_for_people("ε [rad/s²]", told(&LinkOfCycle::alpha))
+                 .only_for_people("m a [N]", told(&LinkOfCycle::inertia_force))
                  .only_for_people("at", [](L l) { return at_angle(l.inertia_force); })
-                 .only_for_people("−I ε [N·m]", largest(&LinkOfCycle::inertia_couple)));
-  to.say(
-      in,
-      table_of("", "Shares of the links in the reduced inertia and the kinetic energy", c.links)
-          .headed("links: shares in I_r (mean over the angle) and kinetic energy (mean over the time)")
-          .text_in(0)
-          .always()
-          .only_for_people("link", &LinkOfCycle::name)
-          .only_for_people("I_r [kg·m²]", mean(&LinkOfCycle::reduced_inertia, 1))
-          .only_for_people("of I_r [%]", mean(&LinkOfCycle::inertia_share, 100))
-          .only_for_people("least [%]", [](L l) { return with_error(100 * l.least_share, 100 * l.share_error, ""); })
-          .only_for_people("most [%]", [](L l) { return with_error(100 * l.greatest_share, 100 * l.share_error, ""); })
-          .only_for_people("T [J]", mean(&LinkOfCycle::energy, 1))
-          .only_for_people("of T [%]", mean(&LinkOfCycle::energy_share, 100)));
+                 .only_for_people("−I ε [N·m]", told(&LinkOfCycle::inertia_couple)));
+  to.say(in, table_of("", "Shares of the links in the reduced inertia and the kinetic energy", c.links)
+                 .headed("links: shares in I_r (mean over the angle) and kinetic energy (mean over the time)")
+                 .text_in(0)
+                 .always()
+                 .only_for_people("link", &LinkOfCycle::name)
+                 .only_for_people("I_r [kg·m²]", told(&LinkOfCycle::reduced_inertia))
+                 .only_for_people("of I_r [%]", told(&LinkOfCycle::inertia_share, 100))
+                 .only_for_people("least [%]", told(&LinkOfCycle::least_share, 100))
+                 .only_for_people("most [%]", told(&LinkOfCycle::greatest_share, 100))
+                 .only_for_people("T [J]", told(&LinkOfCycle::energy))
+                 .only_for_people("of T [%]", told(&LinkOfCycle::energy_share, 100)));
   to.draw(in, [&c] { return link_plots(c); });
 }
 
@@ -352,11 +343,8 @@ Findings findings_of(const LinkageStudy& f) {
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
   to.answer(f.complete ? Question::figures : Question::runs, conclusion_of(f), f.complete ? 0 : 100);
-  for (const LinkageFigure* p : peaks_of(front)) {
-    if (p->means == "reaction_moment" && is_nothing(p->peak)) continue;  // a ram that carries none
-    to.figures.push_back({"largest " + p->name, p->peak.told(), p->unit, p->peak.error,
-                          fmt::format("at φ = {}", at_angle(p->peak)), 0, p->means});
-  }
+  for (const NamedPeak& p : peaks_of(front))
+    if (p.means != "reaction_moment" || !is_nothing(p.peak)) to.figures.push_back(key_figure(p));  // a ram carries none
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
                 polar = to.chapter("Polar diagrams of the joints' loads, in the frame"),
                 links = to.chapter("Links: motion, inertia forces, shares"),
@@ -369,7 +357,7 @@ Findings findings_of(const LinkageStudy& f) {
   to.draw(reactions, [&f] { return reaction_plots(f); });
   to.show(reactions, Text{.title = "Signs and axes", .body = signs_of(f)});
   to.draw(polar, [&f] { return polar_plots(f); });
-  to.say(positions, peak_table(f));
+  to.say(positions, peak_table(f, peaks_of));
   for (const LinkageCycle* c : problems_of(f)) {
     to.say(positions, position_table(*c));
     to.tell(c->label, cycle_record(*c));
@@ -378,9 +366,10 @@ Findings findings_of(const LinkageStudy& f) {
     to.csv.push_back({fmt::format("links_{}.csv", c->label), [c] { return csv_of_links(*c); }});
   }
   say_links(to, links, front);
-  to.say(works, work_table(f));
+  const auto problems = problems_of(f);
+  to.say(works, work_table({problems.begin(), problems.end()}));
   to.draw(shaking, [&f] { return shaking_plots(f); });
-  for (const LinkageCycle* c : problems_of(f)) to.say(shaking, harmonic_table(*c, c == &front));
+  for (const LinkageCycle* c : problems) to.say(shaking, harmonic_table(*c, c == &front));
   to.say(notes, Sentences{.lines = {fmt::format("powers balance to {:.1e} of the largest at every position, the links' "
                                                 "equilibrium to {:.1e}",
                                                 front.power_residual, front.equation_residual)},

@@ -40,13 +40,6 @@ Plot link_plot(const LinkageCycle& c, const std::string& title, const std::strin
 
 }  // namespace
 
-std::vector<const LinkageCycle*> problems_of(const LinkageStudy& f) {
-  std::vector<const LinkageCycle*> problems;
-  if (f.prescribed) problems.push_back(&*f.prescribed);
-  if (f.simulated) problems.push_back(&*f.simulated);
-  return problems;
-}
-
 double force_of(const JointForces& j) { return j.slides ? j.normal : j.force.magnitude(); }
 
 Plot torque_plot(const LinkageStudy& f) {

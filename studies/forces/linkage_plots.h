@@ -8,7 +8,6 @@
 
 namespace kurbel {
 
-std::vector<const LinkageCycle*> problems_of(const LinkageStudy& study);
 double force_of(const JointForces& joint);  // magnitude, or a slide's normal force with its sign [N]
 
 Plot torque_plot(const LinkageStudy& study);

@@ -20,7 +20,7 @@ SpectralLine located(const AmplitudeSpectrum& s, std::size_t k) {
   const double sense = after >= before ? 1 : -1, ratio = std::max(before, after) / here;
   const double delta = (2 * ratio - 1) / (1 + ratio), x = std::numbers::pi * delta;
   const double gain = std::abs(delta) < 1e-9 ? 1 : std::sin(x) / (x * (1 - delta * delta));
-  return {.frequency = (static_cast<double>(k) + sense * delta) * s.resolution, .amplitude = here / gain};
+  return {{(static_cast<double>(k) + sense * delta) * s.resolution, 0.0}, {here / gain, 0.0}};
 }
 
 // By amplitude; what lies within two lines of 0 is the mean's.
@@ -29,7 +29,7 @@ std::vector<SpectralLine> lines_in(const AmplitudeSpectrum& s) {
   for (std::size_t k = 2; k + 1 < s.amplitude.size(); ++k)
     if (s.amplitude[k] > s.amplitude[k - 1] && s.amplitude[k] >= s.amplitude[k + 1]) lines.push_back(located(s, k));
   std::sort(lines.begin(), lines.end(),
-            [](const SpectralLine& a, const SpectralLine& b) { return a.amplitude > b.amplitude; });
+            [](const SpectralLine& a, const SpectralLine& b) { return a.amplitude.value > b.amplitude.value; });
   return lines;
 }
 
@@ -76,14 +76,14 @@ std::vector<SpectralLine> strongest_lines(const std::vector<double>& values, dou
 void widen_errors(std::vector<SpectralLine>& lines, const AmplitudeSpectrum& other) {
   const std::vector<SpectralLine> found = lines_in(other);
   for (SpectralLine& line : lines) {
-    const auto distance = [&](const SpectralLine& l) { return std::abs(l.frequency - line.frequency); };
+    const auto distance = [&](const SpectralLine& l) { return std::abs(l.frequency.value - line.frequency.value); };
     const auto nearest =
         std::min_element(found.begin(), found.end(),
                          [&](const SpectralLine& a, const SpectralLine& b) { return distance(a) < distance(b); });
     const bool known = nearest != found.end() && distance(*nearest) <= 2 * other.resolution;
-    const double apart = known ? std::abs(nearest->amplitude - line.amplitude) : line.amplitude;
-    line.frequency_error = std::max(line.frequency_error, 2 * (known ? distance(*nearest) : other.resolution));
-    line.amplitude_error = std::max(line.amplitude_error, std::min(2 * apart, line.amplitude));
+    const double size = line.amplitude.value, apart = known ? std::abs(nearest->amplitude.value - size) : size;
+    line.frequency.error = std::max(*line.frequency.error, 2 * (known ? distance(*nearest) : other.resolution));
+    line.amplitude.error = std::max(*line.amplitude.error, std::min(2 * apart, size));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
+
 namespace kurbel {
 
 // Amplitudes over frequency (or order) of evenly sampled values: Hann window, amplitudes of sines kept. Mean removed.
@@ -23,8 +25,8 @@ AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step);
 // three windows half as long, the first half of the whole, its middle and its last: twice the greatest difference is the
 // error, for they may happen to see none of it.
 struct SpectralLine {
-  double frequency = 0, frequency_error = 0;  // [Hz], or orders
-  double amplitude = 0, amplitude_error = 0;  // in the values' unit
+  Estimate frequency;  // [Hz], or orders
+  Estimate amplitude;  // in the values' unit
 };
 
 // The strongest ones, the strongest first; none of fewer than 32 values. A line's greatest amplitude alone would lack up

@@ -53,24 +53,18 @@ double hidden(const std::vector<double>& values, double sense) {
   return std::abs(values[i - 1] - 2 * values[i] + values[i + 1]) / 8;
 }
 
-std::optional<double> sum(const std::optional<double>& run_error, double own) {
-  return run_error ? std::optional(*run_error + own) : std::nullopt;
-}
-
 // The run locates its peak on the continuous solution; the other extreme is that of the samples.
 void find_extremes(TorqueHistory& h, const Figure* peak) {
   const auto [low, high] = std::minmax_element(h.value.begin(), h.value.end());
-  h.greatest = *high;
-  h.least = *low;
-  h.greatest_error = sum(h.run_error, hidden(h.value, 1));
-  h.least_error = sum(h.run_error, hidden(h.value, -1));
+  h.greatest = {*high, h.run_error};
+  h.least = {*low, h.run_error};
+  if (h.run_error) h.greatest.widen(hidden(h.value, 1)), h.least.widen(hidden(h.value, -1));
   if (!peak) return;
   // What comes later and is larger by rounding is the same peak.
   const double most = std::abs(peak->value);
-  h.greatest = std::min(h.greatest, most);
-  h.least = std::max(h.least, -most);
-  (peak->value > 0 ? h.greatest : h.least) = peak->value;
-  (peak->value > 0 ? h.greatest_error : h.least_error) = peak->error;
+  h.greatest.value = std::min(h.greatest.value, most);
+  h.least.value = std::max(h.least.value, -most);
+  (peak->value > 0 ? h.greatest : h.least) = *peak;
 }
 
 // Closed load cycles of the samples, and of the peak between them.
@@ -88,9 +82,9 @@ std::vector<LoadCycle> cycles_of(const TorqueHistory& h, const std::vector<doubl
 
 void count_cycles(TorqueHistory& h, const Figure* peak) {
   h.cycles = cycles_of(h, h.value, peak);
-  h.equivalent_amplitude = equivalent_amplitude(h.cycles, load_exponent);
+  h.equivalent_amplitude = {equivalent_amplitude(h.cycles, load_exponent), h.run_error};
   const double coarse = equivalent_amplitude(cycles_of(h, every_second(h.value), peak), load_exponent);
-  h.equivalent_error = sum(h.run_error, 2 * std::abs(h.equivalent_amplitude - coarse));
+  if (h.run_error) h.equivalent_amplitude.widen_to({coarse}, 2);
 }
 
 std::vector<double> over_turns(std::vector<double> angle, const std::vector<double>& values, double turns) {
@@ -155,7 +149,8 @@ TorqueHistory simulate_torque(const Scene& scene, const Effects& effects, const 
   history.resolution = 2 * history.run_error.value_or(result.accuracy * largest);
   if (history.time.size() >= 64) take_apart(history, peak);
   for (auto* lines : {&history.strongest, &history.strongest_orders})
-    for (SpectralLine& line : *lines) line.amplitude_error += 2 * history.run_error.value_or(0);
+    for (SpectralLine& line : *lines)
+      history.run_error ? line.amplitude.widen(2 * *history.run_error) : line.amplitude.error.reset();
   return history;
 }
 

@@ -21,14 +21,13 @@ struct TorqueHistory {
   std::string channel;
   std::vector<double> time, speed, angle, value;  // speed and angle of the reduction link
   AmplitudeSpectrum spectrum, orders;
-  std::vector<SpectralLine> strongest, strongest_orders;  // amplitudes with the run's error; orders instead of Hz
+  std::vector<SpectralLine> strongest, strongest_orders;  // amplitudes with the run's error, or none; orders, not Hz
   std::vector<WaterfallLine> lines;
   std::vector<LoadCycle> cycles;  // of more than `resolution` in range, the largest first
-  double greatest = 0, least = 0;
-  double equivalent_amplitude = 0;  // of the cycles at m = 5
-  std::optional<double> run_error;  // of the torque [N·m]; empty: the run was not confirmed
-  std::optional<double> greatest_error, least_error, equivalent_error;
-  double resolution = 0;  // ranges up to this are the run's error, or no run tells
+  Estimate greatest, least;
+  Estimate equivalent_amplitude;    // of the cycles at m = 5
+  std::optional<double> run_error;  // of the torque [N·m]; empty: the run was not confirmed, and no error is known
+  double resolution = 0;            // ranges up to this are the run's error, or no run tells
   bool complete = true;
   std::string diagnosis;
 };

@@ -159,18 +159,18 @@ SteadyLoads follow_loosely(const Regime& regime, const std::vector<LimitedJoint>
   return point.found ? follow(map, point, joints, loose) : SteadyLoads{};
 }
 
-constexpr std::array<Measured JointLoad::*, 6> measured = {&JointLoad::mean,  &JointLoad::upper,    &JointLoad::lower,
+constexpr std::array<Estimate JointLoad::*, 6> measured = {&JointLoad::mean,  &JointLoad::upper,    &JointLoad::lower,
                                                            &JointLoad::swing, &JointLoad::weighted, &JointLoad::power};
 
 void add_errors(const SteadyLoads& other, double still_changes, const std::vector<LimitedJoint>& joints,
                 SteadyLoads& loads) {
   for (std::size_t i = 0; i < loads.joints.size(); ++i)
     for (const auto what : measured) {
-      Measured& value = loads.joints[i].*what;
+      Estimate& value = loads.joints[i].*what;
       const double scale = what == &JointLoad::power ? std::abs(value.value) : joints[i].rated;
       value.error = (rounding + still_changes) * std::max(scale, std::abs(value.value));
       // Without a second one the figure is only known as far as the search was asked to go.
-      value.error += other.found ? std::abs(value.value - (other.joints[i].*what).value) : 1e-4 * std::abs(value.value);
+      value.widen(other.found ? std::abs(value.value - (other.joints[i].*what).value) : 1e-4 * std::abs(value.value));
     }
 }
 

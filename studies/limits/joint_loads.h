@@ -11,26 +11,23 @@
 #include <vector>
 
 #include "engine/analysis/regime.h"
+#include "engine/base/estimate.h"
 #include "engine/run/recorders.h"
 #include "studies/limits/drive_limits.h"
 
 namespace kurbel {
 
-struct Measured {
-  double value = 0, error = 0;
-};
-
 // Of one joint; torques in N·m.
 struct JointLoad {
-  Measured mean, upper, lower;  // lower ≤ mean ≤ upper
-  Measured swing;               // T_W
-  Measured weighted;            // S_f T_W
-  Measured power;               // P_W [W]
+  Estimate mean, upper, lower;  // lower ≤ mean ≤ upper
+  Estimate swing;               // T_W
+  Estimate weighted;            // S_f T_W
+  Estimate power;               // P_W [W]
   double frequency = 0;         // that swings most [Hz]
   double frequency_factor = 1;  // S_f
-  Measured amplitude() const { return {0.5 * (upper.value - lower.value), 0.5 * (upper.error + lower.error)}; }
-  Measured middle() const { return {0.5 * (upper.value + lower.value), 0.5 * (upper.error + lower.error)}; }
-  const Measured& largest() const { return std::abs(lower.value) > std::abs(upper.value) ? lower : upper; }
+  Estimate amplitude() const { return 0.5 * (upper - lower); }
+  Estimate middle() const { return 0.5 * (upper + lower); }
+  const Estimate& largest() const { return std::abs(lower.value) > std::abs(upper.value) ? lower : upper; }
 };
 
 // S_f of a single frequency [Hz].

@@ -57,16 +57,15 @@ class Rater {
  private:
   // `mends` makes words of the value that would hold; it gets how many times too large the value may be.
   template <class Mends>
-  void add(const char* requirement, const Measured& value, double limit, const char* unit, const Mends& mends) {
-    Verdict v{section_.name, requirement, value.value, limit, unit, "", value.error};
-    if (v.state() != Compliance::holds) v.note = mends((value.value + value.error) / limit);
+  void add(const char* requirement, const Estimate& value, double limit, const char* unit, const Mends& mends) {
+    Verdict v{section_.name, requirement, value.value, limit, unit, "", value.error.value_or(0)};
+    if (v.state() != Compliance::holds) v.note = mends((v.value + v.error) / limit);
     if (!result_.errors_measured) v.note += std::string(v.note.empty() ? "" : "; ") + "its error was not measured";
     out_.push_back(std::move(v));
   }
-  std::optional<Measured> found(const std::string& name) const {
+  std::optional<Estimate> found(const std::string& name) const {
     const Figure* f = result_.find(name);
-    if (!f) return {};
-    return Measured{std::abs(f->value), f->error.value_or(0)};
+    return f ? std::optional(abs(*f)) : std::nullopt;
   }
 
   void heat() {
@@ -90,27 +89,26 @@ class Rater {
     const auto peak = found("peak_torque." + section_.name), strand = found("strand_force." + section_.name);
     if (b.tension && strand)
       add("strand force: F₀ + |τ|/(2 r₁) ≤ F_allowable", *strand, *b.tension, "N", [&](double) {
-        const double left = *b.tension - b.pretension, pull = strand->value + strand->error - b.pretension;
+        const double left = *b.tension - b.pretension, pull = strand->value + strand->error.value_or(0) - b.pretension;
         if (left <= 0) return std::string("the pretension alone is as much");
         return fmt::format("it holds from diameter_in = {:.4g} mm on, at the same torque and pretension",
                            2e3 * b.radius * pull / left);
       });
     if (b.reserve && peak)
-      add("reserve against slip: S |τ| ≤ M", {*b.reserve * peak->value, *b.reserve * peak->error}, b.limit, "N*m",
-          [&](double times) {
-            return fmt::format(
-                "{}it holds from pretension = {:.4g} N on{}", peak->value >= b.limit * (1 - 1e-9) ? "it slips; " : "",
-                b.pretension * times,
-                peak->value >= b.limit * (1 - 1e-9) ? " at the least: what it would carry then is more" : "");
-          });
+      add("reserve against slip: S |τ| ≤ M", *b.reserve * *peak, b.limit, "N*m", [&](double times) {
+        return fmt::format(
+            "{}it holds from pretension = {:.4g} N on{}", peak->value >= b.limit * (1 - 1e-9) ? "it slips; " : "",
+            b.pretension * times,
+            peak->value >= b.limit * (1 - 1e-9) ? " at the least: what it would carry then is more" : "");
+      });
   }
 
   // Of its segments.
-  std::optional<Measured> largest_torque() const {
-    std::optional<Measured> largest;
+  std::optional<Estimate> largest_torque() const {
+    std::optional<Estimate> largest;
     for (const Figure& f : result_.figures)
       if (f.what == QuantityKind::peak_torque && is_of(f.of))
-        if (!largest || std::abs(f.value) > largest->value) largest = Measured{std::abs(f.value), f.error.value_or(0)};
+        if (!largest || std::abs(f.value) > largest->value) largest = abs(f);
     return largest;
   }
 
@@ -120,10 +118,9 @@ class Rater {
     const auto largest = largest_torque();
     if (!largest) return;
     const double factor = limits.temperature_factor * limits.start_factor;
-    add(requirement::maximum, {factor * largest->value, factor * largest->error}, limits.maximum, "N*m",
-        [&](double times) {
-          return fmt::format("it holds from maximum_torque = {:.4g} N·m on", limits.maximum * times);
-        });
+    add(requirement::maximum, factor * *largest, limits.maximum, "N*m", [&](double times) {
+      return fmt::format("it holds from maximum_torque = {:.4g} N·m on", limits.maximum * times);
+    });
     out_.back().bound = limits.start_factor > 1;
     if (factor != 1)
       out_.back().note += fmt::format("{}S_t = {:g}, S_z = {:g}", out_.back().note.empty() ? "" : "; ",
@@ -135,8 +132,8 @@ class Rater {
     const double modulus = shaft.polar_modulus();
     const auto largest = largest_torque();
     if (!largest) return;
-    add("shear stress: |T|/W_p ≤ τ_allowable", {largest->value / modulus, largest->error / modulus},
-        *shaft.allowable_shear_stress, "Pa", [&](double times) {
+    add("shear stress: |T|/W_p ≤ τ_allowable", *largest / modulus, *shaft.allowable_shear_stress, "Pa",
+        [&](double times) {
           return fmt::format("it holds from diameter = {:.4g} mm on, with its bore in proportion, at the same torque",
                              1e3 * *shaft.diameter * std::cbrt(times));
         });
@@ -152,28 +149,25 @@ class Rater {
       const Figure* least = result_.find("least_torque." + f.of);
       if (!least) continue;
       JointLoad load;
-      load.upper = {f.value, f.error.value_or(0)}, load.lower = {least->value, least->error.value_or(0)};
+      load.upper = f, load.lower = *least;
       if (load.amplitude().value >= widest.amplitude().value) widest = load;
       if (std::abs(load.largest().value) >= std::abs(largest.largest().value)) largest = load;
     }
-    const auto over = [modulus](const Measured& m) { return Measured{m.value / modulus, m.error / modulus}; };
     const auto thicker = [&](double times) {
       return fmt::format("it holds from diameter = {:.4g} mm on, with its bore in proportion, at the same torque",
                          1e3 * *shaft.diameter * std::cbrt(times));
     };
     const ShaftRating& rating = shaft.rating;
     if (rating.vibratory)
-      add(requirement::vibratory_stress, over(widest.amplitude()), *rating.vibratory, "Pa", thicker);
+      add(requirement::vibratory_stress, widest.amplitude() / modulus, *rating.vibratory, "Pa", thicker);
     if (rating.endurance) {
-      const Fatigue fatigue = fatigue_of(rating, over(widest.amplitude()), over(widest.middle()));
+      const Fatigue fatigue = fatigue_of(rating, widest.amplitude() / modulus, widest.middle() / modulus);
       add(requirement::fatigue, fatigue.stress, *rating.endurance, "Pa", thicker);
       std::string& note = out_.back().note;
       note += (note.empty() ? "" : "; ") + fatigue.note;
     }
-    const double peak = std::abs(largest.largest().value), error = largest.largest().error;
     if (rating.yield)
-      add(requirement::yield, {rating.safety * peak / modulus, rating.safety * error / modulus},
-          rating.yield_in_shear(), "Pa", thicker);
+      add(requirement::yield, rating.safety * abs(largest.largest()) / modulus, rating.yield_in_shear(), "Pa", thicker);
   }
   bool is_of(const std::string& joint) const { return is_joint_of(joint, section_.name); }
 
@@ -187,7 +181,7 @@ class Rater {
     if (rating.speed) add("rim speed: r |ω| ≤ v_allowable", *speed, *rating.speed, "m/s", smaller);
     if (!rating.stress) return;
     const double density = *rating.density, v = speed->value;
-    add("hoop stress of the rim: ρ (r ω)² ≤ σ_allowable", {density * v * v, 2 * density * v * speed->error},
+    add("hoop stress of the rim: ρ (r ω)² ≤ σ_allowable", function_of(*speed, density * v * v, 2 * density * v),
         *rating.stress, "Pa", [&](double times) { return smaller(std::sqrt(times)); });
   }
 
@@ -206,7 +200,7 @@ class Rater {
       const bool changes = result_.model && !result_.model->commands.empty();
       add(changes ? "RMS torque of the heaviest cycle: √(∫ M² dt/T) ≤ M_N"
                   : "RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N",
-          {use->value * rated, use->error * rated}, rated, "N*m", mends);
+          rated * *use, rated, "N*m", mends);
     } else {
       // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
       const double span = result_.until - result_.begins_at,

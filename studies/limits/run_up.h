@@ -13,7 +13,7 @@ namespace kurbel {
 
 struct RunUp {
   struct Peak {
-    Measured torque;  // of the largest magnitude, with its sign [N·m]
+    Estimate torque;  // of the largest magnitude, with its sign [N·m]
     double time = 0;  // [s]
   };
   bool found = false;  // it leads to the steady motion that the loads are of

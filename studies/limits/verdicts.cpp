@@ -11,7 +11,7 @@
 namespace kurbel {
 namespace {
 
-Measured times(double factor, const Measured& m) { return {factor * std::abs(m.value), factor * m.error}; }
+Estimate times(double factor, const Estimate& m) { return factor * abs(m); }
 
 class Judge {
  public:
@@ -49,11 +49,12 @@ class Judge {
 
  private:
   // `key`: of the limit in the scene, with which it would hold; null: the section carries it.
-  Verdict& add(std::string requirement, const Measured& value, double limit, std::string unit, std::string note,
+  Verdict& add(std::string requirement, const Estimate& value, double limit, std::string unit, std::string note,
                const char* key = nullptr) {
-    Verdict v{joint_.name, std::move(requirement), value.value, limit, std::move(unit), std::move(note), value.error};
+    Verdict v{joint_.name,     std::move(requirement), value.value, limit, std::move(unit),
+              std::move(note), value.error.value_or(0)};
     if (v.state() == Compliance::exceeded) {
-      const double needed = value.value + value.error;
+      const double needed = v.value + v.error;
       const std::string mends = key ? fmt::format("it holds from {} = {} on", key, told_shortly(needed, v.unit))
                                     : fmt::format("it holds from {:.3g} times this diameter on, at the same torque",
                                                   std::cbrt(needed / limit));
@@ -65,7 +66,7 @@ class Judge {
 
   // The largest of the way there: simulated, else a bound. What of the steady motion is larger, stands apart.
   struct Largest {
-    Measured start = {}, steady = {};
+    Estimate start = {}, steady = {};
     bool bound = false;
     std::string note = {};
   };
@@ -87,7 +88,7 @@ class Judge {
 
   void maximum() {
     const Largest l = largest();
-    const Measured steady = times(limits_.temperature_factor, l.steady),
+    const Estimate steady = times(limits_.temperature_factor, l.steady),
                    start = start_torque(limits_, l.start, load_.mean);
     const bool starts = start.value > steady.value;
     std::string note = starts ? l.note : "in steady motion" + (peak_ ? std::string() : "; no run-up: " + run_up_.words);
@@ -100,7 +101,7 @@ class Judge {
   void shear() {
     const Largest l = largest();
     const double modulus = limits_.polar_modulus;
-    const Measured steady = times(limits_.application_factor / modulus, l.steady), start = times(1 / modulus, l.start);
+    const Estimate steady = times(limits_.application_factor / modulus, l.steady), start = times(1 / modulus, l.start);
     const bool starts = start.value > steady.value;
     add("shear stress: K_A |T|/W_p ≤ τ_allowable", starts ? start : steady, limits_.shear_stress, "Pa",
         starts
@@ -111,7 +112,7 @@ class Judge {
 
   void swinging_stress() {
     const ShaftRating& shaft = limits_.shaft;
-    const Measured amplitude = times(1 / limits_.polar_modulus, load_.amplitude());
+    const Estimate amplitude = times(1 / limits_.polar_modulus, load_.amplitude());
     if (shaft.vibratory) add(requirement::vibratory_stress, amplitude, *shaft.vibratory, "Pa", "in steady motion");
     if (shaft.endurance) {
       const Fatigue f = fatigue_of(shaft, amplitude, times(1 / limits_.polar_modulus, load_.middle()));
@@ -126,7 +127,7 @@ class Judge {
   void yield() {
     const Largest l = largest();
     const double factor = limits_.shaft.safety / limits_.polar_modulus;
-    const Measured steady = times(factor, l.steady), start = times(factor, l.start);
+    const Estimate steady = times(factor, l.steady), start = times(factor, l.start);
     const bool starts = start.value > steady.value;
     add(requirement::yield, starts ? start : steady, limits_.shaft.yield_in_shear(), "Pa",
         starts ? l.note : "in steady motion")
@@ -146,9 +147,10 @@ class Judge {
 
 }  // namespace
 
-Fatigue fatigue_of(const ShaftRating& shaft, const Measured& amplitude, const Measured& mean) {
+Fatigue fatigue_of(const ShaftRating& shaft, const Estimate& amplitude, const Estimate& mean) {
   return {
-      {shaft.fatigue_stress(amplitude.value, mean.value), shaft.fatigue_stress(amplitude.error, mean.error)},
+      {shaft.fatigue_stress(amplitude.value, mean.value),
+       shaft.fatigue_stress(amplitude.error.value_or(0), mean.error.value_or(0))},
       fmt::format("τ_a = {:.4g} MPa, τ_m = {:.4g} MPa, τ_B = {:.4g} MPa, K_f = {:g}, S = {:g}", 1e-6 * amplitude.value,
                   1e-6 * mean.value, 1e-6 * shaft.strength_in_shear(), shaft.notch, shaft.safety)};
 }
@@ -220,13 +222,14 @@ std::string sentence_of(const std::vector<Verdict>& verdicts, const std::string&
                      use_in_words(*worst_of(verdicts, Compliance::holds)));
 }
 
-Measured start_torque(const DriveLimits& limits, const Measured& peak, const Measured& mean) {
+Estimate start_torque(const DriveLimits& limits, const Estimate& peak, const Estimate& mean) {
   const double whole = std::abs(peak.value);
   if (!std::isfinite(whole)) return {whole, 0};
   const double steady = std::clamp(std::copysign(1.0, peak.value) * mean.value, 0.0, whole);
   const double most = limits.start_factor * whole, least = steady + limits.start_factor * (whole - steady);
   const double factor = limits.temperature_factor;
-  return {factor * 0.5 * (most + least), factor * (0.5 * (most - least) + limits.start_factor * peak.error)};
+  return {factor * 0.5 * (most + least),
+          factor * (0.5 * (most - least) + limits.start_factor * peak.error.value_or(0))};
 }
 
 std::vector<Verdict> judge(const std::vector<LimitedJoint>& joints, const SteadyLoads& loads, const RunUp& run_up,

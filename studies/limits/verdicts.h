@@ -49,10 +49,10 @@ inline constexpr const char* passing = "UR M68, passing at λ ≤ 0.8: (τ_max �
 
 // What counts against the endurance limit, and of what it is made.
 struct Fatigue {
-  Measured stress;   // [Pa]
+  Estimate stress;   // [Pa]
   std::string note;  // where it is exceeded it begins with what would mend it
 };
-Fatigue fatigue_of(const ShaftRating& shaft, const Measured& amplitude, const Measured& mean);
+Fatigue fatigue_of(const ShaftRating& shaft, const Estimate& amplitude, const Estimate& mean);
 
 // The largest value over its limit, of what is exceeded; 0: nothing is.
 double worst_excess(const std::vector<Verdict>& verdicts);
@@ -67,6 +67,6 @@ std::vector<Verdict> judge(const std::vector<LimitedJoint>& joints, const Steady
                            const std::vector<Passing>& passing, const SpeedUnit& speed_unit);
 
 // S_t (T_N + S_z T_S): T_N may act in full or not yet when the peak comes; the error covers both.
-Measured start_torque(const DriveLimits& limits, const Measured& peak, const Measured& mean);
+Estimate start_torque(const DriveLimits& limits, const Estimate& peak, const Estimate& mean);
 
 }  // namespace kurbel

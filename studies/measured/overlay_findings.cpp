@@ -30,7 +30,7 @@ std::vector<Row> rows_of(const Overlay& o) {
 
 // A speed in the scene's unit; without an error where none is known.
 std::string told(double value, const std::optional<double>& error, const std::string& unit, const SpeedUnit& speed) {
-  const FigureCells cells = figure_cells(value, error, unit, speed);
+  const FigureCells cells = figure_cells({value, error}, unit, speed);
   return cells.value + (error ? " " + cells.error : "") + (cells.unit.empty() ? "" : " " + cells.unit);
 }
 

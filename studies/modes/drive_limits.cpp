@@ -50,15 +50,14 @@ void find_severity(double factor, ModesStudy& found) {
 void judge_history(ModesStudy& found) {
   if (!found.history || found.history->value.empty()) return;
   const TorqueHistory& h = *found.history;
-  const bool below = -h.least > h.greatest;
+  const bool below = -h.least.value > h.greatest.value;
   for (const LimitedJoint& joint : found.limited) {
     if (joint.name != h.component || !(joint.limits.maximum > 0)) continue;
     // Without an error the run was not confirmed, and nothing is decided by it.
-    const double factor = joint.limits.temperature_factor, most = below ? -h.least : h.greatest;
-    const double error = (below ? h.least_error : h.greatest_error).value_or(std::nan(""));
-    found.verdicts.push_back({joint.name, "maximum torque of the simulated run: S_t |T| ≤ T_Kmax", factor * most,
-                              joint.limits.maximum, "N*m", std::isnan(error) ? "of a run that was not confirmed" : "",
-                              factor * error});
+    const Estimate most = joint.limits.temperature_factor * (below ? -h.least : h.greatest);
+    found.verdicts.push_back({joint.name, "maximum torque of the simulated run: S_t |T| ≤ T_Kmax", most.value,
+                              joint.limits.maximum, "N*m", most.error ? "" : "of a run that was not confirmed",
+                              most.error.value_or(std::nan(""))});
   }
 }
 

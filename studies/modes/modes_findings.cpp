@@ -166,7 +166,7 @@ Rows rainflow_table(const TorqueHistory& h) {
   return table_of("", "Rainflow count (ASTM E1049)", std::move(list))
       .headed(fmt::format("rainflow count of the simulated {} (ASTM E1049), equivalent amplitude at m = {:g}: {}; "
                           "ranges up to {} are not told from none",
-                          h.channel, load_exponent, with_error(h.equivalent_amplitude, h.equivalent_error, "N*m"),
+                          h.channel, load_exponent, with_error(h.equivalent_amplitude, "N*m"),
                           torque_text(h.resolution)))
       .text_in(0)
       .always()
@@ -180,15 +180,11 @@ Rows rainflow_table(const TorqueHistory& h) {
 
 // Sines in the simulated torque; `of` is Hz or an order.
 Rows spectral_table(const TorqueHistory& h, const char* key, const char* of, const std::vector<SpectralLine>& lines) {
-  const auto error = [&h](const SpectralLine& l) {
-    return h.run_error ? std::optional(l.amplitude_error) : std::nullopt;
-  };
   return table_of("", fmt::format("Strongest lines of the simulated {} over {}", h.channel, of), lines)
       .headed(fmt::format("strongest lines of the simulated {} over {}", h.channel, of))
       .text_in(0)
-      .only_for_people(key, [](const SpectralLine& l) { return with_error(l.frequency, l.frequency_error, ""); })
-      .only_for_people("amplitude",
-                       [error](const SpectralLine& l) { return with_error(l.amplitude, error(l), "N*m"); });
+      .only_for_people(key, [](const SpectralLine& l) { return with_error(l.frequency, ""); })
+      .only_for_people("amplitude", [](const SpectralLine& l) { return with_error(l.amplitude, "N*m"); });
 }
 
 std::string point_text(const ModesStudy& m) {
@@ -221,25 +217,24 @@ List joint_list(const ModesStudy& m) {
   });
 }
 
-List spectral_list(const TorqueHistory& h, const char* key, const std::vector<SpectralLine>& lines) {
+List spectral_list(const char* key, const std::vector<SpectralLine>& lines) {
   return each(lines, [&](const SpectralLine& l) {
-    return Record{{key, l.frequency},
-                  {"error", l.frequency_error},
-                  {"amplitude", l.amplitude},
-                  {"amplitude_error", h.run_error ? std::optional(l.amplitude_error) : std::nullopt}};
+    Record r = {{key, l.frequency.value}, {"error", l.frequency.error}};
+    tell_estimate(r, "amplitude", l.amplitude);
+    return r;
   });
 }
 
 Record history_record(const TorqueHistory& h) {
   return {{"channel", h.channel},
-          {"greatest", h.greatest},
-          {"greatest_error", h.greatest_error},
-          {"least", h.least},
-          {"least_error", h.least_error},
-          {"equivalent_amplitude", h.equivalent_amplitude},
-          {"equivalent_amplitude_error", h.equivalent_error},
-          {"strongest_lines", spectral_list(h, "frequency", h.strongest)},
-          {"strongest_orders", spectral_list(h, "order", h.strongest_orders)}};
+          {"greatest", h.greatest.value},
+          {"greatest_error", h.greatest.error},
+          {"least", h.least.value},
+          {"least_error", h.least.error},
+          {"equivalent_amplitude", h.equivalent_amplitude.value},
+          {"equivalent_amplitude_error", h.equivalent_amplitude.error},
+          {"strongest_lines", spectral_list("frequency", h.strongest)},
+          {"strongest_orders", spectral_list("order", h.strongest_orders)}};
 }
 
 std::string shapes_csv(const ModesStudy& m) {
@@ -349,9 +344,8 @@ void say_history(Findings& f, Chapter in, const ModesStudy& m) {
   if (!m.history) return;
   const TorqueHistory& h = *m.history;
   if (!h.lines.empty()) f.draw(in, [&] { return history_plots(m, h); });
-  f.say(in, Sentences{.lines = {fmt::format("simulated {}: from {} to {}", h.channel,
-                                            with_error(h.least, h.least_error, "N*m"),
-                                            with_error(h.greatest, h.greatest_error, "N*m"))},
+  f.say(in, Sentences{.lines = {fmt::format("simulated {}: from {} to {}", h.channel, with_error(h.least, "N*m"),
+                                            with_error(h.greatest, "N*m"))},
                       .indent = "  ",
                       .apart = true});
   if (!h.strongest.empty()) f.say(in, spectral_table(h, "frequency [Hz]", "frequency", h.strongest));

@@ -286,24 +286,24 @@ class Reducer {
     const int orders = static_cast<int>(std::lround(options_.orders * r_.cycle / turn));
     for (std::size_t i = 0; i < fine.size(); ++i) {
       Spectrum s = spectrum(named[i].first, named[i].second, fine[i], orders);
-      if (loose) add_errors(s, spectrum(named[i].first, named[i].second, (*loose)[i], orders));
+      if (loose) {
+        const Spectrum other = spectrum(named[i].first, named[i].second, (*loose)[i], orders);
+        for (std::size_t n = 0; n < s.harmonics.size(); ++n)
+          s.harmonics[n].amplitude = estimate_from(s.harmonics[n].amplitude.value, other.harmonics[n].amplitude.value,
+                                                   rounding * std::sqrt(s.mean_square));
+      }
       if (along_ && along_->cycle().sense < 0)
         for (Harmonic& h : s.harmonics) h.phase = -h.phase;
       r_.spectra.push_back(std::move(s));
     }
-    r_.mean_drive = fine[1].mean();
-    r_.mean_load = fine[2].mean();
+    r_.mean_drive.value = fine[1].mean();
+    r_.mean_load.value = fine[2].mean();
     if (!loose) return;
     r_.inertia_error = largest_difference(fine[0], (*loose)[0]);
     r_.drive_error = largest_difference(fine[1], (*loose)[1]);
     r_.load_error = largest_difference(fine[2], (*loose)[2]);
-    r_.mean_drive_error = std::abs((*loose)[1].mean() - r_.mean_drive) + rounding * fine[1].largest();
-    r_.mean_load_error = std::abs((*loose)[2].mean() - r_.mean_load) + rounding * fine[2].largest();
-  }
-  static void add_errors(Spectrum& s, const Spectrum& looser) {
-    for (std::size_t n = 0; n < s.harmonics.size() && n < looser.harmonics.size(); ++n)
-      s.harmonics[n].error =
-          std::abs(s.harmonics[n].amplitude - looser.harmonics[n].amplitude) + rounding * std::sqrt(s.mean_square);
+    r_.mean_drive = estimate_from(r_.mean_drive.value, (*loose)[1].mean(), rounding * fine[1].largest());
+    r_.mean_load = estimate_from(r_.mean_load.value, (*loose)[2].mean(), rounding * fine[2].largest());
   }
   // Within pieces: at an edge either may be a hair late, so that the other is looked at on both sides of it.
   static double largest_difference(const Piecewise& f, const Piecewise& looser) {
@@ -376,8 +376,8 @@ class Reducer {
       r_.notes.push_back(fmt::format(
           "classical: at constant speed, rigid; left out is that the speed swings{}: in the steady cycle (mid "
           "speed {}) the mean driving torque is {}, the mean resisting torque {}, and 2T/ω² {}",
-          and_effects(), r_.speed_unit.text(c.mid_speed()), in_place_of(c.cycle.drive.mean(), r_.mean_drive),
-          in_place_of(c.cycle.load.mean(), r_.mean_load),
+          and_effects(), r_.speed_unit.text(c.mid_speed()), in_place_of(c.cycle.drive.mean(), r_.mean_drive.value),
+          in_place_of(c.cycle.load.mean(), r_.mean_load.value),
           off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));
     } catch (const std::invalid_argument&) {  // no steady cycle of which the link's angle tells
     }

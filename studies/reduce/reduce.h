@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/analysis/moment.h"
+#include "engine/base/estimate.h"
 #include "studies/cycle/machine_cycle.h"
 #include "studies/findings/output.h"
 
@@ -47,8 +48,9 @@ struct ReducedPosition {
 
 // a_n cos(n φ − ψ_n) of one quantity; order 1 is once per turn of the reduction link.
 struct Harmonic {
-  double order = 0, amplitude = 0, phase = 0;  // phase of the maximum after φ = 0 [rad of n φ]; order 0: the mean
-  std::optional<double> error = {};            // of the amplitude
+  double order = 0;
+  Estimate amplitude;
+  double phase = 0;  // of the maximum after φ = 0 [rad of n φ]; order 0: the mean
 };
 struct Spectrum {
   std::string name, unit;
@@ -96,13 +98,13 @@ struct MachineReduction {
   double constant_inertia = 0;        // on the chosen shaft [kg·m²]; of a slider: on the link
   std::vector<std::string> accounts;  // names with their line: "press.load (useful)"
   std::vector<ReducedPosition> positions;
-  std::vector<ReducedPosition> curve;    // dense, for plots
-  std::vector<ReducedPosition> also;     // at the further angles that were asked for
-  std::vector<Spectrum> spectra;         // on the link: I_r, M_d − M_c
-  Chain chain;                           // on the chosen shaft, or on the link
-  double mean_drive = 0, mean_load = 0;  // on the link [N·m]
-  // Largest over the cycle, on the link: of I_r [kg·m²], M_d and M_c [N·m]; of their means. Nothing comes round: none.
-  std::optional<double> inertia_error, drive_error, load_error, mean_drive_error, mean_load_error;
+  std::vector<ReducedPosition> curve;  // dense, for plots
+  std::vector<ReducedPosition> also;   // at the further angles that were asked for
+  std::vector<Spectrum> spectra;       // on the link: I_r, M_d − M_c
+  Chain chain;                         // on the chosen shaft, or on the link
+  Estimate mean_drive, mean_load;      // on the link [N·m]
+  // Largest over the cycle, on the link: of I_r [kg·m²], M_d and M_c [N·m]. Nothing comes round: none.
+  std::optional<double> inertia_error, drive_error, load_error;
   std::vector<std::string> notes;
 };
 

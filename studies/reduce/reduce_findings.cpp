@@ -108,10 +108,12 @@ Rows harmonics_table(const MachineReduction& r) {
   auto table = table_of("", title, numbers_below(first.size())).headed(title).close().always();
   table.only_for_people("order", [&](std::size_t n) { return first[n].order; }, {.digits = 4});
   for (const Spectrum& s : r.spectra) {
-    const auto amplitude = [&s](std::size_t n) { return is_dust(s.harmonics[n], s) ? 0.0 : s.harmonics[n].amplitude; };
+    const auto amplitude = [&s](std::size_t n) {
+      return is_dust(s.harmonics[n], s) ? 0.0 : s.harmonics[n].amplitude.value;
+    };
     table.only_for_people(fmt::format("{} [{}]", s.name, pretty_unit(s.unit)), amplitude);
     table.only_for_people("error", [&s](std::size_t n) {
-      const std::optional<double>& error = s.harmonics[n].error;
+      const std::optional<double>& error = s.harmonics[n].amplitude.error;
       return error ? fmt::format("± {:.1g}", *error) : std::string();
     });
     table.only_for_people("phase [°]", [&, amplitude](std::size_t n) {
@@ -167,12 +169,14 @@ Record chain_record(const Chain& chain) {
 }
 
 Record spectrum_record(const Spectrum& s) {
-  return {{"name", s.name},
-          {"unit", s.unit},
-          {"captured_of_mean_square", s.captured},
-          {"orders", each(s.harmonics, [](const Harmonic& h) {
-             return Record{{"order", h.order}, {"amplitude", h.amplitude}, {"phase", h.phase}, {"error", h.error}};
-           })}};
+  return {
+      {"name", s.name},
+      {"unit", s.unit},
+      {"captured_of_mean_square", s.captured},
+      {"orders", each(s.harmonics, [](const Harmonic& h) {
+         return Record{
+             {"order", h.order}, {"amplitude", h.amplitude.value}, {"phase", h.phase}, {"error", h.amplitude.error}};
+       })}};
 }
 
 std::string positions_csv(const MachineReduction& r) {
@@ -197,11 +201,11 @@ std::string harmonics_csv(const MachineReduction& r) {
       .column(
           "order", [](const auto& row) { return row.second.order + 0.0; }, 6)
       .column(
-          "amplitude", [](const auto& row) { return row.second.amplitude + 0.0; }, 15)
+          "amplitude", [](const auto& row) { return row.second.amplitude.value + 0.0; }, 15)
       .column(
           "phase [rad]", [](const auto& row) { return row.second.phase + 0.0; }, 15)
       .column(
-          "error", [](const auto& row) { return row.second.error; }, 3)
+          "error", [](const auto& row) { return row.second.amplitude.error; }, 3)
       .text();
 }
 
@@ -283,9 +287,9 @@ Findings findings_of(const MachineReduction& r) {
                           r.to_output ? "on " + r.link : "",
                           0,
                           "constant_inertia"},
-                         {"mean driving torque", r.mean_drive, "N*m", r.mean_drive_error, "on " + r.link, 0,
+                         {"mean driving torque", r.mean_drive.value, "N*m", r.mean_drive.error, "on " + r.link, 0,
                           "mean_driving_torque"},
-                         {"mean resisting torque", r.mean_load, "N*m", r.mean_load_error, "on " + r.link, 0,
+                         {"mean resisting torque", r.mean_load.value, "N*m", r.mean_load.error, "on " + r.link, 0,
                           "mean_resisting_torque"}}};
   f.answer(Question::figures, conclusion_of(r));
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),

@@ -34,11 +34,11 @@ Plot harmonics_plot(const Spectrum& s, const std::string& link) {
             .y = {"amplitude", pretty_unit(s.unit)},
             .series = {{.name = s.name, .role = Role::elastic, .x = {}, .y = {}}},
             .note = fmt::format("Without the mean of {:.6g} {}; these orders hold {:.6g} % of the mean square.",
-                                s.harmonics.front().amplitude, pretty_unit(s.unit), 100 * s.captured),
+                                s.harmonics.front().amplitude.value, pretty_unit(s.unit), 100 * s.captured),
             .bars = true};
   for (std::size_t n = 1; n < s.harmonics.size(); ++n) {
     plot.series[0].x.push_back(s.harmonics[n].order);
-    plot.series[0].y.push_back(is_dust(s.harmonics[n], s) ? 0 : s.harmonics[n].amplitude);
+    plot.series[0].y.push_back(is_dust(s.harmonics[n], s) ? 0 : s.harmonics[n].amplitude.value);
   }
   return in_readable_unit(std::move(plot), s.unit);
 }
@@ -84,7 +84,7 @@ std::vector<std::size_t> acting(const MachineReduction& r) {
   return list;
 }
 
-bool is_dust(const Harmonic& h, const Spectrum& s) { return h.amplitude < 1e-10 * std::sqrt(s.mean_square); }
+bool is_dust(const Harmonic& h, const Spectrum& s) { return h.amplitude.value < 1e-10 * std::sqrt(s.mean_square); }
 
 std::string speed_text(const MachineReduction& r) {
   return fmt::format("torques at {} of {} ({})", r.speed_unit.text(r.speed), r.link, r.speed_source);

@@ -33,7 +33,7 @@ Spectrum spectrum(const std::string& name, const std::string& unit, const Piecew
     const double order = n * base, factor = n == 0 ? 1 : 2;
     const double a = factor * mean_of([&](double y, double x) { return y * std::cos(order * x); });
     const double b = factor * mean_of([&](double y, double x) { return y * std::sin(order * x); });
-    s.harmonics.push_back({order, n == 0 ? a : std::hypot(a, b), n == 0 ? 0 : std::atan2(b, a)});
+    s.harmonics.push_back({order, {n == 0 ? a : std::hypot(a, b)}, n == 0 ? 0 : std::atan2(b, a)});
     sum += (n == 0 ? 1 : 0.5) * (a * a + b * b);
   }
   s.captured = s.mean_square > 0 ? sum / s.mean_square : 1;

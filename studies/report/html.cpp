@@ -291,7 +291,7 @@ std::string json_of(const Report& report, const Letterhead& head) {
     w.list(report.figures, [&](const KeyFigure& figure) {
       w.object([&] {
         w.field("name", figure.name);
-        const TileText text = tile_text(figure.value, figure.error, figure.digits);
+        const TileText text = tile_text({figure.value, figure.error}, figure.digits);
         w.field("value", text.value);
         if (!text.known.empty()) w.field("known", text.known);
         w.field("unit", pretty_unit(figure.unit));

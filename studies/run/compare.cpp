@@ -22,10 +22,9 @@ constexpr double stands_within_the_cycle = 2;  // of a fluctuation: ω_min ≤ 0
 void add_rows(Comparison& c) {
   for (const Figure& f : c.b.figures) {
     if (!is_told(f, c.b)) continue;
-    ComparisonRow row{f.name, f.unit, {}, {}, f.value, f.error, 0, {}, f.what, f.of};
+    ComparisonRow row{f.name, f.unit, {}, f, 0, {}, f.what, f.of};
     if (const Figure* other = c.a.find(f.name); other && is_told(*other, c.a)) {
-      row.a = other->value;
-      row.a_error = other->error;
+      row.a = *other;
       row.difference = f.value - other->value;
       // Over what is zero but for its error there is no ratio.
       if (std::isfinite(f.value) && std::abs(other->value) > floor_of(*other, c.a)) row.ratio = f.value / other->value;
@@ -35,10 +34,7 @@ void add_rows(Comparison& c) {
   for (const ComparisonRow& row : c.rows) {
     if (row.what != QuantityKind::peak_torque || !row.ratio) continue;
     const Name name = Name::make(QuantityKind::amplification, row.of);
-    ComparisonRow factor{name.text, "", {}, {}, std::abs(*row.ratio), {}, 0, {}, name.what, name.of};
-    if (row.a_error && row.b_error)
-      factor.b_error = std::abs(*row.ratio) * (*row.a_error / std::abs(*row.a) + *row.b_error / std::abs(*row.b));
-    c.amplification.push_back(std::move(factor));
+    c.amplification.push_back({name.text, "", {}, abs(*row.b / *row.a), 0, {}, name.what, name.of});
   }
 }
 
@@ -102,17 +98,17 @@ void conclude(Comparison& c) {
   }
   const auto worst = std::max_element(c.amplification.begin(), c.amplification.end(),
                                       [](const ComparisonRow& x, const ComparisonRow& y) {
-                                        return std::abs(std::log(*x.b)) < std::abs(std::log(*y.b));
+                                        return std::abs(std::log(x.b->value)) < std::abs(std::log(y.b->value));
                                       });
-  if (worst != c.amplification.end() && *worst->b > 0) {
+  if (worst != c.amplification.end() && worst->b->value > 0) {
     const std::string& joint = worst->of;
     const Figure* peak = c.b.find(QuantityKind::peak_torque, joint);
     c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
-                               with_unit(std::abs(peak->value), "N*m", 4), *worst->b, c.a.label);
+                               with_unit(std::abs(peak->value), "N*m", 4), worst->b->value, c.a.label);
   }
   for (const ComparisonRow& row : c.rows) {
     const bool repeats = row.what == QuantityKind::delta;
-    if (row.what == QuantityKind::cycle_fluctuation && row.b >= stands_within_the_cycle) continue;
+    if (row.what == QuantityKind::cycle_fluctuation && row.b->value >= stands_within_the_cycle) continue;
     if (!row.ratio || !(repeats || row.what == QuantityKind::cycle_fluctuation)) continue;
     const char* what = repeats ? "δ" : "the fluctuation in the last cycle, which is not steady,";
     c.conclusion += (c.conclusion.empty() ? "" : "; ") +

@@ -11,7 +11,7 @@ namespace kurbel {
 
 struct ComparisonRow {
   std::string name, unit;
-  std::optional<double> a, a_error, b, b_error;
+  std::optional<Estimate> a, b;
   double difference = 0;        // b − a
   std::optional<double> ratio;  // b/a
   QuantityKind what = QuantityKind::other;

@@ -372,14 +372,9 @@ std::map<std::string, ComponentState> final_state(const Model& model, const std:
   if (last_state.empty()) return states;
   const Figure* f = last_state.data();
   for (const std::string& component : model.network.components) {
-    ComponentState state{f[0].value, f[1].value, {}, {}};
-    state.angle_error = f[0].error, state.speed_error = f[1].error;
+    ComponentState& state = states[component] = {f[0], f[1]};
     const Network::Ports& ports = model.network.ports.at(component);
-    if (ports.out != ports.in) {
-      state.angle_out = f[2].value, state.speed_out = f[3].value;
-      state.angle_out_error = f[2].error, state.speed_out_error = f[3].error;
-    }
-    states[component] = state;
+    if (ports.out != ports.in) state.angle_out = f[2], state.speed_out = f[3];
     f += 4;
   }
   return states;

@@ -218,7 +218,7 @@ class MultibodySimulation {
     add(QuantityKind::final_speed, b.omega, a.omega, "rad/s", model_->speed_scale);
     result_.errors_measured = result_.confirmation_asked = options_.measure_error;
     result_.accuracy_confirmed = options_.measure_error && result_.measured_accuracy <= result_.accuracy;
-    result_.final_state[crank_.name] = {b.phi - crank_.phase, b.omega, {}, {}};
+    result_.final_state[crank_.name] = {{b.phi - crank_.phase}, {b.omega}};
     result_.energy.kinetic_start = fine_.samples.front().kinetic_energy;
     result_.energy.kinetic_end = b.kinetic_energy;
     if (options_.traces) result_.traces = traces_of(*model_, crank_, fine_);

@@ -23,9 +23,9 @@ namespace {
 // --- tables ---
 
 std::string time_of(const Result& r, std::size_t event) {
-  if (r.event_errors.empty()) return with_error(r.events[event].t, {}, "");
+  if (r.event_errors.empty()) return with_error({r.events[event].t}, "");
   const std::optional<double>& error = r.event_errors[event];
-  return with_error(r.events[event].t, error, "") + (error ? "" : " (in the finer run only)");
+  return with_error({r.events[event].t, error}, "") + (error ? "" : " (in the finer run only)");
 }
 
 Rows events_table(const Result& r) {
@@ -133,13 +133,11 @@ Record figure_record(const Figure& f) {
 }
 
 Record state_record(const ComponentState& s) {
-  Record r = {{"angle", s.angle}, {"speed", s.speed}, {"angle_error", s.angle_error}, {"speed_error", s.speed_error}};
-  if (s.angle_out)
-    for (Field& field : Record{{"angle_out", *s.angle_out},
-                               {"speed_out", *s.speed_out},
-                               {"angle_out_error", s.angle_out_error},
-                               {"speed_out_error", s.speed_out_error}})
-      r.push_back(std::move(field));
+  Record r;
+  tell_estimate(r, "angle", s.angle);
+  tell_estimate(r, "speed", s.speed);
+  if (s.angle_out) tell_estimate(r, "angle_out", *s.angle_out);
+  if (s.speed_out) tell_estimate(r, "speed_out", *s.speed_out);
   return r;
 }
 
@@ -298,7 +296,7 @@ void show_works_of_periods(Findings& f, Chapter in, const Result& r) {
       constexpr std::array kinds = {"driving", "useful", "harmful", "weight", "energy"};
       const Figure* figure = r.find(words + "." + kinds[i]);
       if (!figure) return;
-      line.push_back(figure_text(figure->value, figure->error).value);
+      line.push_back(figure_text(*figure).value);
       (i < told.work.size() ? told.work[i] : told.energy) = figure->value;
     }
     line.push_back(fmt::format("{:.1e}", told.residual()));

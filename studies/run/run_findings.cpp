@@ -35,7 +35,7 @@ Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_termi
   using F = const Figure&;
   std::erase_if(figures, [&](F f) { return !is_told(f, r); });
   const SpeedUnit speed = speed_unit_of(r);
-  const auto cells = [&](F f) { return figure_cells(f.value, f.error, f.unit, speed); };
+  const auto cells = [&](F f) { return figure_cells(f, f.unit, speed); };
   auto table = table_of("", fmt::format("All figures, {} model, with their measured errors (theory 15.1)", r.label),
                         std::move(figures))
                    .always()
@@ -47,8 +47,9 @@ Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_termi
                    .only_for_people("unit", [&](F f) { return cells(f).unit; });
   // The page's heading names the unit of the time.
   if (on_terminal) return table.not_on_page().only_for_people("at", at_time);
-  return table.not_on_terminal().only_for_people(
-      "at [s]", [](F f) { return f.at ? with_error(*f.at, f.at_error, "") : std::string(); });
+  return table.not_on_terminal().only_for_people("at [s]", [](F f) {
+    return f.at ? with_error({*f.at, f.at_error}, "") : std::string();
+  });
 }
 
 Rows figures_table(const Result& r, bool on_terminal) { return rows_of_figures(r, r.figures, on_terminal); }
@@ -56,30 +57,26 @@ Rows figures_table(const Result& r, bool on_terminal) { return rows_of_figures(r
 // --- two models ---
 
 // A row's figure of one model, as people read it.
-FigureCells cells_of(const std::optional<double>& value, const std::optional<double>& error, const std::string& unit,
-                     const SpeedUnit& speed) {
-  if (value) return figure_cells(*value, error, unit, speed);
+FigureCells cells_of(const std::optional<Estimate>& figure, const std::string& unit, const SpeedUnit& speed) {
+  if (figure) return figure_cells(*figure, unit, speed);
   return {"—", "", unit == "rad/s" ? speed.name : pretty_unit(unit)};
 }
 
 Rows comparison_table(const Comparison& c) {
   using R = const ComparisonRow&;
   const SpeedUnit speed = speed_unit_of(c.b);
-  const auto in_a = [&](R row) { return cells_of(row.a, row.a_error, row.unit, speed); };
-  const auto in_b = [&](R row) { return cells_of(row.b, row.b_error, row.unit, speed); };
+  const auto in_a = [&](R row) { return cells_of(row.a, row.unit, speed); };
+  const auto in_b = [&](R row) { return cells_of(row.b, row.unit, speed); };
   auto table = table_of("comparison", "Every figure of both models", c.rows).always().not_on_terminal();
   table.explained_by(&ComparisonRow::name);
   table.column("name", "figure", &ComparisonRow::name);
-  table.only_for_programs(c.a.label, &ComparisonRow::a)
-      .only_for_programs(c.a.label + "_error", &ComparisonRow::a_error)
-      .only_for_programs(c.b.label, &ComparisonRow::b)
-      .only_for_programs(c.b.label + "_error", &ComparisonRow::b_error);
+  table.estimate_for_programs(c.a.label, &ComparisonRow::a).estimate_for_programs(c.b.label, &ComparisonRow::b);
   table.only_for_people(c.a.label, [&](R row) { return in_a(row).value; })
       .only_for_people("error", [&](R row) { return in_a(row).error; })
       .only_for_people(c.b.label, [&](R row) { return in_b(row).value; })
       .only_for_people("error", [&](R row) { return in_b(row).error; })
       .column("unit", "unit", &ComparisonRow::unit,
-              [&](const std::string& unit) { return cells_of({}, {}, unit, speed).unit; })
+              [&](const std::string& unit) { return cells_of({}, unit, speed).unit; })
       .only_for_programs("difference", &ComparisonRow::difference);
   return table.column("ratio", c.b.label + "/" + c.a.label, &ComparisonRow::ratio,
                       ReadAs{.digits = 4, .otherwise = ""});
@@ -89,7 +86,7 @@ Rows comparison_table(const Comparison& c) {
 Rows with_amplification(const Comparison& c, const Rows& figures) {
   Lines lines = figures.texts();
   for (const ComparisonRow& row : c.amplification) {
-    const FigureCells factor = cells_of(row.b, row.b_error, "", {});
+    const FigureCells factor = cells_of(row.b, "", {});
     lines.push_back({row.name, "1", "", factor.value, factor.error, "", ""});
   }
   Rows table = words_table("", figures.headings(), lines);
@@ -102,12 +99,11 @@ void show_amplification(Findings& f, Chapter in, const Comparison& c) {
     const std::string& joint = row.of;
     const Figure *a = c.a.find(QuantityKind::peak_torque, joint), *b = c.b.find(QuantityKind::peak_torque, joint);
     if (!a || !b || !row.b) continue;
-    f.show(in, FormulaCard{
-                   .title = fmt::format("Torque amplification in {} (theory 14.2)", joint),
-                   .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
-                   .numbers = fmt::format("K = |{}| / |{}| = {}", figure_text(b->value, b->error).value,
-                                          figure_text(a->value, a->error).value, with_error(*row.b, row.b_error, "")),
-                   .note = "Largest transmitted torques, each at its own time."});
+    f.show(in, FormulaCard{.title = fmt::format("Torque amplification in {} (theory 14.2)", joint),
+                           .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
+                           .numbers = fmt::format("K = |{}| / |{}| = {}", figure_text(*b).value, figure_text(*a).value,
+                                                  with_error(*row.b, "")),
+                           .note = "Largest transmitted torques, each at its own time."});
   }
 }
 
@@ -193,10 +189,8 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
     std::string note;
     if (other) {
       const double factor = other->unit == "rad/s" ? speed.of(1) : 1;
-      note = fmt::format(
-          "{}: {}{}", c.a.label,
-          with_error(factor * other->value, other->error ? std::optional(factor * *other->error) : std::nullopt, ""),
-          other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "");
+      note = fmt::format("{}: {}{}", c.a.label, with_error(factor * *other, ""),
+                         other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "");
     }
     figures.push_back(key_of(*figure, note, speed));
   };
@@ -285,7 +279,7 @@ Findings findings_of(const Comparison& c) {
   f.say(figures, table);
   f.say(figures, with_amplification(c, table));
   f.tell("amplification", each(c.amplification, [](const ComparisonRow& row) {
-           return Record{{"name", row.name}, {"value", row.b}, {"unit", ""}, {"error", row.b_error}};
+           return Record{{"name", row.name}, {"value", row.b->value}, {"unit", ""}, {"error", row.b->error}};
          }));
   show_ratings(f, figures, c.b);
   show_amplification(f, figures, c);

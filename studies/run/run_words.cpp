@@ -17,7 +17,7 @@ namespace {
 std::string time_text(const Result& r, double t) {
   for (const Figure& f : r.figures)
     if (f.at && *f.at == t && (f.name == "run_up_time" || f.name == "run_down_time"))
-      return with_error(t, f.error, "s");
+      return with_error({t, f.error}, "s");
   return with_unit(t, "s", 6);
 }
 
@@ -58,13 +58,13 @@ std::string in_words(const Figure& f) {
   return f.of.empty() ? words : words + ", " + f.of;
 }
 
-std::string sure(const Figure& f) { return with_error(f.value, f.error, f.unit); }
+std::string sure(const Figure& f) { return with_error(f, f.unit); }
 std::string sure(const Figure& f, const SpeedUnit& speed) {
   if (f.unit != "rad/s") return sure(f);
-  return with_error(speed.of(f.value), f.error ? std::optional(speed.of(*f.error)) : std::nullopt, speed.name);
+  return with_error(f / speed.size, speed.name);
 }
 SpeedUnit speed_unit_of(const Result& r) { return r.model ? r.model->scene.speed_unit : SpeedUnit{}; }
-std::string at_time(const Figure& f) { return f.at ? "at " + with_error(*f.at, f.at_error, "s") : ""; }
+std::string at_time(const Figure& f) { return f.at ? "at " + with_error({*f.at, f.at_error}, "s") : ""; }
 
 const Figure* largest_peak(const Result& r) {
   const Figure* peak = nullptr;

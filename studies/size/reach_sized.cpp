@@ -52,8 +52,8 @@ class Reach {
     if (!regime.found && s_.flywheel_now > 0)  // a shaft between couplings needs some inertia
       regime = regimes_.at(s_.flywheel_now, effects, {}, options_.simulation.measure_error);
     constexpr double missed = 0.01;
-    if (!regime.found || regime.crank <= s_.delta * (1 + missed)) return;
-    s_.reached.push_back(told(regime, as, SizedBy::constant_drive, "no flywheel"));
+    if (!regime.found || regime.crank.value <= s_.delta * (1 + missed)) return;
+    s_.reached.push_back({regime, as, SizedBy::constant_drive, "no flywheel"});
     note(regime, as);
     meet(as, regime, effects);
     s_.needed = true;
@@ -79,7 +79,7 @@ class Reach {
     if (cycle) {
       DeltaReached exact;
       exact.by = by, exact.sized_by = sized_by, exact.flywheel = flywheel;
-      exact.crank = exact.motor = cycle->delta();
+      exact.crank.value = exact.motor.value = cycle->delta();
       exact.mid_speed = cycle->mid_speed();
       for (int k = 0; k <= 720; ++k) {
         exact.phi.push_back(cycle->speed.length() * k / 720);
@@ -108,10 +108,10 @@ class Reach {
       }
       return;
     }
-    s_.reached.push_back(told(regime, as, by, sized_by));
+    s_.reached.push_back({regime, as, by, sized_by});
     note(regime, as);
     const bool last = as == SizedModel::elastic || !is_elastic(*compile_at(scene_, scene_.effects, options_.at));
-    const double off = regime.crank / s_.delta - 1;
+    const double off = regime.crank.value / s_.delta - 1;
     constexpr double missed = 0.01, far_smoother = -0.5;
     const bool heavier = off > missed;
     const bool lighter = s_.basis == SizeBasis::regime && off < -missed && off > far_smoother;
@@ -127,21 +127,12 @@ class Reach {
         s_.notes.push_back(which + what);
     }
   }
-  static DeltaReached told(const SizedRegime& regime, SizedModel as, SizedBy by, const std::string& sized_by) {
-    DeltaReached r;
-    r.model = as, r.by = by, r.sized_by = sized_by, r.flywheel = regime.flywheel;
-    r.crank = regime.crank, r.motor = regime.motor;
-    r.crank_error = regime.crank_error, r.motor_error = regime.motor_error;
-    r.mid_speed = regime.mid_speed, r.cycles = regime.cycles;
-    r.phi = regime.phi, r.speed = regime.speed, r.motor_speed = regime.motor_speed;
-    return r;
-  }
 
   // The flywheel with which the machine as it is has the demanded δ.
   void meet(SizedModel as, const SizedRegime& first, const Effects& effects) {
     const SizedRegimes::Meeting found = regimes_.meeting(s_.delta, first, others_, effects);
     const char* which = as == SizedModel::elastic ? "elastic" : "rigid";
-    if (!found.regime && first.crank <= s_.delta) return;  // it is smooth enough as it is
+    if (!found.regime && first.crank.value <= s_.delta) return;  // it is smooth enough as it is
     if (!found.regime) {
       s_.meeting_words = fmt::format(
           "no flywheel was found with which the {} machine has δ = {:g}: the least of {} regimes is {:.5g}, with "
@@ -151,17 +142,15 @@ class Reach {
       return;
     }
     const double on_shaft = found.regime->flywheel + others_;
-    s_.meeting = SizeMethod{fmt::format("regime, {}", which),
-                            on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
-                            found.regime->flywheel,
-                            flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
-                            found.regime->crank,
-                            found.error};
+    s_.meeting =
+        SizeMethod{fmt::format("regime, {}", which), on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
+                   found.regime->flywheel,           flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
+                   found.regime->crank.value,        found.error};
     s_.meeting_words =
         fmt::format("a flywheel of {:.6g} kg·m² meets δ = {:g} with {} ({}{})", found.regime->flywheel, s_.delta,
                     effects.describe() == scene_.effects.describe() ? "the scene's effects" : "all of its elasticity",
                     which, effects.describe() == "none" ? std::string() : ": " + effects.describe());
-    s_.reached.push_back(told(*found.regime, as, SizedBy::regime, s_.meeting->name));
+    s_.reached.push_back({*found.regime, as, SizedBy::regime, s_.meeting->name});
   }
 
   Sizing& s_;
@@ -201,13 +190,13 @@ void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
   } else if (!what.empty()) {
     s.notes.push_back(
         fmt::format("classical: {} left out{}", what, beyond.size() == 1 ? " is" : " are") +
-        (rigid ? fmt::format("; with it the sized machine has δ = {:.5g} instead of {:g}", rigid->crank, s.delta)
+        (rigid ? fmt::format("; with it the sized machine has δ = {:.5g} instead of {:g}", rigid->crank.value, s.delta)
                : std::string()));
   }
   if (rigid && elastic && s.basis == SizeBasis::classical)
     s.notes.push_back(
         fmt::format("the work equation leaves out elasticity: with it δ is {:.5g} instead of {:.5g} ({:+.3g} %)",
-                    elastic->crank, rigid->crank, 100 * (elastic->crank / rigid->crank - 1)));
+                    elastic->crank.value, rigid->crank.value, 100 * (elastic->crank.value / rigid->crank.value - 1)));
 }
 
 }  // namespace kurbel

@@ -339,13 +339,11 @@ class Sizer {
     const double other[] = {wittenbauer(looser, mechanism, speed, s_.delta).inertia,
                             mertsalov(looser, mechanism, speed, s_.delta).inertia,
                             inertia_by_fluctuation(looser.fluctuation(), speed, s_.delta)};
-    const double rounding = 1e-12;
+    const auto error = [](double a, double b, double size) { return *estimate_from(a, b, 1e-12 * size).error; };
     for (std::size_t k = 0; k < std::size(other); ++k)
-      s_.methods[k].error =
-          (std::abs(other[k] - s_.methods[k].drive_inertia) + rounding * std::abs(s_.methods[k].drive_inertia)) /
-          square(s_.flywheel_ratio);
-    s_.fluctuation_error =
-        std::abs(looser.fluctuation() - s_.diagram.fluctuation()) + rounding * s_.diagram.load_work.largest();
+      s_.methods[k].error = error(s_.methods[k].drive_inertia, other[k], std::abs(s_.methods[k].drive_inertia)) /
+                            square(s_.flywheel_ratio);
+    s_.fluctuation_error = error(s_.diagram.fluctuation(), looser.fluctuation(), s_.diagram.load_work.largest());
   }
 
   SteadyRigidCycle steady(double drive_inertia) {
@@ -417,7 +415,8 @@ class Sizer {
     try {
       s_.dimensions = flywheel_dimensions(request);
       request.inertia += s_.chosen().error.value_or(0);
-      s_.mass_error = std::abs(flywheel_dimensions(request).mass - s_.dimensions->mass) + 1e-12 * s_.dimensions->mass;
+      const double mass = s_.dimensions->mass;
+      if (!s_.estimate) s_.mass_error = estimate_from(mass, flywheel_dimensions(request).mass, 1e-12 * mass).error;
     } catch (const std::invalid_argument& error) {
       if (options_.diameter > 0) throw;
       s_.dimensions_why = error.what();

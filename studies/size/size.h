@@ -57,17 +57,10 @@ constexpr const char* name_of(SizedModel model) {
 enum class SizedBy { constant_drive, slope, regime };
 
 // The sized machine with its real motor, in steady motion.
-struct DeltaReached {
+struct DeltaReached : SizedRound {
   SizedModel model = SizedModel::work_equation;
   SizedBy by = SizedBy::constant_drive;
-  std::string sized_by;         // that method's name
-  double flywheel = 0;          // [kg·m²]
-  double crank = 0, motor = 0;  // δ
-  std::optional<double> crank_error, motor_error;
-  double mid_speed = 0;                         // of the link [rad/s]
-  bool settled = true;                          // a regime is nothing else
-  int cycles = 0;                               // that the search for it cost
-  std::vector<double> phi, speed, motor_speed;  // a cycle [rad], [rad/s]; motor reduced to the link
+  std::string sized_by;  // that method's name
 };
 
 struct Sizing {
@@ -81,10 +74,10 @@ struct Sizing {
 
   MachineCycle cycle;
   WorkDiagram diagram;
-  double fluctuation_error = 0;  // [J]
-  bool held = false;             // its mid speed, by a torque added to the drive: its own start leads to no cycle
-  bool estimate = false;         // what the rigid machine at constant speed leaves out is not counted: no error is told
-  bool engine = false;           // the drive varies with the angle, the load is made to balance it
+  std::optional<double> fluctuation_error;  // of the diagram's [J]
+  bool held = false;      // its mid speed, by a torque added to the drive: its own start leads to no cycle
+  bool estimate = false;  // what the rigid machine at constant speed leaves out is not counted: no error is told
+  bool engine = false;    // the drive varies with the angle, the load is made to balance it
   Wittenbauer exact;
   Mertsalov approximate;
   std::vector<SizeMethod> methods;  // Wittenbauer, Mertsalov, without I_em
@@ -115,7 +108,7 @@ struct Sizing {
   const SizeMethod& chosen() const { return meeting ? *meeting : methods.front(); }
 
   std::optional<FlywheelDimensions> dimensions;  // of the chosen one
-  double mass_error = 0;                         // [kg]
+  std::optional<double> mass_error;              // of these [kg]
   std::string dimensions_why;
   std::optional<PunchPress> punch;  // loads that act for a part of the cycle only
   std::vector<DeltaReached> reached;

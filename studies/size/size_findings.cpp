@@ -29,7 +29,7 @@ std::string conclusion_of(const Sizing& s) {
     return fmt::format(
         "{}: by the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
         "{:.5g}; {}",
-        s.title, s.delta, s.reached.front().crank, s.meeting_words);
+        s.title, s.delta, s.reached.front().crank.value, s.meeting_words);
   if (!s.needed)
     return fmt::format(
         "{}: {}no flywheel is needed for δ = {:g}: without any, δ is smaller already; {}", s.title,
@@ -50,10 +50,10 @@ std::string conclusion_of(const Sizing& s) {
                                  : fmt::format("; with {} counted none is needed", slope_of_what(s));
   }
   if (const DeltaReached* rigid = reached(s, SizedModel::rigid))
-    text += fmt::format("; simulated rigid it reaches {:.5g}", rigid->crank);
+    text += fmt::format("; simulated rigid it reaches {:.5g}", rigid->crank.value);
   if (const DeltaReached* elastic = reached(s, SizedModel::elastic))
-    text += fmt::format(", elastic {:.5g} at the crank{}", elastic->crank,
-                        s.motor.empty() ? "" : fmt::format(" and {:.5g} at the motor", elastic->motor));
+    text += fmt::format(", elastic {:.5g} at the crank{}", elastic->crank.value,
+                        s.motor.empty() ? "" : fmt::format(" and {:.5g} at the motor", elastic->motor.value));
   if (!s.meeting_words.empty()) text += "; " + s.meeting_words;
   return text;
 }
@@ -96,25 +96,22 @@ Rows methods_table(const Sizing& s) {
 }
 
 Rows reached_table(const Sizing& s) {
-  const auto at_motor = [&](const DeltaReached& r) { return figure_text(r.motor, r.motor_error); };
+  const auto at_motor = [&](const DeltaReached& r) { return figure_text(r.motor); };
   return table_of("reached", fmt::format("δ reached against δ = {:g} demanded", s.delta), s.reached)
       .text_in(2)
       .column("model", "model", [](const DeltaReached& r) { return name_of(r.model); })
       .column("sized_by", "flywheel sized by", &DeltaReached::sized_by)
       .column("flywheel", "flywheel [kg·m²]", &DeltaReached::flywheel)
-      .only_for_programs("delta_crank", &DeltaReached::crank)
-      .only_for_programs("delta_crank_error", &DeltaReached::crank_error)
-      .only_for_people("δ at the crank",
-                       [](const DeltaReached& r) { return figure_text(r.crank, r.crank_error).value; })
-      .only_for_people("error", [](const DeltaReached& r) { return figure_text(r.crank, r.crank_error).error; })
-      .only_for_programs("delta_motor", &DeltaReached::motor)
-      .only_for_programs("delta_motor_error", &DeltaReached::motor_error)
+      .estimate_for_programs("delta_crank", &DeltaReached::crank)
+      .only_for_people("δ at the crank", [](const DeltaReached& r) { return figure_text(r.crank).value; })
+      .only_for_people("error", [](const DeltaReached& r) { return figure_text(r.crank).error; })
+      .estimate_for_programs("delta_motor", &DeltaReached::motor)
       .only_for_people("δ at the motor",
                        [&](const DeltaReached& r) { return s.motor.empty() ? "—" : at_motor(r).value; })
       .only_for_people("error", [&](const DeltaReached& r) { return s.motor.empty() ? "" : at_motor(r).error; })
       .column("mid_speed", fmt::format("mid speed [{}]", s.speed_unit.name), &DeltaReached::mid_speed,
               {.factor = s.speed_unit.of(1)})
-      .only_for_programs("settled", &DeltaReached::settled)
+      .only_for_programs("settled", [](const DeltaReached&) { return true; })  // a regime is nothing else
       .only_for_programs("cycles", &DeltaReached::cycles)
       .only_for_people("cycles", [](const DeltaReached& r) {
         return r.cycles ? fmt::format("{}", r.cycles) : std::string("exact");
@@ -319,17 +316,17 @@ void add_key_figures(Findings& f, const Sizing& s) {
         {"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", s.soft->error, "", 0, "flywheel_with_slope"});
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
-      f.figures.push_back(
-          {fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "", r.crank_error, "", 0, "delta_reached"});
+      f.figures.push_back({fmt::format("δ at the crank, {}", name_of(r.model)), r.crank.value, "", r.crank.error, "", 0,
+                           "delta_reached"});
       if (r.model == SizedModel::elastic && !s.motor.empty())
-        f.figures.push_back(
-            {fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "", r.motor_error, "", 0, "delta_reached"});
+        f.figures.push_back({fmt::format("δ at the motor, {}", name_of(r.model)), r.motor.value, "", r.motor.error, "",
+                             0, "delta_reached"});
     }
-  f.figures.push_back({"fluctuation of energy", s.diagram.fluctuation(), "J",
-                       s.estimate ? std::nullopt : std::optional(s.fluctuation_error), "", 0, "fluctuation_of_energy"});
+  f.figures.push_back(
+      {"fluctuation of energy", s.diagram.fluctuation(), "J", s.fluctuation_error, "", 0, "fluctuation_of_energy"});
   if (s.dimensions)
-    f.figures.push_back({"mass", s.dimensions->mass, "kg", s.estimate ? std::nullopt : std::optional(s.mass_error),
-                         s.dimensions->material.name, 0, "flywheel_mass"});
+    f.figures.push_back(
+        {"mass", s.dimensions->mass, "kg", s.mass_error, s.dimensions->material.name, 0, "flywheel_mass"});
 }
 
 void show_all(Findings& f, Chapter in, const std::vector<FormulaCard>& formulas) {
@@ -351,14 +348,14 @@ void add_answers(Findings& f, const Sizing& s) {
   const DeltaReached* real = reached(s, SizedModel::elastic);
   if (!real) real = reached(s, SizedModel::rigid);
   constexpr double visible = 1.02;
-  if (s.needed && real && real->crank - real->crank_error.value_or(0) > visible * s.delta)
+  if (s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta)
     f.answer(
         Question::bears,
         fmt::format("{}{:.6g} kg·m², by the work equation, do not keep δ = {:g}: simulated it is {:.4g} at the crank, "
                     "{:.3g} times that",
                     s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",
-                    exact_method(s).flywheel, s.delta, real->crank, real->crank / s.delta),
-        real->crank / s.delta);
+                    exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),
+        real->crank.value / s.delta);
 }
 
 }  // namespace

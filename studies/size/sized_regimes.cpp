@@ -34,8 +34,8 @@ double delta_of(const Piecewise& speed) {
 
 void fill(SizedRegime& r, const RegimeCycle& c, double motor_ratio) {
   r.found = true;
-  r.crank = c.delta();
-  r.motor = delta_of(c.others.front());
+  r.crank.value = c.delta();
+  r.motor.value = delta_of(c.others.front());
   r.mid_speed = c.sense * c.mid_speed();
   r.start_speed = c.sense * c.speed.value(0);
   for (int k = 0; k <= curve_points; ++k) {
@@ -120,8 +120,11 @@ SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optio
     if (!with_error) return r;
     if (const auto looser = looser_regime_cycle(regime, {motor})) {
       const double left = regime.point.still_to_come();  // what the run has still to settle
-      r.crank_error = std::abs(looser->delta() - r.crank) + least_error * r.crank + left;
-      r.motor_error = std::abs(delta_of(looser->others.front()) - r.motor) + least_error * r.motor + left;
+      for (const auto& [delta, other] :
+           {std::pair{&r.crank, looser->delta()}, std::pair{&r.motor, delta_of(looser->others.front())}}) {
+        *delta = estimate_from(delta->value, other, least_error * delta->value);
+        delta->widen(left);
+      }
     }
   } catch (const SceneError& error) {
     r.why = error.what();
@@ -134,10 +137,10 @@ SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optio
 SizedRegimes::Meeting SizedRegimes::meeting(double delta, const SizedRegime& first, double others,
                                             const Effects& effects) const {
   Meeting m;
-  m.least = first.crank, m.least_at = first.flywheel;
+  m.least = first.crank.value, m.least_at = first.flywheel;
   constexpr double flattest = -0.05, furthest = 1.5;
   // u = ln I, v = ln δ/δ_demanded, which falls as −u where the flywheel carries the whole machine.
-  double u = std::log(std::max(first.flywheel + others, 1e-300)), v = std::log(first.crank / delta), slope = -1;
+  double u = std::log(std::max(first.flywheel + others, 1e-300)), v = std::log(first.crank.value / delta), slope = -1;
   double heavy_enough = HUGE_VAL, too_light = -HUGE_VAL;
   (v > 0 ? too_light : heavy_enough) = u;
   SizedRegime last = first;
@@ -156,17 +159,17 @@ SizedRegimes::Meeting SizedRegimes::meeting(double delta, const SizedRegime& fir
       ++in_vain;
       continue;
     }
-    const double now = std::log(r.crank / delta);
+    const double now = std::log(r.crank.value / delta);
     const bool heavier_in_vain = next > u && now > v - 1e-3 * (next - u);
     in_vain = heavier_in_vain ? in_vain + 1 : 0;
     if (next != u) slope = std::min((now - v) / (next - u), flattest);
     u = next, v = now, last = std::move(r);
-    if (last.crank < m.least) m.least = last.crank, m.least_at = last.flywheel;
-    if (std::abs(last.crank / delta - 1) <= met) {
+    if (last.crank.value < m.least) m.least = last.crank.value, m.least_at = last.flywheel;
+    if (std::abs(last.crank.value / delta - 1) <= met) {
       m.regime = at(last.flywheel, effects, last.start_speed, true);
       ++m.regimes;
       m.error = (last.flywheel + others) *
-                (std::abs(m.regime->crank / delta - 1) + m.regime->crank_error.value_or(0) / delta) / -slope;
+                (std::abs(m.regime->crank.value / delta - 1) + m.regime->crank.error.value_or(0) / delta) / -slope;
       if (!m.regime->found) m.regime.reset();
       break;
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/analysis/moment.h"
+#include "engine/base/estimate.h"
 #include "engine/scene/scene.h"
 #include "studies/cycle/regime_cycle.h"
 #include "studies/findings/watch.h"
@@ -21,18 +22,21 @@ std::string chosen_flywheel(const Scene& scene, const std::string& named);
 // The scene with another inertia of a flywheel; one that is not there is put on `on`'s shaft.
 Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);
 
-struct SizedRegime {
+// A round of the steady motion with a flywheel.
+struct SizedRound {
+  double flywheel = 0;                          // [kg·m²]
+  Estimate crank, motor;                        // δ of the link and of the motor's shaft, by its own mid speed
+  double mid_speed = 0;                         // of the link [rad/s]
+  int cycles = 0;                               // that the search for it cost
+  std::vector<double> phi, speed, motor_speed;  // [rad], [rad/s]; the motor's reduced to the link
+};
+
+struct SizedRegime : SizedRound {
   bool found = false;
   std::string why;  // in words, unless it was found
   bool interrupted = false;
-  double flywheel = 0;          // [kg·m²]
-  double crank = 0, motor = 0;  // δ of the link and of the motor's shaft, by its own mid speed
-  std::optional<double> crank_error, motor_error;
-  double mid_speed = 0;                         // of the link [rad/s]
-  double start_speed = 0;                       // of the link at its angle 0 [rad/s]
-  std::vector<std::string> notes;               // how far the model holds in this motion
-  int cycles = 0;                               // that the search cost
-  std::vector<double> phi, speed, motor_speed;  // a round [rad], [rad/s]; the motor's reduced to the link
+  double start_speed = 0;          // of the link at its angle 0 [rad/s]
+  std::vector<std::string> notes;  // how far the model holds in this motion
 };
 
 class SizedRegimes {

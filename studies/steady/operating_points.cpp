@@ -135,8 +135,8 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
         "stall: at every speed the loads' mean torque on \"{}\" exceeds the drive's, at the least by {} ({} against {} "
         "at {}); the drive gives at most {} (at {}). A stronger drive, a higher ratio, or a lighter load is needed",
         link, with_unit(-least->net(), "N*m", 4), with_unit(least->load, "N*m", 5), with_unit(least->drive, "N*m", 5),
-        speed_text(speed_unit, least->omega), with_unit(strongest.drive, "N*m", 5),
-        speed_text(speed_unit, strongest.omega));
+        speed_text(speed_unit, least->omega), with_unit(strongest.value, "N*m", 5),
+        speed_text(speed_unit, strongest_at));
   const MeanTorques& last = curve.back();
   if (last.net() > 0)
     return fmt::format(
@@ -153,18 +153,11 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
 
 namespace {
 
-// What twice as many intervals say at the same speeds; a speed is off by the rest of the balance over its slope.
-void measure_errors(MeanCharacteristic& finer, OperatingDiagram& found) {
-  for (OperatingPoint& point : found.points) {
-    const MeanTorques mean = finer.at(point.mean.omega);
-    const double slope = std::abs(point.drive_slope - point.load_slope);
-    const double rounding = 1e-14 * std::abs(point.mean.load);
-    if (slope > 0) point.speed_error = (std::abs(mean.net() - point.mean.net()) + rounding) / slope;
-    point.torque_error =
-        std::abs(mean.load - point.mean.load) + std::abs(point.load_slope) * point.speed_error + rounding;
-  }
-  found.strongest_error = std::abs(finer.at(found.strongest.omega).drive - found.strongest.drive) +
-                          1e-9 * std::abs(found.strongest.drive);  // of the golden section
+// What twice as many intervals say at the same speed; the speed is off by the rest of the balance over its slope.
+void measure_errors(const MeanTorques& here, const MeanTorques& finer, OperatingPoint& point) {
+  const double slope = std::abs(point.drive_slope - point.load_slope), rounding = 1e-14 * std::abs(here.load);
+  point.speed.error = slope > 0 ? (std::abs(finer.net() - here.net()) + rounding) / slope : 0;
+  point.torque.error = std::abs(finer.load - here.load) + std::abs(point.load_slope) * *point.speed.error + rounding;
 }
 
 double error_of(MeanCharacteristic& finer, const MeanTorques& mean) {
@@ -189,19 +182,25 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
   if (!known) {
     result = operating_diagram(machine, direction);
     result.estimate = true;
+    result.strongest.error.reset();
+    for (OperatingPoint& point : result.points) point.speed.error.reset(), point.torque.error.reset();
     return result;
   }
   for (int i = 0; i < most_doublings && result.uses_speed && result.curve.back().net() > 0; ++i) {
     const double from = std::abs(result.curve.back().omega);
     for (int k = 1; k <= 20; ++k) result.curve.push_back(mean.at(from * (1 + k / 20.0)));
   }
-  result.strongest = *std::max_element(result.curve.begin(), result.curve.end(),
-                                       [](const auto& a, const auto& b) { return a.drive < b.drive; });
+  MeanTorques strongest = *std::max_element(result.curve.begin(), result.curve.end(),
+                                            [](const auto& a, const auto& b) { return a.drive < b.drive; });
   // Breakdown between the scanned points: golden section.
-  const double best = std::abs(result.strongest.omega);
+  const double best = std::abs(strongest.omega);
   const Maximum highest =
       find_maximum([&](double w) { return mean.at(w).drive; }, std::max(best - step, 1e-6 * rated), best + step, 40);
-  if (const MeanTorques peak = mean.at(highest.at); peak.drive > result.strongest.drive) result.strongest = peak;
+  if (const MeanTorques peak = mean.at(highest.at); peak.drive > strongest.drive) strongest = peak;
+  constexpr double left_by_golden_section = 1e-9;
+  result.strongest_at = strongest.omega;
+  result.strongest = estimate_from(strongest.drive, finer.at(strongest.omega).drive,
+                                   left_by_golden_section * std::abs(strongest.drive));
   const auto greatest =
       std::max_element(result.curve.begin(), result.curve.end(), [](auto& a, auto& b) { return a.net() < b.net(); });
   const double error = error_of(finer, result.curve.back());
@@ -217,15 +216,16 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
     if (n0 == 0 || (n0 > 0) == (n1 > 0)) continue;
     const double w = find_root([&](double x) { return mean.at(x).net(); }, std::abs(result.curve[i].omega), n0,
                                std::abs(result.curve[i + 1].omega), n1);
-    OperatingPoint point{mean.at(w), 0, 0};
+    const MeanTorques here = mean.at(w);
+    OperatingPoint point{{here.omega}, {here.load}};
     const double h = std::min(1e-5 * rated, 0.1 * w);
     const MeanTorques below = mean.at(w - h), above = mean.at(w + h);
     point.drive_slope = (above.drive - below.drive) / (2 * h);
     point.load_slope = (above.load - below.load) / (2 * h);
+    point.beyond_data = lies_beyond_a_table(machine.model(), here.omega);
+    if (!point.beyond_data) measure_errors(here, finer.at(here.omega), point);
     result.points.push_back(point);
   }
-  measure_errors(finer, result);
-  for (OperatingPoint& point : result.points) point.beyond_data = lies_beyond_a_table(machine.model(), point.mean.omega);
   return result;
 }
 
@@ -277,11 +277,11 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
   };
   SpeedLog log;
   const RunOutcome outcome = integrate(equations, run, {&log});
-  StartRun result{outcome.stopped, outcome.t, 0, std::move(log.t), std::move(log.w), outcome.diagnosis};
+  StartRun result{outcome.stopped, {outcome.t}, std::move(log.t), std::move(log.w), outcome.diagnosis};
   if (result.reached && with_error) {
     run.tolerance *= 100;
     run.from = {0, equations.start(0, settings)};
-    result.error = std::abs(integrate(equations, run, {}).t - result.time) + 1e-12 * result.time;
+    result.time = estimate_from(outcome.t, integrate(equations, run, {}).t, 1e-12 * outcome.t);
   }
   if (result.reached || !result.why.empty()) return result;
   result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
@@ -340,7 +340,7 @@ class RatioTrial {
   double operator()(double ratio) {
     const auto model = compile_network(with(ratio), scene_, effects_);
     const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_, false);
-    const double time = run.reached ? run.time : HUGE_VAL;
+    const double time = run.reached ? run.time.value : HUGE_VAL;
     tried_.emplace_back(ratio, time);
     return time;
   }

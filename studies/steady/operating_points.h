@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "engine/events/equations.h"
 #include "engine/rigid/rigid_machine.h"
 
@@ -52,20 +53,20 @@ class MeanCharacteristic {
   std::vector<double> begin_, width_;  // intervals of the cycle that no edge divides [rad]
 };
 
+// Errors: against twice as many intervals; none beyond the end of a table.
 struct OperatingPoint {
-  MeanTorques mean;
-  double drive_slope = 0, load_slope = 0;    // dM̄/d|ω| [N·m·s/rad]
-  double speed_error = 0, torque_error = 0;  // against twice as many intervals [rad/s], [N·m]
-  bool beyond_data = false;                  // at a speed beyond the end of a table
+  Estimate speed, torque;                  // of the link, with its sign [rad/s]; M̄_c [N·m]
+  double drive_slope = 0, load_slope = 0;  // dM̄/d|ω| [N·m·s/rad]
+  bool beyond_data = false;                // at a speed beyond the end of a table
   bool stable() const { return drive_slope < load_slope; }
 };
 
 struct OperatingDiagram {
   std::vector<MeanTorques> curve;  // over |ω|, ascending
   std::vector<OperatingPoint> points;
-  MeanTorques strongest;       // where the drive's mean torque is greatest (breakdown; of a shunt motor: at standstill)
-  double strongest_error = 0;  // of its torque [N·m]
-  double balance_error = 0;    // of the net torque where the speed does not matter, or where it is greatest [N·m]
+  Estimate strongest;        // the drive's greatest mean torque (breakdown; of a shunt motor: at standstill) [N·m]
+  double strongest_at = 0;   // [rad/s]
+  double balance_error = 0;  // of the net torque where the speed does not matter, or where it is greatest [N·m]
   bool uses_speed = true;
   // Losses or states of the machine are left out: an estimate, which has no error and decides nothing.
   bool estimate = false;
@@ -75,16 +76,10 @@ struct OperatingDiagram {
   // The fastest stable one; null if there is none.
   const OperatingPoint* working_point() const;
   // Greatest over needed mean torque at the working point, 1 = none to spare.
-  double margin(const OperatingPoint& point) const { return strongest.drive / point.mean.load; }
-  double margin_error(const OperatingPoint& point) const {
-    return (strongest_error + std::abs(margin(point)) * point.torque_error) / std::abs(point.mean.load);
-  }
+  Estimate margin(const OperatingPoint& point) const { return strongest / point.torque; }
   // Why there is no working point: stall (and by how much the drive is too weak) or runaway. Empty where there is one, and
   // for an estimate.
   std::string why_none(const std::string& link) const;
-  std::optional<double> told(const OperatingPoint& p, double error) const {
-    return estimate || p.beyond_data ? std::nullopt : std::optional(error);
-  }
 };
 
 // Scans the speeds up to 1.25 × the rated one, and on while the drive is still stronger.
@@ -96,8 +91,7 @@ bool is_switched(const Network& network);
 
 struct StartRun {
   bool reached = false;
-  double time = 0;           // from rest to the target [s]
-  double error = 0;          // against a hundred times looser steps [s]
+  Estimate time;             // from rest to the target; error: against a hundred times looser steps [s]
   std::vector<double> t, w;  // the link's speed on the way [s, rad/s]
   std::string why;           // where it was not reached
 };

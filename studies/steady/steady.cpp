@@ -228,7 +228,7 @@ class Study {
       return fmt::format(
           "stall: in the mean the drive would hold {} ({}), but from the scene's own start {}. More inertia, a faster "
           "start, or a drive with a steeper characteristic is needed",
-          scene_.speed_unit.text(p->mean.omega, 5), with_unit(p->mean.load, "N*m", 4), cycle.why);
+          scene_.speed_unit.text(p->speed.value, 5), with_unit(p->torque.value, "N*m", 4), cycle.why);
     return cycle.why;
   }
   static bool is_interrupted(const SteadyCycle& cycle) {
@@ -263,7 +263,7 @@ class Study {
                                     [&](const Effects& e) { return e.describe() == rigid->effects; });
     effects.locked = true;
     out_.start = start_from_rest(compile(scene_, effects), target, limit, options_.watch.interrupted);
-    const double search_limit = out_.start->reached ? 4 * out_.start->time : limit;
+    const double search_limit = out_.start->reached ? 4 * out_.start->time.value : limit;
     out_.ratios = fastest_ratios(scene_, effects, target, search_limit, options_.watch.interrupted);
   }
 
@@ -279,9 +279,8 @@ class Study {
       const Figure* delta = c.find("delta." + out_.link);
       const char* begin = c.kind == Regime::Kind::equilibrium ? "Equilibrium, " : "Steady cycle, ";
       text += fmt::format("{}{}: mean speed {}{}, {}", text.empty() ? begin : "; ", c.label,
-                          with_error(unit.of(mean->value),
-                                     mean->error ? std::optional(unit.of(*mean->error)) : std::nullopt, unit.name),
-                          delta ? ", δ = " + with_error(delta->value, delta->error, "") : "", c.stability);
+                          with_error(*mean / unit.size, unit.name), delta ? ", δ = " + with_error(*delta, "") : "",
+                          c.stability);
       if (options_.mid_speed)
         text +=
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),

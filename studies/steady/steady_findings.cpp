@@ -46,17 +46,17 @@ Rows figure_table(const SteadyStudy& s) {
   for (const SteadyCycle& c : s.cycles) {
     table.only_for_people(c.label, [&](const std::string& name) {
       const Figure* f = c.find(name);
-      return f ? figure_cells(f->value, f->error, f->unit, speed).value : "—";
+      return f ? figure_cells(*f, f->unit, speed).value : "—";
     });
     table.only_for_people("error", [&](const std::string& name) {
       const Figure* f = c.find(name);
-      return f ? figure_cells(f->value, f->error, f->unit, speed).error : "";
+      return f ? figure_cells(*f, f->unit, speed).error : "";
     });
   }
   return table.only_for_people("unit", [&](const std::string& name) {
     std::string unit;
     for (const SteadyCycle& c : s.cycles)
-      if (const Figure* f = c.find(name)) unit = figure_cells(f->value, f->error, f->unit, speed).unit;
+      if (const Figure* f = c.find(name)) unit = figure_cells(*f, f->unit, speed).unit;
     return unit;
   });
 }
@@ -75,7 +75,10 @@ auto multiplier_table(const SteadyCycle& c) {
       .only_for_programs("real", [&](std::size_t i) { return all[i].real(); })
       .only_for_programs("imaginary", [&](std::size_t i) { return all[i].imag(); })
       .column("magnitude", "magnitude", [&](std::size_t i) { return std::abs(all[i]); })
-      .only_for_people("error", [&, error](std::size_t i) { return error_cell(std::abs(all[i]), error(i)); })
+      .only_for_people("error",
+                       [&, error](std::size_t i) {
+                         return error_cell({std::abs(all[i]), error(i)});
+                       })
       .only_for_programs("error", error)
       .only_for_people("halves in cycles", [&](std::size_t i) {
         const double size = std::abs(all[i]);
@@ -249,12 +252,14 @@ Plot diagram_plot(const SteadyStudy& s) {
                     (d.estimate ? " An estimate: losses by the load, or states of the machine, are left out." : "")};
   const double largest = largest_of(plot);
   for (const bool stable : {true, false}) {
-    std::vector<MeanTorques> points;
+    std::vector<OperatingPoint> points;
     for (const OperatingPoint& p : d.points)
-      if (p.stable() == stable) points.push_back(p.mean);
+      if (p.stable() == stable) points.push_back(p);
     if (!points.empty())
-      plot.series.push_back(marks(series_of(stable ? "stable" : "unstable", stable ? Role::elastic : Role::vermillion,
-                                            points, speed, &MeanTorques::load)));
+      plot.series.push_back(marks(series_of(
+          stable ? "stable" : "unstable", stable ? Role::elastic : Role::vermillion, points,
+          [&d](const OperatingPoint& p) { return d.speed_unit.of(p.speed.value); },
+          [](const OperatingPoint& p) { return p.torque.value; })));
   }
   return in_readable_unit(std::move(plot), "N*m", largest);
 }
@@ -327,8 +332,8 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
   for (const SteadyCycle& c : s.cycles) {
     if (!c.found) continue;
     if (const Figure* mean = c.find("mean_speed." + s.link))
-      f.figures.push_back({"mean speed, " + c.label, unit.of(mean->value), unit.name,
-                           mean->error ? std::optional(unit.of(*mean->error)) : std::nullopt, "", 0, mean->name});
+      f.figures.push_back(
+          {"mean speed, " + c.label, unit.of(mean->value), unit.name, (*mean / unit.size).error, "", 0, mean->name});
     if (const Figure* delta = c.find("delta." + s.link))
       f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error, "", 0, delta->name});
     if (!c.point.multipliers.empty())
@@ -353,8 +358,7 @@ void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
                            .symbols = "δ = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
                            .numbers = fmt::format("δ = ({:.6g} − {:.6g}) {} / {} = {}", unit.of(max->value),
                                                   unit.of(min->value), pretty_unit(unit.name),
-                                                  unit.text(0.5 * (max->value + min->value)),
-                                                  with_error(delta->value, delta->error, "")),
+                                                  unit.text(0.5 * (max->value + min->value)), with_error(*delta, "")),
                            .note = ""});
   }
 }
@@ -370,8 +374,8 @@ void say_operation(Findings& f, Chapter in, const SteadyStudy& s) {
                    : List{});
   if (s.start)
     f.tell("start", Record{{"reached", s.start->reached},
-                           {"time", s.start->reached ? Value(s.start->time) : Value()},
-                           {"error", s.start->reached ? Value(s.start->error) : Value()}});
+                           {"time", s.start->reached ? Value(s.start->time.value) : Value()},
+                           {"error", s.start->time.error}});
   f.tell("fastest_ratios", each(s.ratios, ratio_record));
 }
 

@@ -64,38 +64,34 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   std::vector<std::string> words;
   const OperatingDiagram& d = *s.diagram;
   for (const OperatingPoint& p : d.points)
-    words.push_back(fmt::format(
-        "Operating point {}{} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad", d.estimate ? "about " : "",
-        with_error(d.speed_unit.of(p.mean.omega), d.told(p, d.speed_unit.of(p.speed_error)), d.speed_unit.name),
-        with_error(p.mean.load, d.told(p, p.torque_error), "N*m"), p.stable() ? "stable" : "unstable",
-        beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope)));
-  if (const OperatingPoint* p = d.working_point(); p && d.margin(*p) > 1 + 1e-6)
+    words.push_back(fmt::format("Operating point {}{} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
+                                d.estimate ? "about " : "", with_error(p.speed / d.speed_unit.size, d.speed_unit.name),
+                                with_error(p.torque, "N*m"), p.stable() ? "stable" : "unstable",
+                                beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥",
+                                beside(p.load_slope, p.drive_slope)));
+  if (const OperatingPoint* p = d.working_point(); p && d.margin(*p).value > 1 + 1e-6)
     words.push_back(fmt::format("Margin: the drive gives at most {} in the mean (at {}), {}",
-                                with_unit(d.strongest.drive, "N*m", 5), d.speed_unit.text(d.strongest.omega, 5),
-                                std::isfinite(d.margin(*p))
-                                    ? with_error(d.margin(*p), d.told(*p, d.margin_error(*p)), "") + " times what it needs"
+                                with_unit(d.strongest.value, "N*m", 5), d.speed_unit.text(d.strongest_at, 5),
+                                std::isfinite(d.margin(*p).value)
+                                    ? with_error(d.margin(*p), "") + " times what it needs"
                                     : "and it needs nothing"));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;
 }
 
 Record operating_point(const OperatingDiagram& d, const OperatingPoint& p) {
-  return {{"speed", p.mean.omega},
-          {"torque", p.mean.load},
-          {"drive_slope", p.drive_slope},
-          {"load_slope", p.load_slope},
-          {"stable", p.stable()},
-          {"margin", d.margin(p)},
-          {"speed_error", d.told(p, p.speed_error)},
-          {"torque_error", d.told(p, p.torque_error)},
-          {"margin_error", d.told(p, d.margin_error(p))}};
+  Record r = {{"drive_slope", p.drive_slope}, {"load_slope", p.load_slope}, {"stable", p.stable()}};
+  tell_estimate(r, "speed", p.speed);
+  tell_estimate(r, "torque", p.torque);
+  tell_estimate(r, "margin", d.margin(p));
+  return r;
 }
 
 std::vector<std::string> words_of_start(const SteadyStudy& s) {
   std::vector<std::string> words;
   if (s.start)
     words.push_back(s.start->reached ? fmt::format("Start: from rest to 95 % of the steady speed in {}",
-                                                   with_error(s.start->time, s.start->error, "s"))
+                                                   with_error(s.start->time, "s"))
                                      : "Start: " + s.start->why);
   for (const RatioSearch& r : s.ratios)
     words.push_back(fmt::format(

@@ -26,7 +26,7 @@ std::string words_of(const OffEffect& effect) {
 // About four digits, and none behind the error.
 std::string in_short(double value, double error, const std::string& unit, const SpeedUnit& speed) {
   const double factor = unit == "rad/s" ? speed.of(1) : 1, shown = factor * value;
-  const std::string text = figure_text(shown, std::max(std::abs(factor * error), 1e-3 * std::abs(shown))).value;
+  const std::string text = figure_text({shown, std::max(std::abs(factor * error), 1e-3 * std::abs(shown))}).value;
   const std::string its = unit == "rad/s" ? speed.name : pretty_unit(unit);
   return its.empty() ? text : text + " " + its;
 }

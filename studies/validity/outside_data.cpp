@@ -137,10 +137,10 @@ void tell_outside_data(const DataRangeRecorder& ranges, Result& result) {
   const std::optional<double> since = ranges.since();
   if (!since) return;
   drop_errors(result.figures, *since);
-  for (auto& [name, state] : result.final_state)
-    for (const auto error : {&ComponentState::angle_error, &ComponentState::speed_error,
-                             &ComponentState::angle_out_error, &ComponentState::speed_out_error})
-      (state.*error).reset();
+  for (auto& [name, state] : result.final_state) {
+    state.angle.error.reset(), state.speed.error.reset();
+    if (state.angle_out) state.angle_out->error.reset(), state.speed_out->error.reset();
+  }
   for (std::size_t i = 0; i < std::min(result.event_errors.size(), result.events.size()); ++i)
     if (result.events[i].t > *since) result.event_errors[i].reset();
 }

@@ -222,8 +222,9 @@ class Comparison {
       error += m.error + left_by_runs * m.scale;
     }
     const double allowed = error / std::abs(run_.angle);
-    compare(Topic::mean_torques, "mean drive torque", driving / run_.angle, reduced.mean_drive, allowed, reduced.notes);
-    compare(Topic::mean_torques, "mean load torque", -resisting / run_.angle, reduced.mean_load, allowed,
+    compare(Topic::mean_torques, "mean drive torque", driving / run_.angle, reduced.mean_drive.value, allowed,
+            reduced.notes);
+    compare(Topic::mean_torques, "mean load torque", -resisting / run_.angle, reduced.mean_load.value, allowed,
             reduced.notes);
   }
   // ½ I_r ω² at the run's speeds against the kinetic energy that the run has.
@@ -271,8 +272,8 @@ class Comparison {
     std::vector<std::string> notes = sizing.notes;
     if (!reached) return refuse({Topic::sized_delta}, "the sized machine is not settled: " + run.words);
     compare(Topic::sized_delta, fmt::format("{}, {:.4g} kg*m2", sizing.flywheel, told->flywheel), reached->value,
-            told->crank, reached->error + told->crank_error.value_or(0) + left_by_runs + settled_within * told->crank,
-            notes);
+            told->crank.value,
+            reached->error + told->crank.error.value_or(0) + left_by_runs + settled_within * told->crank.value, notes);
   }
   // Of the scene's effects: the elastic machine where something of it is elastic; by the better of the sizings.
   const DeltaReached* reached_by(const Sizing& sizing) const {

@@ -62,7 +62,7 @@ ToldForces forces_told(const ForceCycle& cycle) {
   const std::size_t high = torque.greatest(), low = torque.least();
   return {torque.values[high],
           torque.values[low],
-          cycle.torque_mean,
+          cycle.torque_mean.value,
           cycle.torque.error.value_or(0),
           std::max(torque.between(high), torque.between(low)),
           cycle.reaction[at(static_cast<int>(Joint::main_bearing))],
@@ -78,7 +78,7 @@ ToldForces forces_told(const LinkageCycle& cycle) {
   return {torque.values[high],
           torque.values[low],
           0,
-          cycle.torque.peak.error.value_or(0),
+          cycle.torque.error.value_or(0),
           std::max(torque.between(high), torque.between(low)),
           {},
           {}};

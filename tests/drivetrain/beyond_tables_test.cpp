@@ -57,7 +57,7 @@ TEST(BeyondTables, AMotorsFallingCurveGoesOnAlongItsLastSlope) {
   const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
   ASSERT_TRUE(study.complete) << study.diagnosis;
   ASSERT_TRUE(study.diagram && study.diagram->working_point());
-  EXPECT_NEAR(study.diagram->working_point()->mean.omega, on_line, 1e-9 * on_line);
+  EXPECT_NEAR(study.diagram->working_point()->speed.value, on_line, 1e-9 * on_line);
   EXPECT_TRUE(study.diagram->working_point()->beyond_data);
   const Figure* mean = study.cycles.front().find("mean_speed." + study.link);
   ASSERT_NE(mean, nullptr);

@@ -209,7 +209,7 @@ std::string judge_run(const std::string& text) {
     if (result.complete)
       if (std::string fault = not_finite_in(result.figures); !fault.empty()) return "complete, but " + fault;
     for (const auto& [name, state] : result.final_state)
-      if (result.complete && !(std::isfinite(state.angle) && std::isfinite(state.speed)))
+      if (result.complete && !(std::isfinite(state.angle.value) && std::isfinite(state.speed.value)))
         return fmt::format("complete, but the final state of {} is not finite", name);
     const StudyOutput output = output_of(result);
     if (result.complete && nlohmann::json::accept(output.json))

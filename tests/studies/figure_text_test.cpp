@@ -10,7 +10,7 @@
 namespace kurbel::figure_text_test {
 namespace {
 
-std::string shown(double value, double error) { return with_error(value, error, ""); }
+std::string shown(double value, double error) { return with_error({value, error}, ""); }
 
 TEST(FigureText, EndsWhereTheErrorBegins) {
   EXPECT_EQ(shown(6257.169983, 5.3e-5), "6257.16998 ± 0.00006");
@@ -21,13 +21,13 @@ TEST(FigureText, EndsWhereTheErrorBegins) {
   EXPECT_EQ(shown(7, 0), "7 ± 0");
   EXPECT_EQ(shown(1e-3, 0.3), "0.0 ± 0.4");
   EXPECT_EQ(shown(1.23456e-7, 3e-11), "1.2346e-07 ± 4e-11");
-  EXPECT_EQ(with_error(724.88551234, 1e-6, "N*m"), "724.885512 ± 2e-06 N·m");
+  EXPECT_EQ(with_error({724.88551234, 1e-6}, "N*m"), "724.885512 ± 2e-06 N·m");
 }
 
 TEST(FigureText, WithoutAnErrorHasSixDigitsAtMostAndSaysSo) {
-  EXPECT_EQ(with_error(724.88551234, {}, "N*m"), "724.886 N·m");
-  EXPECT_EQ(error_cell(724.88551234, {}), "not measured");
-  EXPECT_EQ(error_cell(1, std::numeric_limits<double>::infinity()), "not measured");
+  EXPECT_EQ(with_error({724.88551234}, "N*m"), "724.886 N·m");
+  EXPECT_EQ(error_cell({724.88551234}), "not measured");
+  EXPECT_EQ(error_cell({1, std::numeric_limits<double>::infinity()}), "not measured");
 }
 
 // Of a thousand values and errors over many decades: what is printed covers the true interval, wastes no more than a
@@ -38,7 +38,7 @@ TEST(FigureText, CoversWhatItStandsForAndNoDigitIsBeyondTheError) {
   for (int i = 0; i < 20000; ++i) {
     const double value = (i % 2 ? 1 : -1) * mantissa(random) * std::pow(10, std::floor(decade(random)));
     const double error = std::abs(value) * std::pow(10, relative(random));
-    const FigureText text = figure_text(value, error);
+    const FigureText text = figure_text({value, error});
     ASSERT_TRUE(text.error.starts_with("± ")) << text.error;
     const double printed = std::stod(text.value), printed_error = std::stod(text.error.substr(4 - 1));
     const double round_off = 1e-14 * std::abs(value);

@@ -50,12 +50,13 @@ TEST(ShakingForce, HasTheOrdersOfTheSlidersAcceleration) {
   const double a2 = k + std::pow(k, 3) / 4 + 15 * std::pow(k, 5) / 128 + 35 * std::pow(k, 7) / 512;
   const double a4 = std::pow(k, 3) / 4 + 3 * std::pow(k, 5) / 16 + 35 * std::pow(k, 7) / 256;
   const std::vector<ForceHarmonic>& x = f.prescribed->shaking_x;
-  EXPECT_NEAR(x[0].amplitude, u, 1e-12 * u);
-  EXPECT_NEAR(x[1].amplitude, u * a2, 1e-5 * u);  // the series' next term is 2205 λ⁹/65536 ≈ 2e-6
-  EXPECT_NEAR(x[3].amplitude, u * a4, 2e-5 * u);
-  for (const int odd : {2, 4, 6}) EXPECT_NEAR(x[static_cast<std::size_t>(odd)].amplitude, 0, 1e-11 * u) << odd + 1;
+  EXPECT_NEAR(x[0].amplitude.value, u, 1e-12 * u);
+  EXPECT_NEAR(x[1].amplitude.value, u * a2, 1e-5 * u);  // the series' next term is 2205 λ⁹/65536 ≈ 2e-6
+  EXPECT_NEAR(x[3].amplitude.value, u * a4, 2e-5 * u);
+  for (const int odd : {2, 4, 6})
+    EXPECT_NEAR(x[static_cast<std::size_t>(odd)].amplitude.value, 0, 1e-11 * u) << odd + 1;
   EXPECT_NEAR(x[0].phase, 0, 1e-12);
-  for (const ForceHarmonic& h : f.prescribed->shaking_y) EXPECT_NEAR(h.amplitude, 0, 1e-11 * u);
+  for (const ForceHarmonic& h : f.prescribed->shaking_y) EXPECT_NEAR(h.amplitude.value, 0, 1e-11 * u);
 }
 
 TEST(ShakingForce, ShareOfTheFirstOrderThatIsBalancedAppearsAcross) {
@@ -64,8 +65,8 @@ TEST(ShakingForce, ShareOfTheFirstOrderThatIsBalancedAppearsAcross) {
   ASSERT_EQ(f.counterweights.size(), 4u);
   const Counterweight& half = f.counterweights[2];
   EXPECT_NEAR(half.moment, 0.5 * 2 * 0.1, 1e-14);
-  EXPECT_NEAR(half.first_x, 0.5 * u, 1e-10 * u);
-  EXPECT_NEAR(half.first_y, 0.5 * u, 1e-10 * u);
+  EXPECT_NEAR(half.first_x.value, 0.5 * u, 1e-10 * u);
+  EXPECT_NEAR(half.first_y.value, 0.5 * u, 1e-10 * u);
 }
 
 TEST(ShakingForce, CounterweightOfLeastPeakIsBetterThanItsNeighbours) {
@@ -77,10 +78,10 @@ TEST(ShakingForce, CounterweightOfLeastPeakIsBetterThanItsNeighbours) {
     for (const CyclePosition& p : f.prescribed->positions)
       peak = std::max(peak, std::hypot(p.forces.shaking_force.x - other * best.moment * w2 * std::cos(p.state.phi),
                                        p.forces.shaking_force.y - other * best.moment * w2 * std::sin(p.state.phi)));
-    EXPECT_GT(peak, best.peak_force) << other;
+    EXPECT_GT(peak, best.peak_force.value) << other;
   }
-  EXPECT_LT(best.peak_force, f.counterweights[2].peak_force);
-  EXPECT_LT(best.peak_force, 0.7 * f.counterweights[0].peak_force);
+  EXPECT_LT(best.peak_force.value, f.counterweights[2].peak_force.value);
+  EXPECT_LT(best.peak_force.value, 0.7 * f.counterweights[0].peak_force.value);
 }
 
 // A rotating counterweight leaves nothing of masses that only rotate.
@@ -100,8 +101,8 @@ rod_com = "0 mm"
 start = { speed = "50 rad/s" }
 until = "0.01 s"
 )");
-  EXPECT_NEAR(f.counterweights[0].peak_force, (4 * 0.06 + 1 * 0.1) * 2500, 1e-9);
-  EXPECT_NEAR(f.counterweights[1].peak_force, 0, 1e-9);
+  EXPECT_NEAR(f.counterweights[0].peak_force.value, (4 * 0.06 + 1 * 0.1) * 2500, 1e-9);
+  EXPECT_NEAR(f.counterweights[1].peak_force.value, 0, 1e-9);
 }
 
 // --- second problem ---
@@ -136,7 +137,7 @@ accuracy = 1e-10
     EXPECT_NEAR(p.forces.torque, -0.4 * p.state.alpha, 1e-7 * std::abs(c.torque.value));
     EXPECT_NEAR(0.5 * (0.4 + g.inertia(p.state.phi).value) * p.state.omega * p.state.omega, energy, 1e-8 * energy);
   }
-  EXPECT_NEAR(c.closure, 0, 1e-9);
+  EXPECT_NEAR(c.closure.value, 0, 1e-9);
   EXPECT_LT(c.power_residual, 1e-12);
   ASSERT_TRUE(c.torque.error);
   EXPECT_LT(*c.torque.error, 1e-6 * std::abs(c.torque.value));
@@ -180,9 +181,9 @@ TEST(SimulatedForces, WorkOfTheCycleIsThatOfTheLoads) {
   const SliderCrankGeometry g(f.data);
   const double work = 2 * 500 * (g.x_max() - g.x_min());
   for (const ForceCycle* c : {&*f.prescribed, &*f.simulated}) {
-    EXPECT_NEAR(work_of(*c, "crank.load").work, -work, 1e-9 * work) << c->label;
-    EXPECT_NEAR(work_of(*c, "balancing torque").work, work + c->kinetic_change, 1e-7 * work) << c->label;
-    EXPECT_NEAR(*c->efficiency, 1, 1e-6) << c->label;
+    EXPECT_NEAR(work_of(*c, "crank.load").work.value, -work, 1e-9 * work) << c->label;
+    EXPECT_NEAR(work_of(*c, "balancing torque").work.value, work + c->kinetic_change.value, 1e-7 * work) << c->label;
+    EXPECT_NEAR(c->efficiency->value, 1, 1e-6) << c->label;
     EXPECT_LT(c->power_residual, 1e-12);
   }
 }
@@ -191,9 +192,10 @@ TEST(SimulatedForces, FrictionTakesItsShareOfTheWorkThatGoesIn) {
   const Forces f = forces_of(fmt::format(fmt::runtime(pump), 0, rough, 30));
   ASSERT_TRUE(f.simulated);
   for (const ForceCycle* c : {&*f.prescribed, &*f.simulated}) {
-    EXPECT_NEAR(c->input, c->useful + c->harmful + c->kinetic_change, 1e-7 * c->input) << c->label;
-    EXPECT_GT(c->harmful, 0.02 * c->input);
-    EXPECT_NEAR(*c->efficiency, c->useful / c->input, 1e-15);
+    EXPECT_NEAR(c->input.value, c->useful.value + c->harmful.value + c->kinetic_change.value, 1e-7 * c->input.value)
+        << c->label;
+    EXPECT_GT(c->harmful.value, 0.02 * c->input.value);
+    EXPECT_NEAR(c->efficiency->value, c->useful.value / c->input.value, 1e-15);
     EXPECT_LT(c->friction_residual, 1e-12);
     EXPECT_LT(c->power_residual, 1e-12);
     for (const CyclePosition& p : c->positions)
@@ -236,9 +238,9 @@ accuracy = 1e-9
     // On the scale of what the main bearing bears at the radius: undriven, the simulated crank needs no torque at all.
     EXPECT_NEAR(one->torque.value, -other->torque.value, 1e-7 * 0.1 * one->reaction[0].value) << one->label;
     EXPECT_NEAR(one->reaction[0].value, other->reaction[0].value, 1e-7 * one->reaction[0].value);
-    EXPECT_NEAR(one->mean_speed, -other->mean_speed, 1e-8 * one->mean_speed);
-    EXPECT_NEAR(work_of(*one, "crank.load").work, work_of(*other, "crank.load").work, 1e-7);
-    EXPECT_NEAR(one->closure, other->closure, 1e-7);
+    EXPECT_NEAR(one->mean_speed.value, -other->mean_speed.value, 1e-8 * one->mean_speed.value);
+    EXPECT_NEAR(work_of(*one, "crank.load").work.value, work_of(*other, "crank.load").work.value, 1e-7);
+    EXPECT_NEAR(one->closure.value, other->closure.value, 1e-7);
   }
 }
 

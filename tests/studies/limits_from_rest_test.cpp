@@ -141,13 +141,13 @@ TEST(LimitsFromRest, CouplingIsItselfInTheMachineWithAllItsEffects) {
 TEST(LimitsFromRest, StartFactorCountsOnWhatTheStartAddsAndTemperatureOnAll) {
   DriveLimits limits;
   limits.start_factor = 1.3, limits.temperature_factor = 1.4;
-  const Measured t = start_torque(limits, {-150, 1e-3}, {-60, 0});
-  EXPECT_NEAR(t.value - t.error, 1.4 * (60 + 1.3 * 90) - 1.4 * 1.3e-3, 1e-12);
-  EXPECT_NEAR(t.value + t.error, 1.4 * 1.3 * 150 + 1.4 * 1.3e-3, 1e-12);
+  const Estimate t = start_torque(limits, {-150, 1e-3}, {-60, 0});
+  EXPECT_NEAR(t.value - *t.error, 1.4 * (60 + 1.3 * 90) - 1.4 * 1.3e-3, 1e-12);
+  EXPECT_NEAR(t.value + *t.error, 1.4 * 1.3 * 150 + 1.4 * 1.3e-3, 1e-12);
   // A blow against the mean torque is all of the start's.
-  const Measured back = start_torque(limits, {150, 0}, {-60, 0});
+  const Estimate back = start_torque(limits, {150, 0}, {-60, 0});
   EXPECT_NEAR(back.value, 1.4 * 1.3 * 150, 1e-12);
-  EXPECT_NEAR(back.error, 0, 1e-12);
+  EXPECT_NEAR(*back.error, 0, 1e-12);
 }
 
 // --- resonance ---

@@ -17,7 +17,7 @@ namespace {
 std::vector<Figure> figures(const std::vector<double>& values, double scale = 1) {
   std::vector<Figure> list;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    Figure f{.name = fmt::format("f{}", k), .value = values[k], .unit = "rad", .error = {}, .at = {}};
+    Figure f{{values[k]}, fmt::format("f{}", k), "rad"};
     f.scale = scale;
     list.push_back(f);
   }

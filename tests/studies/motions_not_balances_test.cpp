@@ -137,11 +137,11 @@ run = { start = { speed = "400 rpm" } }
   const OperatingPoint* point = study.diagram->working_point();
   ASSERT_TRUE(point);
   EXPECT_FALSE(study.diagram->estimate);
-  EXPECT_NEAR(point->mean.omega, 500 * rpm, point->speed_error + 1e-9);
-  EXPECT_LT(point->speed_error, 1e-6);
+  EXPECT_NEAR(point->speed.value, 500 * rpm, *point->speed.error + 1e-9);
+  EXPECT_LT(*point->speed.error, 1e-6);
   EXPECT_NEAR(figure_of(study.cycles[0], "mean_speed." + study.link).value, 500 * rpm, 1e-8);
   ASSERT_TRUE(study.start && study.start->reached);
-  EXPECT_NEAR(study.start->time, 0.09 * 1000 * rpm / 60 * std::log(20), study.start->error + 1e-9);
+  EXPECT_NEAR(study.start->time.value, 0.09 * 1000 * rpm / 60 * std::log(20), *study.start->time.error + 1e-9);
 }
 
 // --- 6: edges ---

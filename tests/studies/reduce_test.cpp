@@ -161,7 +161,7 @@ TEST(Reduce, DriveBecomesTheChainThatAnEngineerDrawsByHand) {
   EXPECT_NEAR(r.chain.springs[0].reduced_damping, i2 * 2, 1e-12);
   EXPECT_NEAR(r.chain.springs[1].reduced_stiffness, 900e3, 1e-7);
   // The sum is the rigid machine with the mechanism's mean.
-  EXPECT_NEAR(r.chain.total(), r.spectra[0].harmonics[0].amplitude, 1e-10);
+  EXPECT_NEAR(r.chain.total(), r.spectra[0].harmonics[0].amplitude.value, 1e-10);
   // On the motor's shaft the same frequencies must come out: k/J is the same on every shaft.
   options.to = "motor";
   const Chain fast = reduce(test::scene_from(press_scene), options).chain;
@@ -212,17 +212,19 @@ TEST(Reduce, HarmonicsHoldTheMeanSquare) {
   EXPECT_NEAR(inertia.captured, 1, 1e-14);
   // Parseval for the part that varies, where the mean does not hide it.
   const SliderCrankGeometry geometry = press_geometry();
-  const double mean = inertia.harmonics[0].amplitude;
+  const double mean = inertia.harmonics[0].amplitude.value;
   double square = 0, sum = 0;
   for (int k = 0; k < 4096; ++k)
     square += std::pow(drive_inertia + geometry.inertia(2 * pi * k / 4096).value - mean, 2) / 4096;
-  for (std::size_t n = 1; n < inertia.harmonics.size(); ++n) sum += 0.5 * std::pow(inertia.harmonics[n].amplitude, 2);
+  for (std::size_t n = 1; n < inertia.harmonics.size(); ++n)
+    sum += 0.5 * std::pow(inertia.harmonics[n].amplitude.value, 2);
   EXPECT_NEAR(sum / square, 1, 1e-11);
   // The series is the function.
   for (const double phi : {0.3, 2.0, 5.5}) {
     double value = mean;
     for (std::size_t n = 1; n < inertia.harmonics.size(); ++n)
-      value += inertia.harmonics[n].amplitude * std::cos(static_cast<double>(n) * phi - inertia.harmonics[n].phase);
+      value +=
+          inertia.harmonics[n].amplitude.value * std::cos(static_cast<double>(n) * phi - inertia.harmonics[n].phase);
     EXPECT_NEAR(value, drive_inertia + geometry.inertia(phi).value, 1e-11);
   }
 }
@@ -231,7 +233,7 @@ TEST(Reduce, HarmonicsOfAStepAreThoseOfTheTextbook) {
   const Piecewise step = Piecewise::linear({0, pi, pi, 2 * pi}, {1, 1, -1, -1});
   const Spectrum s = spectrum("step", "", step, 25);
   for (std::size_t n = 1; n <= 25; ++n) {
-    EXPECT_NEAR(s.harmonics[n].amplitude, n % 2 ? 4 / (pi * static_cast<double>(n)) : 0, 1e-13);
+    EXPECT_NEAR(s.harmonics[n].amplitude.value, n % 2 ? 4 / (pi * static_cast<double>(n)) : 0, 1e-13);
     if (n % 2 == 1) {
       EXPECT_NEAR(s.harmonics[n].phase, pi / 2, 1e-12);
     }

@@ -39,8 +39,8 @@ TEST(RegimeCycle, LoadBehindASlippingLimiterIsItsLimit) {
   EXPECT_EQ(r.basis, ReduceBasis::regime);
   const double motor = 34, fan = std::sqrt(9 / 0.05);
   EXPECT_NEAR(r.speed, motor, 1e-9 * motor);
-  EXPECT_NEAR(r.mean_drive, 9, 1e-9);
-  EXPECT_NEAR(r.mean_load, 9, 1e-9);  // of which the limiter takes the slip's share
+  EXPECT_NEAR(r.mean_drive.value, 9, 1e-9);
+  EXPECT_NEAR(r.mean_load.value, 9, 1e-9);  // of which the limiter takes the slip's share
   for (const ReducedPosition& p : r.positions) {
     EXPECT_NEAR(p.inertia, 0.5 + 0.6 * fan * fan / (motor * motor), 1e-9);
     EXPECT_NEAR(p.slope, 0, 1e-9);
@@ -113,11 +113,11 @@ TEST(RegimeCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
     const Sizing s = size_flywheel(scene, options);
     ASSERT_TRUE(s.complete) << name << s.diagnosis;
     ASSERT_TRUE(s.meeting) << name << s.meeting_words;
-    ASSERT_TRUE(s.meeting->error && s.reached.back().crank_error) << name;
+    ASSERT_TRUE(s.meeting->error && s.reached.back().crank.error) << name;
     const Scene sized = with_flywheel(scene, s.flywheel, s.meeting->flywheel, s.link);
     const RegimeCycle c = cycle_of_scene(sized);
     EXPECT_NEAR(c.delta(), 0.012, 2e-5 * 0.012) << name;
-    EXPECT_NEAR(c.delta(), *s.meeting->delta, *s.reached.back().crank_error + 1e-8 * 0.012) << name;
+    EXPECT_NEAR(c.delta(), *s.meeting->delta, *s.reached.back().crank.error + 1e-8 * 0.012) << name;
     // What the work equation leaves out is said with its size.
     EXPECT_NE(s.notes.back().find("leaves out"), std::string::npos) << name << s.notes.back();
   }
@@ -169,7 +169,7 @@ TEST(RegimeCycle, PressWithItsClutchInIsSizedAsItIsThen) {
   reducing.at.after_step = 3;
   const MachineReduction r = reduce(scene, reducing);
   EXPECT_EQ(r.basis, ReduceBasis::regime);
-  EXPECT_NEAR(r.mean_drive, r.mean_load, 1e-6 * r.mean_load);
+  EXPECT_NEAR(r.mean_drive.value, r.mean_load.value, 1e-6 * r.mean_load.value);
 }
 
 TEST(RegimeCycle, RefusalsAreOfPhysics) {

@@ -71,8 +71,8 @@ TEST(Size, ConstantDriveTorqueGivesTheDemandedDeltaInSimulation) {
   const Sizing s = size_flywheel(test::scene_from(press(fmt::format(fmt::runtime(source), torque))), options);
   EXPECT_NEAR(*s.methods[0].delta, 0.06, 1e-12);
   const DeltaReached& rigid = reached(s, "rigid, simulated", "Wittenbauer");
-  EXPECT_NEAR(rigid.crank, 0.06, 1e-7);
-  EXPECT_NEAR(rigid.crank, 0.06, 3 * *rigid.crank_error + 1e-9);
+  EXPECT_NEAR(rigid.crank.value, 0.06, 1e-7);
+  EXPECT_NEAR(rigid.crank.value, 0.06, 3 * *rigid.crank.error + 1e-9);
   EXPECT_NEAR(rigid.mid_speed, 8.0, 1e-6);
   // The inertia by hand: work of the blow from the constant torque, neglecting I_em, is near.
   EXPECT_NEAR(s.methods[2].drive_inertia * 64 * 0.06, s.diagram.fluctuation(), 1e-9);
@@ -90,8 +90,7 @@ TEST(Size, SimulatedPressReachesWhatTheSlopeOfItsMotorLeavesOfDelta) {
   EXPECT_NEAR(soft.crank, 0.1, 1e-6);
   EXPECT_LT(soft.flywheel, exact.flywheel);
   const DeltaReached& elastic = reached(s, "elastic, simulated", "Wittenbauer");
-  EXPECT_TRUE(elastic.settled);
-  EXPECT_NE(elastic.crank, elastic.motor);
+  EXPECT_NE(elastic.crank.value, elastic.motor.value);
 }
 
 TEST(Size, SteadyCycleAgreesWithALongSimulation) {

@@ -174,12 +174,12 @@ TEST(Steady, LoadBeyondBreakdownIsAStallByTheDifference) {
 }
 
 TEST(Steady, DriveThatAlwaysWinsIsARunaway) {
-  const SteadyStudy study = steady(
-      scene_from("line = [\"turbine\", \"load\"]\n"
-                 "turbine = { kind = \"torque source\", inertia = \"1 kg*m2\", table = { over = \"speed\", "
-                 "beyond = \"hold\", unit = [\"rad/s\", \"N*m\"], points = [[0, 50], [100, 20]] } }\n"
-                 "load = { kind = \"load\", torque = \"5 N*m\" }\n"),
-      {Effects{}}, {});
+  const SteadyStudy study =
+      steady(scene_from("line = [\"turbine\", \"load\"]\n"
+                        "turbine = { kind = \"torque source\", inertia = \"1 kg*m2\", table = { over = \"speed\", "
+                        "beyond = \"hold\", unit = [\"rad/s\", \"N*m\"], points = [[0, 50], [100, 20]] } }\n"
+                        "load = { kind = \"load\", torque = \"5 N*m\" }\n"),
+             {Effects{}}, {});
   EXPECT_FALSE(study.complete);
   EXPECT_TRUE(has(study.diagnosis, "runaway")) << study.diagnosis;
   EXPECT_TRUE(has(study.diagnosis, "15 N·m")) << study.diagnosis;
@@ -255,12 +255,12 @@ OperatingDiagram diagram_of(const std::string& text, int direction = 1) {
 TEST(OperatingPoints, ShuntMotorMeetsAViscousLoadWhereTheLinesCross) {
   const OperatingDiagram d = diagram_of(dc_against("load = { kind = \"load\", damping = \"0.5 N*m*s/rad\" }\n"));
   ASSERT_EQ(d.points.size(), 1u);
-  EXPECT_NEAR(d.points[0].mean.omega, 30, 1e-10);
-  EXPECT_NEAR(d.points[0].mean.load, 15, 1e-10);
+  EXPECT_NEAR(d.points[0].speed.value, 30, 1e-10);
+  EXPECT_NEAR(d.points[0].torque.value, 15, 1e-10);
   EXPECT_NEAR(d.points[0].drive_slope, -1.5, 1e-7);
   EXPECT_NEAR(d.points[0].load_slope, 0.5, 1e-7);
   EXPECT_TRUE(d.points[0].stable());
-  EXPECT_NEAR(d.margin(d.points[0]), 4, 1e-5);
+  EXPECT_NEAR(d.margin(d.points[0]).value, 4, 1e-5);
 }
 
 // Kloss: M_c/M_b = 2/(s/s_b + s_b/s) at s/s_b = q ± √(q² − 1), q = M_b/M_c: the higher speed is stable.
@@ -269,13 +269,13 @@ TEST(OperatingPoints, InductionMotorUnderConstantLoadHasAStableAndAnUnstablePoin
   const OperatingDiagram d = diagram_of(induction_against(load));
   ASSERT_EQ(d.points.size(), 2u);
   const double q = breakdown / load, root = std::sqrt(q * q - 1);
-  EXPECT_NEAR(d.points[0].mean.omega, 100 * (1 - sb * (q + root)), 1e-9);
+  EXPECT_NEAR(d.points[0].speed.value, 100 * (1 - sb * (q + root)), 1e-9);
   EXPECT_FALSE(d.points[0].stable());
-  EXPECT_NEAR(d.points[1].mean.omega, 100 * (1 - sb * (q - root)), 1e-9);
+  EXPECT_NEAR(d.points[1].speed.value, 100 * (1 - sb * (q - root)), 1e-9);
   EXPECT_TRUE(d.points[1].stable());
   EXPECT_EQ(d.working_point(), &d.points[1]);
-  EXPECT_NEAR(d.strongest.drive, breakdown, 1e-9);
-  EXPECT_NEAR(d.strongest.omega, 100 * (1 - sb), 1e-4);
+  EXPECT_NEAR(d.strongest.value, breakdown, 1e-9);
+  EXPECT_NEAR(d.strongest_at, 100 * (1 - sb), 1e-4);
 }
 
 // The press force does 200 J a turn: mean torque 200/2π at any speed.
@@ -295,7 +295,7 @@ TEST(Starts, ShuntMotorReaches95PercentAfterItsTimeConstantTimesLn20) {
   const SteadyStudy study =
       steady(scene_from(dc_against("load = { kind = \"load\", torque = \"15 N*m\" }\n")), {Effects{}}, {});
   ASSERT_TRUE(study.start && study.start->reached);
-  EXPECT_NEAR(study.start->time, 0.5 * 40 / 60 * std::log(20.0), 1e-7);
+  EXPECT_NEAR(study.start->time.value, 0.5 * 40 / 60 * std::log(20.0), 1e-7);
 }
 
 // mo02 fan_start: M = 50 N·m, k = 0.04, J = 2: ω = ω_∞ tanh(t √(M k)/J), t_95 = 2.5905292832732227 s
@@ -307,7 +307,7 @@ TEST(Starts, FanReaches95PercentAsPublished) {
       {Effects{}}, {});
   ASSERT_TRUE(study.start && study.start->reached) << study.diagnosis;
   EXPECT_NEAR(value_of(study.cycles[0], "mid_speed.source"), 35.35533905932738, 1e-9);
-  EXPECT_NEAR(study.start->time, 2.5905292832732227, 1e-7);
+  EXPECT_NEAR(study.start->time.value, 2.5905292832732227, 1e-7);
 }
 
 TEST(Starts, RatioThatStartsFastestIsThatOfKhurmisExamples) {

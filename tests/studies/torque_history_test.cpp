@@ -102,9 +102,9 @@ void expect_history_of_the_run(Scene scene, const std::string& torque) {
   EXPECT_EQ(test::series(r, "torque." + torque), h.value);  // to the last bit
   ASSERT_TRUE(h.complete) << h.diagnosis;
   const double peak = test::figure(r, "peak_torque." + torque);
-  EXPECT_DOUBLE_EQ(peak > 0 ? h.greatest : h.least, peak);
-  EXPECT_GE(h.greatest, h.least);
-  EXPECT_LE(std::max(h.greatest, -h.least), std::abs(peak) * (1 + 1e-12));
+  EXPECT_DOUBLE_EQ(peak > 0 ? h.greatest.value : h.least.value, peak);
+  EXPECT_GE(h.greatest.value, h.least.value);
+  EXPECT_LE(std::max(h.greatest.value, -h.least.value), std::abs(peak) * (1 + 1e-12));
 }
 
 TEST(SimulatedTorque, OfAnOperatingSequenceHasThePeakOfTheRun) {
@@ -120,17 +120,17 @@ TEST(SimulatedTorque, ErrorsOfItsExtremesCoverATighterRun) {
   for (const auto& [text, torque] : {std::pair{switched, "shaft"}, {rattling, "k1"}}) {
     Scene scene = test::scene_from(text);
     const TorqueHistory h = history_of(scene, torque);
-    ASSERT_TRUE(h.greatest_error && h.least_error && h.equivalent_error);
+    ASSERT_TRUE(h.greatest.error && h.least.error && h.equivalent_amplitude.error);
     scene.run.accuracy = 1e-9;
     scene.run.method = "verner6";
     scene.run.samples = 131072;
     const Result run = test::run(scene, false);
     const std::vector<double> tight = test::series(run, std::string("torque.") + torque);
-    EXPECT_NEAR(h.greatest, test::figure(run, std::string("peak_torque.") + torque), *h.greatest_error + 1e-8);
-    EXPECT_NEAR(h.least, *std::min_element(tight.begin(), tight.end()), *h.least_error) << torque;
-    EXPECT_LT(*h.greatest_error, 2e-3 * h.greatest) << torque;
-    EXPECT_NEAR(h.equivalent_amplitude, equivalent_amplitude(rainflow(tight, h.resolution), load_exponent),
-                *h.equivalent_error)
+    EXPECT_NEAR(h.greatest.value, test::figure(run, std::string("peak_torque.") + torque), *h.greatest.error + 1e-8);
+    EXPECT_NEAR(h.least.value, *std::min_element(tight.begin(), tight.end()), *h.least.error) << torque;
+    EXPECT_LT(*h.greatest.error, 2e-3 * h.greatest.value) << torque;
+    EXPECT_NEAR(h.equivalent_amplitude.value, equivalent_amplitude(rainflow(tight, h.resolution), load_exponent),
+                *h.equivalent_amplitude.error)
         << torque;
   }
 }
@@ -157,11 +157,11 @@ TEST(SpectralLines, SineBetweenTwoLinesHasItsAmplitudeAndFrequency) {
     const std::vector<double> x = sines({{f, 5}}, step, 4096);
     const std::vector<SpectralLine> lines = strongest_lines(x, step, 1);
     ASSERT_EQ(lines.size(), 1u);
-    EXPECT_NEAR(lines[0].amplitude, 5, 2e-5) << offset;
-    EXPECT_NEAR(lines[0].frequency, f, 1e-6) << offset;
-    EXPECT_NEAR(lines[0].amplitude, 5, lines[0].amplitude_error + 1e-9) << offset;
-    EXPECT_NEAR(lines[0].frequency, f, lines[0].frequency_error + 1e-9) << offset;
-    EXPECT_LT(lines[0].amplitude_error, 1e-3) << offset;
+    EXPECT_NEAR(lines[0].amplitude.value, 5, 2e-5) << offset;
+    EXPECT_NEAR(lines[0].frequency.value, f, 1e-6) << offset;
+    EXPECT_NEAR(lines[0].amplitude.value, 5, *lines[0].amplitude.error + 1e-9) << offset;
+    EXPECT_NEAR(lines[0].frequency.value, f, *lines[0].frequency.error + 1e-9) << offset;
+    EXPECT_LT(*lines[0].amplitude.error, 1e-3) << offset;
   }
 }
 
@@ -171,10 +171,10 @@ TEST(SpectralLines, ErrorsCoverWhatNeighbouringSinesDoToEachOther) {
   for (int gap = 4; gap < 20; ++gap) {  // in lines of the whole window
     const double f = 60.03, g = f + gap / 4.0;
     for (const SpectralLine& line : strongest_lines(sines({{f, 5}, {g, 3}}, step, 4096), step, 2)) {
-      const bool first = std::abs(line.frequency - f) < std::abs(line.frequency - g);
-      EXPECT_NEAR(line.amplitude, first ? 5 : 3, line.amplitude_error) << gap;
-      EXPECT_NEAR(line.frequency, first ? f : g, line.frequency_error) << gap;
-      worst = std::max(worst, std::abs(line.amplitude - (first ? 5 : 3)));
+      const bool first = std::abs(line.frequency.value - f) < std::abs(line.frequency.value - g);
+      EXPECT_NEAR(line.amplitude.value, first ? 5 : 3, *line.amplitude.error) << gap;
+      EXPECT_NEAR(line.frequency.value, first ? f : g, *line.frequency.error) << gap;
+      worst = std::max(worst, std::abs(line.amplitude.value - (first ? 5 : 3)));
     }
   }
   EXPECT_GT(worst, 1e-3);  // they do
@@ -184,7 +184,7 @@ TEST(SpectralLines, DecayingSineSaysThatItHasNoAmplitude) {
   const double step = 1.0 / 1024;
   const std::vector<SpectralLine> lines = strongest_lines(sines({{60.2, 5}}, step, 4096, 1.5), step, 1);
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_GT(lines[0].amplitude_error, 0.5 * lines[0].amplitude);
+  EXPECT_GT(*lines[0].amplitude.error, 0.5 * lines[0].amplitude.value);
 }
 
 TEST(SpectralLines, WhatAnotherSpectrumHasNotIsInErrorByAllItsAmplitude) {
@@ -192,7 +192,7 @@ TEST(SpectralLines, WhatAnotherSpectrumHasNotIsInErrorByAllItsAmplitude) {
   std::vector<SpectralLine> lines = strongest_lines(sines({{400.1, 5}}, step, 4096), step, 1);
   ASSERT_EQ(lines.size(), 1u);
   widen_errors(lines, spectrum_of(sines({{60, 1}}, step, 4096), step));
-  EXPECT_EQ(lines[0].amplitude_error, lines[0].amplitude);
+  EXPECT_EQ(*lines[0].amplitude.error, lines[0].amplitude.value);
 }
 
 // --- load cycles ---

@@ -217,8 +217,8 @@ void expect_same_reductions(const std::string& first, const std::string& second,
     expect_near(x.load, y.load, "load" + where, torque);
   }
   ASSERT_EQ(a->spectra.size(), b->spectra.size());
-  expect_near(a->mean_drive, b->mean_drive, "mean driving torque", torque);
-  expect_near(a->mean_load, b->mean_load, "mean load", torque);
+  expect_near(a->mean_drive.value, b->mean_drive.value, "mean driving torque", torque);
+  expect_near(a->mean_load.value, b->mean_load.value, "mean load", torque);
   expect_same_chain(a->chain, b->chain);
 }
 

@@ -213,8 +213,8 @@ start = "rest"
   const Result now = run(text(0), false), later = run(text(shift), false);
   ASSERT_TRUE(now.complete && later.complete) << now.diagnosis << later.diagnosis;
   for (const auto& [name, state] : now.final_state) {
-    EXPECT_NEAR(state.angle, later.final_state.at(name).angle, 1e-5) << name;
-    EXPECT_NEAR(state.speed, later.final_state.at(name).speed, 1e-5) << name;
+    EXPECT_NEAR(state.angle.value, later.final_state.at(name).angle.value, 1e-5) << name;
+    EXPECT_NEAR(state.speed.value, later.final_state.at(name).speed.value, 1e-5) << name;
   }
   for (const auto& [name, work] : now.energy.by_account)
     EXPECT_NEAR(work, later.energy.by_account.at(name), 1e-3) << name;
