@@ -204,7 +204,7 @@ TEST(SwitchedLoads, ForcesOfARepeatedSequenceHaveTheLoadsAsTheyCome) {
   const auto load = std::find_if(f.simulated->work.begin(), f.simulated->work.end(),
                                  [](const CycleWork& w) { return w.name == "crank.load"; });
   ASSERT_NE(load, f.simulated->work.end());
-  EXPECT_NEAR(load->work, -stroke, 1e-6 * stroke);
+  EXPECT_NEAR(load->work.value, -stroke, 1e-6 * stroke);
   EXPECT_LT(*f.simulated->machine_residual, 1e-7);
   EXPECT_NE(f.notes.front().find("as it goes round"), std::string::npos) << f.notes.front();
 }

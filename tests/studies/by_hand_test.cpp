@@ -85,8 +85,8 @@ TEST(Counterweights, ShakeAndLoadTheBearingLikeACrankThatHasThem) {
   ASSERT_GE(bare.counterweights.size(), 3u);
   for (const Counterweight& c : bare.counterweights) {
     const Forces with = crank_forces(0.03 - c.moment / 4);
-    EXPECT_NEAR(c.peak_force, with.prescribed->shaking_force.value, 1e-7 * c.peak_force) << c.name;
-    EXPECT_NEAR(c.peak_bearing, with.prescribed->reaction[0].value, 1e-7 * c.peak_bearing) << c.name;
+    EXPECT_NEAR(c.peak_force.value, with.prescribed->shaking_force.value, 1e-7 * c.peak_force.value) << c.name;
+    EXPECT_NEAR(c.peak_bearing.value, with.prescribed->reaction[0].value, 1e-7 * c.peak_bearing.value) << c.name;
   }
 }
 

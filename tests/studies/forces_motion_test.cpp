@@ -77,13 +77,13 @@ TEST(CompiledMachine, TurnsTheCrankWithTheTorqueThatItsLinksNeed) {
     const Forces f = find_forces(test::scene_file(fmt::format("{}/{}.toml", folder, name)), {});
     ASSERT_TRUE(f.simulated && f.simulated->machine_residual) << name;
     EXPECT_LT(*f.simulated->machine_residual, same_physics) << name;
-    EXPECT_NEAR(f.simulated->closure, 0, 1e-9) << name;
+    EXPECT_NEAR(f.simulated->closure.value, 0, 1e-9) << name;
   }
   for (const char* name : {"four_bar_small", "knuckle_small", "whitworth_small"}) {
     const LinkageStudy f = find_linkage_forces(test::scene_file(fmt::format("tests/agreement/{}.toml", name)), {});
     ASSERT_TRUE(f.simulated && f.simulated->machine_residual) << name;
     EXPECT_LT(*f.simulated->machine_residual, same_physics) << name;
-    EXPECT_NEAR(f.simulated->closure, 0, 1e-9) << name;
+    EXPECT_NEAR(f.simulated->closure.value, 0, 1e-9) << name;
   }
 }
 

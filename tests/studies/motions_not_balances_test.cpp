@@ -179,11 +179,11 @@ run = {{ start = {{ speed = "{} rpm", angle = "{} deg" }}, until = "{} s" }}
 
 // What an error hides is not nothing.
 TEST(Edges, WhatIsNotToldFromZeroIsNotCalledNothing) {
-  Peak p{300, 0, 400};
+  Peak p{{300, 400}};
   p.scale = 1000;
   EXPECT_FALSE(is_nothing(p));
   EXPECT_TRUE(has(in_words(p, "N*m"), "±"));
-  p = {1e-10, 0, 1e-9};
+  p = {{1e-10, 1e-9}};
   p.scale = 1000;
   EXPECT_TRUE(is_nothing(p));
 }

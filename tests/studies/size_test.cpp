@@ -83,11 +83,11 @@ TEST(Size, SimulatedPressReachesWhatTheSlopeOfItsMotorLeavesOfDelta) {
   const Sizing s = size_flywheel(test::scene_from(press(straight(1200, 9))), demand(0.1, true));
   ASSERT_TRUE(s.soft && s.with_motor);
   const DeltaReached& exact = reached(s, "rigid, simulated", "Wittenbauer");
-  EXPECT_LT(exact.crank, 0.1);  // a motor that gives way helps
-  EXPECT_NEAR(exact.crank, s.with_motor->delta(), 1e-6);
+  EXPECT_LT(exact.crank.value, 0.1);  // a motor that gives way helps
+  EXPECT_NEAR(exact.crank.value, s.with_motor->delta(), 1e-6);
   EXPECT_NEAR(exact.mid_speed, s.with_motor->mid_speed(), 1e-5);
   const DeltaReached& soft = reached(s, "rigid, simulated", "motor's slope counted");
-  EXPECT_NEAR(soft.crank, 0.1, 1e-6);
+  EXPECT_NEAR(soft.crank.value, 0.1, 1e-6);
   EXPECT_LT(soft.flywheel, exact.flywheel);
   const DeltaReached& elastic = reached(s, "elastic, simulated", "Wittenbauer");
   EXPECT_NE(elastic.crank.value, elastic.motor.value);
@@ -173,8 +173,8 @@ TEST(Size, SceneWithoutAFlywheelGetsOneOnItsCrank) {
   const Sizing without = size_flywheel(test::scene_from(text), demand(0.1, true));
   EXPECT_TRUE(without.flywheel_added);
   EXPECT_NEAR(without.methods[0].flywheel, with.methods[0].flywheel, 1e-9 * with.methods[0].flywheel);
-  EXPECT_NEAR(reached(without, "elastic, simulated", "Wittenbauer").crank,
-              reached(with, "elastic, simulated", "Wittenbauer").crank, 1e-7);
+  EXPECT_NEAR(reached(without, "elastic, simulated", "Wittenbauer").crank.value,
+              reached(with, "elastic, simulated", "Wittenbauer").crank.value, 1e-7);
 }
 
 TEST(Size, StartAtADeadCentreUnderLoadDoesNotMatterToSteadyMotion) {
@@ -184,8 +184,8 @@ TEST(Size, StartAtADeadCentreUnderLoadDoesNotMatterToSteadyMotion) {
                     demand(0.1, true));
   const Sizing running = size_flywheel(test::scene_from(press(straight(1200, 9))), demand(0.1, true));
   EXPECT_NEAR(at_rest.methods[0].flywheel, running.methods[0].flywheel, 1e-9);
-  EXPECT_NEAR(reached(at_rest, "elastic, simulated", "Wittenbauer").crank,
-              reached(running, "elastic, simulated", "Wittenbauer").crank, 1e-8);
+  EXPECT_NEAR(reached(at_rest, "elastic, simulated", "Wittenbauer").crank.value,
+              reached(running, "elastic, simulated", "Wittenbauer").crank.value, 1e-8);
   ASSERT_FALSE(at_rest.notes.empty());
   EXPECT_NE(at_rest.notes.front().find("steady motion"), std::string::npos);
 }
