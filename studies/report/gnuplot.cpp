@@ -146,7 +146,8 @@ std::vector<EventMark> marks_of(const Plot& plot) {
 // Drawn twice, as SVG and as PNG.
 std::string script_of(const Plot& plot, const std::string& name) {
   std::string text = fmt::format(
-      "# gnuplot {0}.gp → {0}.svg and {0}.png\nreset\nset terminal svg size 900,480 noenhanced font 'sans,14' background "
+      "# gnuplot {0}.gp → {0}.svg and {0}.png\nreset\nset terminal svg size 900,480 noenhanced font 'sans,14' "
+      "background "
       "'white'\nset output '{0}.svg'\n"
       "set title {1}\nset xlabel {2}\nset ylabel {3}\nset grid lc rgb '#dddddd'\nset key outside below horizontal\n",
       name, quoted(plot.title), quoted(label(plot.x)), quoted(label(plot.y)));

@@ -112,7 +112,7 @@ TEST_F(CommandLine, AMeasurementIsLaidOverARunOrRefused) {
   const std::string text = scene("until = \"0.3 s\"\n");
   ASSERT_EQ(kurbel({"run", text, "--no-error", "--no-trials", "--out", "out", "--format", "csv,xlsx"}).code, 0);
   EXPECT_TRUE(file("out/results.xlsx"));
-  const std::vector<std::string> with = {"run",        text,         "--no-error", "--no-trials",
+  const std::vector<std::string> with = {"run",        text,         "--no-error",        "--no-trials",
                                          "--no-files", "--measured", "out/trajectory.csv"};
   const auto asked = [&](std::vector<std::string> more) {
     more.insert(more.begin(), with.begin(), with.end());

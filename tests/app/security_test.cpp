@@ -22,8 +22,8 @@
 #include <sstream>
 #include <thread>
 
-#include "engine/tables/table_text.h"
 #include "engine/scene/document.h"
+#include "engine/tables/table_text.h"
 #include "tests/support/files.h"
 
 namespace kurbel::security_test {

@@ -195,9 +195,7 @@ Errors errors_of(const Tree& tree) {
     for (std::size_t i = 0; i < n; ++i) {
       const double size = magnitude(response[i]);
       if (size * root(i) * root(s) > none)
-        worst.mobility =
-            std::max(worst.mobility,
-                     magnitude(response[i] - w[i * n + s]) / size);
+        worst.mobility = std::max(worst.mobility, magnitude(response[i] - w[i * n + s]) / size);
     }
   }
   add(bordered(tree, nothing, tree.given), 1, 1e100);

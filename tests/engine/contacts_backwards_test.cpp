@@ -42,7 +42,8 @@ TEST(Constraints, MobilityWithLossesAndARepeatingRowIsTheDerivativeOfTheAccelera
     std::vector<double> torque(3, 0.0), alpha(3), multiplier(3);
     torque[static_cast<std::size_t>(k)] = 1;
     constraints.solve(inertia, torque, alpha, multiplier);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(w[static_cast<std::size_t>(3 * i + k)], alpha[static_cast<std::size_t>(i)], 1e-13);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(w[static_cast<std::size_t>(3 * i + k)], alpha[static_cast<std::size_t>(i)], 1e-13);
     EXPECT_GT(std::abs(alpha[0]), 0.01);
   }
 }

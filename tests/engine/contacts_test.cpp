@@ -78,7 +78,8 @@ TEST(Constraints, MobilityIsTheDerivativeOfTheAccelerations) {
     std::vector<double> torque(3, 0.0), alpha(3), multiplier(2);
     torque[static_cast<std::size_t>(k)] = 1;
     constraints.solve(inertia, torque, alpha, multiplier);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(w[static_cast<std::size_t>(3 * i + k)], alpha[static_cast<std::size_t>(i)], 1e-13);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(w[static_cast<std::size_t>(3 * i + k)], alpha[static_cast<std::size_t>(i)], 1e-13);
   }
 }
 

@@ -184,7 +184,7 @@ struct Crankshaft {
   double radius = 0.137 / 2, rod = 0.207, bore = 0.105, oscillating = 2.521, drag = 2, loss = 0.035;
   double fires_at[6] = {360, 120, 600, 240, 480, 0};  // 1-5-3-6-2-4, here from the sixth cylinder [deg]
   PublishedSeries shape = published_series("tv02_cylinder_pressure.csv", 1, 2),
-          peak = published_series("tv02_peak_pressure.csv", 1, 2);
+                  peak = published_series("tv02_peak_pressure.csv", 1, 2);
 
   static double between(const PublishedSeries& c, double x) {
     const auto after = std::upper_bound(c.x.begin() + 1, c.x.end() - 1, x) - c.x.begin();

@@ -414,8 +414,8 @@ inline void expect_same_run(const Result& first, const Result& second, TwinMap m
     return std::count_if(r.notes.begin(), r.notes.end(),
                          [](const std::string& note) { return !note.starts_with("the rows of trajectory.csv"); });
   };
-  EXPECT_EQ(count(first), count(second))
-      << fmt::format("{}\nand\n{}", fmt::join(first.notes, "\n"), fmt::join(second.notes, "\n"));
+  EXPECT_EQ(count(first), count(second)) << fmt::format("{}\nand\n{}", fmt::join(first.notes, "\n"),
+                                                        fmt::join(second.notes, "\n"));
   EXPECT_EQ(first.cycles.size(), second.cycles.size());
   EXPECT_EQ(first.periods.steady, second.periods.steady);
 }
