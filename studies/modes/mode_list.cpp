@@ -11,6 +11,7 @@
 #include "engine/linear/shaft_waves.h"
 #include "engine/model/cycle_of.h"
 #include "engine/numerics/angles.h"
+#include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -18,6 +19,7 @@ namespace {
 
 constexpr int frozen_angles = 24;
 constexpr double hardly_moves = 0.999;    // share of a mode in own states
+constexpr double carried = 0.1;           // of the frequency: an element that is off by more carries no such mode
 constexpr Eigen::Index most_frozen = 60;  // coordinates
 
 // The damped mode whose shape is most like the undamped one's, each used once; shapes are compared with M.
@@ -86,10 +88,10 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
 // Within how much of ω the drive with continuous shafts has a mode: one step of Newton's method, and where the exact
 // stiffness can count modes, doubled until a mode is counted there. Nothing: none is within a tenth of ω.
 std::optional<double> distance_of_wave_mode(const ModesStudy& found, const Mode& mode, bool countable) {
-  constexpr double carried = 0.1;
   double within = wave_error(found.drive, mode.shape, mode.omega);
   for (; within <= carried * mode.omega; within *= 2) {
     if (!countable) return within;
+    Deadline::check();
     within = std::max(within, 1e-12 * mode.omega);
     const double reach = within + mode.error;
     if (continuous_modes_below(found.drive, mode.omega + reach) >
@@ -111,7 +113,7 @@ void add_wave_errors(ModesStudy& found) {
     const std::optional<double> within =
         distance_of_wave_mode(found, mode, countable && found.drive.size() <= most_confirmed);
     if (!within && !kept.empty()) continue;
-    mode.error += within.value_or(wave_error(found.drive, mode.shape, mode.omega));
+    mode.error += within.value_or(std::max(carried * mode.omega, wave_error(found.drive, mode.shape, mode.omega)));
     kept.push_back(std::move(mode));
   }
   found.modes = std::move(kept);
