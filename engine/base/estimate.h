@@ -1,4 +1,4 @@
-// estimate.h — a number with what is known of its error: the one form of a value that is told with ±.
+// estimate.h — a number with its error, the one form of a value that is stated with ±.
 //
 // Both are in SI. The unit stands where the number is named (a figure, a column, a key): within the program nothing is
 // converted, and a vector of estimates has one unit.
@@ -18,20 +18,20 @@ namespace kurbel {
 
 struct Estimate {
   double value = 0;
-  std::optional<double> error = {};  // ≥ 0, of the value; empty: nothing tells it
+  std::optional<double> error = {};  // ≥ 0, of the value; empty: unknown
 
-  // Something besides that moves the value by as much; an error that was unknown begins with it.
+  // Adds a contribution to the error; an unknown error begins with it.
   void widen(double by) { error = error.value_or(0) + by; }
-  // By `times` the difference to the same of another run or extraction.
+  // By `times` the difference to the same quantity of another run or extraction.
   void widen_to(const Estimate& other, double times = 1) { widen(times * std::abs(value - other.value)); }
 };
 
-// What two runs or extractions tell of a quantity: the finer one's value, their difference and `rounding` as its error.
+// Of a quantity found by two runs or extractions: the finer one's value, with their difference and `rounding` as its error.
 inline Estimate estimate_from(double fine, double loose, double rounding = 0) {
   return {fine, std::abs(fine - loose) + rounding};
 }
 
-// The larger error of two that are told as one; unknown where either is.
+// The larger error of two that are stated as one; unknown where either is.
 inline std::optional<double> larger_error(const Estimate& a, const Estimate& b) {
   return a.error && b.error ? std::optional(std::max(*a.error, *b.error)) : std::nullopt;
 }

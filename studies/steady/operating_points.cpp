@@ -120,6 +120,12 @@ const OperatingPoint* OperatingDiagram::working_point() const {
   return fastest;
 }
 
+void OperatingDiagram::become_estimate() {
+  estimate = true;
+  strongest.error.reset();
+  for (OperatingPoint& point : points) point.speed.error.reset(), point.torque.error.reset();
+}
+
 std::string OperatingDiagram::why_none(const std::string& link) const {
   if (working_point() || estimate) return {};
   const auto least =
@@ -181,9 +187,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
                                                       [](const MeanTorques& m) { return std::isfinite(m.net()); }));
   if (!known) {
     result = operating_diagram(machine, direction);
-    result.estimate = true;
-    result.strongest.error.reset();
-    for (OperatingPoint& point : result.points) point.speed.error.reset(), point.torque.error.reset();
+    result.become_estimate();
     return result;
   }
   for (int i = 0; i < most_doublings && result.uses_speed && result.curve.back().net() > 0; ++i) {

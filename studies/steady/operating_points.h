@@ -70,6 +70,7 @@ struct OperatingDiagram {
   bool uses_speed = true;
   // Losses or states of the machine are left out: an estimate, which has no error and decides nothing.
   bool estimate = false;
+  void become_estimate();  // its errors go
   int direction = 1;
   SpeedUnit speed_unit;
 

@@ -144,6 +144,17 @@ run = { start = { speed = "400 rpm" } }
   EXPECT_NEAR(study.start->time.value, 0.09 * 1000 * rpm / 60 * std::log(20), *study.start->time.error + 1e-9);
 }
 
+// Static torques are no motion of a motor with states of its own: what they say is an estimate, which has no error.
+TEST(LossesByTheLoad, PointsOfAMachineWithInternalStatesHaveNoError) {
+  const Scene scene = scene_file("tests/agreement/two_axis_motor.toml");
+  const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
+  ASSERT_TRUE(study.complete && study.diagram) << study.diagnosis;
+  const OperatingPoint* point = study.diagram->working_point();
+  ASSERT_TRUE(point);
+  EXPECT_TRUE(study.diagram->estimate);
+  EXPECT_FALSE(point->speed.error || point->torque.error || study.diagram->margin(*point).error);
+}
+
 // --- 6: edges ---
 
 TEST(Edges, OfAPressAtGivenSpeedAreLookedAtOnBothSides) {
