@@ -19,6 +19,8 @@ constexpr std::size_t most_unknowns = 400;  // the derivative is full
 constexpr double overlap = 0.02;            // of a round, by which the first run goes on
 constexpr double slowest = 20;              // a round may take this many times what it takes at the guessed speed
 constexpr double difference_step = 2e-5;    // of unknowns of order one
+constexpr std::int64_t dearest = 300;       // a round may take this many times the evaluations of the first one
+constexpr std::int64_t least_effort = 1000; // evaluations; fewer tell nothing of what a round takes
 constexpr double safely = 20;               // times a tolerance: what a round is good for
 constexpr double loose_directions = 100;    // times the tolerance of the motion: that of variational equations
 constexpr double grazes = 0.05;             // that differences to either side differ, of the greatest of them
@@ -118,6 +120,13 @@ void ReturnMap::follow(const ReturnMap& other) {
   section_angle_ = other.section_angle_;
   sense_ = other.sense_;
   time_limit_ = other.time_limit_;
+  most_flow_calls_ = other.most_flow_calls_;
+}
+
+// A trial far from any motion may take steps without end. The first round that comes round tells what one takes.
+void ReturnMap::learn_effort(const RunOutcome& outcome) {
+  if (most_flow_calls_ == 0)
+    most_flow_calls_ = dearest * std::max(least_effort, outcome.statistics.stepper.flow_calls);
 }
 
 std::function<double(double, std::span<const double>)> ReturnMap::round_end(Equations& equations,
@@ -173,6 +182,7 @@ RunOptions ReturnMap::run_options(double from, double until) const {
                  .method = options_.method,
                  .until = until,
                  .budget = options_.budget,
+                 .most_flow_calls = most_flow_calls_,
                  .interrupted = options_.interrupted,
                  .progress = {}};
   run.from = {from, {}};
@@ -202,6 +212,7 @@ ReturnMap::Image ReturnMap::round_of(const Eigen::VectorXd& z, bool with_derivat
   cost_ += options_.cycles * (variational ? derivative_cost() : 1.0);
   Image image = judge(outcome, from, begin, equations_);
   if (image.end != End::returned) return image;
+  learn_effort(outcome);
   in_step_with_sequence(outcome, image);
   if (!with_derivative) return image;
   if (!variational) {
@@ -315,6 +326,7 @@ ReturnMap::Image ReturnMap::round_from(State state) {
   cost_ += options_.cycles;
   Image image = judge(first, state.t, begin, equations_);
   if (image.end != End::returned) return image;
+  learn_effort(first);
   const double pace = link_speed(first.t, first.state);
   if (periodicity_.by_time) {
     go_through({first.t, first.state, equations_.modes()}, log.sticks(), pace);

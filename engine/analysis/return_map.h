@@ -46,7 +46,7 @@ class ReturnMap {
   const PoincareSection& section() const { return *section_; }
   std::size_t size() const { return section_->size(); }
   double section_angle() const { return section_angle_; }  // φ₀ [rad]
-  // Takes section, period, sense of rotation and limits over from a map of a like machine.
+  // Takes section, period, sense of rotation and limits of a round over from a map of a like machine.
   void follow(const ReturnMap& other);
 
   enum class End { returned, stands, turns_back, too_slow, failed, interrupted };
@@ -97,6 +97,7 @@ class ReturnMap {
   Image round_from(State state);
   Image round_of(const Eigen::VectorXd& z, bool with_derivative, const std::vector<Observer*>& observers);
   RunOptions run_options(double from, double until) const;
+  void learn_effort(const RunOutcome& outcome);
   void take_period(const Periodicity& periodicity);
   void set_pace(double link_speed);
   void differentiate(const Eigen::VectorXd& z, Image& image);
@@ -111,6 +112,7 @@ class ReturnMap {
   bool variational_ = true;  // the derivative comes from variational equations, else from differences
   std::optional<PoincareSection> section_;
   double section_angle_ = 0, sense_ = 1, time_limit_ = 0, cost_ = 0;
+  std::int64_t most_flow_calls_ = 0;  // of a round: many times those of the first one that came round; 0: not known yet
 };
 
 // A fixed point of the map.

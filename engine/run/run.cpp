@@ -365,6 +365,8 @@ class Loop {
   void look_at_time() {
     if (options_.interrupted && options_.interrupted->load()) throw OutOfTime(0);
     if (++checks_ % 64 != 0) return;
+    if (options_.most_flow_calls > 0 && flow_calls() > options_.most_flow_calls)
+      throw std::runtime_error(fmt::format("more than {} evaluations of the equations", options_.most_flow_calls));
     if (options_.progress) options_.progress(stepper_->t() / options_.until);
     Deadline::check();
   }
@@ -380,6 +382,8 @@ class Loop {
                              memory_.last_step > 0 ? fmt::format(" (steps of {:.3g} s at the end)", memory_.last_step)
                                                    : " before any step")};
   }
+
+  std::int64_t flow_calls() const { return out_.statistics.stepper.flow_calls + stepper_->statistics().flow_calls; }
 
   void add_statistics() {
     const StepperStatistics& s = stepper_->statistics();

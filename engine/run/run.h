@@ -64,6 +64,7 @@ struct RunOptions {
   std::string method = "auto";  // auto or one that method_named() knows
   double until = 1;             // [s]
   double budget = 300;          // processor time [s]
+  std::int64_t most_flow_calls = 0;  // 0: no limit; a search that tries states far off sets one
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(double fraction)> progress;
   std::shared_ptr<WorkTables> work_tables = nullptr;  // of the model, where runs share them; null: made when needed
