@@ -13,6 +13,7 @@
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "engine/scene/document.h"
+#include "engine/tables/table_text.h"
 #include "studies/difference/difference.h"
 #include "studies/sweep/machine.h"
 #include "studies/sweep/program_version.h"
@@ -32,8 +33,6 @@ std::string thread_count(const std::string& text) {
   const bool is_count = error == std::errc() && end == text.data() + text.size() && count >= 1 && count <= most_threads;
   return is_count ? "" : fmt::format("Value {} not in range [1 - {}]", text, most_threads);
 }
-
-constexpr std::size_t most_variant_bytes = 64'000'000;
 
 struct SweepArguments {
   StudyOptions study;
@@ -69,7 +68,7 @@ VariantTable table_asked(const SweepArguments& a) {
   if (!a.variants.empty()) {
     if (!a.vary.empty() || !a.design.empty())
       throw std::invalid_argument("--variants is the whole design; leave out --vary and --design");
-    return parse_variants(read_text_file(a.variants, most_variant_bytes), a.variants);
+    return read_variants(a.variants);
   }
   VariantTable table;
   for (const std::string& text : a.vary) table.parameters.push_back(parse_parameter(text));
@@ -133,7 +132,7 @@ SweepIdentity identity_of(const SweepArguments& a, const Scene& scene, const Des
              {"varied", joined(varied)},
              {"figures", joined(names)}};
   if (!a.delta.empty()) id.meta["delta"] = a.delta;
-  if (!a.variants.empty()) id.meta["variants"] = read_text_file(a.variants, most_variant_bytes);
+  if (!a.variants.empty()) id.meta["variants"] = read_table_text(a.variants).text;
   return id;
 }
 

@@ -38,7 +38,7 @@ NameWithUnit name_with_unit(std::string_view heading) {
     return NameWithUnit{without_blanks(std::string_view(text).substr(0, name_end)),
                         without_blanks(std::string_view(text).substr(unit_begin, unit_end - unit_begin))};
   };
-  if (const std::size_t open = text.find('['); open != std::string::npos && text.ends_with(']'))
+  if (const std::size_t open = text.rfind('['); open != std::string::npos && text.ends_with(']'))
     return split(open, open + 1, text.size() - 1);
   if (const std::size_t open = text.rfind('('); open != std::string::npos && open > 0 && text.ends_with(')'))
     if (NameWithUnit both = split(open, open + 1, text.size() - 1); looks_like_unit(*both.unit)) return both;

@@ -75,6 +75,12 @@ TableFile::TableFile(const std::string& path, const TableForm& form)
     : path_(path), text_(read_table_text(path, form.sheet)) {
   find_lines();
   if (lines_.empty()) return;
+  if (form.words) {
+    find_separator_of_heading();
+    data_ = lines_.size() > 1 && is_of_units(1) ? 2 : 1;
+    take_headings(data_ - 1);
+    return find_decimal_sign(form.decimal);
+  }
   if (const std::size_t seen = find_separator(); seen == 0) {
     const auto plain = std::find_if(lines_.begin(), lines_.end(), [](const Line& line) {
       return is_number_like(trimmed(line.text).substr(0, trimmed(line.text).find_first_of(" ,;\t")));
@@ -201,16 +207,40 @@ void TableFile::find_data() {
     find_headings_among_remarks();
 }
 
-// From this line; where it is one of units, from the line above it.
-void TableFile::take_headings(std::size_t line) {
+// The one that gives the first line most cells. Columns of numbers are those that hold them in most lines below it.
+void TableFile::find_separator_of_heading() {
+  std::size_t most = 0;
+  Cells cells;
+  for (const char separator : text_.is_sheet ? std::string_view("\t") : std::string_view(";\t,")) {
+    split(lines_.front().text, separator, cells);
+    if (cells.size() > most) separator_ = separator;
+    most = std::max(most, cells.size());
+  }
+  std::vector<std::size_t> numbers(most);
+  for (std::size_t i = 1; i < lines_.size(); ++i) {
+    split(lines_[i].text, separator_, cells);
+    for (std::size_t k = 0; k < std::min(most, cells.size()); ++k) numbers[k] += is_number_like(cells[k]);
+  }
+  for (std::size_t k = 0; k < most; ++k)
+    if (2 * numbers[k] >= lines_.size() - 1 && numbers[k] > 0) of_numbers_.push_back(k);
+}
+
+// A line of units below one of names.
+bool TableFile::is_of_units(std::size_t line) const {
   const Cells last = cells_of(lines_[line]);
   const auto filled = [](const Cells& cells) {
     return std::count_if(cells.begin(), cells.end(), [](std::string_view c) { return !c.empty(); });
   };
   const auto units =
       std::count_if(last.begin(), last.end(), [](std::string_view c) { return unit_in_cell(c).has_value(); });
-  const bool below_names = line > 0 && has_words_alone(cells_of(lines_[line - 1])) && 2 * units > filled(last) &&
-                           filled(cells_of(lines_[line - 1])) >= filled(last);
+  return line > 0 && has_words_alone(cells_of(lines_[line - 1])) && 2 * units > filled(last) &&
+         filled(cells_of(lines_[line - 1])) >= filled(last);
+}
+
+// From this line; where it is one of units, from the line above it.
+void TableFile::take_headings(std::size_t line) {
+  const Cells last = cells_of(lines_[line]);
+  const bool below_names = is_of_units(line);
   const Line& of_names = lines_[below_names ? line - 1 : line];
   const Cells names = cells_of(of_names);
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -386,6 +416,26 @@ TableNumbers TableFile::numbers(const std::vector<int>& columns, Messages& messa
     numbers.at.push_back(place(line, cell_at(columns.front()), columns.front()));
   }
   return numbers;
+}
+
+std::vector<std::vector<TableCell>> TableFile::cells() const {
+  std::vector<std::vector<TableCell>> rows;
+  for (std::size_t i = data_; i < lines_.size(); ++i) {
+    const Cells cells = cells_of(lines_[i]);
+    if (cells.size() != headings_.size())
+      refuse(lines_[i], fmt::format("{} cells under {} headings; cells are separated by {}", cells.size(),
+                                    headings_.size(), in_words(separator_)));
+    std::vector<TableCell>& row = rows.emplace_back();
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const Location at = place(lines_[i], cells[k], static_cast<int>(k) + 1);
+      if (cells[k].empty())
+        throw SceneError({{path_, at, fmt::format("a cell under {} is empty", in_quotes(headings_[k].text))}});
+      std::string text(cells[k]);
+      if (decimal_ == ',' && is_number_like(text)) std::replace(text.begin(), text.end(), ',', '.');
+      row.push_back({std::move(text), at});
+    }
+  }
+  return rows;
 }
 
 }  // namespace kurbel

@@ -15,6 +15,7 @@ namespace kurbel {
 struct TableForm {
   std::string sheet = {};  // of an .xlsx file; empty: the first
   char decimal = 0;        // '.' or ','; 0: as the file shows
+  bool words = false;      // its cells may be words: the first line is the heading, whatever stands below it
 };
 
 struct TableHeading {
@@ -27,6 +28,11 @@ struct TableHeading {
 struct TableNumbers {
   std::vector<std::vector<double>> columns;  // as they were asked for
   std::vector<Location> at;                  // of each row: its cell in the first of them
+};
+
+struct TableCell {
+  std::string text;  // without quotes; of a number, its decimals by a point
+  Location at;
 };
 
 class TableFile {
@@ -46,6 +52,8 @@ class TableFile {
 
   // Columns by their numbers from 1. Rows where all of them are empty are passed over; bad cells go into `messages`.
   TableNumbers numbers(const std::vector<int>& columns, Messages& messages) const;
+  // All rows below the headings, one cell for each heading. Throws SceneError at a row with more, fewer or empty ones.
+  std::vector<std::vector<TableCell>> cells() const;
 
  private:
   struct Line {
@@ -57,7 +65,9 @@ class TableFile {
   [[noreturn]] void refuse(const Line& line, const std::string& why) const;
   void find_lines();
   std::size_t find_separator();
+  void find_separator_of_heading();
   void find_data();
+  bool is_of_units(std::size_t line) const;
   void take_headings(std::size_t line);
   void find_headings_among_remarks();
   void find_decimal_sign(char said);

@@ -11,6 +11,7 @@
 
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
+#include "engine/tables/table_file.h"
 
 namespace kurbel {
 namespace {
@@ -130,23 +131,20 @@ SweptParameter parse_parameter(const std::string& text) {
 
 namespace {
 
-[[noreturn]] void refuse_line(const std::string& file, std::size_t line, const std::string& why) {
-  throw std::invalid_argument(fmt::format("{}:{}: {}", file, line, why));
-}
-
-// "flywheel.inertia [kg*m2]"
-SweptParameter parse_heading(std::string_view cell, const std::string& file, std::size_t line, std::size_t column) {
-  SweptParameter p{.path = {}, .given = std::string(cell), .where = fmt::format("{}:{}:{}", file, line, column)};
-  const std::size_t bracket = cell.rfind('[');
-  // The last bracket is a unit where a blank stands before it; "stages[2].ratio" is a path.
-  if (bracket != std::string_view::npos && bracket > 0 && cell[bracket - 1] == ' ' && cell.ends_with(']')) {
-    p.unit = trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2));
-    UnitError error;
-    if (!parse_unit(p.unit, error)) refuse_line(file, line, fmt::format("unit {}: {}", in_quotes(p.unit), error.text));
-    cell = trimmed(cell.substr(0, bracket));
-  }
-  p.path = cell;
-  if (p.path.empty()) refuse_line(file, line, "a column has no heading; write COMPONENT.KEY [UNIT]");
+// "flywheel.inertia [kg*m2]"; "stages[2]" is a path.
+SweptParameter parse_heading(const TableHeading& heading, const std::string& file) {
+  SweptParameter p{.path = heading.name,
+                   .unit = heading.unit.value_or(""),
+                   .given = heading.text,
+                   .where = fmt::format("{}:{}:{}", file, heading.at.line, heading.at.column)};
+  const std::size_t bracket = heading.text.rfind('[');
+  const bool in_heading = heading.name != heading.text && heading.text.ends_with(']');
+  if (in_heading && bracket > 0 && heading.text[bracket - 1] != ' ') p.path = heading.text, p.unit.clear();
+  if (p.path.empty()) throw SceneError({{file, heading.at, "a column has no heading; write COMPONENT.KEY [UNIT]"}});
+  if (p.unit == "-" || p.unit == "1") p.unit.clear();
+  UnitError error;
+  if (!p.unit.empty() && !parse_unit(p.unit, error))
+    throw SceneError({{file, heading.at, fmt::format("unit {}: {}", in_quotes(p.unit), error.text)}});
   return p;
 }
 
@@ -177,30 +175,18 @@ void fill_column(SweptParameter& p, const std::vector<std::vector<std::string>>&
 
 }  // namespace
 
-VariantTable parse_variants(const std::string& text, const std::string& file) {
+VariantTable read_variants(const std::string& path) {
+  const TableFile file(path, {.words = true});
   VariantTable table;
+  for (const TableHeading& heading : file.headings()) table.parameters.push_back(parse_heading(heading, path));
   std::vector<std::vector<std::string>> cells;
-  std::size_t number = 0;
-  const char by = text.find(';') != std::string::npos ? ';' : ',';
-  for (const std::string_view line : split(text, '\n')) {
-    ++number;
-    if (line.empty() || line.starts_with('#')) continue;
-    const std::vector<std::string_view> parts = split(line, by);
-    if (table.parameters.empty()) {
-      for (const std::string_view part : parts) {
-        const auto column = static_cast<std::size_t>(part.data() - line.data()) + 1;
-        table.parameters.push_back(parse_heading(part, file, number, column));
-      }
-      continue;
-    }
-    if (parts.size() != table.parameters.size())
-      refuse_line(file, number, fmt::format("{} cells under {} headings", parts.size(), table.parameters.size()));
-    for (const std::string_view part : parts)
-      if (part.empty()) refuse_line(file, number, "a cell is empty; give every key a value in every variant");
-    cells.emplace_back(parts.begin(), parts.end());
+  for (const std::vector<TableCell>& row : file.cells()) {
+    std::vector<std::string>& texts = cells.emplace_back();
+    for (const TableCell& cell : row) texts.push_back(cell.text);
   }
   if (cells.empty())
-    refuse_line(file, number, "no variants; the first line names the keys, each further one is a variant");
+    throw SceneError(
+        {{path, {1, 1}, "no variants; the first line names the keys, each further one is a variant"}});
   table.rows.assign(cells.size(), std::vector<double>(table.parameters.size()));
   for (std::size_t k = 0; k < table.parameters.size(); ++k) fill_column(table.parameters[k], cells, k, table.rows);
   return table;

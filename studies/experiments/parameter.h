@@ -36,12 +36,13 @@ struct SweptParameter {
 // Throws std::invalid_argument in words, with what may stand there.
 SweptParameter parse_parameter(const std::string& text);
 
-// A table of variants: its header names the keys, "flywheel.inertia [kg*m2]"; a row is a variant. Cells may carry units
-// of their own. Throws std::invalid_argument with the line.
+// A table of variants: its heading names the keys, "flywheel.inertia [kg*m2]"; a row is a variant. Cells may carry units
+// of their own.
 struct VariantTable {
   std::vector<SweptParameter> parameters;  // their lists of values
   std::vector<std::vector<double>> rows;   // a value of each
 };
-VariantTable parse_variants(const std::string& text, const std::string& file);
+// From a file of a table (engine/tables). Throws SceneError with the line.
+VariantTable read_variants(const std::string& path);
 
 }  // namespace kurbel

@@ -113,14 +113,32 @@ TEST(SweepDesign, ValuesReadBackToTheLastBit) {
   }
 }
 
+VariantTable variants_of(const std::string& bytes) {
+  const File file("variants");
+  std::ofstream(file.path(), std::ios::binary) << bytes;
+  return read_variants(file.path());
+}
+
 TEST(SweepDesign, ATableOfVariantsKeepsItsRows) {
   const VariantTable table =
-      parse_variants("flywheel.inertia [kg*m2], press.kind\n# a line\n200, press\n400 , none\n200,none\n", "v.csv");
+      variants_of("flywheel.inertia [kg*m2], press.kind\n# a line\n200, press\n400 , none\n200,none\n");
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_EQ(table.parameters[0].setting(table.rows[1][0]), "flywheel.inertia=400 kg*m2");
   EXPECT_EQ(table.parameters[1].setting(table.rows[2][1]), "press.kind=none");
-  EXPECT_THROW(parse_variants("a.b,c.d\n1\n", "v.csv"), std::invalid_argument);
-  EXPECT_THROW(parse_variants("a.b\n", "v.csv"), std::invalid_argument);
+  EXPECT_THROW(variants_of("a.b,c.d\n1\n"), SceneError);
+  EXPECT_THROW(variants_of("a.b,c.d\n1,\n"), SceneError);
+  EXPECT_THROW(variants_of("a.b\n"), SceneError);
+  EXPECT_THROW(variants_of("a.b [furlong3],c\n1,2\n"), SceneError);
+}
+
+// As spreadsheets write them: a mark of the encoding, semicolons, decimal commas, quotes, a line of units.
+TEST(SweepDesign, ATableOfVariantsIsReadAsAnyTable) {
+  const VariantTable table = variants_of(
+      "\xEF\xBB\xBF\"flywheel.inertia\";stages[2];press.kind\r\nkg*m2;-;\r\n0,5;2;\"press\"\r\n1,25;3;none\r\n");
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.parameters[0].setting(table.rows[0][0]), "flywheel.inertia=0.5 kg*m2");
+  EXPECT_EQ(table.parameters[1].setting(table.rows[1][1]), "stages[2]=3");
+  EXPECT_EQ(table.parameters[2].setting(table.rows[0][2]), "press.kind=press");
 }
 
 // --- indices ---
