@@ -59,6 +59,12 @@ void build_fluid_coupling(const Section& s, Network& net, Messages& messages) {
   for (int k = 0; k <= samples; ++k)
     least = std::min(least, lambda.value(table.x.front() + (table.x.back() - table.x.front()) * k / samples));
   if (least < -1e-12 * lambda.max_abs()) return refuse("λ < 0; the faster side always drives the slower one");
+  net.limit({.component = s.name,
+             .of = "lambda",
+             .over = Network::DataRange::Over::ratio_of_speeds,
+             .node = in,
+             .other = out},
+            lambda);
   net.connect(in, out, 1, s.name, FluidCoupling{lambda, coupling.density * std::pow(coupling.diameter, 5)});
 }
 

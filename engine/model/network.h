@@ -82,10 +82,11 @@ class Network {
   // Where a characteristic is given over a quantity; what a motion takes from elsewhere is no datum of the scene, unless
   // that says how it goes on.
   struct DataRange {
-    enum class Over { time, speed, size_of_speed, channel };
+    enum class Over { time, speed, size_of_speed, ratio_of_speeds, channel };
     std::string component, of;  // "torque", in the scene's words
     Over over = Over::speed;
     int node = 0;                                    // whose speed
+    int other = -1;                                  // of a ratio, which is the slower speed over the faster: between these
     std::string channel = {};                        // or a channel: offset + sign · its value
     double sign = 1, offset = 0, low = 0, high = 0;  // in SI
     std::string unit = {};                           // SI, of these

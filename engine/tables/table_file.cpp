@@ -79,7 +79,8 @@ TableFile::TableFile(const std::string& path, const TableForm& form)
     find_separator_of_heading();
     data_ = lines_.size() > 1 && is_of_units(1) ? 2 : 1;
     take_headings(data_ - 1);
-    return find_decimal_sign(form.decimal);
+    find_decimal_sign(form.decimal);
+    return;
   }
   if (const std::size_t seen = find_separator(); seen == 0) {
     const auto plain = std::find_if(lines_.begin(), lines_.end(), [](const Line& line) {

@@ -47,6 +47,15 @@ DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
       case DataRange::Over::size_of_speed:
         watched.value = [=](const Snapshot& s) { return std::abs(gain * s.now.speed[shaft]); };
         break;
+      case DataRange::Over::ratio_of_speeds: {
+        const auto other = at(model.shaft_of_node[at(range.other)]);
+        watched.value = [=, of_other = model.gain_of_node[at(range.other)]](const Snapshot& s) {
+          const double a = gain * s.now.speed[shaft], b = of_other * s.now.speed[other];
+          const auto [slower, faster] = std::abs(a) < std::abs(b) ? std::pair(a, b) : std::pair(b, a);
+          return faster == 0 ? 1 : slower / faster;
+        };
+        break;
+      }
       case DataRange::Over::channel:
         for (Channel& channel : channels_of(model, {range.component}))
           if (channel.name.text == range.channel)

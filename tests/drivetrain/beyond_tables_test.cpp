@@ -106,6 +106,27 @@ run = {{ until = "60 s" }}
   EXPECT_NE(refusal(scene(0.4)).find("\"motor\": its table of torque ends at"), std::string::npos);
 }
 
+// λ below its first speed ratio keeps its first value: a start from rest is taken from outside the data.
+TEST(BeyondTables, AFluidCouplingBelowItsFirstSpeedRatio) {
+  const auto scene = [](const std::string& lambda) {
+    return scene_from(fmt::format(R"(
+line = ["motor", "fluid", "mill"]
+motor = {{ kind = "speed source", speed = "1450 rpm" }}
+fluid = {{ kind = "fluid coupling", diameter = "0.25 m", lambda = {{ over = "speed ratio", unit = ["1", "1"], {} }} }}
+mill = {{ kind = "load", torque = "5 N*m", inertia = "0.1 kg*m2" }}
+run = {{ until = "5 s", start = "rest" }}
+)",
+                                  lambda));
+  };
+  const Result whole = run(scene("points = [[0, 0.0021], [0.5, 0.0019], [0.95, 0.0008], [1, 0]]"));
+  EXPECT_FALSE(tells(whole));
+  EXPECT_TRUE(whole.find("final_speed.mill")->error);
+  const Result part = run(scene("points = [[0.5, 0.0019], [0.95, 0.0008], [1, 0]]"));
+  EXPECT_TRUE(tells(part));
+  EXPECT_FALSE(part.find("final_speed.mill")->error);
+  EXPECT_FALSE(tells(run(scene("points = [[0.5, 0.0019], [0.95, 0.0008], [1, 0]], beyond = \"hold\""), false)));
+}
+
 // Random drives and loads by table over speed and time, against what the trajectory itself shows.
 TEST(BeyondTables, OfRandomMachinesEachLeavingIsToldAndNoOther) {
   std::mt19937 random(41);
