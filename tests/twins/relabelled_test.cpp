@@ -9,6 +9,7 @@
 #include "studies/reduce/reduce.h"
 #include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
+#include "tests/support/thorough.h"
 #include "tests/twins/twin_gears.h"
 
 namespace kurbel::relabelled_test {
@@ -17,7 +18,10 @@ namespace {
 using namespace test;  // NOLINT: the scenes' names
 using Json = nlohmann::json;
 
-class Relabelled : public EveryScene {};
+class Relabelled : public EveryScene {
+ protected:
+  bool skipped() const { return scene().dear && !thorough(); }
+};
 
 // --- other words -----------------------------------------------------------------------------------------------------
 
@@ -209,9 +213,11 @@ TEST_P(Relabelled, RunSaysTheSame) {
   expect_same_output(scene(), "run", [](const Scene& s) { return output_of(run(s, false)).json; });
 }
 TEST_P(Relabelled, ModesSayTheSame) {
+  if (skipped()) GTEST_SKIP() << "takes long: scripts/test --thorough";
   expect_same_output(scene(), "modes", [](const Scene& s) { return output_of(find_modes(s, s.effects, {})).json; });
 }
 TEST_P(Relabelled, ReductionSaysTheSame) {
+  if (skipped()) GTEST_SKIP() << "takes long: scripts/test --thorough";
   expect_same_output(scene(), "reduce", [](const Scene& s) {
     return output_of(reduce(s, {.positions = 5, .to = {}, .speed = {}, .orders = 4})).json;
   });
