@@ -111,30 +111,19 @@ BarredAround barred_around(double speed_ratio) { return {16 / (18 - speed_ratio)
 const Fields<ShaftRating>& shaft_rating_fields() {
   static const auto made =
       Fields<Rating>()
-          .add({.name = "allowable_vibratory_stress",
-                .unit = "Pa",
-                .domain = positive,
-                .doc = "limit of the stress's amplitude (τ_max − τ_min)/2 by the maker, for kurbel modes, run, steady"},
-               &Rating::vibratory)
-          .add({.name = "tensile_strength",
-                .unit = "Pa",
-                .domain = positive,
-                .doc = "σ_B, specified minimum; for Goodman and UR M68"},
+          .add(
+              quantity("allowable_vibratory_stress", "Pa", positive,
+                       "limit of the stress's amplitude (τ_max − τ_min)/2 by the maker, for kurbel modes, run, steady"),
+              &Rating::vibratory)
+          .add(quantity("tensile_strength", "Pa", positive, "σ_B, specified minimum; for Goodman and UR M68"),
                &Rating::tensile)
-          .add({.name = "yield_strength",
-                .unit = "Pa",
-                .domain = positive,
-                .doc = "σ_S: the largest stress is held against 0.577 σ_S"},
+          .add(quantity("yield_strength", "Pa", positive, "σ_S: the largest stress is held against 0.577 σ_S"),
                &Rating::yield)
-          .add({.name = "endurance_limit",
-                .unit = "Pa",
-                .domain = positive,
-                .doc = "τ_W of the smooth shaft, size and surface included, in reversed torsion: Goodman"},
+          .add(quantity("endurance_limit", "Pa", positive,
+                        "τ_W of the smooth shaft, size and surface included, in reversed torsion: Goodman"),
                &Rating::endurance)
-          .add({.name = "notch_factor", .fallback = "1", .domain = {.low = 1}, .doc = "K_f in torsion, for Goodman"},
-               &Rating::notch)
-          .add({.name = "safety", .fallback = "1", .domain = {.low = 1}, .doc = "S that Goodman and yield must leave"},
-               &Rating::safety)
+          .add(defaulted("notch_factor", "", "1", {.low = 1}, "K_f in torsion, for Goodman"), &Rating::notch)
+          .add(defaulted("safety", "", "1", {.low = 1}, "S that Goodman and yield must leave"), &Rating::safety)
           .add({.name = "role",
                 .doc = "in a ship's propulsion: judged by IACS UR M68, continuous, passing, barred ranges; crankshafts "
                        "and shafts of gears, motors, generators, turbines have no role there"},
@@ -158,15 +147,10 @@ const Fields<ShaftRating>& shaft_rating_fields() {
                 .doc = "how much of σ_B counts in UR M68: up to 600 MPa; of alloy steel forward of the stern tube 800 "
                        "MPa"},
                &Rating::steel, {{"carbon", Rating::Steel::carbon}, {"alloy", Rating::Steel::alloy}})
-          .add({.name = "design_factor",
-                .domain = {.low = 0, .high = 1, .low_open = true},
-                .doc = "c_K in place of that of role and detail"},
+          .add(quantity("design_factor", "", {.low = 0, .high = 1, .low_open = true},
+                        "c_K in place of that of role and detail"),
                &Rating::stated_design)
-          .add({.name = "rated_speed",
-                .unit = "rad/s",
-                .domain = positive,
-                .doc = "of this shaft at rated power: λ = 1"},
-               &Rating::rated_speed)
+          .add(quantity("rated_speed", "rad/s", positive, "of this shaft at rated power: λ = 1"), &Rating::rated_speed)
           .check([](const Reading<Rating>& r) {
             check_fatigue(r);
             check_propulsion(r);

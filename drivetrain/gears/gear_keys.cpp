@@ -26,17 +26,11 @@ void check_geometry(const Reading<GearGeometryKeys>& g) {
 
 Fields<BasicRack> rack_fields() {
   return Fields<BasicRack>()
-      .add({.name = "pressure_angle",
-            .unit = "rad",
-            .fallback = "\"20 deg\"",
-            .doc = "α_n of the basic rack, 10 … 35 deg"},
+      .add(defaulted("pressure_angle", "rad", "20 deg", any_number, "α_n of the basic rack, 10 … 35 deg"),
            &BasicRack::pressure_angle)
-      .add({.name = "addendum", .fallback = "1", .domain = positive, .doc = "h_a* of the basic rack, in modules"},
-           &BasicRack::addendum)
-      .add({.name = "clearance", .fallback = "0.25", .domain = not_negative, .doc = "c* of the basic rack"},
-           &BasicRack::clearance)
-      .add({.name = "root_radius", .fallback = "0.38", .domain = not_negative, .doc = "ρ_f* of the basic rack"},
-           &BasicRack::root_radius);
+      .add(defaulted("addendum", "", "1", positive, "h_a* of the basic rack, in modules"), &BasicRack::addendum)
+      .add(defaulted("clearance", "", "0.25", not_negative, "c* of the basic rack"), &BasicRack::clearance)
+      .add(defaulted("root_radius", "", "0.38", not_negative, "ρ_f* of the basic rack"), &BasicRack::root_radius);
 }
 
 std::array<std::optional<double>, 2> two_of(const std::optional<std::vector<double>>& list) {
@@ -51,63 +45,36 @@ std::string two_wanted(const std::string& key, std::size_t count) {
 }
 
 Key teeth_key() {
-  return {.name = "teeth",
-          .domain = {.low = 1, .high = 100000},
-          .doc = "teeth of the driving and of the driven wheel",
-          .required = true};
+  return required("teeth", "", {.low = 1, .high = 100000}, "teeth of the driving and of the driven wheel");
 }
 
 Fields<GearGeometryKeys> gear_geometry_fields(const std::string& gap_effect) {
   using Keys = GearGeometryKeys;
   return Fields<Keys>()
-      .add({.name = "module",
-            .unit = "m",
-            .domain = positive,
-            .doc = "normal module m_n: the stage is given by its teeth, and the inertias follow from width and "
-                   "density"},
+      .add(quantity("module", "m", positive,
+                    "normal module m_n: the stage is given by its teeth, and the inertias follow from width and "
+                    "density"),
            &Keys::module)
-      .add({.name = "width", .unit = "m", .domain = positive, .doc = "face width b of both wheels"},
-           &Keys::width_of_both)
-      .add({.name = "helix", .unit = "rad", .fallback = "\"0 deg\"", .doc = "helix angle β, −60 … 60 deg"},
-           &Keys::helix)
-      .add({.name = "shift",
-            .domain = {.low = -3, .high = 3},
-            .doc = "profile shifts x of both wheels, in modules; default: 0, or by the centre distance, half each"},
+      .add(quantity("width", "m", positive, "face width b of both wheels"), &Keys::width_of_both)
+      .add(defaulted("helix", "rad", "0 deg", any_number, "helix angle β, −60 … 60 deg"), &Keys::helix)
+      .add(quantity("shift", "", {.low = -3, .high = 3},
+                    "profile shifts x of both wheels, in modules; default: 0, or by the centre distance, half each"),
            &Keys::shifts)
-      .add({.name = "centre_distance", .unit = "m", .domain = positive, .doc = "a_w; default: by the shifts"},
-           &Keys::centre_distance)
+      .add(quantity("centre_distance", "m", positive, "a_w; default: by the shifts"), &Keys::centre_distance)
       .add({.name = "internal",
             .fallback = "false",
             .doc = "the driven wheel is internal; its shift counts as after ISO 21771, > 0 makes its teeth thicker"},
            &Keys::is_internal)
-      .add({.name = "backlash",
-            .unit = "m",
-            .domain = not_negative,
-            .doc = "allowance j_bn along the normal of the teeth",
-            .effect = gap_effect},
+      .add(quantity("backlash", "m", not_negative, "allowance j_bn along the normal of the teeth", gap_effect),
            &Keys::allowance)
       .add(rack_fields(), &Keys::rack)
-      .add({.name = "tip_diameter",
-            .unit = "m",
-            .domain = positive,
-            .doc = "tip diameters, where they differ from the rack's"},
+      .add(quantity("tip_diameter", "m", positive, "tip diameters, where they differ from the rack's"),
            &Keys::tip_diameters)
-      .add({.name = "bore",
-            .unit = "m",
-            .domain = not_negative,
-            .doc = "bores of both wheels; of an internal one its outer diameter (\"0 mm\": rim of 3.5 modules)"},
+      .add(quantity("bore", "m", not_negative,
+                    "bores of both wheels; of an internal one its outer diameter (\"0 mm\": rim of 3.5 modules)"),
            &Keys::bores)
-      .add({.name = "density",
-            .unit = "kg/m3",
-            .fallback = "\"7850 kg/m3\"",
-            .domain = positive,
-            .doc = "of the wheels"},
-           &Keys::density)
-      .add({.name = "elastic_modulus",
-            .unit = "Pa",
-            .fallback = "\"206 GPa\"",
-            .domain = positive,
-            .doc = "of the wheels, for the mesh stiffness"},
+      .add(defaulted("density", "kg/m3", "7850 kg/m3", positive, "of the wheels"), &Keys::density)
+      .add(defaulted("elastic_modulus", "Pa", "206 GPa", positive, "of the wheels, for the mesh stiffness"),
            &Keys::young)
       .check(check_geometry);
 }

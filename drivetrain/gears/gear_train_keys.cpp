@@ -26,35 +26,24 @@ void check_efficiency(const Reading<EfficiencyKeys>& e) {
 const Fields<EfficiencyKeys>& efficiency_fields() {
   using Keys = EfficiencyKeys;
   const auto of_both = [](const Keys& e) { return e.both.value_or(1); };
-  static const auto made = Fields<Keys>()
-                               .add({.name = "efficiency",
-                                     .domain = {.low = 0, .high = 1, .low_open = true},
-                                     .doc = "η, whichever side drives",
-                                     .effect = "gear_losses"},
-                                    &Keys::both)
-                               .add({.name = "efficiency_forwards",
-                                     .domain = {.low = 0, .high = 1, .low_open = true},
-                                     .doc = "η₁ when the input drives, in place of efficiency",
-                                     .effect = "gear_losses"},
-                                    &Keys::forwards, of_both)
-                               .add({.name = "efficiency_backwards",
-                                     .domain = {.high = 1},
-                                     .doc = "η₂ when the output drives; ≤ 0: self-locking",
-                                     .effect = "gear_losses"},
-                                    &Keys::backwards, of_both)
-                               .add({.name = "bearing_torque",
-                                     .unit = "N*m",
-                                     .domain = not_negative,
-                                     .doc = "friction of the bearings b₁ on the input shaft while the input drives",
-                                     .effect = "gear_losses"},
-                                    &Keys::bearing_driving)
-                               .add({.name = "bearing_torque_backwards",
-                                     .unit = "N*m",
-                                     .domain = not_negative,
-                                     .doc = "b₂ on the input shaft while the output drives; default: b₁",
-                                     .effect = "gear_losses"},
-                                    &Keys::bearing_driven, &Keys::bearing_driving)
-                               .check(check_efficiency);
+  static const auto made =
+      Fields<Keys>()
+          .add(quantity("efficiency", "", {.low = 0, .high = 1, .low_open = true}, "η, whichever side drives",
+                        "gear_losses"),
+               &Keys::both)
+          .add(quantity("efficiency_forwards", "", {.low = 0, .high = 1, .low_open = true},
+                        "η₁ when the input drives, in place of efficiency", "gear_losses"),
+               &Keys::forwards, of_both)
+          .add(quantity("efficiency_backwards", "", {.high = 1}, "η₂ when the output drives; ≤ 0: self-locking",
+                        "gear_losses"),
+               &Keys::backwards, of_both)
+          .add(quantity("bearing_torque", "N*m", not_negative,
+                        "friction of the bearings b₁ on the input shaft while the input drives", "gear_losses"),
+               &Keys::bearing_driving)
+          .add(quantity("bearing_torque_backwards", "N*m", not_negative,
+                        "b₂ on the input shaft while the output drives; default: b₁", "gear_losses"),
+               &Keys::bearing_driven, &Keys::bearing_driving)
+          .check(check_efficiency);
   return made;
 }
 

@@ -7,15 +7,11 @@ namespace kurbel {
 
 const Fields<HeatRating>& heat_rating_fields() {
   static const auto made = Fields<HeatRating>()
-                               .add({.name = "allowable_heat",
-                                     .unit = "J",
-                                     .domain = positive,
-                                     .doc = "heat that it may take in one engagement, limit for kurbel run"},
+                               .add(quantity("allowable_heat", "J", positive,
+                                             "heat that it may take in one engagement, limit for kurbel run"),
                                     &HeatRating::engagement)
-                               .add({.name = "allowable_heat_power",
-                                     .unit = "W",
-                                     .domain = positive,
-                                     .doc = "heat that it may take on the mean of the time run, limit for kurbel run"},
+                               .add(quantity("allowable_heat_power", "W", positive,
+                                             "heat that it may take on the mean of the time run, limit for kurbel run"),
                                     &HeatRating::power);
   return made;
 }
@@ -24,18 +20,13 @@ const Fields<RimRating>& rim_rating_fields() {
   using Rim = RimRating;
   static const auto made =
       Fields<Rim>()
-          .add({.name = "rim_radius", .unit = "m", .domain = positive, .doc = "mean radius r of the rim"}, &Rim::radius)
-          .add({.name = "allowable_rim_speed",
-                .unit = "m/s",
-                .domain = positive,
-                .doc = "limit of r ω for kurbel run; needs rim_radius"},
+          .add(quantity("rim_radius", "m", positive, "mean radius r of the rim"), &Rim::radius)
+          .add(quantity("allowable_rim_speed", "m/s", positive, "limit of r ω for kurbel run; needs rim_radius"),
                &Rim::speed)
-          .add({.name = "rim_density", .unit = "kg/m3", .domain = positive, .doc = "ρ of the rim"}, &Rim::density)
-          .add({.name = "allowable_rim_stress",
-                .unit = "Pa",
-                .domain = positive,
-                .doc = "limit of ρ (r ω)², hoop stress of a thin free ring, for kurbel run; needs rim_radius, "
-                       "rim_density"},
+          .add(quantity("rim_density", "kg/m3", positive, "ρ of the rim"), &Rim::density)
+          .add(quantity("allowable_rim_stress", "Pa", positive,
+                        "limit of ρ (r ω)², hoop stress of a thin free ring, for kurbel run; needs rim_radius, "
+                        "rim_density"),
                &Rim::stress)
           .check([](const Reading<Rim>& rim) {
             for (const auto member : {&Rim::speed, &Rim::stress})
@@ -57,10 +48,9 @@ const Fields<DutyRating>& duty_rating_fields() {
                 .doc = "that its rated torque M_N is stated for, after IEC 60034-1: kurbel run holds the RMS torque, a "
                        "lower bound of heating, against what makes the same heat"},
                &Rating::duty, {{"S1", Duty::continuous}, {"S2", Duty::short_time}, {"S3", Duty::intermittent}})
-          .add({.name = "duty_time", .unit = "s", .domain = positive, .doc = "S2: how long M_N may act"}, &Rating::time)
-          .add({.name = "duty_share",
-                .domain = {.low = 0, .high = 1, .low_open = true},
-                .doc = "S3: part of the time in which M_N may act; the run is to be of whole duty cycles"},
+          .add(quantity("duty_time", "s", positive, "S2: how long M_N may act"), &Rating::time)
+          .add(quantity("duty_share", "", {.low = 0, .high = 1, .low_open = true},
+                        "S3: part of the time in which M_N may act; the run is to be of whole duty cycles"),
                &Rating::share)
           .check([](const Reading<Rating>& r) {
             if ((r.duty == Duty::short_time) != r.time.has_value())

@@ -25,8 +25,8 @@ Key own_inertia_key() { return inertia_key("\"0 kg*m2\"", "inertia of its own sh
 const Fields<Window>& window_fields() {
   static const auto made =
       Fields<Window>()
-          .add({.name = "start", .unit = "s", .doc = "acts from this time on; default: always"}, &Window::start)
-          .add({.name = "stop", .unit = "s", .doc = "acts until this time; default: always"}, &Window::stop)
+          .add(quantity("start", "s", any_number, "acts from this time on; default: always"), &Window::start)
+          .add(quantity("stop", "s", any_number, "acts until this time; default: always"), &Window::stop)
           .check([](const Reading<Window>& w) {
             if (w.given(&Window::start) && w.given(&Window::stop) && w.stop <= w.start)
               w.refuse(&Window::stop, fmt::format("stop = {:g} s; must be later than start = {:g} s", w.stop, w.start));

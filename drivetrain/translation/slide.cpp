@@ -118,47 +118,22 @@ const Fields<SlideKeys>& slide_fields() {
   using Keys = SlideKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "mass",
-                .unit = "kg",
-                .fallback = "\"0 kg\"",
-                .domain = not_negative,
-                .doc = "of all that moves along: m k² on the shaft"},
-               &Keys::mass)
-          .add({.name = "inclination",
-                .unit = "rad",
-                .fallback = "\"0 deg\"",
-                .domain = {.low = -1.5707963267948968, .high = 1.5707963267948968},
-                .doc = "of the direction of drive above the horizontal: 90 deg lifts, -90 deg presses downwards"},
+          .add(defaulted("mass", "kg", "0 kg", not_negative, "of all that moves along: m k² on the shaft"), &Keys::mass)
+          .add(defaulted("inclination", "rad", "0 deg", {.low = -1.5707963267948968, .high = 1.5707963267948968},
+                         "of the direction of drive above the horizontal: 90 deg lifts, -90 deg presses downwards"),
                &Keys::inclination)
-          .add({.name = "gravity",
-                .unit = "m/s2",
-                .fallback = "\"9.80665 m/s2\"",
-                .domain = not_negative,
-                .doc = "its weight is m g",
-                .effect = "gravity"},
+          .add(defaulted("gravity", "m/s2", "9.80665 m/s2", not_negative, "its weight is m g", "gravity"),
                &Keys::gravity)
-          .add({.name = "guide_friction",
-                .fallback = "0",
-                .domain = {.low = 0, .high = 10},
-                .doc = "μ of the guide under the weight: μ m g cos β against the motion; holds at standstill"},
+          .add(defaulted("guide_friction", "", "0", {.low = 0, .high = 10},
+                         "μ of the guide under the weight: μ m g cos β against the motion; holds at standstill"),
                &Keys::friction)
-          .add({.name = "force", .unit = "N", .fallback = "\"0 N\"", .doc = "constant resistance F₀"}, &Keys::force)
+          .add(defaulted("force", "N", "0 N", any_number, "constant resistance F₀"), &Keys::force)
           .add({.name = "acts",
                 .fallback = "\"against motion\"",
                 .doc = "the constant force opposes motion and holds at standstill, or acts always backwards"},
                &Keys::always_backwards, {{"against motion", false}, {"always", true}})
-          .add({.name = "damping",
-                .unit = "N*s/m",
-                .fallback = "\"0 N*s/m\"",
-                .domain = not_negative,
-                .doc = "c in c v"},
-               &Keys::viscous)
-          .add({.name = "quadratic",
-                .unit = "N*s2/m2",
-                .fallback = "\"0 N*s2/m2\"",
-                .domain = not_negative,
-                .doc = "q in q v |v|"},
-               &Keys::quadratic)
+          .add(defaulted("damping", "N*s/m", "0 N*s/m", not_negative, "c in c v"), &Keys::viscous)
+          .add(defaulted("quadratic", "N*s2/m2", "0 N*s2/m2", not_negative, "q in q v |v|"), &Keys::quadratic)
           .add({.name = "table",
                 .unit = "N",
                 .doc = "resisting force over time, or over the travel (return_points: on the way back)",
@@ -166,10 +141,8 @@ const Fields<SlideKeys>& slide_fields() {
                &Keys::table)
           .add({.name = "work", .fallback = "\"useful\"", .doc = "line of the energy balance of these forces"},
                &Keys::work, {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
-          .add({.name = "start_travel",
-                .unit = "m",
-                .fallback = "\"0 m\"",
-                .doc = "travel at the start; without a table over travel, where the shaft's angle is 0"},
+          .add(defaulted("start_travel", "m", "0 m", any_number,
+                         "travel at the start; without a table over travel, where the shaft's angle is 0"),
                &Keys::start)
           .check(check_slide);
   return made;

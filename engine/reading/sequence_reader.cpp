@@ -119,24 +119,20 @@ class StepReader {
 
 const std::vector<Key>& sequence_step_keys() {
   static const std::vector<Key> keys = {
-      {.name = "at", .unit = "s", .domain = not_negative, .doc = "happens at this time, or once its turn comes"},
-      {.name = "after", .unit = "s", .domain = not_negative, .doc = "happens so long after the step before it"},
-      {.name = "angle",
-       .unit = "rad",
-       .doc = "happens when the component `of` next passes this angle, whatever the turn"},
-      {.name = "speed_above", .unit = "rad/s", .doc = "happens when the component `of` is faster than this"},
-      {.name = "speed_below", .unit = "rad/s", .doc = "happens when the component `of` is slower than this"},
+      quantity("at", "s", not_negative, "happens at this time, or once its turn comes"),
+      quantity("after", "s", not_negative, "happens so long after the step before it"),
+      quantity("angle", "rad", any_number, "happens when the component `of` next passes this angle, whatever the turn"),
+      quantity("speed_above", "rad/s", any_number, "happens when the component `of` is faster than this"),
+      quantity("speed_below", "rad/s", any_number, "happens when the component `of` is slower than this"),
       {.name = "of", .type = KeyType::text, .doc = "the component that is watched"},
-      {.name = "to",
-       .fallback = "1",
-       .domain = {.low = -1, .high = 10},
-       .doc = "1 on, 0 off, between them part (pressure of a clutch, voltage of a motor), −1 a motor reversed"},
+      defaulted("to", "", "1", {.low = -1, .high = 10},
+                "1 on, 0 off, between them part (pressure of a clutch, voltage of a motor), −1 a motor reversed"),
       {.name = "law",
        .type = KeyType::curve,
        .unit = "1",
        .doc = "in place of to and over: the value over the time since the step, as clutch pressure over rated pressure",
        .choices = {"time"}},
-      {.name = "over", .unit = "s", .fallback = "\"0 s\"", .domain = not_negative, .doc = "ramp from the value before"},
+      defaulted("over", "s", "0 s", not_negative, "ramp from the value before"),
   };
   return keys;
 }

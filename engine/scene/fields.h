@@ -3,11 +3,11 @@
 //     const Fields<Spring>& spring_fields() {
 //       static const auto made =
 //           Fields<Spring>()
-//               .add({.name = "stiffness", .unit = "N/m", .domain = positive, .doc = "k", .required = true}, &Spring::k)
-//               .add({.name = "damping", .unit = "N*s/m", .doc = "c; default: none"}, &Spring::c)
+//               .add(required("stiffness", "N/m", positive, "k"), &Spring::k)
+//               .add(quantity("damping", "N*s/m", any_number, "c; default: none"), &Spring::c)
 //               .add({.name = "seat", .fallback = "\"flat\"", .doc = "of its ends"}, &Spring::ground,
 //                    {{"flat", true}, {"open", false}})
-//               .add({.name = "preload", .unit = "N", .doc = "default: by the stiffness"}, &Spring::preload,
+//               .add(quantity("preload", "N", any_number, "default: by the stiffness"), &Spring::preload,
 //                    [](const Spring& s) { return 1e-3 * s.k; });
 //       return made;
 //     }

@@ -1,10 +1,11 @@
-// keys.cpp — how domains and lists of names are told, and how a section's values are found.
+// keys.cpp — keys of numbers, how domains and lists of names are told, and how a section's values are found.
 #include "engine/scene/keys.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/scene/units.h"
 
@@ -32,6 +33,27 @@ std::string Domain::describe(const std::string& unit) const {
   if (bounded_low) return fmt::format("{} {}", low_open ? ">" : "≥", with_unit(low, low == 0 ? "" : unit));
   if (bounded_high) return fmt::format("{} {}", high_open ? "<" : "≤", with_unit(high, unit));
   return "finite";
+}
+
+Key quantity(std::string name, std::string unit, Domain domain, std::string doc, std::string effect) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .domain = domain,
+          .doc = std::move(doc),
+          .effect = std::move(effect)};
+}
+
+Key required(std::string name, std::string unit, Domain domain, std::string doc, std::string effect) {
+  Key key = quantity(std::move(name), std::move(unit), domain, std::move(doc), std::move(effect));
+  key.required = true;
+  return key;
+}
+
+Key defaulted(std::string name, std::string unit, const std::string& fallback, Domain domain, std::string doc,
+              std::string effect) {
+  Key key = quantity(std::move(name), std::move(unit), domain, std::move(doc), std::move(effect));
+  key.fallback = key.unit.empty() ? fallback : '"' + fallback + '"';
+  return key;
 }
 
 std::string shortened_list(std::vector<std::string> names, std::string_view conjunction) {

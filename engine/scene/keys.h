@@ -57,6 +57,13 @@ struct Key {
   }
 };
 
+// Keys of numbers; an empty unit for a bare number, `effect` as in Key.
+Key quantity(std::string name, std::string unit, Domain domain, std::string doc, std::string effect = "");
+Key required(std::string name, std::string unit, Domain domain, std::string doc, std::string effect = "");
+// Where it is not given, as if `fallback` stood in the file: "0 deg"; quotes are put around it where it has a unit.
+Key defaulted(std::string name, std::string unit, const std::string& fallback, Domain domain, std::string doc,
+              std::string effect = "");
+
 // How a kind of component stands in a machine.
 enum class Placement {
   inline_one,  // one shaft passes through it: motor, flywheel, slider-crank; in a line, or `on` a component

@@ -54,11 +54,9 @@ void check_method(const std::string& method, const std::string& model) {
 
 const std::vector<Key>& run_keys() {
   static const std::vector<Key> keys = {
-      {.name = "until", .unit = "s", .fallback = "\"1 s\"", .domain = positive, .doc = "end of the simulated time"},
-      {.name = "accuracy",
-       .fallback = "1e-6",
-       .domain = {.low = 1e-12, .high = 0.1},
-       .doc = "measured error of every figure over its scale (rated speed, rated torque, 1 rad)"},
+      defaulted("until", "s", "1 s", positive, "end of the simulated time"),
+      defaulted("accuracy", "", "1e-6", {.low = 1e-12, .high = 0.1},
+                "measured error of every figure over its scale (rated speed, rated torque, 1 rad)"),
       {.name = "method",
        .type = KeyType::text,
        .fallback = "\"auto\"",
@@ -77,12 +75,9 @@ const std::vector<Key>& run_keys() {
        .fallback = "1000",
        .domain = {.low = 2, .high = 1e6},
        .doc = "rows of trajectory.csv"},
-      {.name = "budget",
-       .unit = "s",
-       .fallback = "\"300 s\"",
-       .domain = positive,
-       .doc = "processor time after which an integration, or a study that is not made of runs, is stopped with a "
-              "diagnosis"},
+      defaulted("budget", "s", "300 s", positive,
+                "processor time after which an integration, or a study that is not made of runs, is stopped with a "
+                "diagnosis"),
   };
   return keys;
 }

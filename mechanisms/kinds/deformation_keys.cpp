@@ -23,35 +23,22 @@ void check_contact(const Reading<Contact>& c) {
 
 Fields<Contact> contact(const char* gap) {
   return Fields<Contact>()
-      .add({.name = "gap", .unit = "m", .domain = positive, .doc = gap, .required = true}, &Contact::gap)
-      .add({.name = "stiffness",
-            .unit = "N/m",
-            .domain = positive,
-            .doc = "k of the contact: force over depth at a depth equal to the gap, N = k gap (depth/gap)ⁿ",
-            .required = true},
+      .add(required("gap", "m", positive, gap), &Contact::gap)
+      .add(required("stiffness", "N/m", positive,
+                    "k of the contact: force over depth at a depth equal to the gap, N = k gap (depth/gap)ⁿ"),
            &Contact::stiffness)
-      .add({.name = "exponent",
-            .fallback = "1.5",
-            .domain = {.low = 1, .high = 3},
-            .doc = "n: 1.5 contact in a point (Hertz), 1 in a line"},
+      .add(defaulted("exponent", "", "1.5", {.low = 1, .high = 3}, "n: 1.5 contact in a point (Hertz), 1 in a line"),
            &Contact::exponent)
-      .add({.name = "damping",
-            .unit = "s/m",
-            .domain = not_negative,
-            .doc = "λ of Hunt and Crossley: N (1 + λ · approach speed); default: from restitution, else 0"},
+      .add(quantity("damping", "s/m", not_negative,
+                    "λ of Hunt and Crossley: N (1 + λ · approach speed); default: from restitution, else 0"),
            &Contact::damping)
-      .add({.name = "restitution",
-            .domain = {.low = 0, .high = 1, .low_open = true},
-            .doc = "speed after over speed before a normal impact of restitution_speed; gives λ"},
+      .add(quantity("restitution", "", {.low = 0, .high = 1, .low_open = true},
+                    "speed after over speed before a normal impact of restitution_speed; gives λ"),
            &Contact::restitution)
-      .add({.name = "restitution_speed", .unit = "m/s", .domain = positive, .doc = "that restitution belongs to"},
-           &Contact::restitution_speed)
-      .add({.name = "friction", .fallback = "0", .domain = not_negative, .doc = "μ of the contact"}, &Contact::friction)
-      .add({.name = "friction_speed",
-            .unit = "m/s",
-            .fallback = "\"1 mm/s\"",
-            .domain = positive,
-            .doc = "v₀ of friction force μ N tanh(v/v₀): it creeps below"},
+      .add(quantity("restitution_speed", "m/s", positive, "that restitution belongs to"), &Contact::restitution_speed)
+      .add(defaulted("friction", "", "0", not_negative, "μ of the contact"), &Contact::friction)
+      .add(defaulted("friction_speed", "m/s", "1 mm/s", positive,
+                     "v₀ of friction force μ N tanh(v/v₀): it creeps below"),
            &Contact::friction_speed)
       .derive([](Contact& c) {
         if (c.restitution && c.restitution_speed)
@@ -63,34 +50,18 @@ Fields<Contact> contact(const char* gap) {
 Fields<JointClearance> pin_clearance() {
   return Fields<JointClearance>()
       .add(contact("radial clearance: bearing radius less pin radius"), &JointClearance::contact)
-      .add({.name = "radius",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .domain = not_negative,
-            .doc = "of the pin: lever of its friction"},
+      .add(defaulted("radius", "m", "0 m", not_negative, "of the pin: lever of its friction"),
            &JointClearance::pin_radius);
 }
 
 Fields<JointClearance> guide_clearance() {
   return Fields<JointClearance>()
       .add(contact("from each surface of the slider in the middle"), &JointClearance::contact)
-      .add({.name = "length",
-            .unit = "m",
-            .domain = positive,
-            .doc = "of the slider along the guide, its pin in the middle",
-            .required = true},
+      .add(required("length", "m", positive, "of the slider along the guide, its pin in the middle"),
            &JointClearance::half_length, Scaled(0.5))
-      .add({.name = "height",
-            .unit = "m",
-            .domain = positive,
-            .doc = "of the slider between the surfaces",
-            .required = true},
-           &JointClearance::half_height, Scaled(0.5))
-      .add({.name = "inertia",
-            .unit = "kg*m2",
-            .domain = positive,
-            .doc = "of the slider about its pin, which is its centre of mass",
-            .required = true},
+      .add(required("height", "m", positive, "of the slider between the surfaces"), &JointClearance::half_height,
+           Scaled(0.5))
+      .add(required("inertia", "kg*m2", positive, "of the slider about its pin, which is its centre of mass"),
            &JointClearance::slider_inertia);
 }
 
@@ -124,36 +95,20 @@ void check_rod(const Reading<RodKeys>& rod) {
 
 Fields<RodKeys> prismatic_rod() {
   return Fields<RodKeys>()
-      .add({.name = "modulus", .unit = "Pa", .domain = positive, .doc = "of elasticity E", .required = true},
-           &RodKeys::modulus)
-      .add({.name = "height",
-            .unit = "m",
-            .domain = positive,
-            .doc = "of a rectangular section, in the plane of motion"},
-           &RodKeys::height)
-      .add({.name = "width", .unit = "m", .domain = positive, .doc = "of a rectangular section, across it"},
-           &RodKeys::width)
-      .add({.name = "area", .unit = "m2", .domain = positive, .doc = "of another section"}, &RodKeys::another_area)
-      .add({.name = "second_moment",
-            .unit = "m4",
-            .domain = positive,
-            .doc = "of area of another section, for bending in the plane of motion"},
+      .add(required("modulus", "Pa", positive, "of elasticity E"), &RodKeys::modulus)
+      .add(quantity("height", "m", positive, "of a rectangular section, in the plane of motion"), &RodKeys::height)
+      .add(quantity("width", "m", positive, "of a rectangular section, across it"), &RodKeys::width)
+      .add(quantity("area", "m2", positive, "of another section"), &RodKeys::another_area)
+      .add(quantity("second_moment", "m4", positive, "of area of another section, for bending in the plane of motion"),
            &RodKeys::another_second_moment)
-      .add({.name = "edge",
-            .unit = "m",
-            .domain = positive,
-            .doc = "outermost fibre from the axis, for the stress; default: height/2, else no stress is told"},
+      .add(quantity("edge", "m", positive,
+                    "outermost fibre from the axis, for the stress; default: height/2, else no stress is told"),
            &RodKeys::edge, [](const RodKeys& rod) { return rod.height.value_or(0) / 2; })
-      .add({.name = "modes",
-            .fallback = "2",
-            .domain = {.low = 0, .high = RodFlexibility::most_modes},
-            .doc = "of bending, between the pins"},
+      .add(defaulted("modes", "", "2", {.low = 0, .high = RodFlexibility::most_modes}, "of bending, between the pins"),
            &RodKeys::modes)
       .add({.name = "stretching", .fallback = "true", .doc = "it stretches, too"}, &RodKeys::axial)
-      .add({.name = "damping_ratio",
-            .fallback = "0",
-            .domain = {.low = 0, .high = 1, .high_open = true},
-            .doc = "of each mode of bending, and of stretching's first"},
+      .add(defaulted("damping_ratio", "", "0", {.low = 0, .high = 1, .high_open = true},
+                     "of each mode of bending, and of stretching's first"),
            &RodKeys::damping_ratio)
       .derive([](RodKeys& rod) {
         const double height = rod.height.value_or(0);

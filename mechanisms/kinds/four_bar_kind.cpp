@@ -9,27 +9,12 @@ using FourBar = FourBarData;
 
 Fields<FourBar> four_bar_linkage() {
   return Fields<FourBar>()
-      .add({.name = "crank",
-            .unit = "m",
-            .domain = positive,
-            .doc = "crank length, from the crank axis to the crank pin",
-            .required = true,
-            .effect = "variable_inertia multibody"},
+      .add(required("crank", "m", positive, "crank length, from the crank axis to the crank pin",
+                    "variable_inertia multibody"),
            &FourBar::crank)
-      .add({.name = "coupler",
-            .unit = "m",
-            .domain = positive,
-            .doc = "coupler length, between crank and rocker",
-            .required = true},
-           &FourBar::coupler)
-      .add({.name = "rocker",
-            .unit = "m",
-            .domain = positive,
-            .doc = "rocker length, from its bearing to the coupler",
-            .required = true},
-           &FourBar::rocker)
-      .add({.name = "ground", .unit = "m", .domain = positive, .doc = "distance of the two bearings", .required = true},
-           &FourBar::ground)
+      .add(required("coupler", "m", positive, "coupler length, between crank and rocker"), &FourBar::coupler)
+      .add(required("rocker", "m", positive, "rocker length, from its bearing to the coupler"), &FourBar::rocker)
+      .add(required("ground", "m", positive, "distance of the two bearings"), &FourBar::ground)
       .add({.name = "branch",
             .fallback = "\"open\"",
             .doc = "how the loop is assembled: coupler pin left of the line from crank pin to rocker bearing, or "
@@ -41,10 +26,8 @@ Fields<FourBar> four_bar_linkage() {
       .add(pivoted_link("rocker", "from its bearing towards the coupler; negative: counterweighted"),
            &FourBar::rocker_body)
       .add(gravity_key(), &FourBar::gravity)
-      .add({.name = "ground_angle",
-            .unit = "rad",
-            .fallback = "\"0 deg\"",
-            .doc = "direction from the crank axis to the rocker's bearing, above the horizontal"},
+      .add(defaulted("ground_angle", "rad", "0 deg", any_number,
+                     "direction from the crank axis to the rocker's bearing, above the horizontal"),
            &FourBar::ground_angle);
 }
 

@@ -18,26 +18,19 @@ void check_friction(const Reading<Friction>& f) {
 
 Fields<Friction> friction() {
   return Fields<Friction>()
-      .add({.name = "friction",
-            .fallback = "0",
-            .domain = not_negative,
-            .doc = "coefficient of kinetic friction; of a rolling bearing its equivalent one (0.001 … 0.005)",
-            .effect = "joint_friction"},
+      .add(defaulted("friction", "", "0", not_negative,
+                     "coefficient of kinetic friction; of a rolling bearing its equivalent one (0.001 … 0.005)",
+                     "joint_friction"),
            &Friction::kinetic)
-      .add({.name = "static_friction", .domain = not_negative, .doc = "≥ friction; default: the same"},
-           &Friction::resting, &Friction::kinetic)
-      .add({.name = "stribeck_speed",
-            .unit = "m/s",
-            .fallback = "\"0 m/s\"",
-            .domain = not_negative,
-            .doc = "sliding speed v_s within which static friction falls to kinetic: f + (f_s − f) exp(−(v/v_s)²); 0: "
-                   "at once"},
-           &Friction::stribeck_speed)
-      .add({.name = "viscous_friction",
-            .unit = "s/m",
-            .fallback = "\"0 s/m\"",
-            .domain = not_negative,
-            .doc = "rise of the coefficient with sliding speed (fluid friction)"},
+      .add(quantity("static_friction", "", not_negative, "≥ friction; default: the same"), &Friction::resting,
+           &Friction::kinetic)
+      .add(
+          defaulted("stribeck_speed", "m/s", "0 m/s", not_negative,
+                    "sliding speed v_s within which static friction falls to kinetic: f + (f_s − f) exp(−(v/v_s)²); 0: "
+                    "at once"),
+          &Friction::stribeck_speed)
+      .add(defaulted("viscous_friction", "s/m", "0 s/m", not_negative,
+                     "rise of the coefficient with sliding speed (fluid friction)"),
            &Friction::viscous)
       .check(check_friction);
 }
@@ -48,11 +41,7 @@ const Tables<RevoluteJoint>& journals() {
       "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r sin(atan f) the radius of the "
       "friction circle",
       Fields<RevoluteJoint>()
-          .add({.name = "radius",
-                .unit = "m",
-                .domain = positive,
-                .doc = "of the journal; of a rolling bearing half its bore",
-                .required = true},
+          .add(required("radius", "m", positive, "of the journal; of a rolling bearing half its bore"),
                &RevoluteJoint::radius)
           .add(friction(), &RevoluteJoint::friction));
   return made;
@@ -66,40 +55,23 @@ void check_guide(const Reading<SliderGuide>& guide) {
 Fields<SliderGuide> guide() {
   return Fields<SliderGuide>()
       .add(friction(), &SliderGuide::friction)
-      .add({.name = "length",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .domain = not_negative,
-            .doc = "bearing length of the slider; 0: its tilting is not considered"},
+      .add(defaulted("length", "m", "0 m", not_negative,
+                     "bearing length of the slider; 0: its tilting is not considered"),
            &SliderGuide::length)
-      .add({.name = "middle",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .doc = "of that length, from the slider pin towards the extended end"},
+      .add(defaulted("middle", "m", "0 m", any_number, "of that length, from the slider pin towards the extended end"),
            &SliderGuide::middle)
-      .add({.name = "width",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .domain = not_negative,
-            .doc = "between the two guiding surfaces (bore of a cylinder): lever of their friction"},
+      .add(defaulted("width", "m", "0 m", not_negative,
+                     "between the two guiding surfaces (bore of a cylinder): lever of their friction"),
            &SliderGuide::width)
-      .add({.name = "rolling_arm",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .domain = not_negative,
-            .doc = "lever arm k_r of rolling friction, for a slider on rollers"},
+      .add(defaulted("rolling_arm", "m", "0 m", not_negative,
+                     "lever arm k_r of rolling friction, for a slider on rollers"),
            &SliderGuide::rolling_arm)
-      .add({.name = "roller_radius", .unit = "m", .domain = positive, .doc = "of these rollers"},
-           &SliderGuide::roller_radius)
-      .add({.name = "slider_com",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .doc = "slider's centre of mass from its pin towards the extended end"},
+      .add(quantity("roller_radius", "m", positive, "of these rollers"), &SliderGuide::roller_radius)
+      .add(defaulted("slider_com", "m", "0 m", any_number,
+                     "slider's centre of mass from its pin towards the extended end"),
            &SliderGuide::com_x)
-      .add({.name = "force_offset",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .doc = "of the load's line from the slider pin, positive 90° ahead of the stroke"},
+      .add(defaulted("force_offset", "m", "0 m", any_number,
+                     "of the load's line from the slider pin, positive 90° ahead of the stroke"),
            &SliderGuide::force_offset)
       .check(check_guide);
 }

@@ -9,30 +9,15 @@ using Press = KnucklePressData;
 
 Fields<Press> knuckle_press_linkage() {
   return Fields<Press>()
-      .add({.name = "radius",
-            .unit = "m",
-            .domain = positive,
-            .doc = "crank radius r",
-            .required = true,
-            .effect = "variable_inertia multibody"},
-           &Press::radius)
-      .add({.name = "rod", .unit = "m", .domain = positive, .doc = "from the crank pin to the knee", .required = true},
-           &Press::rod)
-      .add({.name = "bearing_x",
-            .unit = "m",
-            .doc = "place of the upper link's bearing along the stroke",
-            .required = true},
+      .add(required("radius", "m", positive, "crank radius r", "variable_inertia multibody"), &Press::radius)
+      .add(required("rod", "m", positive, "from the crank pin to the knee"), &Press::rod)
+      .add(required("bearing_x", "m", any_number, "place of the upper link's bearing along the stroke"),
            &Press::bearing_x)
-      .add({.name = "bearing_y",
-            .unit = "m",
-            .doc = "place of the upper link's bearing across the stroke",
-            .required = true},
+      .add(required("bearing_y", "m", any_number, "place of the upper link's bearing across the stroke"),
            &Press::bearing_y)
-      .add({.name = "upper", .unit = "m", .domain = positive, .doc = "from its bearing to the knee", .required = true},
-           &Press::upper)
-      .add({.name = "lower", .unit = "m", .domain = positive, .doc = "from the knee to the ram", .required = true},
-           &Press::lower)
-      .add({.name = "guide", .unit = "m", .doc = "y of the ram's line; default: through the upper link's bearing"},
+      .add(required("upper", "m", positive, "from its bearing to the knee"), &Press::upper)
+      .add(required("lower", "m", positive, "from the knee to the ram"), &Press::lower)
+      .add(quantity("guide", "m", any_number, "y of the ram's line; default: through the upper link's bearing"),
            &Press::guide, &Press::bearing_y)
       .add({.name = "branch",
             .fallback = "\"left\"",
@@ -44,10 +29,8 @@ Fields<Press> knuckle_press_linkage() {
       .add(floating_link("lower", "from the knee"), &Press::lower_body, in_the_middle_of(&Press::lower))
       .add(mass_key("ram_mass", "mass of the ram and what moves with it"), &Press::ram_mass)
       .add(gravity_key(), &Press::gravity)
-      .add({.name = "stroke_angle",
-            .unit = "rad",
-            .fallback = "\"0 deg\"",
-            .doc = "direction of x above the horizontal; -90 deg: the ram works downwards"},
+      .add(defaulted("stroke_angle", "rad", "0 deg", any_number,
+                     "direction of x above the horizontal; -90 deg: the ram works downwards"),
            &Press::stroke_angle);
 }
 

@@ -35,46 +35,24 @@ Words<Account> accounts() {
 }
 
 Key rounding_key(const char* name, const char* unit) {
-  return {.name = name,
-          .unit = unit,
-          .domain = positive,
-          .doc = "width that edges are rounded over, of the same area, when the effect load_edges is off",
-          .effect = "load_edges"};
+  return quantity(name, unit, positive,
+                  "width that edges are rounded over, of the same area, when the effect load_edges is off",
+                  "load_edges");
 }
 
 // --- on outputs that slide ---
 
 Fields<PressLoad> press() {
   return Fields<PressLoad>()
-      .add({.name = "nominal_force",
-            .unit = "N",
-            .domain = not_negative,
-            .doc = "force F_n against the motion",
-            .required = true},
-           &PressLoad::force)
-      .add({.name = "nominal_travel",
-            .unit = "m",
-            .domain = positive,
-            .doc = "distance before the working end where the force begins",
-            .required = true},
+      .add(required("nominal_force", "N", not_negative, "force F_n against the motion"), &PressLoad::force)
+      .add(required("nominal_travel", "m", positive, "distance before the working end where the force begins"),
            &PressLoad::travel)
-      .add({.name = "rise",
-            .unit = "m",
-            .fallback = "\"0 mm\"",
-            .domain = not_negative,
-            .doc = "travel within which the force rises; 0: an edge"},
+      .add(defaulted("rise", "m", "0 mm", not_negative, "travel within which the force rises; 0: an edge"),
            &PressLoad::rise)
-      .add({.name = "breakthrough",
-            .unit = "m",
-            .fallback = "\"0 mm\"",
-            .domain = not_negative,
-            .doc = "distance before the end where the work breaks through; 0: force lasts to the end"},
+      .add(defaulted("breakthrough", "m", "0 mm", not_negative,
+                     "distance before the end where the work breaks through; 0: force lasts to the end"),
            &PressLoad::breakthrough)
-      .add({.name = "drop",
-            .unit = "m",
-            .fallback = "\"0 mm\"",
-            .domain = not_negative,
-            .doc = "travel within which the force falls after break-through"},
+      .add(defaulted("drop", "m", "0 mm", not_negative, "travel within which the force falls after break-through"),
            &PressLoad::drop)
       .add(rounding_key("rounding", "m"), &PressLoad::rounding)
       .add(working_end_key(), &PressLoad::from_greatest, stroke_ends())
@@ -84,26 +62,18 @@ Fields<PressLoad> press() {
 // Magnitudes of loads of one number or two: a force on what slides, a torque on what rocks.
 Fields<Constant> constant(const char* name, const char* unit, const char* doc) {
   return Fields<Constant>()
-      .add({.name = name, .unit = unit, .doc = doc, .required = true}, &Constant::force)
+      .add(required(name, unit, any_number, doc), &Constant::force)
       .add(work_key(), &Constant::account, accounts());
 }
 Fields<Opposing> opposing(const char* name, const char* unit) {
   return Fields<Opposing>()
-      .add({.name = name, .unit = unit, .domain = not_negative, .doc = "magnitude", .required = true}, &Opposing::force)
+      .add(required(name, unit, not_negative, "magnitude"), &Opposing::force)
       .add(work_key(), &Opposing::account, accounts());
 }
 Fields<Medium> medium(const std::string& viscous_unit, const std::string& quadratic_unit) {
-  const auto zero = [](const std::string& unit) { return "\"0 " + unit + "\""; };
   return Fields<Medium>()
-      .add(
-          {.name = "viscous", .unit = viscous_unit, .fallback = zero(viscous_unit), .domain = not_negative, .doc = "c"},
-          &Medium::viscous)
-      .add({.name = "quadratic",
-            .unit = quadratic_unit,
-            .fallback = zero(quadratic_unit),
-            .domain = not_negative,
-            .doc = "q"},
-           &Medium::quadratic)
+      .add(defaulted("viscous", viscous_unit, "0 " + viscous_unit, not_negative, "c"), &Medium::viscous)
+      .add(defaulted("quadratic", quadratic_unit, "0 " + quadratic_unit, not_negative, "q"), &Medium::quadratic)
       .add(work_key(), &Medium::account, accounts());
 }
 
@@ -142,30 +112,18 @@ Fields<Table> table() {
 
 Fields<Compressor> compressor() {
   return Fields<Compressor>()
-      .add({.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of the piston", .required = true},
-           &Compressor::bore)
-      .add({.name = "suction_pressure", .unit = "Pa", .domain = positive, .doc = "p₁, absolute", .required = true},
-           &Compressor::suction)
-      .add({.name = "delivery_pressure", .unit = "Pa", .domain = positive, .doc = "p₂, absolute", .required = true},
-           &Compressor::delivery)
-      .add({.name = "outside_pressure",
-            .unit = "Pa",
-            .domain = not_negative,
-            .doc = "on the other face of the piston, absolute; default: suction_pressure"},
+      .add(required("bore", "m", positive, "diameter of the piston"), &Compressor::bore)
+      .add(required("suction_pressure", "Pa", positive, "p₁, absolute"), &Compressor::suction)
+      .add(required("delivery_pressure", "Pa", positive, "p₂, absolute"), &Compressor::delivery)
+      .add(quantity("outside_pressure", "Pa", not_negative,
+                    "on the other face of the piston, absolute; default: suction_pressure"),
            &Compressor::outside, &Compressor::suction)
-      .add({.name = "clearance",
-            .domain = positive,
-            .doc = "clearance volume over swept volume, e.g. 0.05",
-            .required = true},
-           &Compressor::clearance)
-      .add({.name = "compression_exponent",
-            .fallback = "1.3",
-            .domain = positive,
-            .doc = "polytropic exponent n: 1 isothermal, 1.4 adiabatic for air"},
+      .add(required("clearance", "", positive, "clearance volume over swept volume, e.g. 0.05"), &Compressor::clearance)
+      .add(defaulted("compression_exponent", "", "1.3", positive,
+                     "polytropic exponent n: 1 isothermal, 1.4 adiabatic for air"),
            &Compressor::compression_exponent)
-      .add({.name = "expansion_exponent",
-            .domain = positive,
-            .doc = "polytropic exponent of the re-expansion; default: compression_exponent"},
+      .add(quantity("expansion_exponent", "", positive,
+                    "polytropic exponent of the re-expansion; default: compression_exponent"),
            &Compressor::expansion_exponent, &Compressor::compression_exponent)
       .add(working_end_key(), &Compressor::from_greatest, stroke_ends())
       .add(work_key(), &Compressor::account, accounts());
@@ -179,13 +137,9 @@ Key driving_work_key() { return {.name = "work", .fallback = "\"driving\"", .doc
 Fields<Cylinder> cylinder() {
   return with_misfire(
       Fields<Cylinder>()
-          .add({.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of the piston", .required = true},
-               &Cylinder::bore)
-          .add({.name = "rod_diameter",
-                .unit = "m",
-                .fallback = "\"0 m\"",
-                .domain = not_negative,
-                .doc = "of the piston rod, on the side away from the working end"},
+          .add(required("bore", "m", positive, "diameter of the piston"), &Cylinder::bore)
+          .add(defaulted("rod_diameter", "m", "0 m", not_negative,
+                         "of the piston rod, on the side away from the working end"),
                &Cylinder::rod)
           .add({.name = "pressure",
                 .unit = "Pa",
@@ -200,11 +154,8 @@ Fields<Cylinder> cylinder() {
                 .doc = "the same in the other chamber, over the same distance or angle; without: outside_pressure",
                 .choices = {"travel", "angle"}},
                &Cylinder::behind)
-          .add({.name = "outside_pressure",
-                .unit = "Pa",
-                .fallback = "\"101325 Pa\"",
-                .domain = not_negative,
-                .doc = "absolute, on the rod and on the piston's other face where there is no second chamber"},
+          .add(defaulted("outside_pressure", "Pa", "101325 Pa", not_negative,
+                         "absolute, on the rod and on the piston's other face where there is no second chamber"),
                &Cylinder::outside)
           .add(working_end_key(), &Cylinder::from_greatest, stroke_ends())
           .add(driving_work_key(), &Cylinder::account, driving_accounts()),
@@ -213,14 +164,8 @@ Fields<Cylinder> cylinder() {
 
 Fields<LinearMotor> linear_motor() {
   return Fields<LinearMotor>()
-      .add({.name = "stall_force", .unit = "N", .domain = positive, .doc = "F₀ at standstill", .required = true},
-           &LinearMotor::force)
-      .add({.name = "no_load_velocity",
-            .unit = "m/s",
-            .domain = positive,
-            .doc = "v₀ in F = F₀ (σ − v/v₀)",
-            .required = true},
-           &LinearMotor::velocity)
+      .add(required("stall_force", "N", positive, "F₀ at standstill"), &LinearMotor::force)
+      .add(required("no_load_velocity", "m/s", positive, "v₀ in F = F₀ (σ − v/v₀)"), &LinearMotor::velocity)
       .add({.name = "pushes",
             .fallback = "\"with motion\"",
             .doc = "σ: with the motion, nothing at standstill; or always towards one end"},

@@ -18,12 +18,7 @@ Fields<LinkBody> link(const std::string& name, const Key& com, const char* inert
   return Fields<LinkBody>()
       .add(mass_key(name + "_mass", "mass of the " + name), &LinkBody::mass)
       .add(com, &LinkBody::com)
-      .add({.name = name + "_inertia",
-            .unit = "kg*m2",
-            .fallback = "\"0 kg*m2\"",
-            .domain = not_negative,
-            .doc = inertia_doc},
-           &LinkBody::inertia);
+      .add(defaulted(name + "_inertia", "kg*m2", "0 kg*m2", not_negative, inertia_doc), &LinkBody::inertia);
 }
 
 // "crank 2 kg, rod 1 kg"
@@ -62,35 +57,25 @@ bool lengths_fit(const Section& s, Messages& messages) {
 }  // namespace
 
 Key mass_key(const std::string& name, const std::string& doc) {
-  return {.name = name, .unit = "kg", .fallback = "\"0 kg\"", .domain = not_negative, .doc = doc};
+  return defaulted(name, "kg", "0 kg", not_negative, doc);
 }
 
 Fields<LinkBody> pivoted_link(const std::string& name, const std::string& from) {
-  return link(name, {.name = name + "_com", .unit = "m", .fallback = "\"0 m\"", .doc = "its centre of mass " + from},
+  return link(name, defaulted(name + "_com", "m", "0 m", any_number, "its centre of mass " + from),
               "about its fixed bearing");
 }
 
 Fields<LinkBody> floating_link(const std::string& name, const std::string& from) {
   return link(name,
-              {.name = name + "_com", .unit = "m", .doc = "its centre of mass " + from + "; default: half the length"},
+              quantity(name + "_com", "m", any_number, "its centre of mass " + from + "; default: half the length"),
               "about its centre of mass");
 }
 
-Key gravity_key() {
-  return {.name = "gravity",
-          .unit = "m/s2",
-          .fallback = "\"0 m/s2\"",
-          .domain = not_negative,
-          .doc = "0: weight is neglected",
-          .effect = "gravity"};
-}
+Key gravity_key() { return defaulted("gravity", "m/s2", "0 m/s2", not_negative, "0: weight is neglected", "gravity"); }
 
 Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>& loads) {
   return Fields<Mounting>()
-      .add({.name = "phase",
-            .unit = "rad",
-            .fallback = "\"0 deg\"",
-            .doc = "crank angle ahead of the shaft's angle (several cylinders)"},
+      .add(defaulted("phase", "rad", "0 deg", any_number, "crank angle ahead of the shaft's angle (several cylinders)"),
            &Mounting::phase)
       .add({.name = "load", .doc = load_doc}, &Mounting::loads, loads);
 }

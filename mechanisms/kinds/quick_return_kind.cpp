@@ -9,41 +9,20 @@ using Shaper = QuickReturnData;
 
 Fields<Shaper> lengths() {
   return Fields<Shaper>()
-      .add({.name = "radius",
-            .unit = "m",
-            .domain = positive,
-            .doc = "crank radius r",
-            .required = true,
-            .effect = "variable_inertia multibody"},
-           &Shaper::radius)
-      .add({.name = "pivot_distance",
-            .unit = "m",
-            .domain = positive,
-            .doc = "d of the lever's bearing from the crank axis, square to the stroke; > r: the lever rocks, sin γ = "
-                   "r/d, forward and return take π + 2γ and π − 2γ; < r: it turns fully",
-            .required = true},
+      .add(required("radius", "m", positive, "crank radius r", "variable_inertia multibody"), &Shaper::radius)
+      .add(required("pivot_distance", "m", positive,
+                    "d of the lever's bearing from the crank axis, square to the stroke; > r: the lever rocks, sin γ = "
+                    "r/d, forward and return take π + 2γ and π − 2γ; < r: it turns fully"),
            &Shaper::pivot_distance)
-      .add({.name = "lever",
-            .unit = "m",
-            .domain = positive,
-            .doc = "from the lever's bearing to its end, which the link is pinned to",
-            .required = true},
+      .add(required("lever", "m", positive, "from the lever's bearing to its end, which the link is pinned to"),
            &Shaper::lever)
-      .add({.name = "lever_angle",
-            .unit = "rad",
-            .fallback = "\"0 deg\"",
-            .doc = "of that end ahead of the slot; 180 deg in Whitworth's form"},
+      .add(defaulted("lever_angle", "rad", "0 deg", any_number,
+                     "of that end ahead of the slot; 180 deg in Whitworth's form"),
            &Shaper::lever_angle)
-      .add({.name = "link",
-            .unit = "m",
-            .domain = positive,
-            .doc = "from the lever's end to the ram, longer than that end is ever away from the guide",
-            .required = true},
+      .add(required("link", "m", positive,
+                    "from the lever's end to the ram, longer than that end is ever away from the guide"),
            &Shaper::link)
-      .add({.name = "guide_height",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .doc = "of the ram's line above the lever's bearing"},
+      .add(defaulted("guide_height", "m", "0 m", any_number, "of the ram's line above the lever's bearing"),
            &Shaper::guide_height)
       .add({.name = "branch",
             .fallback = "\"forward\"",
@@ -56,19 +35,14 @@ Fields<Shaper> shaper_linkage() {
       .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &Shaper::crank_body)
       .add(pivoted_link("lever", "from its bearing along the slot"), &Shaper::lever_body)
       .add(mass_key("block_mass", "mass of the block on the crank pin"), &Shaper::block_mass)
-      .add({.name = "block_inertia",
-            .unit = "kg*m2",
-            .fallback = "\"0 kg*m2\"",
-            .domain = not_negative,
-            .doc = "of the block about the pin; it turns with the lever"},
+      .add(defaulted("block_inertia", "kg*m2", "0 kg*m2", not_negative,
+                     "of the block about the pin; it turns with the lever"),
            &Shaper::block_inertia)
       .add(floating_link("link", "from the lever's end"), &Shaper::link_body, in_the_middle_of(&Shaper::link))
       .add(mass_key("ram_mass", "mass of the ram and what moves with it"), &Shaper::ram_mass)
       .add(gravity_key(), &Shaper::gravity)
-      .add({.name = "stroke_angle",
-            .unit = "rad",
-            .fallback = "\"0 deg\"",
-            .doc = "direction of the stroke above the horizontal; the lever's bearing lies 90 deg behind it"},
+      .add(defaulted("stroke_angle", "rad", "0 deg", any_number,
+                     "direction of the stroke above the horizontal; the lever's bearing lies 90 deg behind it"),
            &Shaper::stroke_angle);
 }
 

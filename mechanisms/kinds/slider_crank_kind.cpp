@@ -51,19 +51,11 @@ DataFaults faults_of(const SliderCrankData& d) {
   return faults;
 }
 
-Key inertia_key(const char* name, const char* doc) {
-  return {.name = name, .unit = "kg*m2", .fallback = "\"0 kg*m2\"", .domain = not_negative, .doc = doc};
-}
+Key inertia_key(const char* name, const char* doc) { return defaulted(name, "kg*m2", "0 kg*m2", not_negative, doc); }
 
 Fields<Crank> slider_crank_linkage() {
   return Fields<Crank>()
-      .add({.name = "radius",
-            .unit = "m",
-            .domain = positive,
-            .doc = "crank radius r",
-            .required = true,
-            .effect = "variable_inertia multibody"},
-           &Crank::radius)
+      .add(required("radius", "m", positive, "crank radius r", "variable_inertia multibody"), &Crank::radius)
       .add({.name = "rod",
             .unit = "m",
             .domain = positive,
@@ -72,8 +64,7 @@ Fields<Crank> slider_crank_linkage() {
                 "within its arc, where the run ends if it is reached",
             .required = true},
            &Crank::rod_length)
-      .add({.name = "offset", .unit = "m", .fallback = "\"0 m\"", .doc = "of the slider's line from the crank axis"},
-           &Crank::offset)
+      .add(defaulted("offset", "m", "0 m", any_number, "of the slider's line from the crank axis"), &Crank::offset)
       .add(
           {.name = "branch",
            .fallback = "\"follows\"",
@@ -83,25 +74,20 @@ Fields<Crank> slider_crank_linkage() {
                "whose crank rocks: follows: the rod points towards +x, folds: towards −x"},
           &Crank::folds, {{"follows", false}, {"folds", true}})
       .add(mass_key("crank_mass", "mass of the crank"), &Crank::crank_mass)
-      .add({.name = "crank_com",
-            .unit = "m",
-            .fallback = "\"0 m\"",
-            .doc = "its centre of mass from the axis towards the pin; negative: counterweighted"},
+      .add(defaulted("crank_com", "m", "0 m", any_number,
+                     "its centre of mass from the axis towards the pin; negative: counterweighted"),
            &Crank::crank_com)
       .add(inertia_key("crank_inertia", "about the crank's axis"), &Crank::crank_inertia)
       .add(mass_key("rod_mass", "mass of the rod"), &Crank::rod_mass)
-      .add({.name = "rod_com",
-            .unit = "m",
-            .doc = "its centre of mass from the crank pin along the rod; default: half the rod"},
+      .add(quantity("rod_com", "m", any_number,
+                    "its centre of mass from the crank pin along the rod; default: half the rod"),
            &Crank::rod_com, [](const Crank& d) { return d.rod_length / 2; })
       .add(inertia_key("rod_inertia", "about its centre of mass"), &Crank::rod_inertia)
       .add(mass_key("slider_mass", "mass of slider and what moves with it"), &Crank::slider_mass)
       .add(gravity_key(), &Crank::gravity)
-      .add({.name = "stroke_angle",
-            .unit = "rad",
-            .fallback = "\"0 deg\"",
-            .doc = "direction from crank axis to extended end, above the horizontal: 90 deg slider on top, -90 deg "
-                   "top-driven press"},
+      .add(defaulted("stroke_angle", "rad", "0 deg", any_number,
+                     "direction from crank axis to extended end, above the horizontal: 90 deg slider on top, -90 deg "
+                     "top-driven press"),
            &Crank::stroke_angle);
 }
 
@@ -115,17 +101,14 @@ struct FiringKeys {
 
 Fields<FiringKeys> firing() {
   return Fields<FiringKeys>()
-      .add(
-          {.name = "cylinder", .domain = positive, .doc = "its number in firing_order, of an engine of several throws"},
-          &FiringKeys::cylinder)
+      .add(quantity("cylinder", "", positive, "its number in firing_order, of an engine of several throws"),
+           &FiringKeys::cylinder)
       .add({.name = "firing_order",
             .doc = "numbers of the cylinders in the order in which they fire, the first at 0 deg of the shaft: gives "
                    "the phase, that of the working cycle included"},
            &FiringKeys::order)
-      .add({.name = "firing_intervals",
-            .unit = "rad",
-            .domain = not_negative,
-            .doc = "crank angle from each firing to the next, the last back to the first; default: equal"},
+      .add(quantity("firing_intervals", "rad", not_negative,
+                    "crank angle from each firing to the next, the last back to the first; default: equal"),
            &FiringKeys::intervals)
       .add({.name = "strokes", .fallback = "\"four\"", .doc = "of a cycle: four take two turns, two take one"},
            &FiringKeys::strokes, {{"four", 4}, {"two", 2}});

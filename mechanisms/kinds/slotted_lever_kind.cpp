@@ -9,34 +9,23 @@ using Lever = SlottedLeverData;
 
 Fields<Lever> slotted_lever_linkage() {
   return Fields<Lever>()
-      .add({.name = "crank",
-            .unit = "m",
-            .domain = positive,
-            .doc = "crank length r, from the crank axis to its pin, which carries the block",
-            .required = true,
-            .effect = "variable_inertia multibody"},
+      .add(required("crank", "m", positive, "crank length r, from the crank axis to its pin, which carries the block",
+                    "variable_inertia multibody"),
            &Lever::crank)
-      .add({.name = "ground",
-            .unit = "m",
-            .domain = positive,
-            .doc = "distance d of the two bearings; > r: the lever rocks by 2 arcsin(r/d); < r: it goes round with the "
-                   "crank; = r: once in two turns of the crank, through a change point",
-            .required = true},
-           &Lever::ground)
+      .add(
+          required("ground", "m", positive,
+                   "distance d of the two bearings; > r: the lever rocks by 2 arcsin(r/d); < r: it goes round with the "
+                   "crank; = r: once in two turns of the crank, through a change point"),
+          &Lever::ground)
       .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &Lever::crank_body)
       .add(pivoted_link("lever", "from its bearing along the slot; negative: counterweighted"), &Lever::lever_body)
       .add(mass_key("block_mass", "mass of the block on the crank pin"), &Lever::block_mass)
-      .add({.name = "block_inertia",
-            .unit = "kg*m2",
-            .fallback = "\"0 kg*m2\"",
-            .domain = not_negative,
-            .doc = "of the block about the pin; it turns with the lever"},
+      .add(defaulted("block_inertia", "kg*m2", "0 kg*m2", not_negative,
+                     "of the block about the pin; it turns with the lever"),
            &Lever::block_inertia)
       .add(gravity_key(), &Lever::gravity)
-      .add({.name = "ground_angle",
-            .unit = "rad",
-            .fallback = "\"0 deg\"",
-            .doc = "direction from the crank axis to the lever's bearing, above the horizontal"},
+      .add(defaulted("ground_angle", "rad", "0 deg", any_number,
+                     "direction from the crank axis to the lever's bearing, above the horizontal"),
            &Lever::ground_angle);
 }
 
