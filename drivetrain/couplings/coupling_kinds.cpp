@@ -29,24 +29,17 @@ void check_contact(const Reading<ContactKeys>& contact) {
 
 Fields<ContactKeys> contact_fields() {
   return Fields<ContactKeys>()
-      .add({.name = "backlash",
-            .unit = "rad",
-            .domain = not_negative,
-            .doc = "whole gap b between the flanks",
-            .effect = "backlash"},
+      .add(quantity("backlash", "rad", not_negative, "whole gap b between the flanks", "backlash"),
            &ContactKeys::backlash)
       .add({.name = "contact", .fallback = "\"no pulling\"", .doc = "law of contact of the flanks (backlash.h)"},
            &Backlash::law,
            {{"no pulling", ContactLaw::no_pulling},
             {"Hunt-Crossley", ContactLaw::hunt_crossley},
             {"clipped", ContactLaw::clipped}})
-      .add({.name = "contact_exponent",
-            .fallback = "1.5",
-            .domain = {.low = 1, .high = 3},
-            .doc = "n of Hunt–Crossley; the stiffness then counts per rad^n"},
+      .add(defaulted("contact_exponent", "", "1.5", {.low = 1, .high = 3},
+                     "n of Hunt–Crossley; the stiffness then counts per rad^n"),
            &Backlash::exponent)
-      .add({.name = "contact_damping", .unit = "s/rad", .domain = not_negative, .doc = "d of Hunt–Crossley"},
-           &Backlash::damping)
+      .add(quantity("contact_damping", "s/rad", not_negative, "d of Hunt–Crossley"), &Backlash::damping)
       .derive([](ContactKeys& contact) {
         contact.gap = contact.backlash.value_or(0);
         if (contact.law != ContactLaw::hunt_crossley) contact.exponent = 1, contact.damping = 0;
@@ -68,18 +61,14 @@ void check_coupling(const Reading<CouplingKeys>& c) {
 }
 
 const Fields<CouplingKeys>& coupling_fields() {
-  static const auto made = Fields<CouplingKeys>()
-                               .add({.name = "stiffness",
-                                     .unit = "N*m/rad",
-                                     .domain = positive,
-                                     .doc = "torsional stiffness k",
-                                     .required = true},
-                                    &CouplingKeys::stiffness)
-                               .add(side_inertia_fields(), &CouplingKeys::inertia)
-                               .add(damping_fields(), &CouplingKeys::damping)
-                               .add(contact_fields(), &CouplingKeys::contact)
-                               .add(coupling_limit_fields(), &CouplingKeys::limits)
-                               .check(check_coupling);
+  static const auto made =
+      Fields<CouplingKeys>()
+          .add(required("stiffness", "N*m/rad", positive, "torsional stiffness k"), &CouplingKeys::stiffness)
+          .add(side_inertia_fields(), &CouplingKeys::inertia)
+          .add(damping_fields(), &CouplingKeys::damping)
+          .add(contact_fields(), &CouplingKeys::contact)
+          .add(coupling_limit_fields(), &CouplingKeys::limits)
+          .check(check_coupling);
   return made;
 }
 
@@ -164,46 +153,24 @@ double ShaftKeys::polar_modulus() const { return 2 * polar_moment() / diameter.v
 const Fields<ShaftKeys>& shaft_fields() {
   static const auto made =
       Fields<ShaftKeys>()
-          .add({.name = "stiffness",
-                .unit = "N*m/rad",
-                .domain = positive,
-                .doc = "torsional stiffness k of the whole shaft"},
+          .add(quantity("stiffness", "N*m/rad", positive, "torsional stiffness k of the whole shaft"),
                &ShaftKeys::stiffness)
-          .add({.name = "length", .unit = "m", .domain = positive, .doc = "length, in place of the stiffness"},
-               &ShaftKeys::length)
-          .add({.name = "diameter",
-                .unit = "m",
-                .domain = positive,
-                .doc = "outer diameter; beside a stiffness that of the section whose stress is judged"},
+          .add(quantity("length", "m", positive, "length, in place of the stiffness"), &ShaftKeys::length)
+          .add(quantity("diameter", "m", positive,
+                        "outer diameter; beside a stiffness that of the section whose stress is judged"),
                &ShaftKeys::diameter)
-          .add({.name = "bore", .unit = "m", .fallback = "\"0 m\"", .domain = not_negative, .doc = "inner diameter"},
-               &ShaftKeys::bore)
-          .add({.name = "shear_modulus",
-                .unit = "Pa",
-                .fallback = "\"79.3 GPa\"",
-                .domain = positive,
-                .doc = "G; steel unless given"},
+          .add(defaulted("bore", "m", "0 m", not_negative, "inner diameter"), &ShaftKeys::bore)
+          .add(defaulted("shear_modulus", "Pa", "79.3 GPa", positive, "G; steel unless given"),
                &ShaftKeys::shear_modulus)
-          .add({.name = "density",
-                .unit = "kg/m3",
-                .fallback = "\"7850 kg/m3\"",
-                .domain = positive,
-                .doc = "ρ; steel unless given"},
-               &ShaftKeys::density)
-          .add({.name = "inertia",
-                .unit = "kg*m2",
-                .domain = not_negative,
-                .doc = "of the whole shaft; default: from its dimensions, else 0"},
+          .add(defaulted("density", "kg/m3", "7850 kg/m3", positive, "ρ; steel unless given"), &ShaftKeys::density)
+          .add(quantity("inertia", "kg*m2", not_negative, "of the whole shaft; default: from its dimensions, else 0"),
                &ShaftKeys::inertia)
-          .add({.name = "segments",
-                .domain = {.low = 1, .high = 100000},
-                .doc = "number of equal springs that it is cut into; default: by dimensions it is continuous, by its "
-                       "stiffness one spring"},
+          .add(quantity("segments", "", {.low = 1, .high = 100000},
+                        "number of equal springs that it is cut into; default: by dimensions it is continuous, by its "
+                        "stiffness one spring"),
                &ShaftKeys::segments)
-          .add({.name = "allowable_shear_stress",
-                .unit = "Pa",
-                .domain = positive,
-                .doc = "limit of the largest stress for kurbel modes, run, steady; needs the diameter"},
+          .add(quantity("allowable_shear_stress", "Pa", positive,
+                        "limit of the largest stress for kurbel modes, run, steady; needs the diameter"),
                &ShaftKeys::allowable_shear_stress)
           .add(shaft_rating_fields(), &ShaftKeys::rating)
           .add(damping_fields(), &ShaftKeys::damping)

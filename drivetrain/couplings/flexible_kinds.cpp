@@ -20,9 +20,7 @@ ConnectionForm rubber_under(const StaticRubberData& without_relaxation, const Ef
 }
 namespace {
 
-Key stiffness_key(const char* doc) {
-  return {.name = "stiffness", .unit = "N*m/rad", .domain = positive, .doc = doc, .required = true};
-}
+Key stiffness_key(const char* doc) { return required("stiffness", "N*m/rad", positive, doc); }
 
 // --- progressive coupling ---
 
@@ -85,21 +83,13 @@ struct RubberKeys : CouplingData {
 };
 
 const Tables<MaxwellBranch>& branches() {
-  static const auto made =
-      Tables<MaxwellBranch>().add("branch", "Maxwell branch: a spring in series with a damper",
-                                  Fields<MaxwellBranch>()
-                                      .add({.name = "stiffness",
-                                            .unit = "N*m/rad",
-                                            .domain = positive,
-                                            .doc = "k_j, in fast motion on top of the static stiffness",
-                                            .required = true},
-                                           &MaxwellBranch::stiffness)
-                                      .add({.name = "relaxation_time",
-                                            .unit = "s",
-                                            .domain = positive,
-                                            .doc = "T_j in which its torque falls to 1/e",
-                                            .required = true},
-                                           &MaxwellBranch::relaxation_time));
+  static const auto made = Tables<MaxwellBranch>().add(
+      "branch", "Maxwell branch: a spring in series with a damper",
+      Fields<MaxwellBranch>()
+          .add(required("stiffness", "N*m/rad", positive, "k_j, in fast motion on top of the static stiffness"),
+               &MaxwellBranch::stiffness)
+          .add(required("relaxation_time", "s", positive, "T_j in which its torque falls to 1/e"),
+               &MaxwellBranch::relaxation_time));
   return made;
 }
 
@@ -158,16 +148,10 @@ const Fields<UniversalJointKeys>& universal_joint_fields() {
   static const auto made =
       Fields<Keys>()
           .add(stiffness_key("torsional stiffness k of the joint and its shaft"), &Keys::stiffness)
-          .add({.name = "angle",
-                .unit = "rad",
-                .domain = {.low = 0, .high = 1.4},
-                .doc = "angle β between the shafts, up to 80 deg",
-                .required = true},
+          .add(required("angle", "rad", {.low = 0, .high = 1.4}, "angle β between the shafts, up to 80 deg"),
                &Keys::angle)
-          .add({.name = "phase",
-                .unit = "rad",
-                .fallback = "\"0 deg\"",
-                .doc = "angle of the driving fork past its position in the plane of the shafts, at φ = 0"},
+          .add(defaulted("phase", "rad", "0 deg", any_number,
+                         "angle of the driving fork past its position in the plane of the shafts, at φ = 0"),
                &Keys::phase)
           .add(side_inertia_fields(), &Keys::inertia)
           .add(damping_fields(), &Keys::damping)

@@ -23,14 +23,8 @@ const Fields<FluidCouplingKeys>& fluid_coupling_fields() {
   using Keys = FluidCouplingKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "diameter", .unit = "m", .domain = positive, .doc = "profile diameter D", .required = true},
-               &Keys::diameter)
-          .add({.name = "density",
-                .unit = "kg/m3",
-                .fallback = "\"870 kg/m3\"",
-                .domain = positive,
-                .doc = "ρ of the fluid; oil unless given"},
-               &Keys::density)
+          .add(required("diameter", "m", positive, "profile diameter D"), &Keys::diameter)
+          .add(defaulted("density", "kg/m3", "870 kg/m3", positive, "ρ of the fluid; oil unless given"), &Keys::density)
           .add({.name = "lambda",
                 .unit = "1",
                 .doc = "λ over ν = ω_slower/ω_faster, ending in [1, 0]; M = λ ρ D⁵ ω²",
@@ -74,20 +68,11 @@ struct ViscousDamperKeys : ViscousFilm {
 
 const Fields<ViscousDamperKeys>& viscous_damper_fields() {
   using Keys = ViscousDamperKeys;
-  static const auto made = Fields<Keys>()
-                               .add({.name = "ring_inertia",
-                                     .unit = "kg*m2",
-                                     .domain = positive,
-                                     .doc = "of the free ring",
-                                     .required = true},
-                                    &Keys::ring_inertia)
-                               .add({.name = "damping",
-                                     .unit = "N*m*s/rad",
-                                     .domain = positive,
-                                     .doc = "c of the film between ring and hub",
-                                     .required = true},
-                                    &Keys::damping)
-                               .add(own_inertia_key(), &Keys::inertia);
+  static const auto made =
+      Fields<Keys>()
+          .add(required("ring_inertia", "kg*m2", positive, "of the free ring"), &Keys::ring_inertia)
+          .add(required("damping", "N*m*s/rad", positive, "c of the film between ring and hub"), &Keys::damping)
+          .add(own_inertia_key(), &Keys::inertia);
   return made;
 }
 

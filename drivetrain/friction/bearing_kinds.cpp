@@ -4,8 +4,8 @@
 #include "drivetrain/friction/bearing.h"
 #include "drivetrain/friction/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
-#include "engine/model/network.h"
 #include "engine/elements/no_element.h"
+#include "engine/model/network.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/units.h"
 
@@ -50,49 +50,24 @@ const Fields<BearingKeys>& bearing_fields() {
   using Keys = BearingKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "torque",
-                .unit = "N*m",
-                .domain = not_negative,
-                .doc = "kinetic friction torque M_c",
-                .required = true,
-                .effect = "bearing_friction"},
+          .add(required("torque", "N*m", not_negative, "kinetic friction torque M_c", "bearing_friction"),
                &Keys::torque)
-          .add({.name = "static_torque",
-                .unit = "N*m",
-                .domain = not_negative,
-                .doc = "M_s that it holds at standstill; default: M_c"},
+          .add(quantity("static_torque", "N*m", not_negative, "M_s that it holds at standstill; default: M_c"),
                &Keys::static_torque)
-          .add({.name = "stribeck_speed",
-                .unit = "rad/s",
-                .domain = positive,
-                .doc = "ω_s, over which friction falls from M_s to M_c; default: at once"},
+          .add(quantity("stribeck_speed", "rad/s", positive,
+                        "ω_s, over which friction falls from M_s to M_c; default: at once"),
                &Keys::stribeck_speed)
-          .add({.name = "stribeck_exponent",
-                .fallback = "2",
-                .domain = {.low = 0.5, .high = 10},
-                .doc = "n in exp(−(ω/ω_s)ⁿ)"},
+          .add(defaulted("stribeck_exponent", "", "2", {.low = 0.5, .high = 10}, "n in exp(−(ω/ω_s)ⁿ)"),
                &Keys::exponent)
-          .add({.name = "damping",
-                .unit = "N*m*s/rad",
-                .fallback = "\"0 N*m*s/rad\"",
-                .domain = not_negative,
-                .doc = "viscous part b"},
-               &Keys::damping)
+          .add(defaulted("damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "viscous part b"), &Keys::damping)
           .add({.name = "model",
                 .fallback = "\"exact\"",
                 .doc = "exact: sticks and slips; regularised: smooth, creeps; LuGre: bristles bend before they slip"},
                &Keys::model, models())
-          .add({.name = "creep_speed",
-                .unit = "rad/s",
-                .domain = positive,
-                .doc = "ω_c of the regularised model, M = −g tanh(ω/ω_c)"},
+          .add(quantity("creep_speed", "rad/s", positive, "ω_c of the regularised model, M = −g tanh(ω/ω_c)"),
                &Keys::creep_speed)
-          .add({.name = "bristle_stiffness", .unit = "N*m/rad", .domain = positive, .doc = "σ₀ of LuGre"},
-               &Keys::bristle_stiffness)
-          .add({.name = "bristle_damping",
-                .unit = "N*m*s/rad",
-                .domain = not_negative,
-                .doc = "σ₁ of LuGre; default: 0"},
+          .add(quantity("bristle_stiffness", "N*m/rad", positive, "σ₀ of LuGre"), &Keys::bristle_stiffness)
+          .add(quantity("bristle_damping", "N*m*s/rad", not_negative, "σ₁ of LuGre; default: 0"),
                &Keys::bristle_damping)
           .add(own_inertia_key(), &Keys::inertia);
   return made;

@@ -58,56 +58,24 @@ const Fields<BeltKeys>& belt_fields() {
   using Keys = BeltKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "diameter_in",
-                .unit = "m",
-                .domain = positive,
-                .doc = "d₁ of the driving pulley",
-                .required = true},
-               &Keys::diameter_in)
-          .add({.name = "diameter_out",
-                .unit = "m",
-                .domain = positive,
-                .doc = "d₂ of the driven pulley",
-                .required = true},
-               &Keys::diameter_out)
-          .add({.name = "pretension",
-                .unit = "N",
-                .domain = positive,
-                .doc = "F₀ in each strand, unloaded and at speed",
-                .required = true},
-               &Keys::pretension)
-          .add({.name = "friction_coefficient",
-                .domain = positive,
-                .doc = "μ between belt and pulley",
-                .required = true},
-               &Keys::friction)
-          .add({.name = "wrap_angle",
-                .unit = "rad",
-                .domain = {.low = 0, .high = 2 * std::numbers::pi, .low_open = true},
-                .doc = "α on the pulley that the belt wraps less; default: of the open drive, by centre_distance"},
+          .add(required("diameter_in", "m", positive, "d₁ of the driving pulley"), &Keys::diameter_in)
+          .add(required("diameter_out", "m", positive, "d₂ of the driven pulley"), &Keys::diameter_out)
+          .add(required("pretension", "N", positive, "F₀ in each strand, unloaded and at speed"), &Keys::pretension)
+          .add(required("friction_coefficient", "", positive, "μ between belt and pulley"), &Keys::friction)
+          .add(quantity("wrap_angle", "rad", {.low = 0, .high = 2 * std::numbers::pi, .low_open = true},
+                        "α on the pulley that the belt wraps less; default: of the open drive, by centre_distance"),
                &Keys::wrap_angle)
-          .add({.name = "centre_distance", .unit = "m", .domain = positive, .doc = "of the pulleys"},
-               &Keys::centre_distance)
-          .add({.name = "groove_angle",
-                .unit = "rad",
-                .domain = {.low = 0, .high = std::numbers::pi, .low_open = true},
-                .doc = "γ of a V-belt's groove: μ counts as μ/sin(γ/2); default: flat belt"},
+          .add(quantity("centre_distance", "m", positive, "of the pulleys"), &Keys::centre_distance)
+          .add(quantity("groove_angle", "rad", {.low = 0, .high = std::numbers::pi, .low_open = true},
+                        "γ of a V-belt's groove: μ counts as μ/sin(γ/2); default: flat belt"),
                &Keys::groove_angle)
-          .add({.name = "stiffness", .unit = "N*m/rad", .domain = positive, .doc = "k, referred to the driving pulley"},
-               &Keys::stiffness)
-          .add({.name = "axial_stiffness",
-                .unit = "N",
-                .domain = positive,
-                .doc = "EA of the belt, in place of the stiffness: k = 2 EA r₁²/L"},
+          .add(quantity("stiffness", "N*m/rad", positive, "k, referred to the driving pulley"), &Keys::stiffness)
+          .add(quantity("axial_stiffness", "N", positive, "EA of the belt, in place of the stiffness: k = 2 EA r₁²/L"),
                &Keys::axial_stiffness)
-          .add({.name = "allowable_tension",
-                .unit = "N",
-                .domain = positive,
-                .doc = "force that a strand may bear, limit for kurbel run"},
+          .add(quantity("allowable_tension", "N", positive, "force that a strand may bear, limit for kurbel run"),
                &Keys::allowable_tension)
-          .add({.name = "slip_reserve",
-                .domain = {.low = 1},
-                .doc = "demanded: torque at which it slips over the largest one, for kurbel run"},
+          .add(quantity("slip_reserve", "", {.low = 1},
+                        "demanded: torque at which it slips over the largest one, for kurbel run"),
                &Keys::slip_reserve)
           .add(side_inertia_fields(), &Keys::inertia)
           .add(damping_fields(), &Keys::damping);

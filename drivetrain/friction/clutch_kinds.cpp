@@ -73,36 +73,19 @@ const Fields<CapacityKeys>& capacity_fields() {
   using Keys = CapacityKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "torque",
-                .unit = "N*m",
-                .domain = positive,
-                .doc = "torque M_k that it transmits while it slips"},
-               &Keys::torque)
-          .add({.name = "static_torque",
-                .unit = "N*m",
-                .domain = positive,
-                .doc = "torque M_s that it holds without slipping; default: M_k"},
+          .add(quantity("torque", "N*m", positive, "torque M_k that it transmits while it slips"), &Keys::torque)
+          .add(quantity("static_torque", "N*m", positive, "torque M_s that it holds without slipping; default: M_k"),
                &Keys::static_torque)
-          .add({.name = "slope",
-                .unit = "N*m*s/rad",
-                .fallback = "\"0 N*m*s/rad\"",
-                .doc = "change of M_k with the speed of slip; negative: falling"},
+          .add(defaulted("slope", "N*m*s/rad", "0 N*m*s/rad", any_number,
+                         "change of M_k with the speed of slip; negative: falling"),
                &Keys::slope)
-          .add({.name = "force",
-                .unit = "N",
-                .domain = positive,
-                .doc = "axial force, with radii and friction, in place of torque"},
+          .add(quantity("force", "N", positive, "axial force, with radii and friction, in place of torque"),
                &Keys::force)
-          .add(
-              {.name = "plates", .fallback = "2", .domain = {.low = 1, .high = 200}, .doc = "number of friction faces"},
-              &Keys::plates)
-          .add({.name = "friction_coefficient", .domain = positive, .doc = "μ while slipping"}, &Keys::friction)
-          .add({.name = "static_friction_coefficient", .domain = positive, .doc = "μ₀ at rest; default: μ"},
-               &Keys::static_friction)
-          .add({.name = "outer_radius", .unit = "m", .domain = positive, .doc = "of the friction faces"},
-               &Keys::outer_radius)
-          .add({.name = "inner_radius", .unit = "m", .domain = not_negative, .doc = "of the friction faces"},
-               &Keys::inner_radius)
+          .add(defaulted("plates", "", "2", {.low = 1, .high = 200}, "number of friction faces"), &Keys::plates)
+          .add(quantity("friction_coefficient", "", positive, "μ while slipping"), &Keys::friction)
+          .add(quantity("static_friction_coefficient", "", positive, "μ₀ at rest; default: μ"), &Keys::static_friction)
+          .add(quantity("outer_radius", "m", positive, "of the friction faces"), &Keys::outer_radius)
+          .add(quantity("inner_radius", "m", not_negative, "of the friction faces"), &Keys::inner_radius)
           .derive(settle)
           .check(check_capacity);
   return made;
@@ -129,12 +112,8 @@ struct LimiterKeys {
 const Fields<LimiterKeys>& limiter_fields() {
   static const auto made =
       Fields<LimiterKeys>()
-          .add({.name = "torque", .unit = "N*m", .domain = positive, .doc = "limit M_s", .required = true},
-               &LimiterKeys::torque)
-          .add({.name = "slipping_part",
-                .fallback = "1",
-                .domain = {.low = 0, .high = 1},
-                .doc = "torque while it slips over the limit"},
+          .add(required("torque", "N*m", positive, "limit M_s"), &LimiterKeys::torque)
+          .add(defaulted("slipping_part", "", "1", {.low = 0, .high = 1}, "torque while it slips over the limit"),
                &LimiterKeys::slipping_part)
           .add(heat_rating_fields(), &LimiterKeys::heat)
           .add(side_inertia_fields(), &LimiterKeys::inertia);
@@ -145,14 +124,11 @@ struct OneWayKeys : OneWayClutch {
   SideInertias inertia;
 };
 const Fields<OneWayKeys>& one_way_fields() {
-  static const auto made = Fields<OneWayKeys>()
-                               .add({.name = "drag",
-                                     .unit = "N*m",
-                                     .fallback = "\"0 N*m\"",
-                                     .domain = not_negative,
-                                     .doc = "torque while the driven side runs ahead"},
-                                    &OneWayKeys::drag)
-                               .add(side_inertia_fields(), &OneWayKeys::inertia);
+  static const auto made =
+      Fields<OneWayKeys>()
+          .add(defaulted("drag", "N*m", "0 N*m", not_negative, "torque while the driven side runs ahead"),
+               &OneWayKeys::drag)
+          .add(side_inertia_fields(), &OneWayKeys::inertia);
   return made;
 }
 

@@ -27,31 +27,24 @@ const Fields<MeshKeys>& mesh_fields() {
   static const auto made =
       Fields<Keys>()
           .add(teeth_key(), &Keys::teeth)
-          .add({.name = "stiffness",
-                .unit = "N*m/rad",
-                .domain = positive,
-                .doc = "mean stiffness about the driving wheel; default: ISO 6336-1 method B from module and width"},
+          .add(quantity("stiffness", "N*m/rad", positive,
+                        "mean stiffness about the driving wheel; default: ISO 6336-1 method B from module and width"),
                &Keys::stiffness)
-          .add({.name = "mesh_stiffness",
-                .unit = "N/m",
-                .domain = positive,
-                .doc = "mean stiffness along the line of action, in its place; needs the module"},
+          .add(quantity("mesh_stiffness", "N/m", positive,
+                        "mean stiffness along the line of action, in its place; needs the module"),
                &Keys::mesh_stiffness)
-          .add({.name = "mesh_variation",
-                .domain = {.low = -1, .high = 1},
-                .doc = "amplitudes a_n of the stiffness's harmonics of the tooth frequency, over its mean",
-                .effect = "mesh_variation"},
+          .add(quantity("mesh_variation", "", {.low = -1, .high = 1},
+                        "amplitudes a_n of the stiffness's harmonics of the tooth frequency, over its mean",
+                        "mesh_variation"),
                &Keys::mesh_variation)
-          .add({.name = "mesh_phase", .unit = "rad", .doc = "their phases ψ_n; default: 0"}, &Keys::mesh_phase)
+          .add(quantity("mesh_phase", "rad", any_number, "their phases ψ_n; default: 0"), &Keys::mesh_phase)
           .add({.name = "contact",
                 .fallback = "\"no pulling\"",
                 .doc = "law of contact of the flanks where a backlash is given (backlash.h)"},
                &Keys::contact, {{"no pulling", ContactLaw::no_pulling}, {"clipped", ContactLaw::clipped}})
-          .add({.name = "inertia",
-                .unit = "kg*m2",
-                .domain = not_negative,
-                .doc = "of the driving and of the driven wheel, each on its own shaft; default: from module and "
-                       "width, else 0"},
+          .add(quantity("inertia", "kg*m2", not_negative,
+                        "of the driving and of the driven wheel, each on its own shaft; default: from module and "
+                        "width, else 0"),
                &Keys::inertia)
           .add(damping_fields(), &Keys::damping)
           .add(gear_geometry_fields("backlash"), &Keys::geometry);  // an effect here; in an ideal stage only stated

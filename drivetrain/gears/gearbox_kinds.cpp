@@ -38,21 +38,14 @@ Fields<StageKeys> flank_fields(Fields<StageKeys> fields) {
             .fallback = "false",
             .doc = "elastic flanks: stiffness c_γα b r_b1² by ISO 6336-1 method B from the geometry"},
            &Keys::mesh)
-      .add({.name = "mesh_stiffness",
-            .unit = "N*m/rad",
-            .domain = positive,
-            .doc = "of elastic flanks about the driving wheel, in place of mesh"},
+      .add(quantity("mesh_stiffness", "N*m/rad", positive,
+                    "of elastic flanks about the driving wheel, in place of mesh"),
            &Keys::mesh_stiffness)
-      .add({.name = "mesh_damping_ratio",
-            .fallback = "0.05",
-            .domain = not_negative,
-            .doc = "ζ of elastic flanks, of the two shafts that they join"},
+      .add(defaulted("mesh_damping_ratio", "", "0.05", not_negative,
+                     "ζ of elastic flanks, of the two shafts that they join"),
            &Keys::mesh_damping_ratio)
-      .add({.name = "mesh_backlash",
-            .unit = "rad",
-            .domain = not_negative,
-            .doc = "whole gap between elastic flanks, about the driving wheel",
-            .effect = "backlash"},
+      .add(quantity("mesh_backlash", "rad", not_negative, "whole gap between elastic flanks, about the driving wheel",
+                    "backlash"),
            &Keys::mesh_backlash)
       .add({.name = "mesh_gap",
             .fallback = "false",
@@ -68,11 +61,9 @@ const Tables<Reading<StageKeys>>& stages() {
         "stage", "one pair of wheels",
         flank_fields(Fields<Keys>()
                          .add(teeth_key(), &Keys::teeth)
-                         .add({.name = "inertia",
-                               .unit = "kg*m2",
-                               .domain = not_negative,
-                               .doc = "inertia of the driving and of the driven wheel, each on its own shaft; "
-                                      "default: from module and width, else 0"},
+                         .add(quantity("inertia", "kg*m2", not_negative,
+                                       "inertia of the driving and of the driven wheel, each on its own shaft; "
+                                       "default: from module and width, else 0"),
                               &Keys::inertia)
                          .add(gear_geometry_fields(), &Keys::geometry))
             .add(efficiency_fields(), &Keys::losses));
@@ -96,23 +87,14 @@ const Fields<GearboxKeys>& gearbox_fields() {
       Fields<Keys>()
           .add({.name = "stages", .doc = "stages from the driving side", .required = true}, &Keys::stages, stages())
           .add(efficiency_fields(), &Keys::losses)
-          .add({.name = "support_stiffness",
-                .unit = "N*m/rad",
-                .domain = positive,
-                .doc = "of the housing against the frame, about the input shaft; the housing is the frame unless "
-                       "given"},
+          .add(quantity("support_stiffness", "N*m/rad", positive,
+                        "of the housing against the frame, about the input shaft; the housing is the frame unless "
+                        "given"),
                &Keys::support_stiffness)
-          .add({.name = "support_damping",
-                .unit = "N*m*s/rad",
-                .fallback = "\"0 N*m*s/rad\"",
-                .domain = not_negative,
-                .doc = "viscous damping of the support"},
+          .add(defaulted("support_damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "viscous damping of the support"),
                &Keys::support_damping)
-          .add({.name = "housing_inertia",
-                .unit = "kg*m2",
-                .fallback = "\"0 kg*m2\"",
-                .domain = not_negative,
-                .doc = "of the housing; needed where its support is elastic"},
+          .add(defaulted("housing_inertia", "kg*m2", "0 kg*m2", not_negative,
+                         "of the housing; needed where its support is elastic"),
                &Keys::housing_inertia)
           .add({.name = "reversing",
                 .doc = "the output turns against the input, which the reaction on the housing depends on; default: by "

@@ -18,11 +18,9 @@ namespace {
 Key teeth_key(const char* name, const char* doc, bool required) {
   return {.name = name, .domain = {.low = 5, .high = 100000}, .doc = doc, .required = required};
 }
-Key inertia_of_key(const char* name, const char* doc) {
-  return {.name = name, .unit = "kg*m2", .fallback = "\"0 kg*m2\"", .domain = not_negative, .doc = doc};
-}
+Key inertia_of_key(const char* name, const char* doc) { return defaulted(name, "kg*m2", "0 kg*m2", not_negative, doc); }
 Key basic_efficiency_key(const char* doc) {
-  return {.name = "efficiency", .domain = {.low = 0, .high = 1, .low_open = true}, .doc = doc, .effect = "gear_losses"};
+  return quantity("efficiency", "", {.low = 0, .high = 1, .low_open = true}, doc, "gear_losses");
 }
 std::vector<std::string> central_shafts() { return {"sun", "ring", "carrier"}; }
 
@@ -58,23 +56,12 @@ struct PlanetaryKeys {
 
 Fields<PlanetaryKeys> planets(Fields<PlanetaryKeys> fields) {
   using Keys = PlanetaryKeys;
-  return fields
-      .add({.name = "planets", .fallback = "3", .domain = {.low = 1, .high = 24}, .doc = "number of planets"},
-           &Keys::planets)
+  return fields.add(defaulted("planets", "", "3", {.low = 1, .high = 24}, "number of planets"), &Keys::planets)
       .add(inertia_of_key("planet_inertia", "of one planet about its own axis"), &Keys::planet_inertia)
-      .add({.name = "planet_mass",
-            .unit = "kg",
-            .fallback = "\"0 kg\"",
-            .domain = not_negative,
-            .doc = "of one planet; needs module or planet_distance"},
+      .add(defaulted("planet_mass", "kg", "0 kg", not_negative, "of one planet; needs module or planet_distance"),
            &Keys::planet_mass)
-      .add(
-          {.name = "module", .unit = "m", .domain = positive, .doc = "for the distance of the planets ½ m (z_s + z_p)"},
-          &Keys::module)
-      .add({.name = "planet_distance",
-            .unit = "m",
-            .domain = positive,
-            .doc = "of the planets' axes from the central one, in place of module"},
+      .add(quantity("module", "m", positive, "for the distance of the planets ½ m (z_s + z_p)"), &Keys::module)
+      .add(quantity("planet_distance", "m", positive, "of the planets' axes from the central one, in place of module"),
            &Keys::planet_distance);
 }
 
@@ -192,8 +179,7 @@ const Fields<DifferentialKeys>& differential_fields() {
   using Keys = DifferentialKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "ratio", .fallback = "1", .domain = positive, .doc = "of pinion and crown wheel, ω_in/ω_cage"},
-               &Keys::ratio)
+          .add(defaulted("ratio", "", "1", positive, "of pinion and crown wheel, ω_in/ω_cage"), &Keys::ratio)
           .add(basic_efficiency_key("η₀ with the cage held: what the bevel wheels inside lose"), &Keys::efficiency)
           .add(inertia_of_key("inertia_in", "of the pinion and its shaft"), &Keys::inertia_in)
           .add(inertia_of_key("cage_inertia", "of the cage with the crown wheel"), &Keys::cage_inertia)
@@ -235,30 +221,20 @@ const Fields<WormKeys>& worm_fields() {
   using Keys = WormKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "starts", .fallback = "1", .domain = {.low = 1, .high = 20}, .doc = "starts of the worm z₁"},
-               &Keys::starts)
+          .add(defaulted("starts", "", "1", {.low = 1, .high = 20}, "starts of the worm z₁"), &Keys::starts)
           .add(teeth_key("teeth", "teeth of the wheel z₂", true), &Keys::teeth)
-          .add({.name = "lead_angle",
-                .unit = "rad",
-                .domain = {.low = 0, .high = 1.4, .low_open = true, .high_open = true},
-                .doc = "γ on the reference diameter of the worm"},
+          .add(quantity("lead_angle", "rad", {.low = 0, .high = 1.4, .low_open = true, .high_open = true},
+                        "γ on the reference diameter of the worm"),
                &Keys::lead_angle)
-          .add({.name = "module", .unit = "m", .domain = positive, .doc = "axial; with worm_diameter gives γ"},
-               &Keys::module)
-          .add({.name = "worm_diameter", .unit = "m", .domain = positive, .doc = "d₁; tan γ = z₁ m/d₁"},
-               &Keys::worm_diameter)
-          .add({.name = "friction_coefficient",
-                .domain = {.low = 0, .high = 1},
-                .doc = "μ of the flanks: ρ′ = atan(μ/cos α_n), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ",
-                .effect = "gear_losses"},
+          .add(quantity("module", "m", positive, "axial; with worm_diameter gives γ"), &Keys::module)
+          .add(quantity("worm_diameter", "m", positive, "d₁; tan γ = z₁ m/d₁"), &Keys::worm_diameter)
+          .add(quantity("friction_coefficient", "", {.low = 0, .high = 1},
+                        "μ of the flanks: ρ′ = atan(μ/cos α_n), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ",
+                        "gear_losses"),
                &Keys::friction)
-          .add({.name = "pressure_angle", .unit = "rad", .fallback = "\"20 deg\"", .doc = "α_n of the flanks"},
-               &Keys::pressure_angle)
-          .add({.name = "bearing_torque",
-                .unit = "N*m",
-                .domain = not_negative,
-                .doc = "friction of the bearings, on the worm's shaft",
-                .effect = "gear_losses"},
+          .add(defaulted("pressure_angle", "rad", "20 deg", any_number, "α_n of the flanks"), &Keys::pressure_angle)
+          .add(quantity("bearing_torque", "N*m", not_negative, "friction of the bearings, on the worm's shaft",
+                        "gear_losses"),
                &Keys::bearing_torque)
           .add(worm_inertia_fields(), &Keys::inertia);
   return made;

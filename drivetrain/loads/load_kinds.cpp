@@ -17,12 +17,7 @@ struct DragKeys {
 };
 const Fields<DragKeys>& drag_fields() {
   static const auto made = Fields<DragKeys>()
-                               .add({.name = "damping",
-                                     .unit = "N*m*s/rad",
-                                     .domain = not_negative,
-                                     .doc = "b in M = −b ω",
-                                     .required = true},
-                                    &DragKeys::damping)
+                               .add(required("damping", "N*m*s/rad", not_negative, "b in M = −b ω"), &DragKeys::damping)
                                .add(own_inertia_key(), &DragKeys::inertia);
   return made;
 }
@@ -56,22 +51,14 @@ const Fields<LoadKeys>& load_fields() {
   using Keys = LoadKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "torque", .unit = "N*m", .doc = "constant part M₀"}, &Keys::torque)
+          .add(quantity("torque", "N*m", any_number, "constant part M₀"), &Keys::torque)
           .add({.name = "acts",
                 .fallback = "\"against motion\"",
                 .doc = "the constant part opposes motion and holds at standstill, or acts always backwards (a weight)"},
                &Keys::always_backwards, {{"against motion", false}, {"always", true}})
-          .add({.name = "damping",
-                .unit = "N*m*s/rad",
-                .fallback = "\"0 N*m*s/rad\"",
-                .domain = not_negative,
-                .doc = "b in b ω"},
-               &Keys::viscous)
-          .add({.name = "quadratic",
-                .unit = "N*m*s2/rad2",
-                .fallback = "\"0 N*m*s2/rad2\"",
-                .domain = not_negative,
-                .doc = "q in q ω |ω|: fan, centrifugal pump"},
+          .add(defaulted("damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "b in b ω"), &Keys::viscous)
+          .add(defaulted("quadratic", "N*m*s2/rad2", "0 N*m*s2/rad2", not_negative,
+                         "q in q ω |ω|: fan, centrifugal pump"),
                &Keys::quadratic)
           .add({.name = "table",
                 .unit = "N*m",

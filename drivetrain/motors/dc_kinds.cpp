@@ -23,11 +23,9 @@ struct CircuitKeys {
 };
 Fields<CircuitKeys> circuit_fields(const char* of) {
   return Fields<CircuitKeys>()
-      .add({.name = "inductance", .unit = "H", .domain = positive, .doc = of, .effect = "transients"},
-           &CircuitKeys::inductance)
-      .add({.name = "initial_current",
-            .unit = "A",
-            .doc = "at the start; default: 0 at rest, else that of the static line"},
+      .add(quantity("inductance", "H", positive, of, "transients"), &CircuitKeys::inductance)
+      .add(quantity("initial_current", "A", any_number,
+                    "at the start; default: 0 at rest, else that of the static line"),
            &CircuitKeys::initial_current)
       .check([](const Reading<CircuitKeys>& c) {
         c.drop_without(&CircuitKeys::inductance, &CircuitKeys::initial_current);
@@ -68,17 +66,13 @@ void check_rheostat(const Reading<RheostatKeys>& r) {
 Fields<RheostatKeys> rheostat_fields() {
   using Keys = RheostatKeys;
   return Fields<Keys>()
-      .add({.name = "starting_resistances",
-            .unit = "Ohm",
-            .doc = "in the armature circuit, stage by stage of a start, falling; a sequence may only switch the motor "
-                   "on and off then, and each start goes through them"},
+      .add(quantity("starting_resistances", "Ohm", any_number,
+                    "in the armature circuit, stage by stage of a start, falling; a sequence may only switch the motor "
+                    "on and off then, and each start goes through them"),
            &Keys::starting_resistances)
-      .add({.name = "switch_current",
-            .unit = "A",
-            .domain = positive,
-            .doc = "armature current down to which a stage lasts"},
+      .add(quantity("switch_current", "A", positive, "armature current down to which a stage lasts"),
            &Keys::switch_current)
-      .add({.name = "switch_times", .unit = "s", .doc = "ends of the stages, in place of switch_current"},
+      .add(quantity("switch_times", "s", any_number, "ends of the stages, in place of switch_current"),
            &Keys::switch_times)
       .check(check_rheostat);
 }
@@ -182,32 +176,19 @@ const Fields<ShuntKeys>& shunt_fields() {
   using Keys = ShuntKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "stall_torque", .unit = "N*m", .domain = positive, .doc = "torque at standstill M_stall"},
-               &Keys::stall_torque)
-          .add({.name = "no_load_speed", .unit = "rad/s", .domain = positive, .doc = "speed without torque ω₀"},
-               &Keys::no_load_speed)
-          .add({.name = "voltage",
-                .unit = "V",
-                .domain = positive,
-                .doc = "armature voltage U, with resistance and constant in place of the two above"},
+          .add(quantity("stall_torque", "N*m", positive, "torque at standstill M_stall"), &Keys::stall_torque)
+          .add(quantity("no_load_speed", "rad/s", positive, "speed without torque ω₀"), &Keys::no_load_speed)
+          .add(quantity("voltage", "V", positive,
+                        "armature voltage U, with resistance and constant in place of the two above"),
                &Keys::voltage)
-          .add({.name = "resistance",
-                .unit = "Ohm",
-                .domain = positive,
-                .doc = "armature resistance R: M_stall = k U/R"},
-               &Keys::resistance)
-          .add({.name = "constant", .unit = "N*m/A", .domain = positive, .doc = "motor constant k: ω₀ = U/k"},
-               &Keys::constant)
-          .add({.name = "rated_torque",
-                .unit = "N*m",
-                .domain = positive,
-                .doc = "M_N: scale of errors, and what duty is stated for; default: stall torque"},
+          .add(quantity("resistance", "Ohm", positive, "armature resistance R: M_stall = k U/R"), &Keys::resistance)
+          .add(quantity("constant", "N*m/A", positive, "motor constant k: ω₀ = U/k"), &Keys::constant)
+          .add(quantity("rated_torque", "N*m", positive,
+                        "M_N: scale of errors, and what duty is stated for; default: stall torque"),
                &Keys::rated_torque)
-          .add({.name = "braking_resistance",
-                .unit = "Ohm",
-                .domain = positive,
-                .doc = "closes the armature while an operating sequence sets it 0, in series with it while reversed; "
-                       "default: 0 opens the circuit"},
+          .add(quantity("braking_resistance", "Ohm", positive,
+                        "closes the armature while an operating sequence sets it 0, in series with it while reversed; "
+                        "default: 0 opens the circuit"),
                &Keys::braking_resistance)
           .add({.name = "field",
                 .unit = "1",
@@ -292,27 +273,13 @@ const Fields<SeriesKeys>& series_fields() {
   using Keys = SeriesKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "voltage", .unit = "V", .domain = positive, .doc = "supply voltage U", .required = true},
-               &Keys::voltage)
-          .add({.name = "resistance",
-                .unit = "Ohm",
-                .domain = positive,
-                .doc = "R of armature and field together",
-                .required = true},
-               &Keys::resistance)
-          .add({.name = "constant",
-                .unit = "N*m/A2",
-                .domain = positive,
-                .doc = "κ: torque over current squared",
-                .required = true},
-               &Keys::constant)
-          .add({.name = "rated_speed", .unit = "rad/s", .domain = positive, .doc = "for the default of max_speed"},
-               &Keys::rated_speed)
-          .add({.name = "max_speed",
-                .unit = "rad/s",
-                .domain = positive,
-                .doc = "beyond it the motor ran away; default: 5 rated_speed, without it 100 R/κ, where the current "
-                       "is a hundredth of U/R"},
+          .add(required("voltage", "V", positive, "supply voltage U"), &Keys::voltage)
+          .add(required("resistance", "Ohm", positive, "R of armature and field together"), &Keys::resistance)
+          .add(required("constant", "N*m/A2", positive, "κ: torque over current squared"), &Keys::constant)
+          .add(quantity("rated_speed", "rad/s", positive, "for the default of max_speed"), &Keys::rated_speed)
+          .add(quantity("max_speed", "rad/s", positive,
+                        "beyond it the motor ran away; default: 5 rated_speed, without it 100 R/κ, where the current "
+                        "is a hundredth of U/R"),
                &Keys::max_speed, speed_limit)
           .add(inertia_key("", "rotor inertia"), &Keys::inertia)
           .add(circuit_fields("L of armature and field together"), &Keys::circuit)

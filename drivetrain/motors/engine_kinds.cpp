@@ -47,15 +47,10 @@ const Fields<EngineKeys>& engine_fields() {
                 .doc = "numbers of the cylinders in the order in which they fire",
                 .required = true},
                &Keys::firing_order)
-          .add({.name = "firing_intervals",
-                .unit = "rad",
-                .domain = not_negative,
-                .doc = "crank angle from each firing to the next, the last back to the first; default: equal"},
+          .add(quantity("firing_intervals", "rad", not_negative,
+                        "crank angle from each firing to the next, the last back to the first; default: equal"),
                &Keys::firing_intervals)
-          .add({.name = "phase",
-                .unit = "rad",
-                .fallback = "\"0 deg\"",
-                .doc = "shaft angle where the first cylinder fires"},
+          .add(defaulted("phase", "rad", "0 deg", any_number, "shaft angle where the first cylinder fires"),
                &Keys::phase)
           .add({.name = "strokes", .fallback = "\"four\"", .doc = "of a cycle: four take two turns, two take one"},
                &Keys::strokes, {{"four", 4}, {"two", 2}})
@@ -87,15 +82,10 @@ const Fields<EngineKeys>& engine_fields() {
                        "dead centre",
                 .choices = {"angle"}},
                &Keys::motored_pressure)
-          .add({.name = "bore", .unit = "m", .domain = positive, .doc = "diameter of a piston, with pressure"},
-               &Keys::bore)
-          .add({.name = "radius", .unit = "m", .domain = positive, .doc = "of the crank, with pressure"}, &Keys::radius)
-          .add({.name = "rod", .unit = "m", .domain = positive, .doc = "length of the rod, with pressure"}, &Keys::rod)
-          .add({.name = "outside_pressure",
-                .unit = "Pa",
-                .fallback = "\"1.013 bar\"",
-                .domain = not_negative,
-                .doc = "under the pistons, absolute"},
+          .add(quantity("bore", "m", positive, "diameter of a piston, with pressure"), &Keys::bore)
+          .add(quantity("radius", "m", positive, "of the crank, with pressure"), &Keys::radius)
+          .add(quantity("rod", "m", positive, "length of the rod, with pressure"), &Keys::rod)
+          .add(defaulted("outside_pressure", "Pa", "1.013 bar", not_negative, "under the pistons, absolute"),
                &Keys::outside_pressure)
           .add(inertia_key("", "crankshaft with what rotates, and the mean of what oscillates"), &Keys::inertia)
           .add(window_fields(), &Keys::window);

@@ -22,39 +22,19 @@ const Fields<HydraulicKeys>& hydraulic_fields() {
   using Keys = HydraulicKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "displacement",
-                .unit = "m3/rad",
-                .domain = positive,
-                .doc = "e.g. 80 cm3/rev",
-                .required = true},
-               &Keys::displacement)
-          .add({.name = "pressure_difference",
-                .unit = "Pa",
-                .domain = positive,
-                .doc = "over the motor when the relief valve opens",
-                .required = true},
+          .add(required("displacement", "m3/rad", positive, "e.g. 80 cm3/rev"), &Keys::displacement)
+          .add(required("pressure_difference", "Pa", positive, "over the motor when the relief valve opens"),
                &Keys::relief_pressure)
-          .add({.name = "flow",
-                .unit = "m3/s",
-                .domain = positive,
-                .doc = "of the pump, e.g. 40 l/min",
-                .required = true},
-               &Keys::flow)
-          .add({.name = "volumetric_efficiency",
-                .fallback = "0.95",
-                .domain = {.low = 0, .high = 1, .low_open = true, .high_open = true},
-                .doc = "η_v at that pressure and the flow-limited speed; the rest leaks in proportion to the pressure"},
+          .add(required("flow", "m3/s", positive, "of the pump, e.g. 40 l/min"), &Keys::flow)
+          .add(defaulted(
+                   "volumetric_efficiency", "", "0.95", {.low = 0, .high = 1, .low_open = true, .high_open = true},
+                   "η_v at that pressure and the flow-limited speed; the rest leaks in proportion to the pressure"),
                &Keys::volumetric_efficiency)
-          .add({.name = "hydromechanical_efficiency",
-                .fallback = "0.9",
-                .domain = {.low = 0, .high = 1, .low_open = true},
-                .doc = "η_hm, of the torque"},
+          .add(defaulted("hydromechanical_efficiency", "", "0.9", {.low = 0, .high = 1, .low_open = true},
+                         "η_hm, of the torque"),
                &Keys::hydromechanical_efficiency)
-          .add({.name = "relief_rise",
-                .unit = "Pa",
-                .fallback = "\"0 bar\"",
-                .domain = not_negative,
-                .doc = "by which the pressure rises until the relief valve passes the whole flow"},
+          .add(defaulted("relief_rise", "Pa", "0 bar", not_negative,
+                         "by which the pressure rises until the relief valve passes the whole flow"),
                &Keys::relief_rise)
           .add(inertia_key("", "rotor inertia"), &Keys::inertia)
           .add(window_fields(), &Keys::window);
@@ -80,19 +60,11 @@ const Fields<PneumaticKeys>& pneumatic_fields() {
   using Keys = PneumaticKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "max_power", .unit = "W", .domain = positive, .doc = "greatest power", .required = true},
-               &Keys::power)
-          .add({.name = "free_speed",
-                .unit = "rad/s",
-                .domain = positive,
-                .doc = "speed without load",
-                .required = true},
-               &Keys::free_speed)
-          .add({.name = "stall_torque",
-                .unit = "N*m",
-                .domain = positive,
-                .doc = "at standstill; bends the line to pass max_power. Default: that of a straight line, 4 "
-                       "max_power/free_speed"},
+          .add(required("max_power", "W", positive, "greatest power"), &Keys::power)
+          .add(required("free_speed", "rad/s", positive, "speed without load"), &Keys::free_speed)
+          .add(quantity("stall_torque", "N*m", positive,
+                        "at standstill; bends the line to pass max_power. Default: that of a straight line, 4 "
+                        "max_power/free_speed"),
                &Keys::stall_torque, &Keys::straight_stall_torque)
           .add(inertia_key("", "rotor inertia"), &Keys::inertia)
           .add(window_fields(), &Keys::window);

@@ -28,40 +28,20 @@ const Fields<GovernorKeys>& governor_fields() {
   using Keys = GovernorKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "speed",
-                .unit = "rad/s",
-                .doc = "reference speed; an operating sequence sets its part",
-                .required = true},
+          .add(required("speed", "rad/s", any_number, "reference speed; an operating sequence sets its part"),
                &Keys::reference)
-          .add({.name = "proportional_gain",
-                .unit = "N*m*s/rad",
-                .domain = not_negative,
-                .doc = "K_p, torque per error of speed",
-                .required = true},
+          .add(required("proportional_gain", "N*m*s/rad", not_negative, "K_p, torque per error of speed"),
                &Keys::proportional)
-          .add({.name = "integral_gain",
-                .unit = "N*m/rad",
-                .fallback = "\"0 N*m/rad\"",
-                .domain = not_negative,
-                .doc = "K_i, torque per error of angle"},
+          .add(defaulted("integral_gain", "N*m/rad", "0 N*m/rad", not_negative, "K_i, torque per error of angle"),
                &Keys::integral)
-          .add({.name = "droop",
-                .unit = "rad/s/N/m",
-                .fallback = "\"0 rad/s/N/m\"",
-                .domain = not_negative,
-                .doc = "fall of the steady speed per torque"},
+          .add(defaulted("droop", "rad/s/N/m", "0 rad/s/N/m", not_negative, "fall of the steady speed per torque"),
                &Keys::droop)
-          .add({.name = "max_torque", .unit = "N*m", .doc = "upper limit of its torque", .required = true}, &Keys::most)
-          .add(
-              {.name = "min_torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "lower limit; negative: it brakes"},
-              &Keys::least)
-          .add({.name = "tracking_time",
-                .unit = "s",
-                .domain = positive,
-                .doc = "at a limit the integral follows the torque within this time; default: K_p/K_i"},
+          .add(required("max_torque", "N*m", any_number, "upper limit of its torque"), &Keys::most)
+          .add(defaulted("min_torque", "N*m", "0 N*m", any_number, "lower limit; negative: it brakes"), &Keys::least)
+          .add(quantity("tracking_time", "s", positive,
+                        "at a limit the integral follows the torque within this time; default: K_p/K_i"),
                &Keys::tracking_time, [](const Keys& g) { return g.integral > 0 ? g.proportional / g.integral : 1; })
-          .add({.name = "initial_torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "integral at the start"},
-               &Keys::initial_torque)
+          .add(defaulted("initial_torque", "N*m", "0 N*m", any_number, "integral at the start"), &Keys::initial_torque)
           .add(own_inertia_key(), &Keys::inertia)
           .add(window_fields(), &Keys::window)
           .check(check_governor);

@@ -36,17 +36,11 @@ const Fields<SourceKeys>& torque_source_fields() {
   using Keys = SourceKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "torque", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "constant part M₀"}, &Keys::constant)
-          .add({.name = "ramp",
-                .unit = "s",
-                .domain = positive,
-                .doc = "time over which the constant part rises from 0"},
-               &Keys::ramp)
-          .add({.name = "amplitude", .unit = "N*m", .fallback = "\"0 N*m\"", .doc = "of M₁ sin(2π f t + ψ)"},
-               &Keys::amplitude)
-          .add({.name = "frequency", .unit = "Hz", .fallback = "\"0 Hz\"", .domain = not_negative, .doc = "f"},
-               &Keys::frequency)
-          .add({.name = "phase", .unit = "rad", .fallback = "\"0 rad\"", .doc = "ψ"}, &Keys::phase)
+          .add(defaulted("torque", "N*m", "0 N*m", any_number, "constant part M₀"), &Keys::constant)
+          .add(quantity("ramp", "s", positive, "time over which the constant part rises from 0"), &Keys::ramp)
+          .add(defaulted("amplitude", "N*m", "0 N*m", any_number, "of M₁ sin(2π f t + ψ)"), &Keys::amplitude)
+          .add(defaulted("frequency", "Hz", "0 Hz", not_negative, "f"), &Keys::frequency)
+          .add(defaulted("phase", "rad", "0 rad", any_number, "ψ"), &Keys::phase)
           .add({.name = "table", .unit = "N*m", .doc = "torque over time, angle or speed", .choices = any_abscissa()},
                &Keys::table)
           .add(own_inertia_key(), &Keys::inertia)
@@ -86,14 +80,11 @@ const Fields<SourceKeys>& prescribed_speed_fields() {
   using Keys = SourceKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "speed", .unit = "rad/s", .doc = "constant speed"}, &Keys::constant)
-          .add({.name = "ramp", .unit = "s", .domain = positive, .doc = "time over which it rises from 0"}, &Keys::ramp)
-          .add({.name = "amplitude", .unit = "rad/s", .fallback = "\"0 rad/s\"", .doc = "of an added sine"},
-               &Keys::amplitude)
-          .add(
-              {.name = "frequency", .unit = "Hz", .fallback = "\"0 Hz\"", .domain = not_negative, .doc = "of the sine"},
-              &Keys::frequency)
-          .add({.name = "phase", .unit = "rad", .fallback = "\"0 rad\"", .doc = "of the sine"}, &Keys::phase)
+          .add(quantity("speed", "rad/s", any_number, "constant speed"), &Keys::constant)
+          .add(quantity("ramp", "s", positive, "time over which it rises from 0"), &Keys::ramp)
+          .add(defaulted("amplitude", "rad/s", "0 rad/s", any_number, "of an added sine"), &Keys::amplitude)
+          .add(defaulted("frequency", "Hz", "0 Hz", not_negative, "of the sine"), &Keys::frequency)
+          .add(defaulted("phase", "rad", "0 rad", any_number, "of the sine"), &Keys::phase)
           .add({.name = "table", .unit = "rad/s", .doc = "speed over time", .choices = {"time"}}, &Keys::table)
           .add(own_inertia_key(), &Keys::inertia);
   return made;

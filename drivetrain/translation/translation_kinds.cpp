@@ -75,36 +75,21 @@ const Fields<ScrewKeys>& screw_fields() {
   using Keys = ScrewKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "lead",
-                .unit = "m",
-                .domain = positive,
-                .doc = "travel of the nut in a turn: pitch times starts",
-                .required = true},
-               &Keys::lead)
-          .add({.name = "mean_diameter", .unit = "m", .domain = positive, .doc = "d₂; tan γ = lead/(π d₂)"},
-               &Keys::diameter)
-          .add({.name = "thread_angle",
-                .unit = "rad",
-                .fallback = "\"30 deg\"",
-                .domain = {.low = 0, .high = 2, .high_open = true},
-                .doc = "between the flanks: 30 deg trapezoidal, 60 deg metric, 0 square"},
+          .add(required("lead", "m", positive, "travel of the nut in a turn: pitch times starts"), &Keys::lead)
+          .add(quantity("mean_diameter", "m", positive, "d₂; tan γ = lead/(π d₂)"), &Keys::diameter)
+          .add(defaulted("thread_angle", "rad", "30 deg", {.low = 0, .high = 2, .high_open = true},
+                         "between the flanks: 30 deg trapezoidal, 60 deg metric, 0 square"),
                &Keys::thread_angle)
-          .add({.name = "friction_coefficient",
-                .domain = {.low = 0, .high = 10},
-                .doc = "μ of the flanks: tan ρ′ = μ/cos(thread_angle/2), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ; "
-                       "in place of efficiencies",
-                .effect = "gear_losses"},
+          .add(quantity("friction_coefficient", "", {.low = 0, .high = 10},
+                        "μ of the flanks: tan ρ′ = μ/cos(thread_angle/2), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ; "
+                        "in place of efficiencies",
+                        "gear_losses"),
                &Keys::friction)
-          .add({.name = "collar_diameter",
-                .unit = "m",
-                .domain = positive,
-                .doc = "mean diameter of the collar that bears the thrust, with collar_friction",
-                .effect = "gear_losses"},
+          .add(quantity("collar_diameter", "m", positive,
+                        "mean diameter of the collar that bears the thrust, with collar_friction", "gear_losses"),
                &Keys::collar)
-          .add({.name = "collar_friction",
-                .domain = {.low = 0, .high = 10},
-                .doc = "μ_c of that collar: adds μ_c d_c/d₂ to tan(γ ± ρ′)",
-                .effect = "gear_losses"},
+          .add(quantity("collar_friction", "", {.low = 0, .high = 10},
+                        "μ_c of that collar: adds μ_c d_c/d₂ to tan(γ ± ρ′)", "gear_losses"),
                &Keys::collar_friction)
           .add(efficiency_fields(), &Keys::losses)
           .add(inertia_key("\"0 kg*m2\"", "of the spindle"), &Keys::inertia)
@@ -158,40 +143,24 @@ const Fields<WedgeKeys>& wedge_fields() {
   using Keys = WedgeKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "wedge_angle",
-                .unit = "rad",
-                .domain = {.low = 0, .high = 1.57, .low_open = true, .high_open = true},
-                .doc = "γ: pushed by s, the wedge lifts the slide by s tan γ",
-                .required = true},
+          .add(required("wedge_angle", "rad", {.low = 0, .high = 1.57, .low_open = true, .high_open = true},
+                        "γ: pushed by s, the wedge lifts the slide by s tan γ"),
                &Keys::angle)
-          .add({.name = "radius",
-                .unit = "m",
-                .domain = positive,
-                .doc = "of the pinion on the shaft that pushes the wedge by its rack; of a screw lead/(2 π)",
-                .required = true},
+          .add(required("radius", "m", positive,
+                        "of the pinion on the shaft that pushes the wedge by its rack; of a screw lead/(2 π)"),
                &Keys::radius)
-          .add({.name = "friction_coefficient",
-                .domain = {.low = 0, .high = 10},
-                .doc = "μ of the slope: the push is V (tan(γ ± ρ) ± μ_b), ρ = atan μ",
-                .effect = "gear_losses"},
+          .add(quantity("friction_coefficient", "", {.low = 0, .high = 10},
+                        "μ of the slope: the push is V (tan(γ ± ρ) ± μ_b), ρ = atan μ", "gear_losses"),
                &Keys::friction)
-          .add({.name = "base_friction",
-                .domain = {.low = 0, .high = 10},
-                .doc = "μ_b of the wedge on its base; default: friction_coefficient",
-                .effect = "gear_losses"},
+          .add(quantity("base_friction", "", {.low = 0, .high = 10},
+                        "μ_b of the wedge on its base; default: friction_coefficient", "gear_losses"),
                &Keys::base)
-          .add({.name = "side_friction",
-                .domain = {.low = 0, .high = 10},
-                .doc = "μ_g of the slide in its guide, which the wedge pushes it against; default: none",
-                .effect = "gear_losses"},
+          .add(quantity("side_friction", "", {.low = 0, .high = 10},
+                        "μ_g of the slide in its guide, which the wedge pushes it against; default: none",
+                        "gear_losses"),
                &Keys::guide)
           .add(inertia_key("\"0 kg*m2\"", "of the shaft with its pinion"), &Keys::inertia)
-          .add({.name = "wedge_mass",
-                .unit = "kg",
-                .fallback = "\"0 kg\"",
-                .domain = not_negative,
-                .doc = "of the wedge"},
-               &Keys::wedge_mass)
+          .add(defaulted("wedge_mass", "kg", "0 kg", not_negative, "of the wedge"), &Keys::wedge_mass)
           .add(slide_fields(), &Keys::slide)
           .check(check_wedge);
   return made;
@@ -219,15 +188,11 @@ struct RackKeys {
 };
 
 const Fields<RackKeys>& rack_fields() {
-  static const auto made = Fields<RackKeys>()
-                               .add({.name = "radius",
-                                     .unit = "m",
-                                     .domain = positive,
-                                     .doc = "of the pinion, chain wheel or drum: s = r φ",
-                                     .required = true},
-                                    &RackKeys::radius)
-                               .add(own_inertia_key(), &RackKeys::inertia)
-                               .add(slide_fields(), &RackKeys::slide);
+  static const auto made =
+      Fields<RackKeys>()
+          .add(required("radius", "m", positive, "of the pinion, chain wheel or drum: s = r φ"), &RackKeys::radius)
+          .add(own_inertia_key(), &RackKeys::inertia)
+          .add(slide_fields(), &RackKeys::slide);
   return made;
 }
 
