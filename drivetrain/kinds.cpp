@@ -1,13 +1,7 @@
 // kinds.cpp — gathers the components of the drive.
 #include "drivetrain/kinds.h"
 
-#include "drivetrain/couplings/kinds.h"
-#include "drivetrain/friction/kinds.h"
-#include "drivetrain/gears/kinds.h"
-#include "drivetrain/induction/kinds.h"
-#include "drivetrain/loads/kinds.h"
-#include "drivetrain/motors/kinds.h"
-#include "drivetrain/translation/kinds.h"
+#include "drivetrain/shared/kinds.h"
 
 namespace kurbel {
 

@@ -1,6 +1,5 @@
 // coupling_kinds.cpp — what joins two shafts elastically: coupling and shaft.
 #include "drivetrain/couplings/coupling_keys.h"
-#include "drivetrain/couplings/kinds.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 
 #include "drivetrain/couplings/backlash.h"
 #include "drivetrain/couplings/coupling.h"
+#include "drivetrain/shared/kinds.h"
 #include "engine/model/continuous_shafts.h"
 #include "engine/model/network.h"
 

@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "drivetrain/couplings/coupling_keys.h"
-#include "drivetrain/couplings/kinds.h"
 #include "drivetrain/couplings/progressive_coupling.h"
 #include "drivetrain/couplings/rubber_coupling.h"
 #include "drivetrain/couplings/universal_joint.h"
+#include "drivetrain/shared/kinds.h"
 #include "engine/model/network.h"
 #include "engine/scene/effects.h"
 

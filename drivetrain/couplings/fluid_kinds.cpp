@@ -6,7 +6,7 @@
 
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/couplings/fluid_coupling.h"
-#include "drivetrain/couplings/kinds.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "drivetrain/friction/bearing.h"
-#include "drivetrain/friction/kinds.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/elements/no_element.h"
 #include "engine/model/network.h"

@@ -5,7 +5,7 @@
 
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/friction/clutch.h"
-#include "drivetrain/friction/kinds.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/rating_keys.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"

@@ -6,7 +6,7 @@
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/gears/gear_keys.h"
 #include "drivetrain/gears/gear_mesh.h"
-#include "drivetrain/gears/kinds.h"
+#include "drivetrain/shared/kinds.h"
 #include "engine/model/network.h"
 
 namespace kurbel {

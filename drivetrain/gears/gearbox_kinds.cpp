@@ -1,6 +1,4 @@
 // gearbox_kinds.cpp — gear stages by tooth numbers; inertias and mesh of the wheels given, or from their teeth.
-#include "drivetrain/gears/kinds.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -9,6 +7,7 @@
 #include "drivetrain/couplings/backlash.h"
 #include "drivetrain/gears/gear_keys.h"
 #include "drivetrain/gears/gear_train_keys.h"
+#include "drivetrain/shared/kinds.h"
 #include "engine/model/network.h"
 
 namespace kurbel {

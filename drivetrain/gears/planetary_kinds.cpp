@@ -8,8 +8,8 @@
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/gears/bevel_worm.h"
 #include "drivetrain/gears/gear_train_keys.h"
-#include "drivetrain/gears/kinds.h"
 #include "drivetrain/gears/planetary.h"
+#include "drivetrain/shared/kinds.h"
 #include "engine/model/network.h"
 
 namespace kurbel {

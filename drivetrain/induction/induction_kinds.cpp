@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "drivetrain/induction/induction_law.h"
-#include "drivetrain/induction/kinds.h"
 #include "drivetrain/induction/started_motor.h"
+#include "drivetrain/shared/kinds.h"
 #include "engine/model/network.h"
 #include "engine/numerics/angles.h"
 

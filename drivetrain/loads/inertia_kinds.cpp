@@ -1,6 +1,5 @@
 // inertia_kinds.cpp — rigid bodies: inertia and flywheel.
-#include "drivetrain/loads/kinds.h"
-
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/rating_keys.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"

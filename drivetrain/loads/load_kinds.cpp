@@ -1,9 +1,8 @@
 // load_kinds.cpp — what resists on a shaft.
-#include "drivetrain/loads/kinds.h"
-
 #include <fmt/format.h>
 
 #include "drivetrain/loads/loads.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "drivetrain/shared/torque_source.h"
 #include "engine/model/network.h"

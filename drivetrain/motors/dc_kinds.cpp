@@ -1,6 +1,4 @@
 // dc_kinds.cpp — DC motors by their static characteristics, or with their circuits.
-#include "drivetrain/motors/kinds.h"
-
 #include <fmt/format.h>
 
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "drivetrain/motors/field_weakening.h"
 #include "drivetrain/motors/motors.h"
 #include "drivetrain/motors/rheostat.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/rating_keys.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"

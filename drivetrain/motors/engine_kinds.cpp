@@ -1,6 +1,4 @@
 // engine_kinds.cpp — piston engines of several cylinders by firing order.
-#include "drivetrain/motors/kinds.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <stdexcept>
 
 #include "drivetrain/motors/engine_torque.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 #include "engine/numerics/angles.h"

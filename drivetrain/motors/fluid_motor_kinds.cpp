@@ -1,11 +1,10 @@
 // fluid_motor_kinds.cpp — hydraulic and pneumatic drives by their characteristics.
-#include "drivetrain/motors/kinds.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "drivetrain/motors/fluid_motors.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "drivetrain/shared/torque_source.h"
 #include "engine/model/network.h"

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "drivetrain/motors/governor.h"
-#include "drivetrain/motors/kinds.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 

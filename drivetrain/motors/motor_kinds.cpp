@@ -1,6 +1,5 @@
 // motor_kinds.cpp — motors by table.
-#include "drivetrain/motors/kinds.h"
-
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "engine/model/network.h"
 

@@ -1,10 +1,9 @@
 // source_kinds.cpp — torques and speeds that are given.
-#include "drivetrain/motors/kinds.h"
-
 #include <fmt/format.h>
 
 #include <stdexcept>
 
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
 #include "drivetrain/shared/torque_source.h"
 #include "engine/model/network.h"

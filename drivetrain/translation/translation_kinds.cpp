@@ -6,8 +6,8 @@
 
 #include "drivetrain/gears/gear_train_keys.h"
 #include "drivetrain/shared/inclined_plane.h"
+#include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"
-#include "drivetrain/translation/kinds.h"
 #include "drivetrain/translation/slide.h"
 #include "engine/model/network.h"
 #include "engine/numerics/angles.h"
