@@ -8,11 +8,11 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "mechanisms/linkages/simbody_reactions.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/forces.h"
 #include "studies/forces/linkage_cycle.h"
 #include "tests/agreement/agreement.h"
+#include "tests/mechanisms/simbody_reactions.h"
 
 namespace kurbel::agreement {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "mechanisms/linkages/simbody_reactions.h"
 #include "mechanisms/reduced/mechanism_data.h"
 #include "tests/mechanisms/linkage_truth.h"
 #include "tests/mechanisms/mechanism_examples.h"
+#include "tests/mechanisms/simbody_reactions.h"
 
 namespace kurbel::newton_euler_test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "mechanisms/linkages/simbody_reactions.h"
 #include "tests/mechanisms/mechanism_examples.h"
+#include "tests/mechanisms/simbody_reactions.h"
 
 namespace kurbel::slider_crank_forces_test {
 namespace {

@@ -1,6 +1,6 @@
 // simbody_reactions.cpp — the slider-crank with a slider body of its own, and the others, realised by Simbody (C++17
 // island).
-#include "mechanisms/linkages/simbody_reactions.h"
+#include "tests/mechanisms/simbody_reactions.h"
 
 #include <Simbody.h>
 #include <fmt/core.h>
