@@ -87,6 +87,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/base/enumerators.h"
+
 namespace kurbel {
 
 template <class T>
@@ -125,19 +127,7 @@ struct OwnState {
 
 // Lines of the energy balance. Useful work goes into the process; harmful work is friction and damping.
 enum class Account { driving, useful, harmful, weight };
-inline const char* name_of(Account account) {
-  switch (account) {
-    case Account::driving:
-      return "driving";
-    case Account::useful:
-      return "useful";
-    case Account::harmful:
-      return "harmful";
-    case Account::weight:
-      return "weight";
-  }
-  return "";
-}
+inline const char* name_of(Account account) { return enumerator_name<Account::weight>(account); }
 
 // Orders of magnitude that scale errors and tolerances; 0 = the element cannot tell.
 struct Rated {

@@ -1,6 +1,8 @@
 // event_kind.h — what kinds of things happen in a run, for programs; words are for people.
 #pragma once
 
+#include "engine/base/enumerators.h"
+
 namespace kurbel {
 
 enum class EventKind {
@@ -22,39 +24,7 @@ enum class EventKind {
 };
 
 inline const char* name_of(EventKind kind) {
-  switch (kind) {
-    case EventKind::law:
-      return "law";
-    case EventKind::load_edge:
-      return "load edge";
-    case EventKind::flight:
-      return "flight";
-    case EventKind::touch:
-      return "touch";
-    case EventKind::impact:
-      return "impact";
-    case EventKind::rest:
-      return "rest";
-    case EventKind::held:
-      return "held";
-    case EventKind::motion:
-      return "motion";
-    case EventKind::lock:
-      return "lock";
-    case EventKind::slip:
-      return "slip";
-    case EventKind::shares:
-      return "shares";
-    case EventKind::command:
-      return "command";
-    case EventKind::window:
-      return "window";
-    case EventKind::jam:
-      return "jam";
-    case EventKind::note:
-      break;
-  }
-  return "note";
+  return kind == EventKind::load_edge ? "load edge" : enumerator_name<EventKind::note>(kind);
 }
 
 }  // namespace kurbel

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/enumerators.h"
+
 namespace kurbel {
 
 enum class QuantityKind {
@@ -77,67 +79,11 @@ enum class QuantityKind {
   work_per_cycle  // of one account
 };
 
+// Empty of an element's own, whose words it has itself.
 inline const char* word(QuantityKind quantity) {
   using enum QuantityKind;
-  static constexpr std::pair<QuantityKind, const char*> words[] = {
-      {angle, "angle"},
-      {speed, "speed"},
-      {twist, "twist"},
-      {slip, "slip"},
-      {torque, "torque"},
-      {spring_torque, "spring_torque"},
-      {position, "position"},
-      {velocity, "velocity"},
-      {acceleration, "acceleration"},
-      {force, "force"},
-      {load_torque, "load_torque"},
-      {peak_torque, "peak_torque"},
-      {peak_spring_torque, "peak_spring_torque"},
-      {peak_drive_torque, "peak_drive_torque"},
-      {peak_velocity, "peak_velocity"},
-      {peak_acceleration, "peak_acceleration"},
-      {peak_force, "peak_force"},
-      {peak_load_torque, "peak_load_torque"},
-      {cycle_peak_torque, "cycle_peak_torque"},
-      {cycle_peak_spring_torque, "cycle_peak_spring_torque"},
-      {cycle_peak_velocity, "cycle_peak_velocity"},
-      {cycle_peak_acceleration, "cycle_peak_acceleration"},
-      {cycle_peak_force, "cycle_peak_force"},
-      {cycle_peak_load_torque, "cycle_peak_load_torque"},
-      {max_speed, "max_speed"},
-      {min_speed, "min_speed"},
-      {rms_torque, "rms_torque"},
-      {rms_spring_torque, "rms_spring_torque"},
-      {steady_speed, "steady_speed"},
-      {cycle_max_speed, "cycle_max_speed"},
-      {cycle_min_speed, "cycle_min_speed"},
-      {mid_speed, "mid_speed"},
-      {mean_speed, "mean_speed"},
-      {delta, "delta"},
-      {cycle_fluctuation, "cycle_fluctuation"},
-      {cycle_time, "cycle_time"},
-      {period, "period"},
-      {cycle_rms_torque, "cycle_rms_torque"},
-      {mean_drive_torque, "mean_drive_torque"},
-      {rms_drive_torque, "rms_drive_torque"},
-      {final_angle, "final_angle"},
-      {final_speed, "final_speed"},
-      {run_up_time, "run_up_time"},
-      {run_down_time, "run_down_time"},
-      {stopping_time, "stopping_time"},
-      {stopping_angle, "stopping_angle"},
-      {slip_heat, "slip_heat"},
-      {impacts, "impacts"},
-      {amplification, "amplification"},
-      {work, "work"},
-      {driving_work_per_cycle, "driving_work_per_cycle"},
-      {useful_work_per_cycle, "useful_work_per_cycle"},
-      {harmful_work_per_cycle, "harmful_work_per_cycle"},
-      {weight_work_per_cycle, "weight_work_per_cycle"},
-      {work_per_cycle, "work_per_cycle"}};
-  for (const auto& [known, text] : words)
-    if (known == quantity) return text;
-  return "";  // of an element's own
+  const bool of_element = quantity == other || quantity == peak_other || quantity == cycle_peak_other;
+  return of_element ? "" : enumerator_name<work_per_cycle>(quantity);
 }
 
 // A largest magnitude: of two equal ones of opposite sign either may be taken.
@@ -165,50 +111,27 @@ struct Name {
   // Of a channel, the figure that tells its peak.
   Name peak() const {
     using enum QuantityKind;
-    switch (what) {
-      case torque:
-        return make(peak_torque, of);
-      case spring_torque:
-        return make(peak_spring_torque, of);
-      case velocity:
-        return make(peak_velocity, of);
-      case acceleration:
-        return make(peak_acceleration, of);
-      case force:
-        return make(peak_force, of);
-      case load_torque:
-        return make(peak_load_torque, of);
-      default:
-        return {peak_other, of, "peak_" + text};
-    }
+    static constexpr std::pair<QuantityKind, QuantityKind> peaks[] = {
+        {torque, peak_torque},     {spring_torque, peak_spring_torque},
+        {velocity, peak_velocity}, {acceleration, peak_acceleration},
+        {force, peak_force},       {load_torque, peak_load_torque}};
+    for (const auto& [channel, figure] : peaks)
+      if (channel == what) return make(figure, of);
+    return {peak_other, of, "peak_" + text};
   }
   // Of a figure of a whole run, the like figure of one steady cycle; others are what they were.
   Name of_cycle() const {
     using enum QuantityKind;
-    switch (what) {
-      case peak_torque:
-        return make(cycle_peak_torque, of);
-      case peak_spring_torque:
-        return make(cycle_peak_spring_torque, of);
-      case peak_velocity:
-        return make(cycle_peak_velocity, of);
-      case peak_acceleration:
-        return make(cycle_peak_acceleration, of);
-      case peak_force:
-        return make(cycle_peak_force, of);
-      case peak_load_torque:
-        return make(cycle_peak_load_torque, of);
-      case peak_other:
-        return {cycle_peak_other, of, "cycle_" + text};
-      case max_speed:
-        return make(cycle_max_speed, of);
-      case min_speed:
-        return make(cycle_min_speed, of);
-      case rms_torque:
-        return make(cycle_rms_torque, of);
-      default:
-        return *this;
-    }
+    static constexpr std::pair<QuantityKind, QuantityKind> figures[] = {
+        {peak_torque, cycle_peak_torque},     {peak_spring_torque, cycle_peak_spring_torque},
+        {peak_velocity, cycle_peak_velocity}, {peak_acceleration, cycle_peak_acceleration},
+        {peak_force, cycle_peak_force},       {peak_load_torque, cycle_peak_load_torque},
+        {max_speed, cycle_max_speed},         {min_speed, cycle_min_speed},
+        {rms_torque, cycle_rms_torque}};
+    for (const auto& [of_run, of_round] : figures)
+      if (of_run == what) return make(of_round, of);
+    if (what == peak_other) return {cycle_peak_other, of, "cycle_" + text};
+    return *this;
   }
 };
 

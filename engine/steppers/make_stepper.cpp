@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/enumerators.h"
 #include "engine/steppers/butcher_tables.h"
 #include "engine/steppers/explicit_runge_kutta.h"
 #include "engine/steppers/stepper.h"
@@ -44,31 +45,7 @@ Method method_named(const std::string& name) {
   throw std::invalid_argument(fmt::format("method \"{}\" integrates no reduced model; allowed: {}", name, allowed));
 }
 
-std::string_view name_of(Method method) {
-  switch (method) {
-    case Method::dormand_prince_54:
-      return "dormand_prince_54";
-    case Method::dormand_prince_853:
-      return "dormand_prince_853";
-    case Method::verner_65:
-      return "verner_65";
-    case Method::fehlberg_87:
-      return "fehlberg_87";
-    case Method::esdirk_32:
-      return "esdirk_32";
-    case Method::esdirk_43:
-      return "esdirk_43";
-    case Method::esdirk_54:
-      return "esdirk_54";
-    case Method::bdf:
-      return "bdf";
-    case Method::adams:
-      return "adams";
-    case Method::work_equation:
-      return "work_equation";
-  }
-  return "unknown";
-}
+std::string_view name_of(Method method) { return enumerator_name<Method::work_equation>(method); }
 
 std::unique_ptr<Stepper> make_stepper(Method method, OdeSystem& system, ErrorControl control) {
   check(system, control);

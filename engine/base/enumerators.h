@@ -1,0 +1,40 @@
+// enumerators.h — enumerators by their names, as they stand in the source: nobody writes them a second time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+namespace kurbel {
+namespace enumerators_detail {
+
+// "bdf" of Method::bdf, as characters that end in a zero.
+template <auto value>
+constexpr auto text() {
+  constexpr std::string_view told = __PRETTY_FUNCTION__;  // "… [with auto value = kurbel::Method::bdf]"
+  constexpr std::size_t end = told.find_first_of(";]", told.find("value = ")), begin = told.rfind(':', end) + 1;
+  static_assert(begin > 1 && begin < end && end != std::string_view::npos);
+  std::array<char, end - begin + 1> name{};
+  std::copy(told.begin() + begin, told.begin() + end, name.begin());
+  return name;
+}
+template <auto value>
+inline constexpr auto text_of = text<value>();
+
+template <auto last>
+inline constexpr auto names = []<std::size_t... k>(std::index_sequence<k...>) {
+  return std::array<const char*, sizeof...(k)>{text_of<static_cast<decltype(last)>(k)>.data()...};
+}
+(std::make_index_sequence<static_cast<std::size_t>(last) + 1>());
+
+}  // namespace enumerators_detail
+
+// Of an enum whose enumerators count from 0 to `last`.
+template <auto last>
+constexpr const char* enumerator_name(decltype(last) value) {
+  return enumerators_detail::names<last>[static_cast<std::size_t>(value)];
+}
+
+}  // namespace kurbel
