@@ -121,12 +121,7 @@ void add_coupling(const std::string& kind, const std::string& doc, const std::ve
   std::vector<Key> keys = keys_of_parameters(kind, parameters, side_inertia_fields().keys());
   const std::scoped_lock lock(own_couplings_mutex);
   if (own_couplings().contains(kind)) throw std::invalid_argument(fmt::format("kind {} is known", in_quotes(kind)));
-  add_kind({.name = kind,
-            .doc = doc,
-            .placement = Placement::inline_two,
-            .keys = std::move(keys),
-            .build = build_own_coupling,
-            .elastic = true});
+  add_kind(elastic_between_shafts(kind, doc, std::move(keys), build_own_coupling));
   own_couplings()[kind] = {parameters, make};
 }
 

@@ -171,7 +171,7 @@ void add_mechanism(const std::string& kind, const std::string& doc, const std::v
   std::vector<Key> keys = keys_of_parameters(kind, parameters, own_mechanism_fields().keys());
   const std::scoped_lock lock(own_mechanisms_mutex);
   if (own_mechanisms().contains(kind)) throw std::invalid_argument(fmt::format("kind {} is known", in_quotes(kind)));
-  add_kind({.name = kind, .doc = doc, .keys = std::move(keys), .build = build_own_mechanism});
+  add_kind(on_a_shaft(kind, doc, std::move(keys), build_own_mechanism));
   const double number = static_cast<double>(own_mechanisms().size());
   own_mechanisms()[kind] = {parameters, make, number};
 }

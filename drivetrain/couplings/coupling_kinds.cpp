@@ -181,18 +181,11 @@ const Fields<ShaftKeys>& shaft_fields() {
 
 std::vector<Kind> coupling_kinds() {
   return {
-      {.name = "coupling",
-       .doc = "spring and damper between two half inertias; rigid when its elasticity is off",
-       .placement = Placement::inline_two,
-       .keys = coupling_fields().keys(),
-       .build = build_coupling,
-       .elastic = true},
-      {.name = "shaft",
-       .doc = "elastic shaft by stiffness, or by length, diameters and material",
-       .placement = Placement::inline_two,
-       .keys = shaft_fields().keys(),
-       .build = build_shaft,
-       .elastic = true},
+      elastic_between_shafts("coupling",
+                             "spring and damper between two half inertias; rigid when its elasticity is off",
+                             coupling_fields().keys(), build_coupling),
+      elastic_between_shafts("shaft", "elastic shaft by stiffness, or by length, diameters and material",
+                             shaft_fields().keys(), build_shaft),
   };
 }
 

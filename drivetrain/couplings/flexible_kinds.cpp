@@ -169,24 +169,17 @@ void build_universal_joint(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> flexible_kinds() {
   return {
-      {.name = "progressive coupling",
-       .doc = "spring by a table of torque over twist, and damper; rigid when its elasticity is off",
-       .placement = Placement::inline_two,
-       .keys = progressive_fields().keys(),
-       .build = build_progressive,
-       .elastic = true},
-      {.name = "rubber coupling",
-       .doc = "static spring and damper, with Maxwell branches that relax; rigid when its elasticity is off",
-       .placement = Placement::inline_two,
-       .keys = rubber_fields().keys(),
-       .build = build_rubber,
-       .elastic = true},
-      {.name = "universal joint",
-       .doc = "Hooke's joint at an angle, on an elastic shaft; when its elasticity is off its ratio is the mean, 1",
-       .placement = Placement::inline_two,
-       .keys = universal_joint_fields().keys(),
-       .build = build_universal_joint,
-       .elastic = true},
+      elastic_between_shafts("progressive coupling",
+                             "spring by a table of torque over twist, and damper; rigid when its elasticity is off",
+                             progressive_fields().keys(), build_progressive),
+      elastic_between_shafts(
+          "rubber coupling",
+          "static spring and damper, with Maxwell branches that relax; rigid when its elasticity is off",
+          rubber_fields().keys(), build_rubber),
+      elastic_between_shafts(
+          "universal joint",
+          "Hooke's joint at an angle, on an elastic shaft; when its elasticity is off its ratio is the mean, 1",
+          universal_joint_fields().keys(), build_universal_joint),
   };
 }
 

@@ -88,15 +88,11 @@ void build_viscous_damper(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> fluid_kinds() {
   return {
-      {.name = "fluid coupling",
-       .doc = "hydrodynamic coupling by its performance coefficient over the speed ratio; slips always",
-       .placement = Placement::inline_two,
-       .keys = fluid_coupling_fields().keys(),
-       .build = build_fluid_coupling},
-      {.name = "viscous damper",
-       .doc = "ring that hangs on the shaft by a viscous film (Houdaille)",
-       .keys = viscous_damper_fields().keys(),
-       .build = build_viscous_damper},
+      between_shafts("fluid coupling",
+                     "hydrodynamic coupling by its performance coefficient over the speed ratio; slips always",
+                     fluid_coupling_fields().keys(), build_fluid_coupling),
+      on_a_shaft("viscous damper", "ring that hangs on the shaft by a viscous film (Houdaille)",
+                 viscous_damper_fields().keys(), build_viscous_damper),
   };
 }
 

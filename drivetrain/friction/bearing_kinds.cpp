@@ -124,10 +124,8 @@ void build_bearing(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> bearing_kinds() {
   return {
-      {.name = "bearing",
-       .doc = "friction against the frame: Coulomb, Stribeck and viscous part; sticks at standstill",
-       .keys = bearing_fields().keys(),
-       .build = build_bearing},
+      on_a_shaft("bearing", "friction against the frame: Coulomb, Stribeck and viscous part; sticks at standstill",
+                 bearing_fields().keys(), build_bearing),
   };
 }
 

@@ -128,12 +128,9 @@ BeltRating belt_rating(const Section& section) {
 
 std::vector<Kind> belt_kinds() {
   return {
-      {.name = "belt",
-       .doc = "belt drive that slips at the limit of Euler and Eytelwein; elastic where a stiffness is given",
-       .placement = Placement::inline_two,
-       .keys = belt_fields().keys(),
-       .build = build_belt,
-       .elastic = true},
+      elastic_between_shafts(
+          "belt", "belt drive that slips at the limit of Euler and Eytelwein; elastic where a stiffness is given",
+          belt_fields().keys(), build_belt),
   };
 }
 

@@ -177,25 +177,14 @@ void build_brake(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> clutch_kinds() {
   return {
-      {.name = "clutch",
-       .doc = "friction clutch between two half inertias; an operating sequence engages and releases it",
-       .placement = Placement::inline_two,
-       .keys = clutch_fields().keys(),
-       .build = build_clutch},
-      {.name = "torque limiter",
-       .doc = "slips at its limit, holds below it",
-       .placement = Placement::inline_two,
-       .keys = limiter_fields().keys(),
-       .build = build_limiter},
-      {.name = "one-way clutch",
-       .doc = "drives forwards only; the driven side may run ahead",
-       .placement = Placement::inline_two,
-       .keys = one_way_fields().keys(),
-       .build = build_one_way},
-      {.name = "brake",
-       .doc = "friction against the frame; an operating sequence applies it, without one it always brakes",
-       .keys = brake_fields().keys(),
-       .build = build_brake},
+      between_shafts("clutch",
+                     "friction clutch between two half inertias; an operating sequence engages and releases it",
+                     clutch_fields().keys(), build_clutch),
+      between_shafts("torque limiter", "slips at its limit, holds below it", limiter_fields().keys(), build_limiter),
+      between_shafts("one-way clutch", "drives forwards only; the driven side may run ahead", one_way_fields().keys(),
+                     build_one_way),
+      on_a_shaft("brake", "friction against the frame; an operating sequence applies it, without one it always brakes",
+                 brake_fields().keys(), build_brake),
   };
 }
 

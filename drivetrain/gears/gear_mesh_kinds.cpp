@@ -133,12 +133,10 @@ void build_gear_mesh(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> gear_mesh_kinds() {
   return {
-      {.name = "gear mesh",
-       .doc = "pair of wheels with elastic teeth, mean and tooth-frequency stiffness; ideal when its elasticity is off",
-       .placement = Placement::inline_two,
-       .keys = mesh_fields().keys(),
-       .build = build_gear_mesh,
-       .elastic = true},
+      elastic_between_shafts(
+          "gear mesh",
+          "pair of wheels with elastic teeth, mean and tooth-frequency stiffness; ideal when its elasticity is off",
+          mesh_fields().keys(), build_gear_mesh),
   };
 }
 

@@ -264,12 +264,10 @@ void build_gearbox(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> gearbox_kinds() {
   return {
-      {.name = "gearbox",
-       .doc = "gear stages by tooth numbers: ideal, or with losses, elastic flanks, an elastic support of the housing",
-       .placement = Placement::inline_two,
-       .keys = gearbox_fields().keys(),
-       .build = build_gearbox,
-       .elastic = true},
+      elastic_between_shafts(
+          "gearbox",
+          "gear stages by tooth numbers: ideal, or with losses, elastic flanks, an elastic support of the housing",
+          gearbox_fields().keys(), build_gearbox),
   };
 }
 

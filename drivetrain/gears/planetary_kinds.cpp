@@ -288,11 +288,9 @@ std::vector<Kind> planetary_kinds() {
        .keys = differential_fields().keys(),
        .build = build_differential,
        .further_shafts = {"second"}},
-      {.name = "worm gear",
-       .doc = "worm and wheel; with a friction coefficient its efficiencies follow, and whether it locks itself",
-       .placement = Placement::inline_two,
-       .keys = worm_fields().keys(),
-       .build = build_worm},
+      between_shafts("worm gear",
+                     "worm and wheel; with a friction coefficient its efficiencies follow, and whether it locks itself",
+                     worm_fields().keys(), build_worm),
   };
 }
 

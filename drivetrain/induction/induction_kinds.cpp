@@ -137,13 +137,13 @@ std::optional<InductionWindings> induction_windings(const Section& component) {
 
 std::vector<Kind> induction_kinds() {
   return {
-      {.name = "induction motor",
-       .doc = "induction motor from its catalogue or nameplate: after Kloss (theory 4.1), or through its starting, "
-              "pull-up, "
-              "breakdown and rated points; with its frequency, its nameplate's currents or its circuit by the two-axis "
-              "model",
-       .keys = induction_fields().keys(),
-       .build = build_induction},
+      on_a_shaft(
+          "induction motor",
+          "induction motor from its catalogue or nameplate: after Kloss (theory 4.1), or through its starting, "
+          "pull-up, "
+          "breakdown and rated points; with its frequency, its nameplate's currents or its circuit by the two-axis "
+          "model",
+          induction_fields().keys(), build_induction),
   };
 }
 

@@ -26,8 +26,8 @@ void build_inertia(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> inertia_kinds() {
   return {
-      {.name = "inertia", .doc = "rigid body on the shaft", .keys = body_fields().keys(), .build = build_inertia},
-      {.name = "flywheel", .doc = "the same, by its usual name", .keys = body_fields().keys(), .build = build_inertia},
+      on_a_shaft("inertia", "rigid body on the shaft", body_fields().keys(), build_inertia),
+      on_a_shaft("flywheel", "the same, by its usual name", body_fields().keys(), build_inertia),
   };
 }
 

@@ -94,14 +94,9 @@ void build_load(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> load_kinds() {
   return {
-      {.name = "bearing drag",
-       .doc = "viscous friction against the frame",
-       .keys = drag_fields().keys(),
-       .build = build_drag},
-      {.name = "load",
-       .doc = "resistance on a shaft: constant, viscous, quadratic, table; several may be given",
-       .keys = load_fields().keys(),
-       .build = build_load},
+      on_a_shaft("bearing drag", "viscous friction against the frame", drag_fields().keys(), build_drag),
+      on_a_shaft("load", "resistance on a shaft: constant, viscous, quadratic, table; several may be given",
+                 load_fields().keys(), build_load),
   };
 }
 

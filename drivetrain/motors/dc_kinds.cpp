@@ -322,16 +322,14 @@ void build_dc_series(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> dc_kinds() {
   return {
-      {.name = "dc shunt motor",
-       .doc = "straight characteristic M = M_stall (1 − ω/ω₀); with its inductance the armature current is a state",
-       .keys = shunt_fields().keys(),
-       .build = build_dc_shunt},
-      {.name = "dc series motor",
-       .doc =
-           "M = κ U²/(R + κ ω)², or with its inductance L di/dt = U − R i − κ ω i, M = κ i²; runs away where no load "
-           "holds it, which ends the run",
-       .keys = series_fields().keys(),
-       .build = build_dc_series},
+      on_a_shaft("dc shunt motor",
+                 "straight characteristic M = M_stall (1 − ω/ω₀); with its inductance the armature current is a state",
+                 shunt_fields().keys(), build_dc_shunt),
+      on_a_shaft(
+          "dc series motor",
+          "M = κ U²/(R + κ ω)², or with its inductance L di/dt = U − R i − κ ω i, M = κ i²; runs away where no load "
+          "holds it, which ends the run",
+          series_fields().keys(), build_dc_series),
   };
 }
 

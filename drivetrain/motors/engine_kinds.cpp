@@ -285,11 +285,11 @@ void build_engine(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> engine_kinds() {
   return {
-      {.name = "engine",
-       .doc = "piston engine of equal cylinders on a rigid crankshaft, from the diagram of one cylinder and the firing "
-              "order",
-       .keys = engine_fields().keys(),
-       .build = build_engine},
+      on_a_shaft(
+          "engine",
+          "piston engine of equal cylinders on a rigid crankshaft, from the diagram of one cylinder and the firing "
+          "order",
+          engine_fields().keys(), build_engine),
   };
 }
 

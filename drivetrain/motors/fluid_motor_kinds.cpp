@@ -92,15 +92,14 @@ void build_pneumatic(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> fluid_motor_kinds() {
   return {
-      {.name = "hydraulic motor",
-       .doc = "hydraulic motor on a pump of constant flow with a relief valve: constant torque up to the flow-limited "
-              "speed, then falling",
-       .keys = hydraulic_fields().keys(),
-       .build = build_hydraulic},
-      {.name = "pneumatic motor",
-       .doc = "air motor at constant supply pressure: nearly straight from stall torque to free speed",
-       .keys = pneumatic_fields().keys(),
-       .build = build_pneumatic},
+      on_a_shaft(
+          "hydraulic motor",
+          "hydraulic motor on a pump of constant flow with a relief valve: constant torque up to the flow-limited "
+          "speed, then falling",
+          hydraulic_fields().keys(), build_hydraulic),
+      on_a_shaft("pneumatic motor",
+                 "air motor at constant supply pressure: nearly straight from stall torque to free speed",
+                 pneumatic_fields().keys(), build_pneumatic),
   };
 }
 

@@ -57,10 +57,8 @@ void build_governor(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> governor_kinds() {
   return {
-      {.name = "governor",
-       .doc = "drive that holds a speed: proportional–integral on torque, with limits",
-       .keys = governor_fields().keys(),
-       .build = build_governor},
+      on_a_shaft("governor", "drive that holds a speed: proportional–integral on torque, with limits",
+                 governor_fields().keys(), build_governor),
   };
 }
 

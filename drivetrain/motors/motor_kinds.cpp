@@ -34,10 +34,7 @@ void build_table_motor(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> motor_kinds() {
   return {
-      {.name = "motor",
-       .doc = "motor, turbine or hydraulic drive by table M(ω)",
-       .keys = motor_fields().keys(),
-       .build = build_table_motor},
+      on_a_shaft("motor", "motor, turbine or hydraulic drive by table M(ω)", motor_fields().keys(), build_table_motor),
   };
 }
 

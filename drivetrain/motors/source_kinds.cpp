@@ -138,14 +138,10 @@ void build_prescribed_speed(const Section& s, Network& net, Messages& messages) 
 
 std::vector<Kind> source_kinds() {
   return {
-      {.name = "torque source",
-       .doc = "torque as constant, ramp, sine or table",
-       .keys = torque_source_fields().keys(),
-       .build = build_torque_source},
-      {.name = "prescribed speed",
-       .doc = "speed as constant, ramp, sine or table, whatever torque that takes",
-       .keys = prescribed_speed_fields().keys(),
-       .build = build_prescribed_speed},
+      on_a_shaft("torque source", "torque as constant, ramp, sine or table", torque_source_fields().keys(),
+                 build_torque_source),
+      on_a_shaft("prescribed speed", "speed as constant, ramp, sine or table, whatever torque that takes",
+                 prescribed_speed_fields().keys(), build_prescribed_speed),
   };
 }
 

@@ -205,20 +205,18 @@ void build_rack(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> translation_kinds() {
   return {
-      {.name = "screw",
-       .doc = "spindle and nut (jack, spindle press, lead screw): turns into travel, with the friction of thread and "
-              "collar; mass and forces of what the nut moves",
-       .keys = screw_fields().keys(),
-       .build = build_screw},
-      {.name = "wedge",
-       .doc = "a wedge that a pinion pushes under a slide: friction on slope, base and guide; mass and forces of the "
-              "slide",
-       .keys = wedge_fields().keys(),
-       .build = build_wedge},
-      {.name = "slide",
-       .doc = "a body on a line, level or inclined, that a pinion, chain or drum moves",
-       .keys = rack_fields().keys(),
-       .build = build_rack},
+      on_a_shaft(
+          "screw",
+          "spindle and nut (jack, spindle press, lead screw): turns into travel, with the friction of thread and "
+          "collar; mass and forces of what the nut moves",
+          screw_fields().keys(), build_screw),
+      on_a_shaft(
+          "wedge",
+          "a wedge that a pinion pushes under a slide: friction on slope, base and guide; mass and forces of the "
+          "slide",
+          wedge_fields().keys(), build_wedge),
+      on_a_shaft("slide", "a body on a line, level or inclined, that a pinion, chain or drum moves",
+                 rack_fields().keys(), build_rack),
   };
 }
 

@@ -56,6 +56,22 @@ Key defaulted(std::string name, std::string unit, const std::string& fallback, D
   return key;
 }
 
+Kind on_a_shaft(std::string name, std::string doc, std::vector<Key> keys, Build build) {
+  return {.name = std::move(name), .doc = std::move(doc), .keys = std::move(keys), .build = build};
+}
+
+Kind between_shafts(std::string name, std::string doc, std::vector<Key> keys, Build build) {
+  Kind kind = on_a_shaft(std::move(name), std::move(doc), std::move(keys), build);
+  kind.placement = Placement::inline_two;
+  return kind;
+}
+
+Kind elastic_between_shafts(std::string name, std::string doc, std::vector<Key> keys, Build build) {
+  Kind kind = between_shafts(std::move(name), std::move(doc), std::move(keys), build);
+  kind.elastic = true;
+  return kind;
+}
+
 std::string shortened_list(std::vector<std::string> names, std::string_view conjunction) {
   constexpr std::size_t most = 30;
   if (names.size() <= most) return listed(names, conjunction);

@@ -84,6 +84,12 @@ struct Kind {
   std::vector<std::string> further_shafts = {};
 };
 
+// Kinds of components, by what every one of them says.
+using Build = void (*)(const Section&, Network&, Messages&);
+Kind on_a_shaft(std::string name, std::string doc, std::vector<Key> keys, Build build);
+Kind between_shafts(std::string name, std::string doc, std::vector<Key> keys, Build build);
+Kind elastic_between_shafts(std::string name, std::string doc, std::vector<Key> keys, Build build);
+
 // A characteristic as read, in SI; made into a Curve by the component that owns it. Of a formula the points are those
 // between its pieces.
 struct CurveData {

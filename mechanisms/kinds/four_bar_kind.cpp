@@ -37,20 +37,14 @@ const Fields<Mounted<FourBar>>& four_bar_fields() {
   return made;
 }
 
-void build_four_bar(const Section& s, Network& net, Messages& messages) {
-  build_mounted(four_bar_fields(), s, net, messages);
-}
-
 }  // namespace
 
 Kind four_bar_kind() {
-  return {.name = "four-bar",
-          .doc =
-              "crank, coupler and rocker on the ground link: crank–rocker, drag link (both turn), parallelogram, kite; "
-              "a crank that cannot turn fully rocks within its arc, where the run ends if it is reached; "
-              "the loads act on the rocker; φ = 0 with the crank towards the rocker's bearing",
-          .keys = four_bar_fields().keys(),
-          .build = build_four_bar};
+  return mounted_kind<four_bar_fields>(
+      "four-bar",
+      "crank, coupler and rocker on the ground link: crank–rocker, drag link (both turn), parallelogram, kite; "
+      "a crank that cannot turn fully rocks within its arc, where the run ends if it is reached; "
+      "the loads act on the rocker; φ = 0 with the crank towards the rocker's bearing");
 }
 
 }  // namespace kurbel

@@ -40,19 +40,13 @@ const Fields<Mounted<Press>>& knuckle_press_fields() {
   return made;
 }
 
-void build_knuckle_press(const Section& s, Network& net, Messages& messages) {
-  build_mounted(knuckle_press_fields(), s, net, messages);
-}
-
 }  // namespace
 
 Kind knuckle_press_kind() {
-  return {.name = "knuckle press",
-          .doc =
-              "crank and rod work a knee joint between an upper link on a fixed bearing and a lower link to the ram; "
-              "x runs along the stroke, y 90 deg ahead of it, both from the crank axis; φ = 0 with the crank along x",
-          .keys = knuckle_press_fields().keys(),
-          .build = build_knuckle_press};
+  return mounted_kind<knuckle_press_fields>(
+      "knuckle press",
+      "crank and rod work a knee joint between an upper link on a fixed bearing and a lower link to the ram; "
+      "x runs along the stroke, y 90 deg ahead of it, both from the crank axis; φ = 0 with the crank along x");
 }
 
 }  // namespace kurbel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/model/network.h"
@@ -46,10 +47,14 @@ Fields<Mounted<Linkage>> mounted(const Fields<Linkage>& linkage, const Fields<Mo
 void build_mechanism(const Section& section, const MechanismData& data, const Mounting& mounting,
                      const DataFaults& faults, Network& net, Messages& messages,
                      std::shared_ptr<const SliderCrankStatics> joints = nullptr, Deformation deformation = {});
-template <class Linkage>
-void build_mounted(const Fields<Mounted<Linkage>>& fields, const Section& section, Network& net, Messages& messages) {
-  const auto mechanism = fields.read(section, messages);
-  build_mechanism(section, mechanism.linkage, mechanism.mounting, faults_of(mechanism.linkage), net, messages);
+// A kind of mechanism by its fields alone.
+template <const auto& fields>
+Kind mounted_kind(std::string name, std::string doc) {
+  return on_a_shaft(
+      std::move(name), std::move(doc), fields().keys(), [](const Section& section, Network& net, Messages& messages) {
+        const auto mechanism = fields().read(section, messages);
+        build_mechanism(section, mechanism.linkage, mechanism.mounting, faults_of(mechanism.linkage), net, messages);
+      });
 }
 
 }  // namespace kurbel

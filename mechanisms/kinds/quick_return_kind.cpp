@@ -51,20 +51,13 @@ const Fields<Mounted<Shaper>>& quick_return_fields() {
   return made;
 }
 
-void build_quick_return(const Section& s, Network& net, Messages& messages) {
-  build_mounted(quick_return_fields(), s, net, messages);
-}
-
 }  // namespace
 
 Kind quick_return_kind() {
-  return {
-      .name = "quick-return",
-      .doc =
-          "crank and slotted lever that drive a ram: shaper (pivot_distance > radius) or Whitworth (pivot_distance < "
-          "radius); φ = 0 with the crank along the stroke",
-      .keys = quick_return_fields().keys(),
-      .build = build_quick_return};
+  return mounted_kind<quick_return_fields>(
+      "quick-return",
+      "crank and slotted lever that drive a ram: shaper (pivot_distance > radius) or Whitworth (pivot_distance < "
+      "radius); φ = 0 with the crank along the stroke");
 }
 
 }  // namespace kurbel

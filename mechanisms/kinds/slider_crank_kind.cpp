@@ -228,10 +228,9 @@ SliderCrankData slider_crank_data(const Section& section) { return slider_crank_
 SliderCrankJoints slider_crank_joints(const Section& section) { return slider_crank_fields().read(section).joints; }
 
 Kind slider_crank_kind() {
-  return {.name = "slider-crank",
-          .doc = "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
-          .keys = slider_crank_fields().keys(),
-          .build = build_slider_crank};
+  return on_a_shaft("slider-crank",
+                    "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
+                    slider_crank_fields().keys(), build_slider_crank);
 }
 
 }  // namespace kurbel

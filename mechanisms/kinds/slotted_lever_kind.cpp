@@ -35,19 +35,13 @@ const Fields<Mounted<Lever>>& slotted_lever_fields() {
   return made;
 }
 
-void build_slotted_lever(const Section& s, Network& net, Messages& messages) {
-  build_mounted(slotted_lever_fields(), s, net, messages);
-}
-
 }  // namespace
 
 Kind slotted_lever_kind() {
-  return {.name = "inverted slider-crank",
-          .doc =
-              "crank, block on its pin and slotted lever, which the loads act on; φ = 0 with the crank towards the "
-              "lever's bearing",
-          .keys = slotted_lever_fields().keys(),
-          .build = build_slotted_lever};
+  return mounted_kind<slotted_lever_fields>(
+      "inverted slider-crank",
+      "crank, block on its pin and slotted lever, which the loads act on; φ = 0 with the crank towards the "
+      "lever's bearing");
 }
 
 }  // namespace kurbel
