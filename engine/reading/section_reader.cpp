@@ -131,10 +131,7 @@ bool read_setting(const DocumentValue& value, const Key& key, const std::string&
       setting.text = value.text;
       if (key.choices.empty() || std::find(key.choices.begin(), key.choices.end(), value.text) != key.choices.end())
         return true;
-      {
-        const auto near = nearest(value.text, key.choices);
-        return refuse(listed(key.choices) + (near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
-      }
+      return refuse(listed(key.choices) + suggestion(value.text, key.choices));
     case KeyType::curve:
       return read_curve(value, key, what, messages, allowed, setting.curve);
     case KeyType::quantities:
@@ -169,9 +166,8 @@ const Kind* read_kind(const DocumentValue& table, const std::vector<Kind>& kinds
   }
   for (const Kind& kind : kinds)
     if (entry->value.type == Type::text && kind.name == entry->value.text) return &kind;
-  const auto near = nearest(entry->value.text, names);
   messages.add(entry->value.at, fmt::format("{}: kind = {}{}; allowed: {}", what, entry->value.describe(),
-                                            near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(names)));
+                                            suggestion(entry->value.text, names), listed(names)));
   return nullptr;
 }
 
@@ -188,11 +184,9 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
     const auto key =
         std::find_if(kind.keys.begin(), kind.keys.end(), [&](const Key& k) { return k.name == entry.key; });
     if (key == kind.keys.end()) {
-      const auto near = nearest(entry.key, known);
-      if (near) meant.push_back(*near);
-      messages.add(entry.at,
-                   fmt::format("{}: unknown key {}{}; allowed: {}", what, in_quotes(entry.key),
-                               near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(known, "and")));
+      if (const auto near = nearest(entry.key, known)) meant.push_back(*near);
+      messages.add(entry.at, fmt::format("{}: unknown key {}{}; allowed: {}", what, in_quotes(entry.key),
+                                         suggestion(entry.key, known), listed(known, "and")));
       continue;
     }
     Setting setting;

@@ -10,14 +10,13 @@
 
 #include "engine/scene/document.h"
 #include "engine/scene/keys.h"
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 
 // Lines and columns count from 1, columns in characters.
 std::size_t offset_of(std::string_view text, Location at) {
@@ -144,8 +143,7 @@ SettledText::Edit SettledText::edit_of(std::size_t setting) {
   const std::vector<Segment> path = path_of(setting);
   const std::string& own = settings_[setting];
   const std::size_t value_at = std::min(own.find_first_not_of(" \t", own.find('=') + 1), own.size());
-  std::string value = own.substr(value_at);
-  while (!value.empty() && (value.back() == ' ' || value.back() == '\t')) value.pop_back();
+  std::string value(trimmed(std::string_view(own).substr(value_at), " \t"));
   const bool is_text = !value.empty() && !is_toml_value(value);
   if (is_text) value = in_toml(value);
 
@@ -232,10 +230,9 @@ void SettledText::check_section(std::size_t setting, const Segment& first, const
   const std::vector<std::string> sections = {"title", "run", "effects", "sequence"};
   if (std::find(sections.begin(), sections.end(), first.name) != sections.end()) return;
   const std::vector<std::string> names = keys_of(document);
-  const auto near = nearest(first.name, names);
   refuse(setting, first.place,
-         fmt::format("the scene has no {}{}; it has: {}", in_quotes(first.name),
-                     near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(names, "and")));
+         fmt::format("the scene has no {}{}; it has: {}", in_quotes(first.name), suggestion(first.name, names),
+                     listed(names, "and")));
 }
 
 SettledText::Edit SettledText::replaced(std::size_t setting, const Segment& segment, const DocumentValue& found,

@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "engine/scene/text.h"
+
 namespace kurbel {
 namespace {
 
@@ -156,7 +158,7 @@ Message unfit_for_toml(const std::string& text, const std::string& file) {
   const std::size_t byte_order_mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   for (std::size_t i = byte_order_mark; i < text.size(); ++i) {
     const char c = text[i];
-    if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) ++at.column;
+    if (begins_character(c)) ++at.column;
     if (c == '\n') at = {at.line + 1, 0};
     if (!quote.empty()) {
       const bool line_ends = c == '\n' && quote.size() == 1;
@@ -177,9 +179,8 @@ Message unfit_for_toml(const std::string& text, const std::string& file) {
         return {file, at,
                 fmt::format("a key with more than {} dots; no key of a scene needs more than two", most_dots)};
     } else if (static_cast<unsigned char>(c) >= 0x80) {
-      const auto end = std::find_if(text.begin() + static_cast<std::ptrdiff_t>(i) + 1, text.end(),
-                                    [](char b) { return (static_cast<unsigned char>(b) & 0xC0) != 0x80; }) -
-                       text.begin();
+      const auto end =
+          std::find_if(text.begin() + static_cast<std::ptrdiff_t>(i) + 1, text.end(), begins_character) - text.begin();
       at.column = std::max(at.column, 1);  // a line may begin with half a character
       return {file, at,
               fmt::format("not TOML: {} outside of quotes; texts and quantities with units stand in quotes",
@@ -200,7 +201,7 @@ Location within(const std::string& text, Location at) {
     if (text[i] == '\n' && lines == at.line) break;
     if (text[i] == '\n')
       ++lines, columns = 0;
-    else if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80)
+    else if (begins_character(text[i]))
       ++columns;
   }
   return {std::clamp(at.line, 1, lines), std::clamp(at.column, 1, columns + 1)};
@@ -213,9 +214,8 @@ std::string_view line_of(std::string_view text, std::size_t number) {
 
 // What toml++ says, in one sentence that is ours where it is common.
 std::string why_not_toml(std::string_view said, std::string_view line, int column) {
-  const auto characters =
-      std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-  if (said.find("unescaped control characters") != std::string_view::npos && column > characters)
+  if (said.find("unescaped control characters") != std::string_view::npos &&
+      column > static_cast<int>(characters(line)))
     return "a text does not end on this line; its closing quote is missing";
   if (said.find("whitespace, saw ','") != std::string_view::npos)
     return "unexpected comma; decimals are written with a point";

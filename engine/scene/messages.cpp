@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/scene/printable.h"
+#include "engine/scene/text.h"
 
 namespace kurbel {
 namespace {
@@ -36,7 +37,7 @@ std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 80;
   if (text.size() <= longest) return fmt::format("\"{}\"", printable(text));
   std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a character
+  while (end > 0 && !begins_character(text[end])) --end;  // not within a character
   return fmt::format("\"{}…\"", printable(text.substr(0, end)));
 }
 

@@ -10,6 +10,7 @@
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/messages.h"
+#include "engine/scene/text.h"
 
 namespace kurbel {
 namespace {
@@ -237,12 +238,6 @@ constexpr NamedDimension named_dimensions[] = {
     {"m2", "an area"},
     {"m3", "a volume"},
 };
-
-bool equal_but_for_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
-  });
-}
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   // Levenshtein, with a swap of neighbours counted as one slip.

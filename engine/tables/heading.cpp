@@ -1,16 +1,13 @@
 // heading.cpp — where a heading's name ends and its unit begins.
 #include "engine/tables/heading.h"
 
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
 namespace {
 
-std::string without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  return begin == std::string_view::npos ? ""
-                                         : std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
-}
+std::string without_blanks(std::string_view text) { return std::string(trimmed(text, " \t")); }
 
 bool is_unit(const std::string& text) {
   UnitError error;

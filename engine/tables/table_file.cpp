@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "engine/tables/heading.h"
 #include "engine/tables/spreadsheet.h"
@@ -16,17 +17,6 @@ namespace {
 
 constexpr std::size_t lines_looked_at = 1000;  // of which the form is found
 constexpr int most_bad_lines = 20;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  return begin == std::string_view::npos ? std::string_view()
-                                         : text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
-}
-
-bool equal_in_small_letters(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 // A number, or one gone wrong: "0,5", "1e999", "nan", "2-3"; not "time [s]" or "".
 bool is_number_like(std::string_view cell) {
@@ -326,7 +316,7 @@ const TableHeading* TableFile::find(std::string_view wanted) const {
   const TableHeading* found = nullptr;
   for (const TableHeading& heading : headings_) {
     if (heading.text == wanted) return &heading;
-    if (!equal_in_small_letters(heading.name, name)) continue;
+    if (!equal_but_for_case(heading.name, name)) continue;
     if (found)
       throw SceneError({{path_, heading.at,
                          fmt::format("two columns are named {}: {} and {}; say the number of one", in_quotes(name),

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/scene/document.h"
+#include "engine/scene/text.h"
 #include "engine/tables/spreadsheet.h"
 
 namespace kurbel {
@@ -55,7 +56,7 @@ bool is_utf8(std::string_view text) {
                                                    : -1;
     if (more < 0 || i + static_cast<std::size_t>(more) > text.size()) return false;
     for (int k = 0; k < more; ++k)
-      if ((static_cast<unsigned char>(text[i++]) & 0xC0) != 0x80) return false;
+      if (begins_character(text[i++])) return false;
   }
   return true;
 }

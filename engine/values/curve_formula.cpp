@@ -92,11 +92,7 @@ class FormulaCurveReader {
     if (over_ == "angle") {
       if (range) return refuse(range->at, "a formula over the angle holds for a whole \"period\"; default: 360 deg");
       if (!period) curve.period = 2 * std::numbers::pi;
-      const double turns = 4 * std::numbers::pi / curve.period;
-      if (std::abs(turns - std::round(turns)) > 1e-9)
-        return refuse(period->value.at,
-                      fmt::format("period = {:g} deg; must divide two turns (720 deg) without remainder",
-                                  curve.period * 180 / std::numbers::pi));
+      if (const std::string wrong = wrong_period(curve); !wrong.empty()) return refuse(period->value.at, wrong);
     }
     from_ = 0, to_ = curve.period;
     if (curve.period > 0) return true;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "engine/tables/table_file.h"
 #include "engine/values/quantity_reader.h"
@@ -37,10 +38,9 @@ class CurveReader {
           "interpolation", "period", "formula", "return_formula", "range",         "with",        "sheet",
           "decimal",       "gain",   "offset",  "shift",          "beyond"};
       if (std::find(known.begin(), known.end(), e.key) != known.end()) continue;
-      const auto near = nearest(e.key, known);
-      if (near) meant_.push_back(*near);
-      refuse(e.at, fmt::format("unknown key {}{}; allowed: {}", in_quotes(e.key),
-                               near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(known, "and")));
+      if (const auto near = nearest(e.key, known)) meant_.push_back(*near);
+      refuse(e.at, fmt::format("unknown key {}{}; allowed: {}", in_quotes(e.key), suggestion(e.key, known),
+                               listed(known, "and")));
     }
     const std::size_t before = messages_.all().size();
     if (!read_over(curve) || !read_beyond(curve)) return false;
@@ -76,10 +76,8 @@ class CurveReader {
                     fmt::format("\"over\" is missing: what the first column is; allowed: {}", listed(key_.choices)));
     curve.over = over->value.text;
     if (std::find(key_.choices.begin(), key_.choices.end(), curve.over) != key_.choices.end()) return true;
-    const auto near = nearest(curve.over, key_.choices);
-    return refuse(over->value.at,
-                  fmt::format("over = {}{}; allowed: {}", over->value.describe(),
-                              near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(key_.choices)));
+    return refuse(over->value.at, fmt::format("over = {}{}; allowed: {}", over->value.describe(),
+                                              suggestion(curve.over, key_.choices), listed(key_.choices)));
   }
 
   // Of the scene; a file's heading may say them in its place.
@@ -379,12 +377,7 @@ class CurveReader {
     if (!(curve.period > 0)) return true;
     const Location at = table_.find("period")->value.at;
     const auto in_user_unit = [&](double x) { return with_unit(x / factor_[0], unit_text_[0]); };
-    if (curve.over == "angle") {
-      const double turns = 4 * M_PI / curve.period;
-      if (std::abs(turns - std::round(turns)) > 1e-9)
-        return refuse(at, fmt::format("period = {:g} deg; must divide two turns (720 deg) without remainder",
-                                      curve.period * 180 / M_PI));
-    }
+    if (const std::string wrong = wrong_period(curve); !wrong.empty()) return refuse(at, wrong);
     for (const auto* x : {&curve.x, &curve.x_back})
       if (!x->empty() && x->back() - x->front() > curve.period * (1 + 1e-9))
         return refuse(at, fmt::format("period = {}; must be at least the span of the points, {}",
@@ -425,6 +418,13 @@ std::string unit_over(const std::string& over) {
   if (over == "speed ratio") return "1";
   if (over == "speed") return "rad/s";
   return "m";  // travel
+}
+
+std::string wrong_period(const CurveData& curve) {
+  const double turns = 4 * std::numbers::pi / curve.period;
+  if (curve.over != "angle" || std::abs(turns - std::round(turns)) <= 1e-9) return {};
+  return fmt::format("period = {:g} deg; must divide two turns (720 deg) without remainder",
+                     curve.period * 180 / std::numbers::pi);
 }
 
 bool read_curve(const DocumentValue& table, const Key& key, const std::string& what, Messages& messages,

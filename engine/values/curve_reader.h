@@ -17,6 +17,9 @@ bool read_curve(const DocumentValue& table, const Key& key, const std::string& w
 bool read_curve_formula(const DocumentValue& table, const Key& key, const std::string& what, Messages& messages,
                         CurveData& curve);
 
+// What is wrong with the period of a curve over the angle, in words; empty: nothing, or it is given over something else.
+std::string wrong_period(const CurveData& curve);
+
 // Unit of the first column of a curve, by what it is given over.
 std::string unit_over(const std::string& over);
 

@@ -10,6 +10,7 @@
 
 #include "engine/scene/keys.h"
 #include "engine/scene/messages.h"
+#include "engine/scene/text.h"
 #include "engine/values/formula_builder.h"
 
 namespace kurbel {
@@ -56,7 +57,7 @@ class FormulaParser : private FormulaBuilder {
     if (rest.starts_with("\u2212")) return stop("the minus sign must be the plain \"-\"", at_);
     if (rest[0] == ',' && depth_ == 0) return stop("unexpected comma; decimals are written with a point", at_);
     std::size_t end = 1;
-    while (end < rest.size() && (static_cast<unsigned char>(rest[end]) & 0xC0) == 0x80) ++end;
+    while (end < rest.size() && !begins_character(rest[end])) ++end;
     if (is_letter(rest[0]) || is_digit(rest[0])) end = word_at(at_).size();
     return stop(
         fmt::format("unexpected {}; expected {}", in_quotes(rest.substr(0, std::max<std::size_t>(end, 1))), wanted),
@@ -241,9 +242,8 @@ class FormulaParser : private FormulaBuilder {
     return unknown(name, column, "name", known);
   }
   Term unknown(const std::string& name, std::size_t column, const char* what, const std::vector<std::string>& known) {
-    const auto near = nearest(name, known);
-    return stop(fmt::format("unknown {} {}{}; known: {}", what, in_quotes(name),
-                            near ? fmt::format(" — did you mean \"{}\"?", *near) : "", shortened_list(known, "and")),
+    return stop(fmt::format("unknown {} {}{}; known: {}", what, in_quotes(name), suggestion(name, known),
+                            shortened_list(known, "and")),
                 column);
   }
 

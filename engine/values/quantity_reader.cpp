@@ -1,5 +1,6 @@
 // quantity_reader.cpp — what is wrong with a number, told with what it should be.
 #include "engine/values/quantity_reader.h"
+#include "engine/scene/text.h"
 
 #include <fmt/format.h>
 
@@ -18,11 +19,6 @@ std::string pretty_quantity(const DocumentValue& value) {
   if (value.type != Type::text) return value.describe();
   const std::size_t unit = std::min(value.text.find(' '), value.text.size());
   return value.text.substr(0, unit) + pretty_unit(value.text.substr(unit));
-}
-
-std::size_t characters(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 // What may stand in place of a value that was refused: "4 kN*m/rad", 0.05.
