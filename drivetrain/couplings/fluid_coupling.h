@@ -42,13 +42,6 @@ struct ViscousFilm {
   T torque(const Twist<T>& x) const {
     return damping * x.rate;
   }
-
-  // c and the peak M/M₀ over k of the best untuned damper.
-  static double best_damping(double inertia, double ring, double stiffness) {
-    const double mu = ring / inertia;
-    return 2 * ring * std::sqrt(stiffness / inertia) / std::sqrt(2 * (1 + mu) * (2 + mu));
-  }
-  static double least_peak(double inertia, double ring) { return 1 + 2 * inertia / ring; }
 };
 
 }  // namespace kurbel

@@ -39,21 +39,8 @@ struct HookeJoint {
     const double s2 = std::pow(std::sin(angle), 2), c = std::cos(phi);
     return -std::cos(angle) * s2 * std::sin(2 * phi) / std::pow(1 - s2 * c * c, 2);
   }
-  // φ₁ in 0 … 90° where the driven shaft slows most: g‴ = 0, with q = (2 − sin² β)/(2 sin² β),
-  // cos 2φ₁ = √(q² + 2) − q.
-  double steepest() const {
-    const double s2 = std::pow(std::sin(angle), 2);
-    if (s2 == 0) return std::numbers::pi / 4;
-    const double q = (2 - s2) / (2 * s2);
-    return 0.5 * std::acos(2 / (std::sqrt(q * q + 2) + q));
-  }
   double greatest_ratio() const { return 1 / std::cos(angle); }
   double least_ratio() const { return std::cos(angle); }
-  // (ω_max − ω_min)/ω₁ = tan β sin β; the β of a given fluctuation F: cos β = √(1 + F²/4) − F/2.
-  double fluctuation() const { return std::tan(angle) * std::sin(angle); }
-  static double angle_for_fluctuation(double f) { return std::acos(std::sqrt(1 + 0.25 * f * f) - 0.5 * f); }
-  // φ₁ in 0 … 90° where both shafts turn equally fast: cos² φ₁ = 1/(1 + cos β).
-  double unity() const { return std::acos(std::sqrt(1 / (1 + std::cos(angle)))); }
 };
 
 struct UniversalJoint {

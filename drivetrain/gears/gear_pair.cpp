@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "engine/numerics/angles.h"
@@ -19,6 +18,11 @@ double transverse_angle_of(const GearPairData& d) {
 }
 double reference_distance_of(const GearPairData& d) {
   return 0.5 * d.module / std::cos(d.helix) * (d.teeth[0] + d.teeth[1]);
+}
+
+// Of both wheels; of the one that is known.
+double common_width(const GearPairData& d) {
+  return d.width[0] > 0 && d.width[1] > 0 ? std::min(d.width[0], d.width[1]) : std::max(d.width[0], d.width[1]);
 }
 
 void check(const GearPairData& d) {
@@ -192,8 +196,7 @@ GearPair solve_gear_pair(const GearPairData& data) {
   }
   p.base_pitch = pi * p.wheel[0].transverse_module * std::cos(p.wheel[0].transverse_angle);
   add_path(p);
-  const double common = data.width[0] > 0 && data.width[1] > 0 ? std::min(data.width[0], data.width[1])
-                                                               : std::max(data.width[0], data.width[1]);
+  const double common = common_width(data);
   p.overlap_ratio = common * std::sin(std::abs(data.helix)) / (pi * data.module);
   add_backlash(p);
   add_wheels_in_mesh(p);
@@ -235,11 +238,6 @@ double GearPair::backlash_angle(int i) const { return 2 * backlash_arc / std::ab
 
 double GearPair::mesh_frequency(double omega_1) const { return std::abs(omega_1) * data.teeth[0] / (2 * pi); }
 
-double least_pinion_teeth(double ratio, double pressure_angle, double addendum) {
-  const double v = 1 / ratio;
-  return 2 * addendum * v / (std::sqrt(1 + v * (v + 2) * squared(std::sin(pressure_angle))) - 1);
-}
-
 double tip_fouling_margin(const GearPair& p) {
   const double r1 = 0.5 * p.wheel[0].tip_diameter, r2 = -0.5 * p.wheel[1].tip_diameter, a = -p.centre_distance;
   const double inv_w = involute(p.working_angle);
@@ -277,17 +275,12 @@ MeshStiffness mesh_stiffness(const GearPair& p) {
   MeshStiffness s;
   s.single = 1e9 / q * 0.8 * rack * cos_helix * p.data.young / 206e9;
   s.mean = s.single * (0.75 * p.contact_ratio + 0.25);
-  const double width = p.data.width[0] > 0 && p.data.width[1] > 0 ? std::min(p.data.width[0], p.data.width[1])
-                                                                  : std::max(p.data.width[0], p.data.width[1]);
+  const double width = common_width(p.data);
   s.torsional = s.mean * width * squared(0.5 * p.wheel[0].base_diameter);
   s.torsional_single = s.single * width * squared(0.5 * p.wheel[0].base_diameter);
   s.within = x1 >= x2 - 1e-12 && p.shift_sum >= -0.5 && p.shift_sum <= 2 && p.contact_ratio > 1.2 &&
              p.contact_ratio < 2.5 && q > 0;
   return s;
-}
-
-OutlinePoint line_point(const GearPair& p, double g) {
-  return {0.5 * p.wheel[0].working_diameter + g * std::sin(p.working_angle), g * std::cos(p.working_angle)};
 }
 
 double contact_at(const GearPair& p, double angle_1) {

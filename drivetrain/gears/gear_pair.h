@@ -93,10 +93,6 @@ double working_angle_of(double reference_distance, double transverse_angle, doub
 // Σx = (z₁ + z₂)(inv α_wt − inv α_t)/(2 tan α_n).
 double shift_sum_of(const GearPairData& data, double working_angle);
 
-// Least teeth of an external pinion whose involute the tip of a wheel u times as large does not foul, addendum h_a* (in
-// modules) on the wheel: z₁ = 2 h_a*/(u [√(1 + (1/u)(1/u + 2) sin² α) − 1]).
-double least_pinion_teeth(double ratio, double pressure_angle, double addendum = 1);
-
 // What is wrong or worth knowing: undercut, pointed tips, contact ratio, interference, clearance, backlash.
 std::vector<GearVerdict> verdicts(const GearPair& pair);
 // Interferences of internal pairs (SDP/SI, Handbook of Metric Gears, section 5.2): ≥ 0 is free [rad].
@@ -134,8 +130,7 @@ struct MeshPlace {
   double angle_1 = 0, angle_2 = 0;  // of the middle of a tooth [rad]
 };
 MeshPlace mesh_place(const GearPair& pair, double angle_1);
-// The point of the line of action at g, and g of the contact of the tooth that stands at angle_1.
-OutlinePoint line_point(const GearPair& pair, double g);
+// g of the contact of the tooth that stands at angle_1.
 double contact_at(const GearPair& pair, double angle_1);
 
 }  // namespace kurbel

@@ -219,13 +219,6 @@ class SliderCrankGeometry {
                     slide * (p.x2 * p.x2 + p.x1 * p.x3))};
   }
 
-  // I_r and I_r′ alone, which is all that the equation of motion (theory 2.4) needs.
-  template <class T>
-  ValueAndSlope<T> inertia_and_slope(T phi) const {
-    const ValueSlopeCurvature<T> all = inertia(phi);
-    return {all.value, all.slope};
-  }
-
   // Torque of all weights on the crank [N·m] (theory 2.2), positive when it drives: M_g = −V′, with its slope.
   template <class T>
   ValueAndSlope<T> gravity_torque(T phi) const {

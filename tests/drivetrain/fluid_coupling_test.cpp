@@ -11,6 +11,13 @@
 namespace kurbel::fluid_coupling_test {
 namespace {
 
+// c and the peak M/M₀ over k of the best untuned damper.
+double best_damping(double inertia, double ring, double stiffness) {
+  const double mu = ring / inertia;
+  return 2 * ring * std::sqrt(stiffness / inertia) / std::sqrt(2 * (1 + mu) * (2 + mu));
+}
+double least_peak(double inertia, double ring) { return 1 + 2 * inertia / ring; }
+
 using test::digits;
 using test::figure;
 using test::run;
@@ -136,8 +143,8 @@ double swing(double ring, double damping, double omega) {
 TEST(ViscousDamper, BestDampingLeavesThePeakOfDenHartog) {
   const double inertia = 0.5, k = 2000, still = 10 / k;
   for (const double mu : {0.3, 0.8}) {
-    const double ring = mu * inertia, c = ViscousFilm::best_damping(inertia, ring, k);
-    const double common = std::sqrt(k / inertia * 2 / (2 + mu)), peak = ViscousFilm::least_peak(inertia, ring);
+    const double ring = mu * inertia, c = best_damping(inertia, ring, k);
+    const double common = std::sqrt(k / inertia * 2 / (2 + mu)), peak = least_peak(inertia, ring);
     EXPECT_NEAR(swing(ring, c, common), peak * still, 1e-6 * peak * still);
     // All curves meet there, whatever the damping; the best one is flat.
     EXPECT_NEAR(swing(ring, 2 * c, common), peak * still, 1e-5 * peak * still);

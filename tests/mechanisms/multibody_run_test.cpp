@@ -23,7 +23,7 @@ struct CrankState {
 CrankState reduced_run(const MultibodyProblem& p, double t_end) {
   const SliderCrankGeometry geometry(p.mechanism);
   const auto rate = [&](double t, CrankState y) -> CrankState {
-    const auto inertia = geometry.inertia_and_slope(y.phi);
+    const auto inertia = geometry.inertia(y.phi);
     const auto slider = geometry.slider(y.phi);
     double torque = geometry.gravity_torque(y.phi).value - inertia.slope * y.omega * y.omega / 2;
     if (p.shaft_torque) torque += p.shaft_torque(t, y.phi, y.omega);

@@ -22,6 +22,40 @@ GearPairData pair_of(double module_mm, int z1, int z2) {
   return d;
 }
 
+// Least teeth of an external pinion whose involute the tip of a wheel u times as large does not foul, addendum h_a* (in
+// modules) on the wheel: z₁ = 2 h_a*/(u [√(1 + (1/u)(1/u + 2) sin² α) − 1]).
+double least_pinion_teeth(double ratio, double pressure_angle, double addendum = 1) {
+  const double v = 1 / ratio;
+  return 2 * addendum * v / (std::sqrt(1 + v * (v + 2) * std::pow(std::sin(pressure_angle), 2)) - 1);
+}
+
+// Sun and ring with simple planets: i₀ = −z_r/z_s.
+PlanetaryTrain simple_planetary(int sun, int ring) { return {-static_cast<double>(ring) / sun}; }
+// Sun – planet, second planet on the same shaft – ring: i₀ = −(z_p/z_s)(z_r/z_q).
+PlanetaryTrain stepped_planetary(int sun, int planet, int second_planet, int ring) {
+  return {-static_cast<double>(planet) / sun * ring / second_planet};
+}
+// Both central wheels external, planets between them (Ferguson's paradox): i₀ = z_r/z_s.
+PlanetaryTrain idler_planetary(int first, int last) { return {static_cast<double>(last) / first}; }
+
+// A planet that meshes with the sun: ω_p = ω_c − (ω_s − ω_c) z_s/z_p.
+double planet_speed(int sun_teeth, int planet_teeth, double sun, double carrier) {
+  return carrier - (sun - carrier) * sun_teeth / planet_teeth;
+}
+
+// Moment of inertia that a simple train with its ring held shows at the sun, planets with mass m at the distance a:
+//   I = J_s + i_c² (J_c + n m a²) + n J_p i_p²,  i_c = z_s/(z_s + z_r),  i_p = ω_p/ω_s.
+struct PlanetaryInertia {
+  double sun, carrier, planet, planet_mass, planet_distance;  // [kg·m²], [kg], [m]
+  int planets;
+};
+double reduced_to_sun(int sun, int planet, int ring, const PlanetaryInertia& j) {
+  const double carrier = simple_planetary(sun, ring).carrier_speed(1, 0);
+  const double own = planet_speed(sun, planet, 1, carrier);
+  const double d = j.planet_distance * carrier;
+  return j.sun + j.carrier * carrier * carrier + j.planets * (j.planet_mass * d * d + j.planet * own * own);
+}
+
 // --- GE02: Khurmi, Theory of Machines, ch. 12 ---
 
 TEST(KhurmiGears, PathOfContactOfExample3) {
