@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 namespace kurbel {
 
 std::string UniversalJoint::describe() const {

@@ -1,7 +1,6 @@
 // equations.cpp — guards, and the modes that change when they fire: pieces of laws, contacts, steps of the sequence.
 #include "engine/events/equations.h"
 
-#include <algorithm>
 #include <set>
 
 #include "engine/events/event_words.h"

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "engine/linear/eigen_modes.h"
 #include "engine/matrices/linear_algebra.h"

@@ -2,7 +2,6 @@
 #include "engine/numerics/load_paths.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "engine/matrices/linear_algebra.h"

@@ -2,7 +2,6 @@
 #include "engine/numerics/roots.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace kurbel {
 

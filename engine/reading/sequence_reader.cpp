@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "engine/reading/section_reader.h"
-#include "engine/values/quantity_reader.h"
 
 namespace kurbel {
 namespace {

@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <utility>
 
-#include "engine/scene/document.h"
 #include "engine/scene/keys.h"
 #include "engine/scene/text.h"
-#include "engine/scene/units.h"
 
 namespace kurbel {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/period.h"

@@ -1,10 +1,7 @@
 // recorders.cpp — what a run leaves behind.
 #include "engine/run/recorders.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "engine/scene/text.h"
-#include "engine/scene/units.h"
 #include "engine/tables/heading.h"
 #include "engine/tables/spreadsheet.h"
 

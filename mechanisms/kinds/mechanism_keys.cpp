@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "engine/numerics/deadline.h"
-#include "mechanisms/kinds/load_kinds.h"
 
 namespace kurbel {
 namespace {

@@ -1,8 +1,6 @@
 // loops.cpp — triangles, one after the other; the roots that have simple zeros keep their signs through them.
 #include "mechanisms/loops/loops.h"
 
-#include <cmath>
-
 namespace kurbel {
 namespace {
 

@@ -1,8 +1,6 @@
 // crank_cycle.cpp — closure after a turn or two, the output's turns, the change points on the way.
 #include "mechanisms/reduced/crank_cycle.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/model/network.h"
 #include "engine/numerics/angles.h"
 #include "engine/scene/scene.h"
 #include "mechanisms/reduced/deforming_mechanism.h"

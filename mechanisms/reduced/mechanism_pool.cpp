@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "engine/equations/jam.h"
-#include "mechanisms/reduced/closed_forms.h"
 #include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {

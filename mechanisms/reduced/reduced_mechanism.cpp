@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "engine/numerics/deadline.h"
-#include "mechanisms/reduced/closed_forms.h"
 
 namespace kurbel {
 
