@@ -60,10 +60,8 @@ struct CompressorForce {
   // At standstill valves stay shut between the pressures of both strokes: the gas holds the difference.
   Hold hold(const SliderState<double>& s) const {
     const double d = end.distance(s.x);
-    const double more = area * (pressure(true, d < delivery_opens_at() ? 0 : 1, d) -
-                                pressure(false, d < suction_opens_at() ? 0 : 1, d));
-    if (more <= 0) return {};
-    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+    return end.hold_beyond(area * (pressure(true, d < delivery_opens_at() ? 0 : 1, d) -
+                                   pressure(false, d < suction_opens_at() ? 0 : 1, d)));
   }
   void guard(const SliderState<double>& s, double* g) const {
     const double beyond = (end.distance(s.x) - opens_at(s.travel)) / stroke;

@@ -99,8 +99,7 @@ struct PressForce {
   }
   bool uses_speed() const { return false; }
   Hold hold(const SliderState<double>& s) const {
-    const double force = profile.greatest_at(end.distance(s.x), on_edge * stroke);
-    return end.side > 0 ? Hold{-force, 0} : Hold{0, force};
+    return end.hold(profile.greatest_at(end.distance(s.x), on_edge * stroke));
   }
   double piece_begin(const SliderState<double>& s) const { return profile.piece_begin(s.mode); }
   double piece_end(const SliderState<double>& s) const { return profile.piece_end(s.mode); }
@@ -146,9 +145,7 @@ struct TravelForce {
   Hold hold(const SliderState<double>& s) const {
     if (retreat.empty()) return {};
     const double d = end.distance(s.x);
-    const double more = approach.value(d) - retreat.value(d);
-    if (more <= 0) return {};
-    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+    return end.hold_beyond(approach.value(d) - retreat.value(d));
   }
   void guard(const SliderState<double>& s, double* g) const {
     PieceGuard::guard(branch(s.travel), s.mode, end.distance(s.x), stroke, g);
@@ -195,9 +192,8 @@ struct ChamberOverTravel : TravelForce {
   }
   Hold hold(const SliderState<double>& s) const {
     if (retreat.empty()) return {};
-    const double d = end.distance(s.x), more = area * (approach.value(d) - retreat.value(d));
-    if (more <= 0) return {};
-    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+    const double d = end.distance(s.x);
+    return end.hold_beyond(area * (approach.value(d) - retreat.value(d)));
   }
 };
 
@@ -223,10 +219,7 @@ struct RoundedPressForce {
     return -static_cast<double>(end.side) * profile.value(end.distance(s.x));
   }
   bool uses_speed() const { return false; }
-  Hold hold(const SliderState<double>& s) const {
-    const double force = profile.value(end.distance(s.x));
-    return end.side > 0 ? Hold{-force, 0} : Hold{0, force};
-  }
+  Hold hold(const SliderState<double>& s) const { return end.hold(profile.value(end.distance(s.x))); }
 };
 
 // TravelForce or AngleForce with its edges rounded.
@@ -244,9 +237,7 @@ struct RoundedTableForce {
   bool uses_speed() const { return false; }
   Hold hold(const SliderState<double>& s) const {
     if (retreat.empty()) return {};
-    const double more = approach.value(end.distance(s.x)) - retreat.value(end.distance(s.x));
-    if (more <= 0) return {};
-    return end.side > 0 ? Hold{-more, 0} : Hold{0, more};
+    return end.hold_beyond(approach.value(end.distance(s.x)) - retreat.value(end.distance(s.x)));
   }
 };
 
@@ -258,24 +249,28 @@ struct SliderLoad {
   bool mirrored = false;  // its diagram is a substitute for one that is not given (mirrored.h)
   double rounding = 0;    // half width that edges are rounded over when they are not sharp [m] or [rad]; 0: not said
 
+  // What the law answers.
+  template <class Question>
+  auto ask(const Question& question) const {
+    return std::visit(question, law);
+  }
+
   bool can_be_rounded() const;  // straight pieces, and a width is given
   SliderLoad rounded() const;
 
   bool depends_on_travel() const {  // on the sign of the slider's speed
-    return std::visit(
-        [](const auto& l) {
-          using L = std::decay_t<decltype(l)>;
-          if constexpr (requires { l.retreat; }) return !l.retreat.empty();
-          if constexpr (std::is_same_v<L, CompressorForce>) return true;
-          return L::is.opposes;
-        },
-        law);
+    return ask([](const auto& l) {
+      using L = std::decay_t<decltype(l)>;
+      if constexpr (requires { l.retreat; }) return !l.retreat.empty();
+      if constexpr (std::is_same_v<L, CompressorForce>) return true;
+      return L::is.opposes;
+    });
   }
   bool directional() const {
-    return std::visit([](const auto& l) { return l.is.opposes; }, law);
+    return ask([](const auto& l) { return l.is.opposes; });
   }
   bool uses_speed() const {
-    return std::visit([](const auto& l) { return l.uses_speed(); }, law);
+    return ask([](const auto& l) { return l.uses_speed(); });
   }
   double period() const {
     if (const auto* over_angle = std::get_if<AngleForce>(&law)) return over_angle->curve.period();
@@ -287,82 +282,54 @@ struct SliderLoad {
 
   template <class T>
   T value(const SliderState<T>& s) const {
-    return std::visit([&](const auto& l) { return T(l.value(s)); }, law);
+    return ask([&](const auto& l) { return T(l.value(s)); });
   }
-  Hold hold(const SliderState<double>& s) const;  // none where the law has none
+  Hold hold(const SliderState<double>& s) const {  // none where the law has none
+    return ask([&](const auto& l) {
+      if constexpr (std::decay_t<decltype(l)>::is.holds) return l.hold(s);
+      return Hold{};
+    });
+  }
 
   // Events: where the law has pieces, each lies between two guards, and the mode is the piece that is in force.
   bool has_pieces() const {
-    return std::visit([](const auto& l) { return l.is.in_pieces; }, law);
+    return ask([](const auto& l) { return l.is.in_pieces; });
   }
-  void guard(const SliderState<double>& s, double* g) const;             // both ends of the piece
-  int next_piece(const SliderState<double>& s, int which) const;         // behind that end
-  std::string piece_name(const SliderState<double>& s) const;            // for people
-  EventKind piece_kind() const;                                          // for programs
-  void take_first_piece(const SliderState<double>& s, int& mode) const;  // where the slider is
+  void guard(const SliderState<double>& s, double* g) const {  // both ends of the piece
+    ask([&](const auto& l) {
+      if constexpr (std::decay_t<decltype(l)>::is.in_pieces) l.guard(s, g);
+    });
+  }
+  int next_piece(const SliderState<double>& s, int which) const {  // behind that end
+    return ask([&](const auto& l) {
+      if constexpr (std::decay_t<decltype(l)>::is.in_pieces) return l.next_mode(s, which);
+      return s.mode;
+    });
+  }
+  std::string piece_name(const SliderState<double>& s) const {  // for people
+    return ask([&](const auto& l) {
+      if constexpr (std::decay_t<decltype(l)>::is.in_pieces) return l.mode_name(s);
+      return std::string{};
+    });
+  }
+  EventKind piece_kind() const {  // for programs
+    return ask([](const auto& l) { return l.is.kind; });
+  }
+  void take_first_piece(const SliderState<double>& s, int& mode) const {  // where the slider is
+    ask([&](const auto& l) {
+      if constexpr (std::decay_t<decltype(l)>::is.in_pieces) mode = l.first_mode(s);
+    });
+  }
   // The other branch, when the slider turns back within its stroke.
-  bool follows_travel() const;
-  void follow_travel(const SliderState<double>& s, int& mode) const;
+  bool follows_travel() const {
+    return ask([](const auto& l) { return l.is.turns_back; });
+  }
+  void follow_travel(const SliderState<double>& s, int& mode) const {
+    ask([&](const auto& l) {
+      if constexpr (std::decay_t<decltype(l)>::is.turns_back) mode = l.turned_mode(s);
+    });
+  }
 };
-
-inline Hold SliderLoad::hold(const SliderState<double>& s) const {
-  return std::visit(
-      [&](const auto& l) {
-        if constexpr (std::decay_t<decltype(l)>::is.holds) return l.hold(s);
-        return Hold{};
-      },
-      law);
-}
-
-inline void SliderLoad::guard(const SliderState<double>& s, double* g) const {
-  std::visit(
-      [&](const auto& l) {
-        if constexpr (std::decay_t<decltype(l)>::is.in_pieces) l.guard(s, g);
-      },
-      law);
-}
-
-inline int SliderLoad::next_piece(const SliderState<double>& s, int which) const {
-  return std::visit(
-      [&](const auto& l) {
-        if constexpr (std::decay_t<decltype(l)>::is.in_pieces) return l.next_mode(s, which);
-        return s.mode;
-      },
-      law);
-}
-
-inline EventKind SliderLoad::piece_kind() const {
-  return std::visit([](const auto& l) { return l.is.kind; }, law);
-}
-
-inline std::string SliderLoad::piece_name(const SliderState<double>& s) const {
-  return std::visit(
-      [&](const auto& l) {
-        if constexpr (std::decay_t<decltype(l)>::is.in_pieces) return l.mode_name(s);
-        return std::string{};
-      },
-      law);
-}
-
-inline void SliderLoad::take_first_piece(const SliderState<double>& s, int& mode) const {
-  std::visit(
-      [&](const auto& l) {
-        if constexpr (std::decay_t<decltype(l)>::is.in_pieces) mode = l.first_mode(s);
-      },
-      law);
-}
-
-inline bool SliderLoad::follows_travel() const {
-  return std::visit([](const auto& l) { return l.is.turns_back; }, law);
-}
-
-inline void SliderLoad::follow_travel(const SliderState<double>& s, int& mode) const {
-  std::visit(
-      [&](const auto& l) {
-        if constexpr (std::decay_t<decltype(l)>::is.turns_back) mode = l.turned_mode(s);
-      },
-      law);
-}
 
 inline bool SliderLoad::can_be_rounded() const {
   if (!(rounding > 0)) return false;

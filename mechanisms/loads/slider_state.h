@@ -1,6 +1,8 @@
 // slider_state.h — motion of a mechanism's output as its loads see it, and the end that they count from.
 #pragma once
 
+#include "engine/elements/element.h"
+
 namespace kurbel {
 
 // Motion of the slider as its loads see it.
@@ -23,6 +25,10 @@ struct WorkingEnd {
     return static_cast<double>(side) * (position - x);
   }
   bool approached(int travel) const { return travel * side > 0; }
+  // What holds the output from going on towards this end with up to `force`, and with `more` > 0, of what resists that
+  // way more than the other.
+  Hold hold(double force) const { return side > 0 ? Hold{-force, 0} : Hold{0, force}; }
+  Hold hold_beyond(double more) const { return more <= 0 ? Hold{} : hold(more); }
 };
 
 }  // namespace kurbel
