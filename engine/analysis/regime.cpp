@@ -33,8 +33,7 @@ class Search {
         m_(*shared_),
         options_(options),
         equations_(shared_, false),
-        map_(std::make_shared<ReturnMap>(shared_, ReturnMapOptions{options.tolerance, options.method, options.cycles,
-                                                                   options.budget, options.interrupted})),
+        map_(new_map()),
         period_(map_->periodicity()) {}
 
   Regime run() {
@@ -130,6 +129,18 @@ class Search {
 
   // --- one round ---
 
+  // From where the run is.
+  RunOptions on_until(double until) const {
+    RunOptions run{.tolerance = std::max(options_.tolerance, 1e-9),
+                   .method = options_.method,
+                   .until = until,
+                   .budget = options_.budget,
+                   .interrupted = options_.interrupted,
+                   .progress = {}};
+    run.from = {state_.t, state_.y};
+    return run;
+  }
+
   double round_angle() const { return period_.angle * options_.cycles; }
   double round_time() const { return period_.time * options_.cycles; }
 
@@ -148,15 +159,9 @@ class Search {
     const bool by_time = period_.by_time && is_settled();
     const bool aligning = by_time && !aligned_;  // rounds begin at whole periods of time
     const double periods = std::floor(state_.t / round_time() + 1e-9) + 1;
-    RunOptions run{.tolerance = std::max(options_.tolerance, 1e-9),
-                   .method = options_.method,
-                   .until = aligning  ? periods * round_time()
-                            : by_time ? state_.t + round_time()
-                                      : state_.t + patience_factor_ * patience,
-                   .budget = options_.budget,
-                   .interrupted = options_.interrupted,
-                   .progress = {}};
-    run.from = {state_.t, state_.y};
+    RunOptions run = on_until(aligning  ? periods * round_time()
+                              : by_time ? state_.t + round_time()
+                                        : state_.t + patience_factor_ * patience);
     if (!period_.by_time)
       run.stop = [this, angle, begin](double, std::span<const double> y) {
         return std::min(1.0, round_angle() - std::abs(equations_.angle_with_turns(angle, y) - begin));
@@ -265,13 +270,7 @@ class Search {
     for (std::size_t i = 0; i + 1 < times.size(); ++i)
       if (times[i + 1] - times[i] > times[widest + 1] - times[widest]) widest = i;
     const double quiet = 0.5 * (times[widest] + times[widest + 1]);
-    RunOptions run{.tolerance = std::max(options_.tolerance, 1e-9),
-                   .method = options_.method,
-                   .until = quiet + period * std::ceil((state_.t - quiet) / period + 1e-6),
-                   .budget = options_.budget,
-                   .interrupted = options_.interrupted,
-                   .progress = {}};
-    run.from = {state_.t, state_.y};
+    const RunOptions run = on_until(quiet + period * std::ceil((state_.t - quiet) / period + 1e-6));
     equations_.bind(state_.modes);
     const RunOutcome outcome = integrate(equations_, run, {});
     if (outcome.complete) state_ = {outcome.t, outcome.state, equations_.modes()};

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -116,11 +115,7 @@ class Loop {
     restart(t, y);
   }
 
-  void go_on_with(Method method) {
-    const double t = stepper_->t();
-    const std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
-    make(method, t, y);
-  }
+  void go_on_with(Method method) { make(method, stepper_->t(), reached()); }
 
   // Newton's iteration leaves off when the states that are under control stand still, with quadratures one iterate
   // behind; and a method that begins at order 1 steps over uniform acceleration without a look at the work it does.
@@ -148,6 +143,16 @@ class Loop {
     location_.begin(t, state_);
     edge_ = equations_.next_edge(t);
     if (edge_ <= t) broken_clock(t);
+  }
+
+  std::vector<double> reached() const { return {stepper_->y().begin(), stepper_->y().end()}; }
+
+  // Behind what happened at this time: the events from the known ones on are its.
+  bool go_on_from(double t, std::vector<double>& y, std::size_t known) {
+    note_angle(known, y);
+    equations_.wrap(y);
+    restart(t, y);
+    return true;
   }
 
   // Steps of the sequence that wait for nothing, again and again.
@@ -200,19 +205,14 @@ class Loop {
     if (!fired.empty()) return pass_event(t, fired);
     if (t < until && !stepper_->at_edge()) note_step(t - stepper_->t_previous());
     if (t >= edge_) {
-      std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+      std::vector<double> y = reached();
       const std::size_t known = out_.events.size();
       equations_.pass_edge(t, y, out_.events);
-      note_angle(known, y);
-      equations_.wrap(y);
-      restart(t, y);
-      return true;
+      return go_on_from(t, y, known);
     }
     if (equations_.needs_wrap(stepper_->y())) {
-      std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
-      equations_.wrap(y);
-      restart(t, y);
-      return true;
+      std::vector<double> y = reached();
+      return go_on_from(t, y, out_.events.size());
     }
     location_.go_on();
     if (before_jam_ && ++steps_to_jam_ > steps_to_a_jam) return resume();
@@ -265,12 +265,7 @@ class Loop {
       memory_.shortened = std::max(0.1 * memory_.last_step, 1e-12 * std::max(1.0, std::abs(time)));
     if (memory_.events_here == events_of_a_jam && !options_.extension) {
       const std::size_t known = out_.events.size();
-      if (equations_.stop_jam(time, y, fired, out_.events)) {
-        note_angle(known, y);
-        equations_.wrap(y);
-        restart(time, y);
-        return true;
-      }
+      if (equations_.stop_jam(time, y, fired, out_.events)) return go_on_from(time, y, known);
     }
     if (memory_.events_here > most_events_at_once) {
       const std::string owner = fired.front() < equations_.guard_count() ? equations_.guard_owner(fired.front()) : "";
@@ -309,7 +304,7 @@ class Loop {
 
   bool stop_by_jam() {
     const double t = stepper_->t();
-    std::vector<double> y(stepper_->y().begin(), stepper_->y().end());
+    std::vector<double> y = reached();
     memory_.jams_here = t - memory_.last_jam <= 1e-13 * std::max(1.0, std::abs(t)) ? memory_.jams_here + 1 : 0;
     memory_.last_jam = t;
     const std::size_t known = out_.events.size();
@@ -317,9 +312,7 @@ class Loop {
     if (!equations_.stop_jam(t, y, {}, out_.events)) return false;
     equations_.forget_jam();
     ++out_.statistics.events;
-    note_angle(known, y);
-    equations_.wrap(y);
-    restart(t, y);
+    go_on_from(t, y, known);
     return before_jam_ ? resume() : true;
   }
 
