@@ -209,34 +209,38 @@ std::optional<double> take_divisor(std::string_view text, std::size_t& at, UnitE
   return divisor;
 }
 
-struct NamedDimension {
-  std::string_view unit, name;
+// How a unit's dimension is called, and how a value of it may be written; empty: by the unit alone.
+struct UnitInWords {
+  std::string_view unit, name, examples;
 };
-constexpr NamedDimension named_dimensions[] = {
-    {"rad/s", "an angular velocity"},
-    {"rad", "an angle"},
-    {"N*m/rad", "a torsional stiffness"},
-    {"N*m*s/rad", "a torsional damping"},
-    {"kg*m2", "an inertia"},
-    {"m", "a length"},
-    {"kg", "a mass"},
-    {"s", "a time"},
-    {"N*m", "a torque or energy"},
-    {"N", "a force"},
-    {"W", "a power"},
-    {"Pa", "a pressure"},
-    {"1/s", "a frequency"},
-    {"m/s", "a velocity"},
-    {"m/s2", "an acceleration"},
-    {"kg/m3", "a density"},
-    {"N/m", "a linear stiffness"},
-    {"N*s/m", "a linear damping"},
-    {"A", "a current"},
-    {"V", "a voltage"},
-    {"Ohm", "a resistance"},
-    {"rad/s2", "an angular acceleration"},
-    {"m2", "an area"},
-    {"m3", "a volume"},
+constexpr UnitInWords units_in_words[] = {
+    {"rad/s", "an angular velocity", "\"1500 rpm\", \"157 rad/s\", \"25 rev/s\""},
+    {"rad", "an angle", "\"30 deg\", \"0.5 rad\""},
+    {"N*m/rad", "a torsional stiffness", "\"4 kN*m/rad\", \"70 N*m/deg\""},
+    {"N*m*s/rad", "a torsional damping", "\"2 N*m*s/rad\""},
+    {"kg*m2", "an inertia", "\"0.5 kg*m2\""},
+    {"m", "a length", "\"120 mm\", \"0.12 m\""},
+    {"kg", "a mass", "\"3 kg\""},
+    {"s", "a time", "\"3 s\", \"20 ms\""},
+    {"N*m", "a torque or energy", "\"200 N*m\", \"1.2 kN*m\""},
+    {"N", "a force", "\"630 kN\""},
+    {"W", "a power", "\"11 kW\", \"15 hp\""},
+    {"Pa", "a pressure", "\"80 GPa\", \"6 bar\""},
+    {"1/s", "a frequency", ""},
+    {"m/s", "a velocity", ""},
+    {"m/s2", "an acceleration", ""},
+    {"kg/m3", "a density", ""},
+    {"N/m", "a linear stiffness", ""},
+    {"N*s/m", "a linear damping", ""},
+    {"A", "a current", ""},
+    {"V", "a voltage", ""},
+    {"Ohm", "a resistance", ""},
+    {"rad/s2", "an angular acceleration", ""},
+    {"m2", "an area", ""},
+    {"m3", "a volume", ""},
+    {"N*m*s2/rad2", "", "\"0.02 N*m*s2/rad2\""},
+    {"Hz", "", "\"5 Hz\""},
+    {"", "", "0.05, \"5 %\""},
 };
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -312,33 +316,16 @@ std::string force_meant(std::string_view unit, const Dimension& got, const Dimen
 }
 
 std::string examples_of(std::string_view si_unit) {
-  static constexpr std::pair<std::string_view, std::string_view> table[] = {
-      {"rad/s", "\"1500 rpm\", \"157 rad/s\", \"25 rev/s\""},
-      {"rad", "\"30 deg\", \"0.5 rad\""},
-      {"N*m/rad", "\"4 kN*m/rad\", \"70 N*m/deg\""},
-      {"N*m*s/rad", "\"2 N*m*s/rad\""},
-      {"N*m*s2/rad2", "\"0.02 N*m*s2/rad2\""},
-      {"kg*m2", "\"0.5 kg*m2\""},
-      {"m", "\"120 mm\", \"0.12 m\""},
-      {"kg", "\"3 kg\""},
-      {"s", "\"3 s\", \"20 ms\""},
-      {"N*m", "\"200 N*m\", \"1.2 kN*m\""},
-      {"N", "\"630 kN\""},
-      {"W", "\"11 kW\", \"15 hp\""},
-      {"Pa", "\"80 GPa\", \"6 bar\""},
-      {"Hz", "\"5 Hz\""},
-      {"", "0.05, \"5 %\""},
-  };
-  for (const auto& [unit, examples] : table)
-    if (unit == si_unit) return std::string(examples);
+  for (const UnitInWords& words : units_in_words)
+    if (words.unit == si_unit && !words.examples.empty()) return std::string(words.examples);
   return fmt::format("\"1 {}\"", si_unit);
 }
 
 std::string name_of(const Dimension& dimension) {
   if (dimension == Dimension{}) return "a plain number";
   UnitError error;
-  for (const NamedDimension& named : named_dimensions)
-    if (parse_unit(named.unit, error)->dimension == dimension)
+  for (const UnitInWords& named : units_in_words)
+    if (!named.name.empty() && parse_unit(named.unit, error)->dimension == dimension)
       return fmt::format("{} ({})", named.name, pretty_unit(named.unit));
   static constexpr std::string_view base[] = {"kg", "m", "s", "rad", "A"};
   std::string text;
