@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/analysis/return_map.h"
+#include "engine/base/enumerators.h"
 
 namespace kurbel {
 
@@ -47,7 +48,9 @@ struct Regime {
   std::shared_ptr<ReturnMap> map;  // of it; null where nothing comes round
   bool repeats() const { return map && (kind == Kind::cycle || kind == Kind::equilibrium); }
 };
-const char* name_of(Regime::Kind kind);
+inline const char* name_of(Regime::Kind kind) {
+  return kind == Regime::Kind::runaway ? "running away" : enumerator_words<Regime::Kind::interrupted>(kind);
+}
 
 // Throws std::invalid_argument in words where nothing can have a period in common.
 Regime find_regime(std::shared_ptr<const Model> model, const RegimeOptions& options);

@@ -10,31 +10,35 @@
 namespace kurbel {
 namespace enumerators_detail {
 
-// "bdf" of Method::bdf, as characters that end in a zero.
-template <auto value>
+// "at_rest" of Regime::Kind::at_rest, as characters that end in a zero, with what stands for its underscores.
+template <auto value, char underscore>
 constexpr auto text() {
-  constexpr std::string_view told = __PRETTY_FUNCTION__;  // "… [with auto value = kurbel::Method::bdf]"
-  constexpr std::size_t end = told.find_first_of(";]", told.find("value = ")), begin = told.rfind(':', end) + 1;
+  constexpr std::string_view told = __PRETTY_FUNCTION__;  // "… [with auto value = kurbel::Method::bdf; char …]"
+  constexpr std::size_t end = told.find_first_of(";,]", told.find("value = ")), begin = told.rfind(':', end) + 1;
   static_assert(begin > 1 && begin < end && end != std::string_view::npos);
   std::array<char, end - begin + 1> name{};
-  std::copy(told.begin() + begin, told.begin() + end, name.begin());
+  std::replace_copy(told.begin() + begin, told.begin() + end, name.begin(), '_', underscore);
   return name;
 }
-template <auto value>
-inline constexpr auto text_of = text<value>();
+template <auto value, char underscore>
+inline constexpr auto text_of = text<value, underscore>();
 
-template <auto last>
+template <auto last, char underscore>
 inline constexpr auto names = []<std::size_t... k>(std::index_sequence<k...>) {
-  return std::array<const char*, sizeof...(k)>{text_of<static_cast<decltype(last)>(k)>.data()...};
+  return std::array<const char*, sizeof...(k)>{text_of<static_cast<decltype(last)>(k), underscore>.data()...};
 }
 (std::make_index_sequence<static_cast<std::size_t>(last) + 1>());
 
 }  // namespace enumerators_detail
 
-// Of an enum whose enumerators count from 0 to `last`.
+// Of an enum whose enumerators count from 0 to `last`: "at_rest", and in words "at rest".
 template <auto last>
 constexpr const char* enumerator_name(decltype(last) value) {
-  return enumerators_detail::names<last>[static_cast<std::size_t>(value)];
+  return enumerators_detail::names<last, '_'>[static_cast<std::size_t>(value)];
+}
+template <auto last>
+constexpr const char* enumerator_words(decltype(last) value) {
+  return enumerators_detail::names<last, ' '>[static_cast<std::size_t>(value)];
 }
 
 }  // namespace kurbel

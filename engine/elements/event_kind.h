@@ -23,8 +23,6 @@ enum class EventKind {
   note        // about the run itself
 };
 
-inline const char* name_of(EventKind kind) {
-  return kind == EventKind::load_edge ? "load edge" : enumerator_name<EventKind::note>(kind);
-}
+inline const char* name_of(EventKind kind) { return enumerator_words<EventKind::note>(kind); }
 
 }  // namespace kurbel

@@ -6,18 +6,6 @@
 
 namespace kurbel {
 
-std::string JointClearance::name() const {
-  switch (joint) {
-    case Joint::crank_pin:
-      return "crank pin";
-    case Joint::wrist_pin:
-      return "wrist pin";
-    case Joint::guide:
-      break;
-  }
-  return "guide";
-}
-
 SliderCrankDynamics::SliderCrankDynamics(const SliderCrankData& data, std::vector<JointClearance> clearances,
                                          const std::optional<RodFlexibility>& rod, bool weightless)
     : data_(data), clearances_(std::move(clearances)) {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/enumerators.h"
 #include "engine/numerics/dual.h"
 #include "mechanisms/linkages/slider_crank_geometry.h"
 #include "mechanisms/slider_crank/joint_contact.h"
@@ -32,7 +33,7 @@ struct JointClearance {
   double half_length = 0;     // of the slider in its guide, to either side of its pin [m]
   double half_height = 0;     // [m]
   double slider_inertia = 0;  // about its pin [kg·m²]
-  std::string name() const;   // "crank pin"
+  std::string name() const { return enumerator_words<Joint::guide>(joint); }  // "crank pin"
 };
 
 // Where the coordinates and their rates are, and what follows from them.

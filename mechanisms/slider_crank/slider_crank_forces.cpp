@@ -130,20 +130,6 @@ void validate(const SliderCrankJoints& joints) {
     require(std::isfinite(value), "a length of the guide", value, "finite");
 }
 
-const char* name_of(Joint joint) {
-  switch (joint) {
-    case Joint::main_bearing:
-      return "main bearing";
-    case Joint::crank_pin:
-      return "crank pin";
-    case Joint::slider_pin:
-      return "slider pin";
-    case Joint::guide:
-      return "guide";
-  }
-  return "";
-}
-
 double SliderCrankForces::friction_loss() const {
   return std::accumulate(friction_power.begin(), friction_power.end(), 0.0);
 }

@@ -20,6 +20,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/base/enumerators.h"
 #include "mechanisms/linkages/slider_crank_geometry.h"
 #include "mechanisms/slider_crank/friction.h"
 
@@ -85,7 +86,7 @@ struct CrankState {
 
 enum class Joint : std::size_t { main_bearing, crank_pin, slider_pin, guide };
 inline constexpr std::size_t joint_count = 4;
-const char* name_of(Joint joint);
+inline const char* name_of(Joint joint) { return enumerator_words<Joint::guide>(joint); }
 
 // Everything about one position.
 struct SliderCrankForces {
