@@ -1,5 +1,6 @@
 // progressive_coupling.cpp — from points or a formula to pieces, their areas, and the way back from torque to twist.
 #include "drivetrain/couplings/progressive_coupling.h"
+#include "engine/numerics/roots.h"
 
 #include <fmt/format.h>
 
@@ -176,12 +177,8 @@ double ProgressiveCoupling::twist_at(double torque) const {
   const auto above = std::clamp<std::ptrdiff_t>(std::upper_bound(y.begin(), y.end(), torque) - y.begin(), 1,
                                                 static_cast<std::ptrdiff_t>(y.size()) - 1);
   const int piece = static_cast<int>(above) - 1;
-  double low = curve_.piece_begin(piece), high = curve_.piece_end(piece);
-  for (int i = 0; i < 200 && low < high; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    (curve_.value_in(piece, middle) < torque ? low : high) = middle;
-  }
+  const auto [low, high] = halved({curve_.piece_begin(piece), curve_.piece_end(piece)}, 200,
+                                  [&](double twist) { return curve_.value_in(piece, twist) < torque; });
   return std::abs(curve_.value_in(piece, low) - torque) < std::abs(curve_.value_in(piece, high) - torque) ? low : high;
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/angles.h"
+#include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {
@@ -43,12 +44,7 @@ class RackTip {
 template <class F>
 double bisected(double low, double high, F&& f) {
   const bool rising = f(high) > 0;
-  for (int i = 0; i < 200 && low < high; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    ((f(middle) > 0) == rising ? high : low) = middle;
-  }
-  return 0.5 * (low + high);
+  return halved({low, high}, 200, [&](double middle) { return (f(middle) > 0) != rising; }).middle();
 }
 
 double half_angle(const GearWheel& w, double radius) {

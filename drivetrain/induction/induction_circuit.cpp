@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/elements/any_shaft_element.h"
+#include "engine/numerics/roots.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/units.h"
 
@@ -54,13 +55,9 @@ EquivalentCircuit EquivalentCircuit::of(const InductionMotor& wanted, double fre
     const Complex z = c.thevenin_impedance();
     return z.real() / std::hypot(z.real(), z.imag() + c.rotor_leakage);
   };
-  double low = 0, high = 1;
+  double high = 1;
   while (share(high) < goal && high < 0.1 * magnetising_ratio) high *= 2;
-  for (int i = 0; i < 200 && goal > 0; ++i) {
-    const double middle = 0.5 * (low + high);
-    (share(middle) < goal ? low : high) = middle;
-  }
-  c.stator_resistance = goal > 0 ? 0.5 * (low + high) : 0;
+  c.stator_resistance = goal > 0 ? halved({0, high}, 200, [&](double r) { return share(r) < goal; }).middle() : 0;
   const Complex z = c.thevenin_impedance();
   c.rotor_resistance = wanted.breakdown_slip * std::hypot(z.real(), z.imag() + c.rotor_leakage);
   const double level = c.characteristic().breakdown_torque / wanted.breakdown_torque;  // M ∝ 1/X

@@ -9,6 +9,7 @@
 #include "engine/elements/element.h"
 #include "engine/numerics/curve.h"
 #include "engine/numerics/dual.h"
+#include "engine/numerics/roots.h"
 
 namespace kurbel {
 
@@ -66,12 +67,7 @@ struct PneumaticMotor {
   static double speed_of_greatest_power(double b) { return 1 / ((1 - b) + std::sqrt((1 - b) * (1 - b) + 3 * b)); }
   // b that gives this power number, by bisection.
   static double bend_for(double power_number_wanted) {
-    double low = -1, high = 1;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (low + high);
-      (power_number(middle) < power_number_wanted ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+    return halved({-1, 1}, 60, [&](double b) { return power_number(b) < power_number_wanted; }).middle();
   }
 
   template <class T>

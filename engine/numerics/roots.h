@@ -10,6 +10,21 @@ namespace kurbel {
 // Root of f in [a, b] with f(a), f(b) of opposite signs (Illinois), to the last few bits or |f| ≤ enough.
 double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough = 0);
 
+// A bracket halved so many times, or down to its last bit: `below` is true of places below what is sought.
+struct Bracket {
+  double low, high;
+  double middle() const { return 0.5 * (low + high); }
+};
+template <class F>
+Bracket halved(Bracket b, int times, const F& below) {
+  for (int i = 0; i < times && b.low < b.high; ++i) {
+    const double middle = b.middle();
+    if (middle == b.low || middle == b.high) break;
+    (below(middle) ? b.low : b.high) = middle;
+  }
+  return b;
+}
+
 // The place and value of the maximum of f in [a, b], where f rises to it and falls after it; by the golden section,
 // each of whose steps leaves 0.618 of the interval. More than `enough` ends the search.
 struct Maximum {

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "engine/numerics/dual.h"
+#include "engine/numerics/roots.h"
 
 namespace kurbel {
 
@@ -65,28 +66,12 @@ struct JointContact {
     return mode == touching ? parting : touching;
   }
 
-  // v′ of (1) by Newton's method, which comes from one side as the right hand side is convex.
-  double rebound(double speed) const {
-    const double wanted = damping * speed - std::log1p(damping * speed);
-    const auto out = [](double u) { return -u - std::log1p(-u); };
-    double u = std::min(damping * speed, 1 - 1e-12);
-    for (int i = 0; i < 200; ++i) {
-      const double next = u - (out(u) - wanted) * (1 - u) / std::max(u, 1e-300);
-      if (!(next < u) || next <= 0) break;
-      u = next;
-    }
-    return damping > 0 ? u / damping : speed;
-  }
   // λ for v′ = e v at the speed v: (1) over λ v, by bisection.
   static double damping_for(double restitution, double speed) {
     if (restitution >= 1) return 0;
     const auto surplus = [&](double u) { return u - std::log1p(u) + restitution * u + std::log1p(-restitution * u); };
-    double low = 0, high = 1 / std::max(restitution, 1e-9) * (1 - 1e-15);
-    for (int i = 0; i < 200; ++i) {
-      const double middle = 0.5 * (low + high);
-      (surplus(middle) > 0 ? low : high) = middle;
-    }
-    return 0.5 * (low + high) / speed;
+    const double most = 1 / std::max(restitution, 1e-9) * (1 - 1e-15);
+    return halved({0, most}, 200, [&](double u) { return surplus(u) > 0; }).middle() / speed;
   }
 };
 

@@ -17,6 +17,19 @@
 namespace kurbel::test::deforming_mechanism_test {
 namespace {
 
+// v′ of joint_contact.h by Newton's method, which comes from one side as the right hand side is convex.
+double rebound(const JointContact& law, double speed) {
+  const double wanted = law.damping * speed - std::log1p(law.damping * speed);
+  const auto out = [](double u) { return -u - std::log1p(-u); };
+  double u = std::min(law.damping * speed, 1 - 1e-12);
+  for (int i = 0; i < 200; ++i) {
+    const double next = u - (out(u) - wanted) * (1 - u) / std::max(u, 1e-300);
+    if (!(next < u) || next <= 0) break;
+    u = next;
+  }
+  return law.damping > 0 ? u / law.damping : speed;
+}
+
 // A small crank with `more` keys; `line` and `drive` put something before it.
 std::string crank(const std::string& more, const std::string& run, const std::string& line = "\"crank\"",
                   const std::string& drive = "") {
@@ -66,7 +79,7 @@ TEST(JointContact, SpeedAfterANormalImpactIsThatOfTheClosedForm) {
       rate += h / 4 * (a1 + 3 * a3);
       if (depth == 0) break;
     }
-    EXPECT_NEAR(-rate, law.rebound(speed), 1e-6 * speed) << exponent;
+    EXPECT_NEAR(-rate, rebound(law, speed), 1e-6 * speed) << exponent;
   }
 }
 
@@ -74,7 +87,7 @@ TEST(JointContact, DampingForARestitutionGivesItBack) {
   for (const double e : {0.05, 0.4, 0.9, 1.0}) {
     JointContact law{.gap = 1e-4, .stiffness = 1e7};
     law.damping = JointContact::damping_for(e, 0.25);
-    EXPECT_NEAR(law.rebound(0.25), e * 0.25, 1e-9) << e;
+    EXPECT_NEAR(rebound(law, 0.25), e * 0.25, 1e-9) << e;
   }
 }
 
@@ -136,7 +149,7 @@ TEST(JointClearance, ReboundInAJointIsThatOfTheLaw) {
     JointContact law;
     law.damping = JointContact::damping_for(0.6, 0.2);
     const double in = normal_speed(all.events[0].t), out = normal_speed(all.events[1].t);
-    const double off = std::fabs(-out / law.rebound(in) - 1);
+    const double off = std::fabs(-out / rebound(law, in) - 1);
     EXPECT_LT(off, last / 3) << stiffness;
     last = off;
   }
