@@ -78,7 +78,6 @@ class ReturnMap {
   // End of a round for those who run the machine themselves: falls through zero after `rounds` of them.
   std::function<double(double, std::span<const double>)> round_end(Equations& equations, std::span<const double> y,
                                                                    double rounds = 1) const;
-  std::string unknown_name(std::size_t i) const { return section_->name(equations_, i); }
   // Effort so far, in cycles: a round counts as its cycles, one with derivative as (size() + 1) times that by variational
   // equations, 2 size() + 1 times by differences.
   double cost() const { return cost_; }

@@ -194,8 +194,6 @@ concept Guarded = (E::is.guards > 0);
 template <class E>
 concept Slipping = bool(E::is.slips);
 template <class E>
-concept Springless = bool(E::is.springless);
-template <class E>
 concept UsesSpeeds = bool(E::is.uses_speeds);
 template <class E>
 concept HasStates = (E::is.states > 0);

@@ -18,9 +18,8 @@ struct ShaftPorts {
   int id = 0;    // index among shaft elements
   int mode = 0;  // first of its mode slots
   int shaft = 0;
-  double gain = 1;  // speed of the element's own shaft over that of the merged one
-  int angle = -1;   // tracked angle
-  int angle_shaft = 0;
+  double gain = 1;   // speed of the element's own shaft over that of the merged one
+  int angle = -1;    // tracked angle
   double phase = 0;  // added to the tracked angle [rad]
   int account = 0;
   int own = 0;       // first of its own states

@@ -75,7 +75,7 @@ VectorXd Cholesky::solve(const VectorXd& right) const {
 Cholesky cholesky(const MatrixXd& a) {
   const Eigen::LLT<MatrixXd> factors(a);
   if (factors.info() != Eigen::Success) return {};
-  return {factors.matrixL(), factors.rcond()};
+  return {factors.matrixL()};
 }
 MatrixXd solve_lower(const MatrixXd& lower, const MatrixXd& right) {
   return lower.triangularView<Eigen::Lower>().solve(right);

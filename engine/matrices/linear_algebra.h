@@ -80,10 +80,9 @@ struct Qr {
 };
 Qr qr(const Eigen::MatrixXd& a);
 
-// A = L Lᵀ; empty where A is not positive definite. `reciprocal_condition`: an estimate.
+// A = L Lᵀ; empty where A is not positive definite.
 struct Cholesky {
   Eigen::MatrixXd lower;
-  double reciprocal_condition = 0;
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 };
 Cholesky cholesky(const Eigen::MatrixXd& a);
