@@ -1,8 +1,6 @@
 // coupling_keys.cpp — inertias of both halves, limits of couplings, damping in its four forms.
 #include "drivetrain/couplings/coupling_keys.h"
 
-#include <fmt/format.h>
-
 #include <numbers>
 
 #include "engine/model/network.h"

@@ -31,8 +31,7 @@ Fields<ContactKeys> contact_fields() {
   return Fields<ContactKeys>()
       .add(quantity("backlash", "rad", not_negative, "whole gap b between the flanks", "backlash"),
            &ContactKeys::backlash)
-      .add({.name = "contact", .fallback = "\"no pulling\"", .doc = "law of contact of the flanks (backlash.h)"},
-           &Backlash::law,
+      .add(choice("contact", "no pulling", "law of contact of the flanks (backlash.h)"), &Backlash::law,
            {{"no pulling", ContactLaw::no_pulling},
             {"Hunt-Crossley", ContactLaw::hunt_crossley},
             {"clipped", ContactLaw::clipped}})

@@ -35,12 +35,9 @@ const Fields<ProgressiveKeys>& progressive_fields() {
   using Keys = ProgressiveKeys;
   static const auto made =
       Fields<Keys>()
-          .add({.name = "table",
-                .unit = "N*m",
-                .doc = "torque over twist through [0, 0], rising; points of positive twist alone count for both "
-                       "senses; beyond the last one it goes on straight",
-                .required = true,
-                .choices = {"twist"}},
+          .add(required_curve("table", {"twist"}, "N*m",
+                              "torque over twist through [0, 0], rising; points of positive twist alone count for both "
+                              "senses; beyond the last one it goes on straight"),
                &Keys::table)
           .add(side_inertia_fields(), &Keys::inertia)
           .add(damping_fields(), &Keys::damping)

@@ -25,11 +25,8 @@ const Fields<FluidCouplingKeys>& fluid_coupling_fields() {
       Fields<Keys>()
           .add(required("diameter", "m", positive, "profile diameter D"), &Keys::diameter)
           .add(defaulted("density", "kg/m3", "870 kg/m3", positive, "ρ of the fluid; oil unless given"), &Keys::density)
-          .add({.name = "lambda",
-                .unit = "1",
-                .doc = "λ over ν = ω_slower/ω_faster, ending in [1, 0]; M = λ ρ D⁵ ω²",
-                .required = true,
-                .choices = {"speed ratio"}},
+          .add(required_curve("lambda", {"speed ratio"}, "1",
+                              "λ over ν = ω_slower/ω_faster, ending in [1, 0]; M = λ ρ D⁵ ω²"),
                &Keys::lambda)
           .add(side_inertia_fields(), &Keys::inertia);
   return made;

@@ -60,9 +60,8 @@ const Fields<BearingKeys>& bearing_fields() {
           .add(defaulted("stribeck_exponent", "", "2", {.low = 0.5, .high = 10}, "n in exp(−(ω/ω_s)ⁿ)"),
                &Keys::exponent)
           .add(defaulted("damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "viscous part b"), &Keys::damping)
-          .add({.name = "model",
-                .fallback = "\"exact\"",
-                .doc = "exact: sticks and slips; regularised: smooth, creeps; LuGre: bristles bend before they slip"},
+          .add(choice("model", "exact",
+                      "exact: sticks and slips; regularised: smooth, creeps; LuGre: bristles bend before they slip"),
                &Keys::model, models())
           .add(quantity("creep_speed", "rad/s", positive, "ω_c of the regularised model, M = −g tanh(ω/ω_c)"),
                &Keys::creep_speed)

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace kurbel {
@@ -61,9 +60,8 @@ Fields<GearGeometryKeys> gear_geometry_fields(const std::string& gap_effect) {
                     "profile shifts x of both wheels, in modules; default: 0, or by the centre distance, half each"),
            &Keys::shifts)
       .add(quantity("centre_distance", "m", positive, "a_w; default: by the shifts"), &Keys::centre_distance)
-      .add({.name = "internal",
-            .fallback = "false",
-            .doc = "the driven wheel is internal; its shift counts as after ISO 21771, > 0 makes its teeth thicker"},
+      .add(flag("internal", "false",
+                "the driven wheel is internal; its shift counts as after ISO 21771, > 0 makes its teeth thicker"),
            &Keys::is_internal)
       .add(quantity("backlash", "m", not_negative, "allowance j_bn along the normal of the teeth", gap_effect),
            &Keys::allowance)

@@ -38,9 +38,7 @@ const Fields<MeshKeys>& mesh_fields() {
                         "mesh_variation"),
                &Keys::mesh_variation)
           .add(quantity("mesh_phase", "rad", any_number, "their phases ψ_n; default: 0"), &Keys::mesh_phase)
-          .add({.name = "contact",
-                .fallback = "\"no pulling\"",
-                .doc = "law of contact of the flanks where a backlash is given (backlash.h)"},
+          .add(choice("contact", "no pulling", "law of contact of the flanks where a backlash is given (backlash.h)"),
                &Keys::contact, {{"no pulling", ContactLaw::no_pulling}, {"clipped", ContactLaw::clipped}})
           .add(quantity("inertia", "kg*m2", not_negative,
                         "of the driving and of the driven wheel, each on its own shaft; default: from module and "

@@ -33,9 +33,7 @@ struct StageKeys : FlankKeys {
 Fields<StageKeys> flank_fields(Fields<StageKeys> fields) {
   using Keys = StageKeys;
   return fields
-      .add({.name = "mesh",
-            .fallback = "false",
-            .doc = "elastic flanks: stiffness c_γα b r_b1² by ISO 6336-1 method B from the geometry"},
+      .add(flag("mesh", "false", "elastic flanks: stiffness c_γα b r_b1² by ISO 6336-1 method B from the geometry"),
            &Keys::mesh)
       .add(quantity("mesh_stiffness", "N*m/rad", positive,
                     "of elastic flanks about the driving wheel, in place of mesh"),
@@ -46,10 +44,7 @@ Fields<StageKeys> flank_fields(Fields<StageKeys> fields) {
       .add(quantity("mesh_backlash", "rad", not_negative, "whole gap between elastic flanks, about the driving wheel",
                     "backlash"),
            &Keys::mesh_backlash)
-      .add({.name = "mesh_gap",
-            .fallback = "false",
-            .doc = "the backlash of the geometry is a gap between elastic flanks",
-            .effect = "backlash"},
+      .add(flag("mesh_gap", "false", "the backlash of the geometry is a gap between elastic flanks", "backlash"),
            &Keys::mesh_gap);
 }
 

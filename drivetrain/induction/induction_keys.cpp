@@ -83,10 +83,8 @@ void add_circuit(Fields<Keys>& fields) {
 
 void add_starting(Fields<Keys>& fields) {
   fields
-      .add({.name = "starting",
-            .fallback = "\"direct\"",
-            .doc = "how it is brought up to speed; times count from its `start`"},
-           &Keys::starting, starting_methods())
+      .add(choice("starting", "direct", "how it is brought up to speed; times count from its `start`"), &Keys::starting,
+           starting_methods())
       .add(quantity("switch_time", "s", not_negative, "star to delta at this time"), &Keys::switch_time)
       .add(quantity("switch_speed", "rad/s", positive, "star to delta at this speed"), &Keys::switch_speed)
       .add(defaulted("pause", "s", "0 s", not_negative, "between star and delta, without torque"), &Keys::pause)

@@ -51,20 +51,15 @@ const Fields<LoadKeys>& load_fields() {
   static const auto made =
       Fields<Keys>()
           .add(quantity("torque", "N*m", any_number, "constant part M₀"), &Keys::torque)
-          .add({.name = "acts",
-                .fallback = "\"against motion\"",
-                .doc = "the constant part opposes motion and holds at standstill, or acts always backwards (a weight)"},
+          .add(choice("acts", "against motion",
+                      "the constant part opposes motion and holds at standstill, or acts always backwards (a weight)"),
                &Keys::always_backwards, {{"against motion", false}, {"always", true}})
           .add(defaulted("damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "b in b ω"), &Keys::viscous)
           .add(defaulted("quadratic", "N*m*s2/rad2", "0 N*m*s2/rad2", not_negative,
                          "q in q ω |ω|: fan, centrifugal pump"),
                &Keys::quadratic)
-          .add({.name = "table",
-                .unit = "N*m",
-                .doc = "resisting torque over time, angle or speed",
-                .choices = any_abscissa()},
-               &Keys::table)
-          .add({.name = "work", .fallback = "\"useful\"", .doc = "line of the energy balance"}, &Keys::work,
+          .add(curve("table", any_abscissa(), "N*m", "resisting torque over time, angle or speed"), &Keys::table)
+          .add(choice("work", "useful", "line of the energy balance"), &Keys::work,
                {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
           .add(own_inertia_key(), &Keys::inertia)
           .add(window_fields(), &Keys::window)

@@ -189,11 +189,9 @@ const Fields<ShuntKeys>& shunt_fields() {
                         "closes the armature while an operating sequence sets it 0, in series with it while reversed; "
                         "default: 0 opens the circuit"),
                &Keys::braking_resistance)
-          .add({.name = "field",
-                .unit = "1",
-                .doc = "flux over the rated one, over the time or the speed (of either sense): weakened below 1 the "
-                       "motor runs up to U/(f k)",
-                .choices = {"time", "speed"}},
+          .add(curve("field", {"time", "speed"}, "1",
+                     "flux over the rated one, over the time or the speed (of either sense): weakened below 1 the "
+                     "motor runs up to U/(f k)"),
                &Keys::field)
           .add(inertia_key("", "rotor inertia"), &Keys::inertia)
           .add(circuit_fields("L of the armature circuit"), &Keys::circuit)

@@ -51,35 +51,26 @@ const Fields<EngineKeys>& engine_fields() {
                &Keys::firing_intervals)
           .add(defaulted("phase", "rad", "0 deg", any_number, "shaft angle where the first cylinder fires"),
                &Keys::phase)
-          .add({.name = "strokes", .fallback = "\"four\"", .doc = "of a cycle: four take two turns, two take one"},
-               &Keys::strokes, {{"four", 4}, {"two", 2}})
-          .add({.name = "zero",
-                .fallback = "\"firing\"",
-                .doc = "top dead centre that the diagrams count from. Where it is not given, diagrams are refused "
-                       "whose peak or whose work speaks against it"},
+          .add(choice("strokes", "four", "of a cycle: four take two turns, two take one"), &Keys::strokes,
+               {{"four", 4}, {"two", 2}})
+          .add(choice("zero", "firing",
+                      "top dead centre that the diagrams count from. Where it is not given, diagrams are refused "
+                      "whose peak or whose work speaks against it"),
                &Keys::zero, {{"firing", Zero::firing}, {"gas exchange", Zero::gas_exchange}})
-          .add({.name = "torque",
-                .unit = "N*m",
-                .doc = "of one cylinder over the crank angle, from `zero` on: tangential force times radius",
-                .choices = {"angle"}},
+          .add(curve("torque", {"angle"}, "N*m",
+                     "of one cylinder over the crank angle, from `zero` on: tangential force times radius"),
                &Keys::torque)
-          .add({.name = "pressure",
-                .unit = "Pa",
-                .doc = "of one cylinder over the same angle, absolute (indicator diagram), in place of torque",
-                .choices = {"angle"}},
+          .add(curve("pressure", {"angle"}, "Pa",
+                     "of one cylinder over the same angle, absolute (indicator diagram), in place of torque"),
                &Keys::pressure)
           .add({.name = "misfire", .fallback = "[]", .doc = "numbers of the cylinders that do not fire"},
                &Keys::misfire)
-          .add({.name = "motored_torque",
-                .unit = "N*m",
-                .doc = "of a cylinder that does not fire; default: its compression, mirrored about top dead centre",
-                .choices = {"angle"}},
+          .add(curve("motored_torque", {"angle"}, "N*m",
+                     "of a cylinder that does not fire; default: its compression, mirrored about top dead centre"),
                &Keys::motored_torque)
-          .add({.name = "motored_pressure",
-                .unit = "Pa",
-                .doc = "of a cylinder that does not fire, with pressure; default: its compression, mirrored about top "
-                       "dead centre",
-                .choices = {"angle"}},
+          .add(curve("motored_pressure", {"angle"}, "Pa",
+                     "of a cylinder that does not fire, with pressure; default: its compression, mirrored about top "
+                     "dead centre"),
                &Keys::motored_pressure)
           .add(quantity("bore", "m", positive, "diameter of a piston, with pressure"), &Keys::bore)
           .add(quantity("radius", "m", positive, "of the crank, with pressure"), &Keys::radius)

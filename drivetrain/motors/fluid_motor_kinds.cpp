@@ -1,8 +1,6 @@
 // fluid_motor_kinds.cpp — hydraulic and pneumatic drives by their characteristics.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "drivetrain/motors/fluid_motors.h"
 #include "drivetrain/shared/kinds.h"
 #include "drivetrain/shared/shared_keys.h"

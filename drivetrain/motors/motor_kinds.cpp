@@ -12,15 +12,11 @@ struct MotorKeys {
   Window window;
 };
 const Fields<MotorKeys>& motor_fields() {
-  static const auto made = Fields<MotorKeys>()
-                               .add({.name = "torque",
-                                     .unit = "N*m",
-                                     .doc = "characteristic over speed",
-                                     .required = true,
-                                     .choices = {"speed"}},
-                                    &MotorKeys::torque)
-                               .add(inertia_key("", "rotor inertia"), &MotorKeys::inertia)
-                               .add(window_fields(), &MotorKeys::window);
+  static const auto made =
+      Fields<MotorKeys>()
+          .add(required_curve("torque", {"speed"}, "N*m", "characteristic over speed"), &MotorKeys::torque)
+          .add(inertia_key("", "rotor inertia"), &MotorKeys::inertia)
+          .add(window_fields(), &MotorKeys::window);
   return made;
 }
 

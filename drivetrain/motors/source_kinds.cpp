@@ -40,8 +40,7 @@ const Fields<SourceKeys>& torque_source_fields() {
           .add(defaulted("amplitude", "N*m", "0 N*m", any_number, "of M₁ sin(2π f t + ψ)"), &Keys::amplitude)
           .add(defaulted("frequency", "Hz", "0 Hz", not_negative, "f"), &Keys::frequency)
           .add(defaulted("phase", "rad", "0 rad", any_number, "ψ"), &Keys::phase)
-          .add({.name = "table", .unit = "N*m", .doc = "torque over time, angle or speed", .choices = any_abscissa()},
-               &Keys::table)
+          .add(curve("table", any_abscissa(), "N*m", "torque over time, angle or speed"), &Keys::table)
           .add(own_inertia_key(), &Keys::inertia)
           .add(window_fields(), &Keys::window)
           .check([](const Reading<Keys>& s) {
@@ -84,7 +83,7 @@ const Fields<SourceKeys>& prescribed_speed_fields() {
           .add(defaulted("amplitude", "rad/s", "0 rad/s", any_number, "of an added sine"), &Keys::amplitude)
           .add(defaulted("frequency", "Hz", "0 Hz", not_negative, "of the sine"), &Keys::frequency)
           .add(defaulted("phase", "rad", "0 rad", any_number, "of the sine"), &Keys::phase)
-          .add({.name = "table", .unit = "rad/s", .doc = "speed over time", .choices = {"time"}}, &Keys::table)
+          .add(curve("table", {"time"}, "rad/s", "speed over time"), &Keys::table)
           .add(own_inertia_key(), &Keys::inertia);
   return made;
 }

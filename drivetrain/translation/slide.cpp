@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -128,19 +127,16 @@ const Fields<SlideKeys>& slide_fields() {
                          "μ of the guide under the weight: μ m g cos β against the motion; holds at standstill"),
                &Keys::friction)
           .add(defaulted("force", "N", "0 N", any_number, "constant resistance F₀"), &Keys::force)
-          .add({.name = "acts",
-                .fallback = "\"against motion\"",
-                .doc = "the constant force opposes motion and holds at standstill, or acts always backwards"},
+          .add(choice("acts", "against motion",
+                      "the constant force opposes motion and holds at standstill, or acts always backwards"),
                &Keys::always_backwards, {{"against motion", false}, {"always", true}})
           .add(defaulted("damping", "N*s/m", "0 N*s/m", not_negative, "c in c v"), &Keys::viscous)
           .add(defaulted("quadratic", "N*s2/m2", "0 N*s2/m2", not_negative, "q in q v |v|"), &Keys::quadratic)
-          .add({.name = "table",
-                .unit = "N",
-                .doc = "resisting force over time, or over the travel (return_points: on the way back)",
-                .choices = {"time", "travel"}},
+          .add(curve("table", {"time", "travel"}, "N",
+                     "resisting force over time, or over the travel (return_points: on the way back)"),
                &Keys::table)
-          .add({.name = "work", .fallback = "\"useful\"", .doc = "line of the energy balance of these forces"},
-               &Keys::work, {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
+          .add(choice("work", "useful", "line of the energy balance of these forces"), &Keys::work,
+               {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
           .add(defaulted("start_travel", "m", "0 m", any_number,
                          "travel at the start; without a table over travel, where the shaft's angle is 0"),
                &Keys::start)

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string>
 
 #include "drivetrain/gears/gear_train_keys.h"
 #include "drivetrain/shared/inclined_plane.h"

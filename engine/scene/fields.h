@@ -5,7 +5,7 @@
 //           Fields<Spring>()
 //               .add(required("stiffness", "N/m", positive, "k"), &Spring::k)
 //               .add(quantity("damping", "N*s/m", any_number, "c; default: none"), &Spring::c)
-//               .add({.name = "seat", .fallback = "\"flat\"", .doc = "of its ends"}, &Spring::ground,
+//               .add(choice("seat", "flat", "of its ends"), &Spring::ground,
 //                    {{"flat", true}, {"open", false}})
 //               .add(quantity("preload", "N", any_number, "default: by the stiffness"), &Spring::preload,
 //                    [](const Spring& s) { return 1e-3 * s.k; });

@@ -1,4 +1,4 @@
-// keys.cpp — keys of numbers, how domains and lists of names are told, and how a section's values are found.
+// keys.cpp — keys of every type, how domains and lists of names are told, and how a section's values are found.
 #include "engine/scene/keys.h"
 
 #include <fmt/format.h>
@@ -53,6 +53,35 @@ Key defaulted(std::string name, std::string unit, const std::string& fallback, D
               std::string effect) {
   Key key = quantity(std::move(name), std::move(unit), domain, std::move(doc), std::move(effect));
   key.fallback = key.unit.empty() ? fallback : '"' + fallback + '"';
+  return key;
+}
+
+Key flag(std::string name, std::string fallback, std::string doc, std::string effect) {
+  return {.name = std::move(name),
+          .type = KeyType::flag,
+          .fallback = std::move(fallback),
+          .doc = std::move(doc),
+          .effect = std::move(effect)};
+}
+
+Key choice(std::string name, const std::string& fallback, std::string doc, std::string effect) {
+  return {.name = std::move(name),
+          .type = KeyType::text,
+          .fallback = '"' + fallback + '"',
+          .doc = std::move(doc),
+          .effect = std::move(effect)};
+}
+
+Key curve(std::string name, std::vector<std::string> over, std::string unit, std::string doc) {
+  Key key = quantity(std::move(name), std::move(unit), any_number, std::move(doc));
+  key.type = KeyType::curve;
+  key.choices = std::move(over);
+  return key;
+}
+
+Key required_curve(std::string name, std::vector<std::string> over, std::string unit, std::string doc) {
+  Key key = curve(std::move(name), std::move(over), std::move(unit), std::move(doc));
+  key.required = true;
   return key;
 }
 

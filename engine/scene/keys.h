@@ -64,6 +64,12 @@ Key required(std::string name, std::string unit, Domain domain, std::string doc,
 Key defaulted(std::string name, std::string unit, const std::string& fallback, Domain domain, std::string doc,
               std::string effect = "");
 
+// Keys of what is no number: true or false, a word, a characteristic over one of `over`.
+Key flag(std::string name, std::string fallback, std::string doc, std::string effect = "");
+Key choice(std::string name, const std::string& fallback, std::string doc, std::string effect = "");
+Key curve(std::string name, std::vector<std::string> over, std::string unit, std::string doc);
+Key required_curve(std::string name, std::vector<std::string> over, std::string unit, std::string doc);
+
 // How a kind of component stands in a machine.
 enum class Placement {
   inline_one,  // one shaft passes through it: motor, flywheel, slider-crank; in a line, or `on` a component

@@ -106,7 +106,7 @@ Fields<RodKeys> prismatic_rod() {
            &RodKeys::edge, [](const RodKeys& rod) { return rod.height.value_or(0) / 2; })
       .add(defaulted("modes", "", "2", {.low = 0, .high = RodFlexibility::most_modes}, "of bending, between the pins"),
            &RodKeys::modes)
-      .add({.name = "stretching", .fallback = "true", .doc = "it stretches, too"}, &RodKeys::axial)
+      .add(flag("stretching", "true", "it stretches, too"), &RodKeys::axial)
       .add(defaulted("damping_ratio", "", "0", {.low = 0, .high = 1, .high_open = true},
                      "of each mode of bending, and of stretching's first"),
            &RodKeys::damping_ratio)

@@ -15,11 +15,10 @@ Fields<FourBar> four_bar_linkage() {
       .add(required("coupler", "m", positive, "coupler length, between crank and rocker"), &FourBar::coupler)
       .add(required("rocker", "m", positive, "rocker length, from its bearing to the coupler"), &FourBar::rocker)
       .add(required("ground", "m", positive, "distance of the two bearings"), &FourBar::ground)
-      .add({.name = "branch",
-            .fallback = "\"open\"",
-            .doc = "how the loop is assembled: coupler pin left of the line from crank pin to rocker bearing, or "
-                   "right; of links "
-                   "that pass change points, for 0 < φ < 180 deg"},
+      .add(choice("branch", "open",
+                  "how the loop is assembled: coupler pin left of the line from crank pin to rocker bearing, or "
+                  "right; of links "
+                  "that pass change points, for 0 < φ < 180 deg"),
            &FourBar::crossed, {{"open", false}, {"crossed", true}})
       .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &FourBar::crank_body)
       .add(floating_link("coupler", "from the crank pin"), &FourBar::coupler_body, in_the_middle_of(&FourBar::coupler))

@@ -19,9 +19,7 @@ Fields<Press> knuckle_press_linkage() {
       .add(required("lower", "m", positive, "from the knee to the ram"), &Press::lower)
       .add(quantity("guide", "m", any_number, "y of the ram's line; default: through the upper link's bearing"),
            &Press::guide, &Press::bearing_y)
-      .add({.name = "branch",
-            .fallback = "\"left\"",
-            .doc = "side of the knee, seen from the crank axis towards the upper link's bearing"},
+      .add(choice("branch", "left", "side of the knee, seen from the crank axis towards the upper link's bearing"),
            &Press::knee_right, {{"left", false}, {"right", true}})
       .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &Press::crank_body)
       .add(floating_link("rod", "from the crank pin"), &Press::rod_body, in_the_middle_of(&Press::rod))

@@ -18,18 +18,14 @@ using LinearMotor = LoadKeys<LinearMotorForce>;
 // --- keys that several loads have ---
 
 Key working_end_key() {
-  return {
-      .name = "working_end", .fallback = "\"extended\"", .doc = "end of the stroke that the distance is counted from"};
+  return choice("working_end", "extended", "end of the stroke that the distance is counted from");
 }
 Words<bool> stroke_ends() { return {{"extended", true}, {"folded", false}}; }
 
-Key swing_end_key() {
-  return {
-      .name = "working_end", .fallback = "\"greatest\"", .doc = "end of the swing that the distance is counted from"};
-}
+Key swing_end_key() { return choice("working_end", "greatest", "end of the swing that the distance is counted from"); }
 Words<bool> swing_ends() { return {{"greatest", true}, {"least", false}}; }
 
-Key work_key() { return {.name = "work", .fallback = "\"useful\"", .doc = "line of the energy balance"}; }
+Key work_key() { return choice("work", "useful", "line of the energy balance"); }
 Words<Account> accounts() {
   return {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}};
 }
@@ -80,28 +76,21 @@ Fields<Medium> medium(const std::string& viscous_unit, const std::string& quadra
 template <class K>
 Fields<K> with_misfire(Fields<K> fields, const char* unit) {
   return fields
-      .add({.name = "misfire",
-            .fallback = "false",
-            .doc = "of a diagram over the crank angle: the cylinder does not fire"},
-           &K::misfire)
-      .add({.name = "motored",
-            .unit = unit,
-            .doc = "the diagram of a cylinder that does not fire; default: its compression, mirrored about 0 deg, the "
-                   "top dead centre",
-            .choices = {"angle"}},
+      .add(flag("misfire", "false", "of a diagram over the crank angle: the cylinder does not fire"), &K::misfire)
+      .add(curve("motored", {"angle"}, unit,
+                 "the diagram of a cylinder that does not fire; default: its compression, mirrored about 0 deg, the "
+                 "top dead centre"),
            &K::motored);
 }
 
 Fields<Table> table() {
   return with_misfire(
       Fields<Table>()
-          .add({.name = "force",
-                .unit = "N",
-                .doc = "positive pushes the slider away from the working end; over the distance to that end "
-                       "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
-                       "720 deg for four strokes)",
-                .required = true,
-                .choices = {"travel", "angle"}},
+          .add(required_curve(
+                   "force", {"travel", "angle"}, "N",
+                   "positive pushes the slider away from the working end; over the distance to that end "
+                   "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
+                   "720 deg for four strokes)"),
                &Table::force)
           .add(rounding_key("rounding", "m"), &Table::rounding)
           .add(rounding_key("rounding_angle", "rad"), &Table::rounding_angle)
@@ -132,7 +121,7 @@ Fields<Compressor> compressor() {
 Words<Account> driving_accounts() {
   return {{"driving", Account::driving}, {"useful", Account::useful}, {"harmful", Account::harmful}};
 }
-Key driving_work_key() { return {.name = "work", .fallback = "\"driving\"", .doc = "line of the energy balance"}; }
+Key driving_work_key() { return choice("work", "driving", "line of the energy balance"); }
 
 Fields<Cylinder> cylinder() {
   return with_misfire(
@@ -141,18 +130,14 @@ Fields<Cylinder> cylinder() {
           .add(defaulted("rod_diameter", "m", "0 m", not_negative,
                          "of the piston rod, on the side away from the working end"),
                &Cylinder::rod)
-          .add({.name = "pressure",
-                .unit = "Pa",
-                .doc = "absolute, in the chamber at the working end, which pushes the slider away from it; over the "
-                       "distance "
-                       "to that end (return_points: while the slider moves away) or over the crank angle",
-                .required = true,
-                .choices = {"travel", "angle"}},
+          .add(required_curve(
+                   "pressure", {"travel", "angle"}, "Pa",
+                   "absolute, in the chamber at the working end, which pushes the slider away from it; over the "
+                   "distance "
+                   "to that end (return_points: while the slider moves away) or over the crank angle"),
                &Cylinder::pressure)
-          .add({.name = "pressure_behind",
-                .unit = "Pa",
-                .doc = "the same in the other chamber, over the same distance or angle; without: outside_pressure",
-                .choices = {"travel", "angle"}},
+          .add(curve("pressure_behind", {"travel", "angle"}, "Pa",
+                     "the same in the other chamber, over the same distance or angle; without: outside_pressure"),
                &Cylinder::behind)
           .add(defaulted("outside_pressure", "Pa", "101325 Pa", not_negative,
                          "absolute, on the rod and on the piston's other face where there is no second chamber"),
@@ -166,9 +151,7 @@ Fields<LinearMotor> linear_motor() {
   return Fields<LinearMotor>()
       .add(required("stall_force", "N", positive, "F₀ at standstill"), &LinearMotor::force)
       .add(required("no_load_velocity", "m/s", positive, "v₀ in F = F₀ (σ − v/v₀)"), &LinearMotor::velocity)
-      .add({.name = "pushes",
-            .fallback = "\"with motion\"",
-            .doc = "σ: with the motion, nothing at standstill; or always towards one end"},
+      .add(choice("pushes", "with motion", "σ: with the motion, nothing at standstill; or always towards one end"),
            &LinearMotor::sense, {{"with motion", 0}, {"extended", 1}, {"folded", -1}})
       .add(driving_work_key(), &LinearMotor::account, driving_accounts());
 }
@@ -177,13 +160,10 @@ Fields<LinearMotor> linear_motor() {
 
 Fields<Table> rocker_table() {
   return Fields<Table>()
-      .add({.name = "torque",
-            .unit = "N*m",
-            .doc = "positive pushes the output away from the working end; over the angle to that end "
-                   "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
-                   "720 deg)",
-            .required = true,
-            .choices = {"swing", "angle"}},
+      .add(required_curve("torque", {"swing", "angle"}, "N*m",
+                          "positive pushes the output away from the working end; over the angle to that end "
+                          "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
+                          "720 deg)"),
            &Table::force)
       .add(rounding_key("rounding", "rad"), &Table::rounding)
       .add(swing_end_key(), &Table::from_greatest, swing_ends())

@@ -24,9 +24,7 @@ Fields<Shaper> lengths() {
            &Shaper::link)
       .add(defaulted("guide_height", "m", "0 m", any_number, "of the ram's line above the lever's bearing"),
            &Shaper::guide_height)
-      .add({.name = "branch",
-            .fallback = "\"forward\"",
-            .doc = "direction of the link along the stroke, from the lever's end to the ram"},
+      .add(choice("branch", "forward", "direction of the link along the stroke, from the lever's end to the ram"),
            &Shaper::backward, {{"forward", false}, {"backward", true}});
 }
 

@@ -65,14 +65,12 @@ Fields<Crank> slider_crank_linkage() {
             .required = true},
            &Crank::rod_length)
       .add(defaulted("offset", "m", "0 m", any_number, "of the slider's line from the crank axis"), &Crank::offset)
-      .add(
-          {.name = "branch",
-           .fallback = "\"follows\"",
-           .doc =
+      .add(choice(
+               "branch", "follows",
                "of rod = radius + |offset|: how the rod passes upright; follows: x = 2 r cos φ without offset; folds: "
                "it lies on the crank and the slider rests; with offset, which of two turns φ = 0 is. Of a shorter rod, "
-               "whose crank rocks: follows: the rod points towards +x, folds: towards −x"},
-          &Crank::folds, {{"follows", false}, {"folds", true}})
+               "whose crank rocks: follows: the rod points towards +x, folds: towards −x"),
+           &Crank::folds, {{"follows", false}, {"folds", true}})
       .add(mass_key("crank_mass", "mass of the crank"), &Crank::crank_mass)
       .add(defaulted("crank_com", "m", "0 m", any_number,
                      "its centre of mass from the axis towards the pin; negative: counterweighted"),
@@ -110,8 +108,8 @@ Fields<FiringKeys> firing() {
       .add(quantity("firing_intervals", "rad", not_negative,
                     "crank angle from each firing to the next, the last back to the first; default: equal"),
            &FiringKeys::intervals)
-      .add({.name = "strokes", .fallback = "\"four\"", .doc = "of a cycle: four take two turns, two take one"},
-           &FiringKeys::strokes, {{"four", 4}, {"two", 2}});
+      .add(choice("strokes", "four", "of a cycle: four take two turns, two take one"), &FiringKeys::strokes,
+           {{"four", 4}, {"two", 2}});
 }
 
 struct SliderCrankKeys : Mounted<SliderCrankData> {
