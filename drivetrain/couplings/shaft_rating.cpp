@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "drivetrain/couplings/coupling_keys.h"
 
@@ -61,30 +62,16 @@ double ShaftRating::fatigue_stress(double amplitude, double mean) const {
 
 double ShaftRating::design_factor() const {
   if (stated_design) return *stated_design;
-  switch (role) {
-    case Role::thrust:
-      return 0.85;
-    case Role::propeller:
-      return 0.55;
-    case Role::stern_tube:
-      return 0.8;
-    case Role::none:
-    case Role::intermediate:
-      break;
-  }
-  switch (detail) {
-    case Detail::tapered_keyway:
-      return 0.6;
-    case Detail::cylindrical_keyway:
-      return 0.45;
-    case Detail::radial_hole:
-      return 0.5;
-    case Detail::slot:
-      return 0.3;
-    case Detail::flange:
-    case Detail::shrink_fit:
-      break;
-  }
+  static constexpr std::pair<Role, double> by_role[] = {
+      {Role::thrust, 0.85}, {Role::propeller, 0.55}, {Role::stern_tube, 0.8}};
+  static constexpr std::pair<Detail, double> by_detail[] = {{Detail::tapered_keyway, 0.6},
+                                                            {Detail::cylindrical_keyway, 0.45},
+                                                            {Detail::radial_hole, 0.5},
+                                                            {Detail::slot, 0.3}};
+  for (const auto& [of, factor] : by_role)
+    if (of == role) return factor;
+  for (const auto& [of, factor] : by_detail)
+    if (of == detail) return factor;
   return 1;
 }
 
@@ -132,9 +119,7 @@ const Fields<ShaftRating>& shaft_rating_fields() {
                 {"thrust shaft", Rating::Role::thrust},
                 {"propeller shaft", Rating::Role::propeller},
                 {"stern tube shaft", Rating::Role::stern_tube}})
-          .add({.name = "detail",
-                .fallback = "\"flange\"",
-                .doc = "of an intermediate shaft, for its c_K: 1, 1, 0.6, 0.45, 0.5, 0.3"},
+          .add(choice("detail", "flange", "of an intermediate shaft, for its c_K: 1, 1, 0.6, 0.45, 0.5, 0.3"),
                &Rating::detail,
                {{"flange", Rating::Detail::flange},
                 {"shrink fit", Rating::Detail::shrink_fit},
@@ -142,10 +127,9 @@ const Fields<ShaftRating>& shaft_rating_fields() {
                 {"cylindrical keyway", Rating::Detail::cylindrical_keyway},
                 {"radial hole", Rating::Detail::radial_hole},
                 {"longitudinal slot", Rating::Detail::slot}})
-          .add({.name = "steel",
-                .fallback = "\"carbon\"",
-                .doc = "how much of σ_B counts in UR M68: up to 600 MPa; of alloy steel forward of the stern tube 800 "
-                       "MPa"},
+          .add(choice("steel", "carbon",
+                      "how much of σ_B counts in UR M68: up to 600 MPa; of alloy steel forward of the stern tube 800 "
+                      "MPa"),
                &Rating::steel, {{"carbon", Rating::Steel::carbon}, {"alloy", Rating::Steel::alloy}})
           .add(quantity("design_factor", "", {.low = 0, .high = 1, .low_open = true},
                         "c_K in place of that of role and detail"),
