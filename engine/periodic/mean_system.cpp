@@ -1,9 +1,7 @@
 // mean_system.cpp — quadrature of the Jacobian over the steps of a run; eigenvectors and what they see of a motion.
 #include "engine/periodic/mean_system.h"
 
-#include <array>
-#include <cmath>
-
+#include "engine/base/gauss.h"
 #include "engine/matrices/linear_algebra.h"
 
 namespace kurbel {
@@ -21,18 +19,15 @@ MeanJacobian::MeanJacobian(Equations& equations)
       values_(pattern_.row.size()),
       sum_(values_.size(), 0.0) {}
 
-// Gauss–Legendre with three nodes a step: steps are short beside all that varies.
+// Three nodes a step: steps are short beside all that varies.
 void MeanJacobian::step(StepView& view) {
-  static const std::array<double, 3> node = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
-  static constexpr std::array<double, 3> weight = {5 / 18.0, 8 / 18.0, 5 / 18.0};
   const double from = view.t_previous(), length = view.t() - from;
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    const double t = from + node[i] * length;
+  gauss<3>.over(from, length, [&](double t, double weight) {
     const std::span<const double> here = view.at(t).first(view.equations().size());
     y_.assign(here.begin(), here.end());
     view.equations().jacobian(t, y_, values_);
-    for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += weight[i] * length * values_[k];
-  }
+    for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += weight * values_[k];
+  });
   time_ += length;
 }
 

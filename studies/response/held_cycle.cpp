@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/base/gauss.h"
 #include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -43,12 +44,10 @@ class MeanSpeeds final : public Observer {
  public:
   explicit MeanSpeeds(std::vector<std::size_t> states) : states_(std::move(states)), sum_(states_.size(), 0.0) {}
   void step(StepView& view) override {
-    constexpr double place[] = {0.1127016653792583, 0.5, 0.8872983346207417}, weight[] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
-    const double begin = view.t_previous(), length = view.t() - begin;
-    for (int g = 0; g < 3; ++g) {
-      const std::span<const double> y = view.at(begin + place[g] * length);
-      for (std::size_t i = 0; i < states_.size(); ++i) sum_[i] += weight[g] * length * y[states_[i]];
-    }
+    gauss<3>.over(view.t_previous(), view.t() - view.t_previous(), [&](double t, double weight) {
+      const std::span<const double> y = view.at(t);
+      for (std::size_t i = 0; i < states_.size(); ++i) sum_[i] += weight * y[states_[i]];
+    });
   }
   double mean(std::size_t i, double time) const { return sum_[i] / time; }
 

@@ -1,0 +1,43 @@
+// gauss.h — quadrature by Gauss and Legendre: nodes and weights by their number.
+//
+//     ∫f dx ≈ Σ w_i f(x_i),   P_n(x_i) = 0,   w_i = 2/((1 − x_i²) P′_n(x_i)²)      exact up to degree 2n − 1
+//
+//     gauss<3>.over(begin, length, [&](double x, double weight) { sum += weight * std::exp(x); });
+//
+// Each number is the double nearest to its exact value.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace kurbel {
+
+// On [−1, 1], nodes ascending.
+template <std::size_t n>
+struct GaussRule {
+  std::array<double, n> x{}, w{};
+
+  // From the nodes ≥ 0 and their weights.
+  constexpr explicit GaussRule(const double (&half)[(n + 1) / 2][2]) {
+    for (std::size_t k = 0; k < (n + 1) / 2; ++k) {
+      const std::size_t left = (n - 1) / 2 - k, right = n / 2 + k;
+      x[left] = -half[k][0], x[right] = half[k][0];
+      w[left] = w[right] = half[k][1];
+    }
+  }
+
+  // Calls visit(x, weight) for each node in [begin, begin + length]; the weights add up to the length.
+  template <class Visit>
+  constexpr void over(double begin, double length, Visit&& visit) const {
+    const double half = 0.5 * length;
+    for (std::size_t i = 0; i < n; ++i) visit(begin + half * (1 + x[i]), half * w[i]);
+  }
+};
+
+// The rules in use; others do not compile.
+template <std::size_t n>
+inline constexpr GaussRule<n> gauss;
+template <>
+inline constexpr GaussRule<3> gauss<3>{{{0, 0.88888888888888888889}, {0.77459666924148337704, 0.55555555555555555556}}};
+
+}  // namespace kurbel
