@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/gauss.h"
+
 namespace kurbel {
 
 SliderCrankDynamics::SliderCrankDynamics(const SliderCrankData& data, std::vector<JointClearance> clearances,
@@ -75,8 +77,6 @@ double SliderCrankDynamics::kinetic_energy(const SliderCrankMotion<double>& m) c
 
 // The rod by Gauss's rule over pieces, from the velocities of its points; what is not prismatic as a rigid body.
 double SliderCrankDynamics::kinetic_energy_of_points(const SliderCrankMotion<double>& m) const {
-  static constexpr std::array<double, 3> node = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
-  static constexpr std::array<double, 3> weight = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
   constexpr int pieces = 8;
   const double l = data_.rod_length, r = data_.radius;
   const double vx = -r * m.sin_phi * m.w[phi] + m.w[e_x], vy = r * m.cos_phi * m.w[phi] + m.w[e_y];
@@ -84,9 +84,7 @@ double SliderCrankDynamics::kinetic_energy_of_points(const SliderCrankMotion<dou
   double prismatic = 0;
   if (amplitudes() > 0)
     for (int piece = 0; piece < pieces; ++piece)
-      for (std::size_t k = 0; k < 2 * node.size(); ++k) {
-        const double side = k < node.size() ? 1 : -1;
-        const double xi = (piece + 0.5 + 0.5 * side * node[k % node.size()]) / pieces;
+      gauss<6>.over(static_cast<double>(piece) / pieces, 1.0 / pieces, [&](double xi, double weight) {
         double u = 0, w = 0, u_rate = 0, w_rate = 0;
         for (int i = 0; i < amplitudes(); ++i) {
           const std::size_t at = first_amplitude + static_cast<std::size_t>(i);
@@ -94,8 +92,8 @@ double SliderCrankDynamics::kinetic_energy_of_points(const SliderCrankMotion<dou
           (i < rod_.bending ? w_rate : u_rate) += rod_.shape(i, xi) * m.w[at];
         }
         const double p = along + u_rate - m.beta_rate * w, q = across + w_rate + m.beta_rate * (xi * l + u);
-        prismatic += 0.25 * weight[k % weight.size()] * l / pieces * rod_.mass_per_length * (p * p + q * q);
-      }
+        prismatic += 0.5 * weight * l * rod_.mass_per_length * (p * p + q * q);
+      });
   const double counted = amplitudes() > 0 ? data_.rod_mass : 0;
   const double mass = data_.rod_mass - counted, moment = data_.rod_mass * data_.rod_com - counted * l / 2;
   const double inertia = data_.rod_inertia + data_.rod_mass * data_.rod_com * data_.rod_com - counted * l * l / 3;

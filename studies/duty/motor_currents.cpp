@@ -2,18 +2,12 @@
 #include "studies/duty/motor_currents.h"
 
 #include <algorithm>
-#include <array>
 
+#include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
-
-// Gauss–Legendre, 4 points on [−1, 1].
-constexpr std::array<double, 4> gauss_nodes = {-0.861136311594053, -0.339981043584856, 0.339981043584856,
-                                               0.861136311594053};
-constexpr std::array<double, 4> gauss_weights = {0.347854845137454, 0.652145154862546, 0.652145154862546,
-                                                 0.347854845137454};
 
 double half_square(std::span<const double> y, std::size_t own, const std::vector<std::size_t>& parts) {
   double sum = 0;
@@ -44,17 +38,16 @@ void MotorCurrents::begin(double t, std::span<const double> /*y*/, Equations& /*
 }
 
 void MotorCurrents::step(StepView& view) {
-  const double begin = view.t_previous(), half = 0.5 * (view.t() - begin);
   time_.push_back(view.t());
   for (Motor& motor : motors_)
     motor.on_stator.push_back(motor.on_stator.back()), motor.on_rotor.push_back(motor.on_rotor.back());
-  for (std::size_t k = 0; k < gauss_nodes.size(); ++k) {
-    const std::span<const double> y = view.at(begin + half * (1 + gauss_nodes[k]));
+  gauss<4>.over(view.t_previous(), view.t() - view.t_previous(), [&](double t, double weight) {
+    const std::span<const double> y = view.at(t);
     for (Motor& motor : motors_) {
-      motor.on_stator.back() += half * gauss_weights[k] * half_square(y, own_begin_, motor.stator);
-      motor.on_rotor.back() += half * gauss_weights[k] * half_square(y, own_begin_, motor.rotor);
+      motor.on_stator.back() += weight * half_square(y, own_begin_, motor.stator);
+      motor.on_rotor.back() += weight * half_square(y, own_begin_, motor.rotor);
     }
-  }
+  });
 }
 
 double MotorCurrents::stator_square(const Motor& motor, double begin, double end) const {

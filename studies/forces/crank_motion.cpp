@@ -9,6 +9,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "engine/base/gauss.h"
 #include "engine/model/model.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
@@ -187,13 +188,11 @@ std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, 
     else
       all.push_back({.phi = cycle * i / rows, .row = true});
   }
-  const double node = std::sqrt(0.6);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const double half = 0.5 * (knots[i + 1] - knots[i]), middle = 0.5 * (knots[i + 1] + knots[i]);
     if (half <= 1e-12) continue;
-    all.push_back({.phi = middle - node * half, .weight = half * 5 / 9});
-    all.push_back({.phi = middle, .weight = half * 8 / 9});
-    all.push_back({.phi = middle + node * half, .weight = half * 5 / 9});
+    for (std::size_t k = 0; k < 3; ++k)
+      all.push_back({.phi = middle + half * gauss<3>.x[k], .weight = half * gauss<3>.w[k]});
   }
   for (const double edge : edges)
     for (const double phi : {edge - beside, edge + beside}) {

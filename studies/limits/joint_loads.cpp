@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/run/recorders.h"
 
@@ -23,12 +24,6 @@ constexpr double fine = 1e-11, loose = 1e-9;  // tolerances of the two rounds
 constexpr double rounding = 1e-10;            // of the rated torque
 constexpr std::size_t harmonics = 96;         // of a round; what is above counts with the next one's frequency
 constexpr double neutral_within = 1e-6;
-
-// Gauss–Legendre, 6 points on [−1, 1].
-constexpr std::array<double, 6> nodes = {-0.932469514203152, -0.661209386466265, -0.238619186083197,
-                                         0.238619186083197,  0.661209386466265,  0.932469514203152};
-constexpr std::array<double, 6> weights = {0.171324492379170, 0.360761573048139, 0.467913934572691,
-                                           0.467913934572691, 0.360761573048139, 0.171324492379170};
 
 double link_speed(const Model& m, const Snapshot& s) {
   const TrackedAngle& link = m.angles[at(m.reduction_angle)];
@@ -53,12 +48,8 @@ class Integrals final : public Observer {
   void step(StepView& view) override {
     const double a = view.t_previous(), h = view.t() - a;
     const int pieces = 1 + static_cast<int>(2 * harmonics * h / round_);
-    const double half = 0.5 * h / pieces;
     for (int p = 0; p < pieces; ++p)
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const double t = a + half * (2 * p + 1 + nodes[k]);
-        add(t, view.snapshot(t), half * weights[k]);
-      }
+      gauss<6>.over(a + h * p / pieces, h / pieces, [&](double t, double weight) { add(t, view.snapshot(t), weight); });
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "engine/run/run.h"
@@ -23,12 +24,6 @@ constexpr double scan_beyond = 1.25;     // of the rated speed
 constexpr int most_doublings = 6;        // beyond that: it runs away
 constexpr double widest_interval = std::numbers::pi / 12;
 constexpr double rounding_of_tables = 1e-11;  // of the turnover: what tables of mechanisms leave of torques that cancel
-
-// Gauss–Legendre of order 10 on [0, 1].
-constexpr double gauss_node[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
-                                  0.95308992296933200};
-constexpr double gauss_weight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
-                                    0.11846344252809454};
 
 std::string speed_text(const SpeedUnit& unit, double omega) { return unit.text(std::abs(omega), 5); }
 
@@ -88,27 +83,26 @@ void add_shares(MeanTorques& mean, const std::vector<WorkAccount>& accounts, std
 
 void MeanCharacteristic::add_static(MeanTorques& mean, std::size_t i) {
   machine_.set_modes(begin_[i] + 0.5 * width_[i], mean.omega);
-  for (int k = 0; k < 5; ++k) {
-    const RigidMachine::At here = machine_.at(begin_[i] + gauss_node[k] * width_[i], mean.omega, true);
-    add_shares(mean, machine_.model().accounts, here.share,
-               gauss_weight[k] * width_[i] / machine_.cycle() * direction_);
-  }
+  gauss<5>.over(begin_[i], width_[i], [&](double phi, double weight) {
+    const RigidMachine::At here = machine_.at(phi, mean.omega, true);
+    add_shares(mean, machine_.model().accounts, here.share, weight / machine_.cycle() * direction_);
+  });
 }
 
 // Powers of the accounts over the link's speed: with the accelerations of the motion, and the flanks that then carry.
 void MeanCharacteristic::add_moving(MeanTorques& mean, std::size_t i) try {
   const Model& m = moving_->model();
   std::vector<double> rate(moving_->size()), share(m.accounts.size());
-  for (int k = 0; k < 5; ++k) {
+  gauss<5>.over(begin_[i], width_[i], [&](double phi, double weight) {
     StartSettings settings{};
-    settings.angle = begin_[i] + gauss_node[k] * width_[i];
+    settings.angle = phi;
     settings.speed = mean.omega;
     std::vector<double> y = moving_->start(0, settings);
     y.resize(moving_->size(), 0.0);
     moving_->flow(0, y, rate);
     for (std::size_t a = 0; a < share.size(); ++a) share[a] = rate[moving_->work_index(a)] / mean.omega;
-    add_shares(mean, m.accounts, share, gauss_weight[k] * width_[i] / machine_.cycle() * direction_);
-  }
+    add_shares(mean, m.accounts, share, weight / machine_.cycle() * direction_);
+  });
 } catch (const std::runtime_error&) {  // joints that jam
   mean.drive = mean.load = std::nan("");
 }

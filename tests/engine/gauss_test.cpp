@@ -22,7 +22,12 @@ void expect_exact() {
   }
 }
 
-TEST(Gauss, IsExactUpToDegreeTwoNLessOne) { expect_exact<3>(); }
+TEST(Gauss, IsExactUpToDegreeTwoNLessOne) {
+  expect_exact<3>();
+  expect_exact<4>();
+  expect_exact<5>();
+  expect_exact<6>();
+}
 
 }  // namespace
 }  // namespace kurbel::gauss_test
