@@ -136,39 +136,24 @@ void ProgressiveCoupling::sum_up() {
   energy_.assign(curve_.x().size(), 0.0);
   const int middle = piece_at(0);
   const auto m = static_cast<std::size_t>(middle);
-  energy_[m] = -area(middle, curve_.x()[m], 0);
+  energy_[m] = -curve_.area(middle, curve_.x()[m], 0);
   for (std::size_t i = m; i-- > 0;)
-    energy_[i] = energy_[i + 1] - area(static_cast<int>(i), curve_.x()[i], curve_.x()[i + 1]);
-  energy_[m + 1] = area(middle, 0, curve_.x()[m + 1]);
+    energy_[i] = energy_[i + 1] - curve_.area(static_cast<int>(i), curve_.x()[i], curve_.x()[i + 1]);
+  energy_[m + 1] = curve_.area(middle, 0, curve_.x()[m + 1]);
   for (std::size_t i = m + 2; i < energy_.size(); ++i)
-    energy_[i] = energy_[i - 1] + area(static_cast<int>(i) - 1, curve_.x()[i - 1], curve_.x()[i]);
+    energy_[i] = energy_[i - 1] + curve_.area(static_cast<int>(i) - 1, curve_.x()[i - 1], curve_.x()[i]);
 
   const auto slope = [&](int piece) { return curve_.value_in(piece, Dual<1>::input(0.0, 0)).d[0]; };
   const int before = curve_.piece_begin(middle) == 0 ? middle - 1 : middle;
   rest_stiffness_ = 0.5 * (slope(before) + slope(middle));
 }
 
-double ProgressiveCoupling::area(int piece, double from, double to) const {
-  if (curve_.form() == Curve::Form::formula) {
-    constexpr int panels = 128;
-    const double width = (to - from) / panels, offset = width / std::sqrt(12.0);
-    double sum = 0;
-    for (int k = 0; k < panels; ++k) {
-      const double middle = from + (k + 0.5) * width;
-      sum += curve_.value_in(piece, middle - offset) + curve_.value_in(piece, middle + offset);
-    }
-    return 0.5 * width * sum;
-  }
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from), offset = half / std::sqrt(3.0);
-  return half * (curve_.value_in(piece, middle - offset) + curve_.value_in(piece, middle + offset));
-}
-
 double ProgressiveCoupling::energy(double twist) const {
   const int piece = piece_at(twist);
   const double begin = curve_.piece_begin(piece), end = curve_.piece_end(piece);
-  if (begin >= 0) return energy_[static_cast<std::size_t>(piece)] + area(piece, begin, twist);
-  if (end <= 0) return energy_[static_cast<std::size_t>(piece) + 1] - area(piece, twist, end);
-  return area(piece, 0, twist);
+  if (begin >= 0) return energy_[static_cast<std::size_t>(piece)] + curve_.area(piece, begin, twist);
+  if (end <= 0) return energy_[static_cast<std::size_t>(piece) + 1] - curve_.area(piece, twist, end);
+  return curve_.area(piece, 0, twist);
 }
 
 double ProgressiveCoupling::twist_at(double torque) const {

@@ -59,9 +59,6 @@ class ProgressiveCoupling {
   int piece_at(double twist) const {
     return std::clamp(curve_.piece(twist), 0, static_cast<int>(curve_.x().size()) - 2);
   }
-  // ∫ M dθ within one piece: two Gauss points are exact for a polynomial of degree 3; a formula takes many panels.
-  double area(int piece, double from, double to) const;
-
   void sum_up();  // energies at the points, stiffness at rest
 
   Curve curve_;

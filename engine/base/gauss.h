@@ -38,6 +38,8 @@ struct GaussRule {
 template <std::size_t n>
 inline constexpr GaussRule<n> gauss;
 template <>
+inline constexpr GaussRule<2> gauss<2>{{{0.57735026918962576451, 1}}};
+template <>
 inline constexpr GaussRule<3> gauss<3>{{{0, 0.88888888888888888889}, {0.77459666924148337704, 0.55555555555555555556}}};
 template <>
 inline constexpr GaussRule<4> gauss<4>{

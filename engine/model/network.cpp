@@ -76,17 +76,8 @@ double PrescribedSpeed::greatest() const {
 double PrescribedSpeed::settled_speed() const {
   if (law.empty()) return speed.back();
   if (law.period() == 0) return law.y().back();
-  // Mean over the period: two Gauss points are exact for a polynomial of degree 3, a formula takes many panels.
   double sum = 0;
-  for (std::size_t i = 0; i + 1 < law.x().size(); ++i) {
-    constexpr int panels = 128;
-    const double width = (law.x()[i + 1] - law.x()[i]) / panels, offset = width / std::sqrt(12.0);
-    for (int k = 0; k < panels; ++k) {
-      const double middle = law.x()[i] + (k + 0.5) * width;
-      sum += 0.5 * width *
-             (law.value_in(static_cast<int>(i), middle - offset) + law.value_in(static_cast<int>(i), middle + offset));
-    }
-  }
+  for (std::size_t i = 0; i + 1 < law.x().size(); ++i) sum += law.area(static_cast<int>(i), law.x()[i], law.x()[i + 1]);
   return sum / law.period();
 }
 

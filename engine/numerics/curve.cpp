@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "engine/base/gauss.h"
+
 namespace kurbel {
 namespace {
 
@@ -114,6 +116,15 @@ Curve::Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, do
   before_ = y_.front();
   y_.back() = c2_.back();
   programs_ = std::make_shared<const std::vector<FormulaProgram>>(std::move(programs));
+}
+
+double Curve::area(int piece, double from, double to) const {
+  const int panels = programs_ ? 128 : 1;
+  const double width = (to - from) / panels;
+  double sum = 0;
+  for (int k = 0; k < panels; ++k)
+    gauss<2>.over(from + k * width, width, [&](double x, double weight) { sum += weight * value_in(piece, x); });
+  return sum;
 }
 
 double Curve::last_slope() const {

@@ -23,6 +23,7 @@ void expect_exact() {
 }
 
 TEST(Gauss, IsExactUpToDegreeTwoNLessOne) {
+  expect_exact<2>();
   expect_exact<3>();
   expect_exact<4>();
   expect_exact<5>();
