@@ -236,8 +236,11 @@ MachineCycle machine_cycle(RigidMachine& machine, double speed, double sampling)
     const RigidMachine::Inertia inertia = machine.mechanism_inertia(phi);
     out[n] = drive, out[n + 1] = -load, out[n + 2] = inertia.value, out[n + 3] = inertia.slope;
   };
-  auto all = Piecewise::sample(
-      cycle_edges(machine), n + 4, sampler, [&](double middle) { machine.set_modes(middle, speed); }, sampling);
+  const auto enter = [&](double middle) {
+    Deadline::check();
+    machine.set_modes(middle, speed);
+  };
+  auto all = Piecewise::sample(cycle_edges(machine), n + 4, sampler, enter, sampling);
   MachineCycle c{speed, all[n], all[n + 1], {}, {all[n + 2], all[n + 3]}};
   all.resize(n);
   c.share = std::move(all);

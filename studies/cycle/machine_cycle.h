@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/piecewise.h"
 #include "engine/rigid/rigid_machine.h"
 #include "studies/cycle/mechanism_inertia.h"
-#include "studies/cycle/piecewise.h"
 
 namespace kurbel {
 

@@ -1,7 +1,7 @@
 // mechanism_inertia.h — reduced inertia of the executive mechanisms over a cycle.
 #pragma once
 
-#include "studies/cycle/piecewise.h"
+#include "engine/base/piecewise.h"
 
 namespace kurbel {
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 
@@ -146,7 +147,8 @@ RegimeCycle assembled(const Model& m, const RoundRecorder& recorder, double sens
     const auto inertia = mechanism_inertia(m, sense * x);
     out[own] = drive, out[own + 1] = -load, out[own + 2] = inertia.value, out[own + 3] = sense * inertia.slope;
   };
-  std::vector<Piecewise> all = Piecewise::sample(edges_of_round(recorder, length), own + 4, sampler, {}, tolerance);
+  std::vector<Piecewise> all = Piecewise::sample(
+      edges_of_round(recorder, length), own + 4, sampler, [](double) { Deadline::check(); }, tolerance);
   RegimeCycle c;
   c.sense = sense;
   c.cycle.drive = all[own], c.cycle.load = all[own + 1];

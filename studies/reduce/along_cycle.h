@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/numerics/deadline.h"
 #include "engine/rigid/rigid_machine.h"
 #include "studies/cycle/regime_cycle.h"
 #include "studies/reduce/targets.h"
@@ -23,7 +24,7 @@ class AlongCycle {
         Piecewise::sample(
             speed.breaks(), 1,
             [&](double s, std::span<double> out) { out[0] = c_.others.front().value(s) / (c_.sense * speed.value(s)); },
-            {}, 1e-9)
+            [](double) { Deadline::check(); }, 1e-9)
             .front();
     ratio_slope_ = ratio_->derivative();
   }

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/piecewise.h"
 #include "studies/cycle/mechanism_inertia.h"
-#include "studies/cycle/piecewise.h"
 
 namespace kurbel {
 

@@ -1,4 +1,4 @@
-// piecewise.h — functions over one cycle as Chebyshev pieces between edges: integrals, roots and extremes to rounding.
+// piecewise.h — functions of one variable as Chebyshev pieces between edges: integrals, roots and extremes to rounding.
 //
 //     const std::vector<double> edges = {0, 2.1, 6.28};
 //     const Piecewise load = Piecewise::of(edges, [](double phi) { return phi < 2.1 ? 100.0 : 40 * phi; });
@@ -24,7 +24,8 @@ class Piecewise {
 
   // Writes the channels at x, strictly within a piece.
   using Sampler = std::function<void(double x, std::span<double> values)>;
-  // Called before the samples of each piece, with its middle: chooses branches of laws that change at edges.
+  // Called before the samples of each piece, with its middle: chooses branches of laws that change at edges, looks at
+  // the time that is left.
   using Enter = std::function<void(double middle)>;
 
   // Cuts [edges.front(), edges.back()] into pieces, none across an edge, until each channel's polynomials meet it to

@@ -1,13 +1,11 @@
 // piecewise.cpp — adaptive Chebyshev pieces.
-#include "studies/cycle/piecewise.h"
+#include "engine/base/piecewise.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-
-#include "engine/numerics/deadline.h"
 
 namespace kurbel {
 namespace {
@@ -130,7 +128,6 @@ class PiecewiseBuilder {
     // Depth first, so that the pieces come out in order.
     std::vector<Piece> done;
     while (!fresh.empty()) {
-      Deadline::check();
       Piece piece = std::move(fresh.back());
       fresh.pop_back();
       if (good(piece) || piece.hi - piece.lo < shortest_ || done.size() + fresh.size() > most_pieces) {
