@@ -23,32 +23,22 @@ class RoundedProfile {
   };
 
   RoundedProfile() = default;
-  // Straight pieces between ascending knots, left[i] to right[i] on piece i; before and after them the given values.
-  RoundedProfile(const std::vector<double>& knot, const std::vector<double>& left, const std::vector<double>& right,
-                 double before, double after, double width)
-      : before_(before), width_(width) {
-    double value = before, slope = 0;
-    for (std::size_t i = 0; i < knot.size(); ++i) {
-      const bool last = i + 1 == knot.size();
-      const double begin = last ? after : left[i];
-      const double rise = last ? 0 : (right[i] - left[i]) / (knot[i + 1] - knot[i]);
-      knots_.push_back({knot[i], begin - value, rise - slope, begin, rise});
-      value = last ? after : right[i];
-      slope = rise;
-    }
-  }
   // A table of straight pieces; a period repeats it.
-  RoundedProfile(const Curve& curve, double width) : width_(width), period_(curve.period()) {
+  RoundedProfile(const Curve& curve, double width) : before_(curve.before()), width_(width), period_(curve.period()) {
     const std::vector<double>&x = curve.x(), &y = curve.y();
-    std::vector<double> left(y.begin(), y.end() - 1), right;
-    for (std::size_t i = 0; i < left.size(); ++i) right.push_back(curve.end_value(i));
-    *this = RoundedProfile(x, left, right, curve.before(), y.back(), width);
-    period_ = curve.period();
-    if (period_ == 0) return;
-    // The last point is the first again: one knot, and the pieces next to it seen from both sides.
-    knots_.front().jump = left.front() - right.back();
-    knots_.front().kink = knots_.front().slope - (right.back() - left.back()) / (x.back() - x[x.size() - 2]);
-    knots_.pop_back();
+    double value = before_, slope = 0;
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+      const double end = curve.end_value(i), rise = (end - y[i]) / (x[i + 1] - x[i]);
+      knots_.push_back({x[i], y[i] - value, rise - slope, y[i], rise});
+      value = end, slope = rise;
+    }
+    if (period_ > 0) {
+      // The last point is the first again: one knot, and the pieces next to it seen from both sides.
+      knots_.front().jump = y.front() - value;
+      knots_.front().kink = knots_.front().slope - slope;
+    } else {
+      knots_.push_back({x.back(), y.back() - value, 0 - slope, y.back(), 0});
+    }
   }
 
   bool empty() const { return knots_.empty(); }

@@ -25,32 +25,6 @@
 
 namespace kurbel {
 
-// Straight pieces with jumps between them; numbered as a Curve's.
-struct Profile {
-  std::vector<double> knot;         // ascending [m]
-  std::vector<double> left, right;  // value at the begin and at the end of each inner piece [N]
-
-  int piece(double d) const {
-    return static_cast<int>(std::upper_bound(knot.begin(), knot.end(), d) - knot.begin()) - 1;
-  }
-  double piece_begin(int p) const {
-    return p < 0 ? -HUGE_VAL : knot[std::min(static_cast<std::size_t>(p), knot.size() - 1)];
-  }
-  double piece_end(int p) const {
-    return p + 1 >= static_cast<int>(knot.size()) ? HUGE_VAL : knot[static_cast<std::size_t>(std::max(p + 1, 0))];
-  }
-  template <class T>
-  T value_in(int p, const T& d) const {
-    if (p < 0 || p + 1 >= static_cast<int>(knot.size())) return T(0.0);
-    const auto i = static_cast<std::size_t>(p);
-    return left[i] + (right[i] - left[i]) / (knot[i + 1] - knot[i]) * (d - knot[i]);
-  }
-  // On a knot, the greater of both sides: an edge is a wall that holds whatever lies in its jump.
-  double greatest_at(double d, double near) const {
-    return std::max(value_in(piece(d - near), d), value_in(piece(d + near), d));
-  }
-};
-
 // A position this near to an edge, over the stroke, lies on it: rounding decides no piece.
 inline constexpr double on_edge = 1e-12;
 
@@ -70,26 +44,15 @@ struct PressForce {
   static constexpr LoadTraits is{
       .opposes = true, .holds = true, .in_pieces = true, .turns_back = true, .kind = EventKind::load_edge};
   WorkingEnd end;
-  Profile profile;  // over the distance to the working end
+  Curve profile;  // straight pieces over the distance to the working end; nothing beyond them
   double stroke = 1;
 
   // nominal force F from d = travel on, reached within `rise`; drops to zero over `drop` from d = breakthrough on.
   static PressForce make(WorkingEnd end, double stroke, double force, double travel, double rise, double breakthrough,
                          double drop) {
-    PressForce press{end, {}, stroke};
-    const auto add = [&](double from, double to, double at_from, double at_to) {
-      if (to <= from) return;
-      if (press.profile.knot.empty()) press.profile.knot.push_back(from);
-      press.profile.knot.push_back(to);
-      press.profile.left.push_back(at_from);
-      press.profile.right.push_back(at_to);
-    };
     // From the end outwards; beyond the end itself the force just holds.
-    const double inner = breakthrough > 0 ? breakthrough : -stroke;
-    if (breakthrough > 0) add(breakthrough - drop, breakthrough, 0, force);
-    add(inner, travel - rise, force, force);
-    add(travel - rise, travel, force, 0);
-    return press;
+    const double inner = breakthrough > 0 ? breakthrough : -stroke, begin = breakthrough > 0 ? inner - drop : inner;
+    return {end, Curve({begin, inner, travel - rise, travel}, {0, force, force, 0}, Curve::Form::linear), stroke};
   }
 
   template <class T>
@@ -99,7 +62,9 @@ struct PressForce {
   }
   bool uses_speed() const { return false; }
   Hold hold(const SliderState<double>& s) const {
-    return end.hold(profile.greatest_at(end.distance(s.x), on_edge * stroke));
+    // On an edge, the greater of both sides: it is a wall that holds whatever lies in its jump.
+    const double d = end.distance(s.x), near = on_edge * stroke;
+    return end.hold(std::max(profile.value_in(profile.piece(d - near), d), profile.value_in(profile.piece(d + near), d)));
   }
   double piece_begin(const SliderState<double>& s) const { return profile.piece_begin(s.mode); }
   double piece_end(const SliderState<double>& s) const { return profile.piece_end(s.mode); }
@@ -111,19 +76,13 @@ struct PressForce {
   }
   int first_mode(const SliderState<double>& s) const { return profile.piece(end.distance(s.x)); }
   int turned_mode(const SliderState<double>& s) const {
-    return piece_kept(*this, s, static_cast<int>(profile.knot.size()) - 1);
+    return piece_kept(*this, s, static_cast<int>(profile.x().size()) - 1);
   }
-  int next_mode(const SliderState<double>& s, int which) const {
-    return std::clamp(s.mode + (which == 0 ? -1 : 1), -1, static_cast<int>(profile.knot.size()) - 1);
-  }
+  int next_mode(const SliderState<double>& s, int which) const { return PieceGuard::next(profile, s.mode, which); }
   std::string mode_name(const SliderState<double>& s) const {
     const double middle = 0.5 * (profile.piece_begin(s.mode) + profile.piece_end(s.mode));
     if (!std::isfinite(middle) || profile.value_in(s.mode, middle) == 0) return "load ends";
     return "load edge";
-  }
-  double greatest() const {
-    return std::max(*std::max_element(profile.left.begin(), profile.left.end()),
-                    *std::max_element(profile.right.begin(), profile.right.end()));
   }
 };
 
@@ -342,8 +301,7 @@ inline SliderLoad SliderLoad::rounded() const {
   SliderLoad smooth = *this;
   if (!can_be_rounded()) return smooth;
   if (const auto* l = std::get_if<PressForce>(&law)) {
-    smooth.law =
-        RoundedPressForce{l->end, RoundedProfile(l->profile.knot, l->profile.left, l->profile.right, 0, 0, rounding)};
+    smooth.law = RoundedPressForce{l->end, RoundedProfile(l->profile, rounding)};
   } else if (const auto* table = std::get_if<TravelForce>(&law)) {
     smooth.law =
         RoundedTableForce{table->end, RoundedProfile(table->approach, rounding),
@@ -360,7 +318,7 @@ inline double SliderLoad::greatest_force() const {
     double operator()(const ConstantForce& l) const { return std::abs(l.force); }
     double operator()(const OpposingForce& l) const { return l.force; }
     double operator()(const MediumResistance&) const { return 0; }
-    double operator()(const PressForce& l) const { return l.greatest(); }
+    double operator()(const PressForce& l) const { return l.profile.max_abs(); }
     double operator()(const TravelForce& l) const { return std::max(l.approach.max_abs(), l.retreat.max_abs()); }
     double operator()(const AngleForce& l) const { return l.curve.max_abs(); }
     double operator()(const CompressorForce& l) const { return l.greatest(); }

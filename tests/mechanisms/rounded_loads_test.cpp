@@ -14,6 +14,7 @@ using test::figure;
 using test::run;
 
 const std::vector<double> knot = {0, 0.3, 0.5, 1}, left = {2, 5, -1}, right = {4, 5, -3};
+const Curve pieces({0, 0, 0.3, 0.3, 0.5, 0.5, 1, 1}, {0.7, 2, 4, 5, 5, -1, -3, -0.2}, Curve::Form::linear);
 
 double sharp(double x) {
   for (std::size_t i = 0; i + 1 < knot.size(); ++i)
@@ -43,14 +44,14 @@ double convolved(double x, double w) {
 
 TEST(RoundedProfile, IsTheConvolutionWithItsKernel) {
   for (const double w : {0.01, 0.1, 0.4}) {  // the widest meets several edges at once
-    const RoundedProfile rounded(knot, left, right, 0.7, -0.2, w);
+    const RoundedProfile rounded(pieces, w);
     for (double x = -0.6; x < 1.6; x += 0.0137)
       EXPECT_NEAR(rounded.value(x), convolved(x, w), 1e-9) << x << " at " << w;
   }
 }
 
 TEST(RoundedProfile, DerivativeIsThatOfItsValues) {
-  const RoundedProfile rounded(knot, left, right, 0.7, -0.2, 0.1);
+  const RoundedProfile rounded(pieces, 0.1);
   const Curve table({0, 1, 3}, {5, 8, 5}, Curve::Form::linear, 3.0);
   const RoundedProfile periodic(table, 0.25);
   for (double x = -0.5; x < 3.5; x += 0.0171) {
