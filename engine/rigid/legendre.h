@@ -1,10 +1,10 @@
-// legendre.h — functions on [−1, 1] by their values at 16 Gauss–Legendre nodes: Legendre coefficients, sums, integrals.
+// legendre.h — functions on [−1, 1] by their values at 16 nodes of Gauss: Legendre coefficients, sums, integrals.
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
+
+#include "engine/base/gauss.h"
 
 namespace kurbel::legendre {
 
@@ -24,41 +24,26 @@ struct Recursion {
 };
 inline constexpr Recursion recursion;
 
-inline std::array<double, n + 1> polynomials(double x) {
+constexpr std::array<double, n + 1> polynomials(double x) {
   std::array<double, n + 1> p{1, x};
   for (std::size_t k = 1; k < n; ++k) p[k + 1] = recursion.by_x[k] * x * p[k] - recursion.back[k] * p[k - 1];
   return p;
 }
 
-// Nodes and weights of Gauss and Legendre, and the matrix from values at the nodes to Legendre coefficients.
-struct Gauss {
-  Row x, w;
-  std::array<Row, n> to_terms;  // row k gives coefficient k
-
-  Gauss() {
-    for (std::size_t i = 0; i < n; ++i) {
-      double z = -std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5)), slope = 1;
-      for (int round = 0; round < 8; ++round) {
-        const auto p = polynomials(z);
-        slope = n * (z * p[n] - p[n - 1]) / (z * z - 1);
-        z -= p[n] / slope;
-      }
-      x[i] = z;
-      w[i] = 2 / ((1 - z * z) * slope * slope);
-      const auto p = polynomials(z);
-      for (std::size_t k = 0; k < n; ++k) to_terms[k][i] = (static_cast<double>(k) + 0.5) * w[i] * p[k];
-    }
-  }
-  Row terms(const Row& values) const {
-    Row c{};
+// From values at the nodes to Legendre coefficients: row k gives coefficient k, (k + ½) w_i P_k(x_i).
+inline constexpr std::array<Row, n> to_terms = [] {
+  std::array<Row, n> rows{};
+  for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t i = 0; i < n; ++i) c[k] += to_terms[k][i] * values[i];
-    return c;
-  }
-};
-inline const Gauss& gauss() {
-  static const Gauss table;
-  return table;
+      rows[k][i] = (static_cast<double>(k) + 0.5) * gauss<n>.w[i] * polynomials(gauss<n>.x[i])[k];
+  return rows;
+}();
+
+inline Row terms(const Row& values) {
+  Row c{};
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < n; ++i) c[k] += to_terms[k][i] * values[i];
+  return c;
 }
 
 inline constexpr Row inverse_odd = [] {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/gauss.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/period.h"
 #include "engine/rigid/legendre.h"
@@ -11,7 +12,7 @@
 namespace kurbel {
 namespace {
 
-using legendre::gauss, legendre::integral, legendre::sum;
+using legendre::integral, legendre::sum, legendre::terms;
 
 constexpr double tail_allowed = 3e-13;                    // of the largest value, for the last two coefficients
 constexpr double closes_within = 1e-12;                   // work per cycle over turnover
@@ -62,12 +63,12 @@ void WorkOverAngle::add_panels(RigidMachine& machine, double begin, double end, 
   machine.set_modes(direction_ * (begin + panel.half), direction_);
   for (std::size_t i = 0; i < nodes; ++i) {
     const RigidMachine::At at =
-        machine.at(direction_ * (begin + panel.half * (1 + gauss().x[i])), static_cast<double>(direction_));
+        machine.at(direction_ * (begin + panel.half * (1 + gauss<nodes>.x[i])), static_cast<double>(direction_));
     panel.inertia[i] = at.inertia;
     torque[i] = direction_ * at.torque;
   }
-  panel.inertia_term = gauss().terms(panel.inertia);
-  panel.torque_term = gauss().terms(torque);
+  panel.inertia_term = terms(panel.inertia);
+  panel.torque_term = terms(torque);
   const auto tail = [](const Values& c) { return std::abs(c[nodes - 1]) + std::abs(c[nodes - 2]); };
   const double allowed = end - begin > narrow ? tail_allowed : tail_of_narrow;
   const bool resolved = tail(panel.inertia_term) <= allowed * largest(panel.inertia) &&
@@ -79,8 +80,8 @@ void WorkOverAngle::add_panels(RigidMachine& machine, double begin, double end, 
   }
   panel.work_begin = per_cycle_;
   for (std::size_t i = 0; i < nodes; ++i) {
-    panel.work[i] = panel.work_begin + panel.half * integral(panel.torque_term, gauss().x[i]);
-    turnover_ += panel.half * gauss().w[i] * std::abs(torque[i]);
+    panel.work[i] = panel.work_begin + panel.half * integral(panel.torque_term, gauss<nodes>.x[i]);
+    turnover_ += panel.half * gauss<nodes>.w[i] * std::abs(torque[i]);
   }
   per_cycle_ = panel.work_begin + panel.half * integral(panel.torque_term, 1);
   panel_.push_back(panel);
@@ -93,7 +94,8 @@ void WorkOverAngle::close_cycle() {
   for (Panel& panel : panel_) {
     panel.torque_term[0] -= excess;
     panel.work_begin -= excess * panel.begin;
-    for (std::size_t i = 0; i < nodes; ++i) panel.work[i] -= excess * (panel.begin + panel.half * (1 + gauss().x[i]));
+    for (std::size_t i = 0; i < nodes; ++i)
+      panel.work[i] -= excess * (panel.begin + panel.half * (1 + gauss<nodes>.x[i]));
   }
   per_cycle_ = 0;
 }

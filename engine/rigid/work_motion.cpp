@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/base/gauss.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/period.h"
 #include "engine/numerics/roots.h"
@@ -14,7 +15,7 @@
 namespace kurbel {
 namespace {
 
-using legendre::gauss, legendre::integral, legendre::sum;
+using legendre::integral, legendre::sum, legendre::terms;
 
 constexpr double mildest = 4;  // T may vary by this factor: 16 nodes then give 1/√T to 5e-16
 constexpr int deepest = 60;    // bisections of a panel towards a place of rest
@@ -88,7 +89,7 @@ class WorkOverAngle::Walk {
       const double twice = 2 * (energy_ + panel.work[i]);
       least = std::min(least, twice);
       most = std::max(most, twice);
-      total += gauss().w[i] * std::sqrt(panel.inertia[i] / twice);
+      total += gauss<nodes>.w[i] * std::sqrt(panel.inertia[i] / twice);
     }
     if (!(least > 0) || most > mildest * least) return false;
     const double last = 2 * (energy_ + panel.work_begin + panel.half * integral(panel.torque_term, 1));
@@ -131,7 +132,7 @@ class WorkOverAngle::Walk {
   double kinetic(const Panel& panel, double s) const { return energy_ + diagram_.work_in(panel, s); }
 
   bool all_moving(const Panel& panel, const Stretch& stretch) const {
-    for (const double u : gauss().x)
+    for (const double u : gauss<nodes>.x)
       if (!(kinetic(panel, stretch.s(u)) > 0)) return false;
     return kinetic(panel, stretch.end) > 0;
   }
@@ -146,7 +147,7 @@ class WorkOverAngle::Walk {
       least = std::min(least, t);
       most = std::max(most, t);
     };
-    for (const double u : gauss().x) see(stretch.s(u));
+    for (const double u : gauss<nodes>.x) see(stretch.s(u));
     see(stretch.end);
     if (stop == HUGE_VAL && (most <= mildest * least || depth >= deepest)) {
       cross(panel, stretch);
@@ -182,17 +183,17 @@ class WorkOverAngle::Walk {
     Values rate;  // dt/du
     double time = 0;
     for (std::size_t i = 0; i < nodes; ++i) {
-      const double u = gauss().x[i], s = stretch.s(u);
+      const double u = gauss<nodes>.x[i], s = stretch.s(u);
       const double twice = 2 * std::max(kinetic(panel, s), 1e-300);
       rate[i] = stretch.ds_du(u) * std::sqrt(diagram_.inertia_in(panel, s) / twice);
-      time += gauss().w[i] * rate[i];
+      time += gauss<nodes>.w[i] * rate[i];
     }
     if (motion_.t + time < until_) {
       motion_.t += time;
       motion_.s = stretch.end;
       return;
     }
-    const double u = invert(gauss().terms(rate), until_ - motion_.t, time);
+    const double u = invert(terms(rate), until_ - motion_.t, time);
     motion_.s = stretch.s(u);
     motion_.speed = std::sqrt(2 * std::max(kinetic(panel, motion_.s), 0.0) / diagram_.inertia_in(panel, motion_.s));
     motion_.t = until_ + skipped_time_;

@@ -28,6 +28,7 @@ TEST(Gauss, IsExactUpToDegreeTwoNLessOne) {
   expect_exact<4>();
   expect_exact<5>();
   expect_exact<6>();
+  expect_exact<16>();
 }
 
 }  // namespace
