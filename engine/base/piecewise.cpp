@@ -1,62 +1,47 @@
-// piecewise.cpp — adaptive Chebyshev pieces.
+// piecewise.cpp — adaptive pieces, each a sum of Legendre's polynomials.
 #include "engine/base/piecewise.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
+
+#include "engine/base/gauss.h"
+#include "engine/base/legendre.h"
 
 namespace kurbel {
 namespace {
 
-constexpr std::size_t nodes = Piecewise::nodes;
+constexpr std::size_t nodes = Piecewise::nodes, most_terms = legendre::most_terms;
 constexpr std::size_t most_pieces = 8192;  // refinement stops here
 
-// Chebyshev points of the first kind, strictly inside −1 … 1.
-double chebyshev_node(std::size_t k, std::size_t n) {
-  return std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(n));
-}
-
-// cos(π j (k + ½)/n), j-th coefficient from the k-th sample.
-const std::array<std::array<double, nodes>, nodes>& cosines() {
-  static const auto table = [] {
-    std::array<std::array<double, nodes>, nodes> t{};
-    for (std::size_t j = 0; j < nodes; ++j)
-      for (std::size_t k = 0; k < nodes; ++k)
-        t[j][k] = std::cos(std::numbers::pi * static_cast<double>(j * (2 * k + 1)) / (2.0 * nodes));
-    return t;
-  }();
-  return table;
-}
+// P_13 … P_15 are of this size within a piece: √(2/(πk)).
+constexpr double size_of_last = 0.21;
 
 // Coefficients of the polynomial through samples at the nodes.
 void transform(const double* samples, double* c) {
-  for (std::size_t j = 0; j < nodes; ++j) {
-    double sum = 0;
-    for (std::size_t k = 0; k < nodes; ++k) sum += cosines()[j][k] * samples[k];
-    c[j] = sum * (j == 0 ? 1.0 : 2.0) / nodes;
-  }
+  std::array<double, nodes> values;
+  std::copy_n(samples, nodes, values.begin());
+  std::ranges::copy(legendre::terms(values), c);
 }
 
+// Σ c_k P_k(x) by Clenshaw: b_k = c_k + (2k + 1)/(k + 1) x b_{k+1} − (k + 1)/(k + 2) b_{k+2}
 double clenshaw(const double* c, std::size_t n, double x) {
   double b1 = 0, b2 = 0;
-  for (std::size_t k = n; k-- > 1;) {
-    const double b0 = 2 * x * b1 - b2 + c[k];
+  for (std::size_t k = n; k-- > 0;) {
+    const double b0 = legendre::recursion.by_x[k] * x * b1 + (c[k] - legendre::recursion.back[k + 1] * b2);
     b2 = b1;
     b1 = b0;
   }
-  return x * b1 - b2 + c[0];
+  return b1;
 }
 
-// d/dx of Σ c_k T_k, n coefficients in and out.
+// d/dx of Σ c_k P_k, n coefficients in and out: P′_k = Σ (2j + 1) P_j over j = k − 1, k − 3, …
 std::vector<double> differentiated(const std::vector<double>& c) {
-  const std::size_t n = c.size();
-  std::vector<double> d(n + 1, 0.0);
-  for (std::size_t k = n - 1; k >= 1; --k)
-    d[k - 1] = (k + 1 < n + 1 ? d[k + 1] : 0.0) + 2 * static_cast<double>(k) * c[k];
-  d[0] /= 2;
-  d.resize(n);
+  std::vector<double> d(c.size() + 1, 0.0);
+  for (std::size_t j = c.size() - 1; j-- > 0;) d[j] = c[j + 1] + d[j + 2];
+  for (std::size_t j = 0; j < c.size(); ++j) d[j] *= 2 * static_cast<double>(j) + 1;
+  d.resize(c.size());
   return d;
 }
 
@@ -68,17 +53,11 @@ double tail(const std::vector<double>& c) {
 
 // The same polynomial over lo … hi within −1 … 1.
 std::vector<double> restricted(const std::vector<double>& c, double lo, double hi) {
-  const std::size_t n = c.size();
-  std::vector<double> samples(n), out(n, 0.0);
-  for (std::size_t k = 0; k < n; ++k)
-    samples[k] = clenshaw(c.data(), n, lo + 0.5 * (hi - lo) * (1 + chebyshev_node(k, n)));
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t k = 0; k < n; ++k)
-      out[j] += samples[k] * std::cos(std::numbers::pi * static_cast<double>(j) * (static_cast<double>(k) + 0.5) /
-                                      static_cast<double>(n));
-    out[j] *= (j == 0 ? 1.0 : 2.0) / static_cast<double>(n);
-  }
-  return out;
+  std::array<double, most_terms> values;
+  for (std::size_t i = 0; i < most_terms; ++i)
+    values[i] = clenshaw(c.data(), c.size(), lo + 0.5 * (hi - lo) * (1 + gauss<most_terms>.x[i]));
+  const auto terms = legendre::terms(values);
+  return {terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(c.size())};
 }
 
 // All simple roots of a polynomial within lo … hi: intervals are halved until bounds exclude or isolate a root.
@@ -151,7 +130,7 @@ class PiecewiseBuilder {
     if (enter_) enter_(0.5 * (lo + hi));
     std::vector<double> samples(channels_ * nodes), at(channels_);
     for (std::size_t k = 0; k < nodes; ++k) {
-      sampler_(lo + 0.5 * (hi - lo) * (1 + chebyshev_node(k, nodes)), at);
+      sampler_(lo + 0.5 * (hi - lo) * (1 + Piecewise::node(k)), at);
       for (std::size_t channel = 0; channel < channels_; ++channel) {
         if (!std::isfinite(at[channel])) throw std::runtime_error("a function over the cycle is not finite");
         samples[channel * nodes + k] = at[channel];
@@ -169,7 +148,7 @@ class PiecewiseBuilder {
     for (std::size_t channel = 0; channel < channels_; ++channel) {
       const double* c = &piece.c[channel * nodes];
       const double left = std::max({std::abs(c[nodes - 1]), std::abs(c[nodes - 2]), std::abs(c[nodes - 3])});
-      if (left > tolerance_ * scale_[channel]) return false;
+      if (size_of_last * left > tolerance_ * scale_[channel]) return false;
     }
     return true;
   }
@@ -207,7 +186,7 @@ Piecewise Piecewise::of(const std::vector<double>& edges, const std::function<do
       .front();
 }
 
-double Piecewise::node(std::size_t k) { return chebyshev_node(k, nodes); }
+double Piecewise::node(std::size_t k) { return gauss<nodes>.x[k]; }
 
 Piecewise Piecewise::through(const std::vector<double>& breaks, const std::vector<double>& samples) {
   check_edges(breaks);
@@ -243,9 +222,10 @@ std::size_t Piecewise::piece_at(double x) const {
   return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(index, 0, static_cast<std::ptrdiff_t>(pieces()) - 1));
 }
 
+// The differences are exact in short pieces.
 double Piecewise::value_in(std::size_t piece, double x) const {
   const double lo = (*breaks_)[piece], hi = (*breaks_)[piece + 1];
-  return clenshaw(&coefficient_[piece * terms_], terms_, (2 * x - lo - hi) / (hi - lo));
+  return clenshaw(&coefficient_[piece * terms_], terms_, ((x - lo) - (hi - x)) / (hi - lo));
 }
 
 double Piecewise::value(double x) const { return value_in(piece_at(x), x); }
@@ -260,8 +240,9 @@ double Piecewise::largest() const {
   return bound;
 }
 
-// ∫T_k = ½ (T_{k+1}/(k+1) − T_{k−1}/(k−1)); the constant makes it continuous.
+// ∫P_k = (P_{k+1} − P_{k−1})/(2k + 1), zero at a piece's begin; ∫P_0 = P_1 + P_0.
 Piecewise Piecewise::integral() const {
+  if (terms_ == most_terms) throw std::logic_error("too many integrals of a function by pieces");
   Piecewise f;
   f.breaks_ = breaks_;
   f.terms_ = terms_ + 1;
@@ -269,13 +250,10 @@ Piecewise Piecewise::integral() const {
   for (std::size_t i = 0; i < pieces(); ++i) {
     const double half = 0.5 * ((*breaks_)[i + 1] - (*breaks_)[i]);
     const double* c = &coefficient_[i * terms_];
-    const auto at = [&](std::size_t k) { return k < terms_ ? c[k] : 0.0; };
-    std::vector<double> d(f.terms_, 0.0);
-    for (std::size_t k = 1; k < f.terms_; ++k)
-      d[k] = half * ((k == 1 ? 2 : 1) * at(k - 1) - at(k + 1)) / (2 * static_cast<double>(k));
-    d[0] = reached - clenshaw(d.data(), d.size(), -1);
-    reached = clenshaw(d.data(), d.size(), 1);
-    f.coefficient_.insert(f.coefficient_.end(), d.begin(), d.end());
+    const auto part = [&](std::size_t k) { return k < terms_ ? half * c[k] / (2 * static_cast<double>(k) + 1) : 0; };
+    f.coefficient_.push_back(reached + part(0) - part(1));
+    for (std::size_t k = 1; k < f.terms_; ++k) f.coefficient_.push_back(part(k - 1) - part(k + 1));
+    reached += 2 * part(0);
   }
   return f;
 }
@@ -292,8 +270,9 @@ Piecewise Piecewise::derivative() const {
 }
 
 double Piecewise::total() const {
-  const Piecewise f = integral();
-  return f.value_in(pieces() - 1, end());
+  double sum = 0;
+  for (std::size_t i = 0; i < pieces(); ++i) sum += ((*breaks_)[i + 1] - (*breaks_)[i]) * coefficient_[i * terms_];
+  return sum;
 }
 
 std::vector<double> Piecewise::roots_in(std::size_t piece, double noise) const {
@@ -320,10 +299,11 @@ std::vector<double> Piecewise::sign_changes() const {
 }
 
 Extreme Piecewise::maximum(const Piecewise& derivative) const {
+  const double same = 1e-14 * largest();
   Extreme best{begin(), value_in(0, begin())};
   const auto consider = [&](std::size_t piece, double x) {
     const double v = value_in(piece, x);
-    if (v > best.value) best = {x, v};
+    if (v > best.value + same) best = {x, v};
   };
   const double noise = 1e-13 * derivative.largest();
   for (std::size_t i = 0; i < pieces(); ++i) {

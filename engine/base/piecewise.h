@@ -1,4 +1,4 @@
-// piecewise.h — functions of one variable as Chebyshev pieces between edges: integrals, roots and extremes to rounding.
+// piecewise.h — functions of one variable as polynomial pieces between edges: integrals, roots and extremes to rounding.
 //
 //     const std::vector<double> edges = {0, 2.1, 6.28};
 //     const Piecewise load = Piecewise::of(edges, [](double phi) { return phi < 2.1 ? 100.0 : 40 * phi; });
@@ -35,9 +35,10 @@ class Piecewise {
                                        const Enter& enter = {}, double tolerance = 2e-13);
   static Piecewise of(const std::vector<double>& edges, const std::function<double(double)>& f,
                       double tolerance = 2e-13);
-  // The polynomials through samples at node(0), node(1), … of each piece, piece after piece.
+  // The polynomials through samples at node(0), node(1), … of each piece, piece after piece: Gauss's nodes, so that
+  // their integrals are exact up to degree 31.
   static constexpr std::size_t nodes = 16;
-  static double node(std::size_t k);  // −1 … 1 across a piece, descending
+  static double node(std::size_t k);  // −1 … 1 across a piece, ascending
   static Piecewise through(const std::vector<double>& breaks, const std::vector<double>& samples);
   // Straight between points; two points with the same x make a jump.
   static Piecewise linear(const std::vector<double>& x, const std::vector<double>& y);
@@ -51,15 +52,15 @@ class Piecewise {
   double value_in(std::size_t piece, double x) const;
   double largest() const;  // bound of |value|
 
-  Piecewise integral() const;  // zero at the begin, continuous
+  Piecewise integral() const;  // zero at the begin, continuous; of sampled functions, not of their integrals
   Piecewise derivative() const;
   double total() const;  // integral over everything
   double mean() const { return total() / length(); }
 
   // Where the function changes sign, ascending: roots within pieces and jumps through zero.
   std::vector<double> sign_changes() const;
-  // Global extremes; at a jump the larger (smaller) side counts. With the derivative at hand they are located as its
-  // roots, else the function is differentiated.
+  // Global extremes; at a jump the larger (smaller) side counts, of equal ones the first. With the derivative at hand
+  // they are located as its roots, else the function is differentiated.
   Extreme maximum() const;
   Extreme minimum() const;
   Extreme maximum(const Piecewise& derivative) const;
@@ -78,7 +79,7 @@ class Piecewise {
   std::vector<double> roots_in(std::size_t piece, double noise) const;
 
   std::shared_ptr<const std::vector<double>> breaks_;
-  std::size_t terms_ = 0;            // Chebyshev coefficients per piece
+  std::size_t terms_ = 0;            // Legendre coefficients per piece
   std::vector<double> coefficient_;  // piece after piece
 };
 

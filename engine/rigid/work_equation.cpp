@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/base/gauss.h"
+#include "engine/base/legendre.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/period.h"
-#include "engine/rigid/legendre.h"
 
 namespace kurbel {
 namespace {
@@ -21,7 +22,7 @@ constexpr double narrowest = std::numbers::pi * 0x1p-22;  // [rad]: a corner tha
 constexpr std::size_t many_panels = 8192;  // beyond so many none is halved below `narrow`: what is left is rounding
 constexpr double rounding_torque = 1e-9;   // of the machine's scale: a machine without torques has nothing to resolve
 
-double largest(const legendre::Row& values) {
+double largest(std::span<const double> values) {
   double most = 0;
   for (const double v : values) most = std::max(most, std::abs(v));
   return most;

@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "engine/base/gauss.h"
+#include "engine/base/legendre.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/period.h"
 #include "engine/numerics/roots.h"
-#include "engine/rigid/legendre.h"
 #include "engine/rigid/work_equation.h"
 
 namespace kurbel {

@@ -29,6 +29,7 @@ TEST(Gauss, IsExactUpToDegreeTwoNLessOne) {
   expect_exact<5>();
   expect_exact<6>();
   expect_exact<16>();
+  expect_exact<17>();
 }
 
 }  // namespace

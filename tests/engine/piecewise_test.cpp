@@ -1,4 +1,4 @@
-// piecewise_test.cpp — functions by polynomial pieces: integrals, derivatives, roots.
+// piecewise_test.cpp — functions by polynomial pieces: integrals, derivatives, roots, extremes.
 #include "engine/base/piecewise.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +19,35 @@ TEST(Piecewise, IntegratesAndDifferentiatesBackToTheFunction) {
   const std::vector<double> zeros = f.sign_changes();  // cos 7x on 1 … 4: (k + ½) π/7, k = 2 … 8; none at the jump up
   ASSERT_EQ(zeros.size(), 7U);
   for (std::size_t k = 0; k < zeros.size(); ++k) EXPECT_NEAR(zeros[k], (static_cast<double>(k) + 2.5) * pi / 7, 1e-13);
+}
+
+// Through Gauss's nodes the total is exact beyond the degree of the pieces themselves.
+TEST(Piecewise, TotalsAreExactUpToDegree31) {
+  for (int degree = 0; degree <= 31; ++degree) {
+    std::vector<double> samples;
+    for (std::size_t k = 0; k < Piecewise::nodes; ++k)
+      samples.push_back(std::pow(0.5 * (1 + Piecewise::node(k)), degree));
+    const Piecewise power = Piecewise::through({0, 1}, samples);
+    EXPECT_NEAR(power.total(), 1.0 / (degree + 1), 1e-15);
+    if (degree > 15) continue;
+    for (const double x : {0.1, 0.5, 0.9})
+      EXPECT_NEAR(power.integral().value(x), std::pow(x, degree + 1) / (degree + 1), 1e-15);
+  }
+}
+
+// In a piece far shorter than its place is from zero a value is as exact as in long ones.
+TEST(Piecewise, ShortPiecesFarFromZeroKeepTheirDigits) {
+  const double begin = 6, end = 6 + 1e-6;
+  const Piecewise line = Piecewise::linear({begin, end}, {0, 1});
+  for (double x = begin; x < end; x += 1e-8) EXPECT_NEAR(line.value(x), (x - begin) / (end - begin), 1e-15);
+}
+
+TEST(Piecewise, OfEqualExtremesTheFirstCounts) {
+  for (const double shift : {0.1, 0.2, 0.3, 0.4, 0.5}) {
+    const Piecewise wave = Piecewise::of({0, 2 * pi}, [=](double x) { return std::sin(3 * x + shift); });
+    EXPECT_NEAR(wave.maximum().x, (pi / 2 - shift) / 3, 1e-7);
+    EXPECT_NEAR(wave.minimum().x, (3 * pi / 2 - shift) / 3, 1e-7);
+  }
 }
 
 }  // namespace
