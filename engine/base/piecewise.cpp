@@ -284,20 +284,6 @@ std::vector<double> Piecewise::roots_in(std::size_t piece, double noise) const {
   return local;
 }
 
-std::vector<double> Piecewise::sign_changes() const {
-  std::vector<double> all;
-  const double noise = 1e-13 * largest();
-  for (std::size_t i = 0; i < pieces(); ++i) {
-    const double x = (*breaks_)[i];
-    if (i > 0 && value_in(i - 1, x) * value_in(i, x) < 0) all.push_back(x);
-    for (const double root : roots_in(i, noise)) all.push_back(root);
-  }
-  // A root at a break is found from both sides.
-  const double same = 1e-12 * length();
-  all.erase(std::unique(all.begin(), all.end(), [&](double a, double b) { return b - a < same; }), all.end());
-  return all;
-}
-
 Extreme Piecewise::maximum(const Piecewise& derivative) const {
   const double same = 1e-14 * largest();
   Extreme best{begin(), value_in(0, begin())};

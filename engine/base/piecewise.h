@@ -1,4 +1,4 @@
-// piecewise.h — functions of one variable as polynomial pieces between edges: integrals, roots and extremes to rounding.
+// piecewise.h — functions of one variable as polynomial pieces between edges: integrals and extremes to rounding.
 //
 //     const std::vector<double> edges = {0, 2.1, 6.28};
 //     const Piecewise load = Piecewise::of(edges, [](double phi) { return phi < 2.1 ? 100.0 : 40 * phi; });
@@ -57,8 +57,6 @@ class Piecewise {
   double total() const;  // integral over everything
   double mean() const { return total() / length(); }
 
-  // Where the function changes sign, ascending: roots within pieces and jumps through zero.
-  std::vector<double> sign_changes() const;
   // Global extremes; at a jump the larger (smaller) side counts, of equal ones the first. With the derivative at hand
   // they are located as its roots, else the function is differentiated.
   Extreme maximum() const;
