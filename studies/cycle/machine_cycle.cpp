@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/base/gauss.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
 
@@ -89,12 +90,13 @@ class Pass {
   // ∂M/∂T = ∂M/∂ω /(I ω) along the solution; time = ∫dφ/ω.
   void finish(double lo, double hi, const std::vector<double>& phi, const std::vector<double>& inertia,
               const std::vector<double>& level, double& log_growth, double& time) {
-    std::vector<double> rate(n), slowness(n);
+    const double half = 0.5 * (hi - lo);
     for (std::size_t k = 0; k < n; ++k) {
       const double omega = std::sqrt(2 * std::max(level[k], 0.0) / inertia[k]), step = 1e-5 * omega;
       const double faster = at(phi[k], omega + step).torque, slower = at(phi[k], omega - step).torque;
-      rate[k] = (faster - slower) / (2 * step) / (inertia[k] * omega);
-      slowness[k] = 1 / omega;
+      const double weight = half * gauss<n>.w[k];
+      log_growth += weight * (faster - slower) / (2 * step) / (inertia[k] * omega);
+      time += weight / omega;
       const RigidMachine::At here = at(phi[k], omega, true);
       double drive = 0;
       for (std::size_t a = 0; a < here.share.size(); ++a)
@@ -102,8 +104,6 @@ class Pass {
       samples_[0].push_back(omega);
       samples_[1].push_back(drive);
     }
-    log_growth += Piecewise::through({lo, hi}, rate).total();
-    time += Piecewise::through({lo, hi}, slowness).total();
   }
 
   double stall(double phi) {
