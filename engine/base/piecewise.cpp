@@ -45,6 +45,31 @@ std::vector<double> differentiated(const std::vector<double>& c) {
   return d;
 }
 
+// Spherical Bessel functions j_0, j_1, … at z: upwards where z is larger than the order, else downwards from where they
+// vanish, scaled by the larger of j_0 and j_1 (Miller's algorithm; DLMF 3.6, 10.51).
+std::array<double, most_terms> spherical_bessel(double z) {
+  std::array<double, most_terms> j{1};
+  if (z == 0) return j;
+  const double first = std::sin(z) / z, second = (first - std::cos(z)) / z;
+  if (std::abs(z) > most_terms) {
+    j[0] = first, j[1] = second;
+    for (std::size_t k = 1; k + 1 < most_terms; ++k) j[k + 1] = static_cast<double>(2 * k + 1) / z * j[k] - j[k - 1];
+    return j;
+  }
+  double above = 0, here = 1e-300;
+  for (std::size_t k = most_terms + 24; k > 0; --k) {
+    const double below = static_cast<double>(2 * k + 1) / z * here - above;
+    above = here, here = below;
+    if (k <= most_terms) j[k - 1] = here;
+    if (std::abs(here) < 1e200) continue;
+    above *= 1e-200, here *= 1e-200;
+    for (std::size_t i = k - 1; i < most_terms; ++i) j[i] *= 1e-200;
+  }
+  const double scale = std::abs(first) > std::abs(second) ? first / j[0] : second / j[1];
+  for (double& value : j) value *= scale;
+  return j;
+}
+
 double tail(const std::vector<double>& c) {
   double sum = 0;
   for (std::size_t k = 1; k < c.size(); ++k) sum += std::abs(c[k]);
@@ -273,6 +298,32 @@ double Piecewise::total() const {
   double sum = 0;
   for (std::size_t i = 0; i < pieces(); ++i) sum += ((*breaks_)[i + 1] - (*breaks_)[i]) * coefficient_[i * terms_];
   return sum;
+}
+
+double Piecewise::mean_square() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < pieces(); ++i)
+    for (std::size_t k = 0; k < terms_; ++k) {
+      const double c = coefficient_[i * terms_ + k];
+      sum += ((*breaks_)[i + 1] - (*breaks_)[i]) * c * c / static_cast<double>(2 * k + 1);
+    }
+  return sum / length();
+}
+
+std::complex<double> Piecewise::mean_with_wave(double nu) const {
+  std::complex<double> sum = 0;
+  double theta = 0;
+  auto bessel = spherical_bessel(theta);
+  for (std::size_t i = 0; i < pieces(); ++i) {
+    const double half = 0.5 * ((*breaks_)[i + 1] - (*breaks_)[i]), middle = (*breaks_)[i] + half;
+    if (nu * half != theta) bessel = spherical_bessel(theta = nu * half);
+    const double* c = &coefficient_[i * terms_];
+    double even = 0, odd = 0;  // of i^k: 1, i, −1, −i
+    for (std::size_t k = 0; k < terms_; k += 2) even += (k % 4 == 0 ? c[k] : -c[k]) * bessel[k];
+    for (std::size_t k = 1; k < terms_; k += 2) odd += (k % 4 == 1 ? c[k] : -c[k]) * bessel[k];
+    sum += 2 * half * std::polar(1.0, nu * middle) * std::complex<double>(even, odd);
+  }
+  return sum / length();
 }
 
 std::vector<double> Piecewise::roots_in(std::size_t piece, double noise) const {

@@ -6,6 +6,7 @@
 //     work.maximum().x                                 // where, to rounding: a root of the derivative or an edge
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -56,6 +57,10 @@ class Piecewise {
   Piecewise derivative() const;
   double total() const;  // integral over everything
   double mean() const { return total() / length(); }
+  double mean_square() const;
+  // The mean of f(x) e^(iνx), with no error of quadrature:
+  //     ∫ P_k(u) e^(iθu) du over −1 … 1 = 2 i^k j_k(θ),   θ = ν half the piece's width     (DLMF 10.54.2, 18.17.19)
+  std::complex<double> mean_with_wave(double nu) const;
 
   // Global extremes; at a jump the larger (smaller) side counts, of equal ones the first. With the derivative at hand
   // they are located as its roots, else the function is differentiated.

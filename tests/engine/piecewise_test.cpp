@@ -1,9 +1,10 @@
-// piecewise_test.cpp — functions by polynomial pieces: integrals, derivatives, extremes.
+// piecewise_test.cpp — functions by polynomial pieces: integrals, derivatives, extremes, harmonics.
 #include "engine/base/piecewise.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace kurbel::piecewise_test {
@@ -45,6 +46,19 @@ TEST(Piecewise, OfEqualExtremesTheFirstCounts) {
     EXPECT_NEAR(wave.maximum().x, (pi / 2 - shift) / 3, 1e-7);
     EXPECT_NEAR(wave.minimum().x, (3 * pi / 2 - shift) / 3, 1e-7);
   }
+}
+
+// Of e^(rx) over 0 … L:  (e^((r + iν)L) − 1)/((r + iν)L), from waves far longer than a piece to far shorter ones.
+TEST(Piecewise, MeanWithAWaveIsTheClosedForm) {
+  const double rate = 0.3, length = 6.28;
+  const Piecewise f = Piecewise::of({0, 0.7, 2.1, length}, [&](double x) { return std::exp(rate * x); });
+  for (const double nu : {0.0, 1e-6, 1e-3, 0.4, 3.0, 17.0, 55.5, 300.0, 5000.0, -3.0}) {
+    const std::complex<double> exponent = std::complex<double>(rate, nu) * length;
+    const std::complex<double> expected = (std::exp(exponent) - 1.0) / exponent, found = f.mean_with_wave(nu);
+    EXPECT_NEAR(found.real(), expected.real(), 1e-13) << nu;
+    EXPECT_NEAR(found.imag(), expected.imag(), 1e-13) << nu;
+  }
+  EXPECT_NEAR(f.mean_square(), (std::exp(2 * rate * length) - 1) / (2 * rate * length), 1e-13 * f.mean_square());
 }
 
 }  // namespace
