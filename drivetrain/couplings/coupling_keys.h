@@ -18,14 +18,6 @@ const Fields<SideInertias>& side_inertia_fields();
 // The two shafts of a component, each with its inertia.
 std::array<int, 2> two_shafts(const Section& section, const SideInertias& inertia, Network& net);
 
-// What kurbel modes judges by, after DIN 740-2 (theory 12.10); 0: not given.
-struct CouplingLimits {
-  double nominal = 0, maximum = 0, vibratory = 0;  // T_KN, T_Kmax, T_KW [N·m]
-  double power = 0;                                // P_KW [W]
-  double application_factor = 1;                   // K_A
-  double temperature_factor = 1;                   // S_t, ≥ 1
-  double start_factor = 1;                         // S_z, ≥ 1
-};
 const Fields<CouplingLimits>& coupling_limit_fields();
 Key application_factor_key();
 

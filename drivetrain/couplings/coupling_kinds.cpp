@@ -74,6 +74,8 @@ const Fields<CouplingKeys>& coupling_fields() {
 void build_coupling(const Section& s, Network& net, Messages& messages) {
   const auto coupling = coupling_fields().read(s, messages);
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
+  net.data.add(s.name, coupling.limits);
+  if (coupling.contact.gap > 0) net.data.add(s.name, StatedPlay{});
   if (!coupling.contact.backlash) return net.connect(in, out, 1, s.name, static_cast<const CouplingData&>(coupling));
   BacklashData data{coupling.contact, coupling.damping};
   data.contact.stiffness = coupling.stiffness;
@@ -117,6 +119,7 @@ void build_shaft(const Section& s, Network& net, Messages& messages) {
   const std::size_t before = messages.all().size();
   const auto shaft = shaft_fields().read(s, messages);
   if (messages.all().size() > before) return;
+  net.data.add<ShaftKeys>(s.name, shaft);
   const double stiffness = shaft.length ? shaft.shear_modulus * shaft.polar_moment() / *shaft.length : *shaft.stiffness;
   const double inertia =
       shaft.inertia.value_or(shaft.length ? shaft.density * shaft.polar_moment() * *shaft.length : 0);

@@ -48,6 +48,7 @@ const Fields<ProgressiveKeys>& progressive_fields() {
 void build_progressive(const Section& s, Network& net, Messages& messages) {
   const auto coupling = progressive_fields().read(s, messages);
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
+  net.data.add(s.name, coupling.limits);
   const CurveData& table = coupling.table;
   if (table.period > 0) coupling.refuse(&ProgressiveKeys::table, "a table over the twist has no period; drop it");
   if (table.beyond == Beyond::hold)
@@ -115,6 +116,7 @@ void connect_rubber(const std::string& name, Network& net, int in, int out, cons
 void build_rubber(const Section& s, Network& net, Messages& messages) {
   const auto coupling = rubber_fields().read(s, messages);
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
+  net.data.add(s.name, coupling.limits);
   if (!coupling.given(&RubberKeys::branches))
     return net.connect(in, out, 1, s.name, static_cast<const CouplingData&>(coupling));
   switch (coupling.branches.size()) {
@@ -159,6 +161,7 @@ const Fields<UniversalJointKeys>& universal_joint_fields() {
 void build_universal_joint(const Section& s, Network& net, Messages& messages) {
   const auto coupling = universal_joint_fields().read(s, messages);
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
+  net.data.add(s.name, coupling.limits);
   net.connect(in, out, 1, s.name, UniversalJointData{coupling, coupling, coupling.phase});
 }
 

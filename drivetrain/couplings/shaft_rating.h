@@ -1,4 +1,5 @@
-// shaft_rating.h — what a shaft's torsional stress may be: by its maker, by Goodman, by IACS UR M68.
+// shaft_rating.h — what a coupling may bear, and what a shaft's torsional stress may be: by its maker, by Goodman, by
+// IACS UR M68.
 //
 //     maker:    τ_a ≤ τ_allowable                                      τ_a = (τ_max − τ_min)/2,  τ_m = (τ_max + τ_min)/2
 //     Goodman:  S (K_f τ_a + τ_W |τ_m|/τ_B) ≤ τ_W                      τ_B = 0.67 σ_B
@@ -15,6 +16,18 @@
 #include <optional>
 
 namespace kurbel {
+
+// What kurbel modes judges by, after DIN 740-2 (theory 12.10); 0: not given.
+struct CouplingLimits {
+  double nominal = 0, maximum = 0, vibratory = 0;  // T_KN, T_Kmax, T_KW [N·m]
+  double power = 0;                                // P_KW [W]
+  double application_factor = 1;                   // K_A, ≥ 1
+  double temperature_factor = 1;                   // S_t, ≥ 1
+  double start_factor = 1;                         // S_z, ≥ 1
+};
+
+// What a component states that has a gap, whether or not the effect "backlash" is on.
+struct StatedPlay {};
 
 struct ShaftRating {
   enum class Role { none, intermediate, thrust, propeller, stern_tube };

@@ -114,6 +114,7 @@ void build_gear_mesh(const Section& s, Network& net, Messages& messages) {
     inertia = {pair->wheel[0].inertia, pair->wheel[1].inertia};
   const auto [in, out] = two_shafts(s, {inertia[0], inertia[1]}, net);
   const double ratio = static_cast<double>(m.teeth[1]) / m.teeth[0], stiffness = stiffness_of(m, pair);
+  if (m.geometry.allowance.value_or(0) > 0) net.data.add(s.name, StatedPlay{});
   const MeshVariation variation = variation_of(m);
   if (m.geometry.allowance && pair) {
     BacklashData contact;

@@ -10,6 +10,7 @@
 #include "engine/elements/any_connection.h"
 #include "engine/elements/any_shaft_element.h"
 #include "engine/elements/gear_loss.h"
+#include "engine/model/component_data.h"
 #include "engine/numerics/curve.h"
 
 namespace kurbel {
@@ -131,6 +132,7 @@ class Network {
   std::vector<DataRange> ranges;
   std::map<std::string, Ports> ports;   // of each component
   std::vector<std::string> components;  // canonical order
+  ComponentData data;                   // what they state beside their part in the equations
 };
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// drive_limits.cpp — limits read from the scene's sections: whoever has the keys has the limits.
+// drive_limits.cpp — limits as couplings and shafts state them.
 #include "studies/limits/drive_limits.h"
 
 #include <fmt/format.h>
@@ -14,21 +14,15 @@
 namespace kurbel {
 namespace {
 
-DriveLimits stated_limits(const Section& s) {
-  const CouplingLimits given = coupling_limit_fields().read(s);
-  DriveLimits limits{given.nominal,
-                     given.maximum,
-                     given.vibratory,
-                     given.power,
-                     given.application_factor,
-                     given.temperature_factor,
-                     given.start_factor};
-  if (s.kind->name != "shaft") return limits;
-  const ShaftKeys shaft = shaft_fields().read(s);
-  if (!shaft.judges_stress()) return limits;
-  limits.shear_stress = shaft.allowable_shear_stress.value_or(0);
-  limits.polar_modulus = shaft.polar_modulus(), limits.diameter = *shaft.diameter;
-  limits.shaft = shaft.rating;
+DriveLimits stated_limits(const ComponentData& data, const std::string& component) {
+  if (const auto* given = data.find<CouplingLimits>(component)) return {*given};
+  const auto* shaft = data.find<ShaftKeys>(component);
+  if (!shaft) return {};
+  DriveLimits limits{{.application_factor = shaft->application_factor}};
+  if (!shaft->judges_stress()) return limits;
+  limits.shear_stress = shaft->allowable_shear_stress.value_or(0);
+  limits.polar_modulus = shaft->polar_modulus(), limits.diameter = *shaft->diameter;
+  limits.shaft = shaft->rating;
   return limits;
 }
 
@@ -45,9 +39,9 @@ std::vector<LimitedJoint> limited_joints(const Model& model) {
     one.turns = std::abs(model.node_ratio[at(joint.a)]);
     one.loss_account = e.loss_account;
     const bool beside = joint.element->row && one.name != one.component;  // a continuous shaft is judged in its middle
-    if (const Section* s = model.scene.find(joint.component); s && !beside) {
-      one.limits = stated_limits(*s);
-      one.has_play = s->number_or("backlash", 0) > 0 || s->number_or("mesh_backlash", 0) > 0;
+    if (!beside) {
+      one.limits = stated_limits(model.network.data, joint.component);
+      one.has_play = model.network.data.find<StatedPlay>(joint.component) != nullptr;
     }
     joints.push_back(std::move(one));
   }

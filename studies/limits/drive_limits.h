@@ -9,13 +9,10 @@
 
 namespace kurbel {
 
-// Of one joint, after DIN 740-2 (theory 12.10); 0: not stated.
-struct DriveLimits {
-  double nominal = 0, maximum = 0, vibratory = 0, power = 0;  // T_KN, T_Kmax, T_KW [N·m], P_KW [W]
-  double application_factor = 1;                              // K_A, ≥ 1
-  double temperature_factor = 1, start_factor = 1;            // S_t, S_z, ≥ 1
-  double shear_stress = 0, polar_modulus = 0;                 // [Pa], W_p [m³]
-  double diameter = 0;                                        // of that section [m]
+// Of one joint: by DIN 740-2, or by the section of a shaft; 0: not stated.
+struct DriveLimits : CouplingLimits {
+  double shear_stress = 0, polar_modulus = 0;  // [Pa], W_p [m³]
+  double diameter = 0;                         // of that section [m]
   ShaftRating shaft = {};
   bool any() const {
     return nominal > 0 || maximum > 0 || vibratory > 0 || power > 0 || shear_stress > 0 || shaft.any();
