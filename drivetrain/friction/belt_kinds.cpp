@@ -114,17 +114,13 @@ void build_belt(const Section& s, Network& net, Messages& messages) {
                 .axial_stiffness = b.axial_stiffness.value_or(0),
                 .damping = b.damping};
   data.limit = b.limit();
+  net.data.add(s.name, BeltRating{b.pretension, data.radius, data.limit, b.allowable_tension, b.slip_reserve});
   if (b.axial_stiffness) data.stiffness = 2 * data.axial_stiffness * data.radius * data.radius / b.strand();
   if (data.stiffness > 0) return net.connect(in, out, data.ratio, s.name, data);
   net.connect(in, out, data.ratio, s.name, RigidBelt{data.limit, data.describe()});
 }
 
 }  // namespace
-
-BeltRating belt_rating(const Section& section) {
-  const BeltKeys b = belt_fields().read(section);
-  return {b.pretension, 0.5 * b.diameter_in, b.limit(), b.allowable_tension, b.slip_reserve};
-}
 
 std::vector<Kind> belt_kinds() {
   return {

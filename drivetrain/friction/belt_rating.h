@@ -3,8 +3,6 @@
 
 #include <optional>
 
-#include "engine/scene/scene.h"
-
 namespace kurbel {
 
 struct BeltRating {
@@ -16,7 +14,5 @@ struct BeltRating {
   // Of the tight strand at a torque on the driving pulley, fixed centres: T₁ + T₂ = 2 F₀, T₁ − T₂ = |τ|/r₁ [N].
   double tight_strand(double torque) const { return pretension + 0.5 * (torque < 0 ? -torque : torque) / radius; }
 };
-// Of a sound section of kind "belt".
-BeltRating belt_rating(const Section& section);
 
 }  // namespace kurbel

@@ -156,10 +156,12 @@ void join_by(const Section& s, const SideInertias& inertia, Network& net, Elemen
 void build_clutch(const Section& s, Network& net, Messages& messages) {
   const auto clutch = clutch_fields().read(s, messages);
   const Capacity& c = clutch.capacity;
+  net.data.add(s.name, clutch.heat);
   join_by(s, clutch.inertia, net, FrictionClutch{c.kinetic, c.breakaway, c.slope});
 }
 void build_limiter(const Section& s, Network& net, Messages& messages) {
   const auto limiter = limiter_fields().read(s, messages);
+  net.data.add(s.name, limiter.heat);
   join_by(s, limiter.inertia, net, FrictionClutch{limiter.torque * limiter.slipping_part, limiter.torque, 0});
 }
 void build_one_way(const Section& s, Network& net, Messages& messages) {
@@ -170,6 +172,7 @@ void build_one_way(const Section& s, Network& net, Messages& messages) {
 void build_brake(const Section& s, Network& net, Messages& messages) {
   const auto brake = brake_fields().read(s, messages);
   const Capacity& c = brake.capacity;
+  net.data.add(s.name, brake.heat);
   net.put(single_shaft(s, brake.inertia, net), s.name, FrictionBrake{c.kinetic, c.breakaway, c.slope}, brake.window);
 }
 

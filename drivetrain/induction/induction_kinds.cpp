@@ -77,20 +77,6 @@ double synchronous_speed_of(const InductionMotor& motor) { return motor.synchron
 double synchronous_speed_of(const CatalogueMotor& motor) { return motor.synchronous_speed; }
 double synchronous_speed_of(const TwoAxisMotor& motor) { return motor.line.synchronous_speed; }
 
-void build_induction(const Section& s, Network& net, Messages& messages) {
-  const auto motor = induction_fields().read(s, messages);
-  const int node = single_shaft(s, motor.inertia, net);
-  const std::size_t before = messages.all().size();
-  const auto law = induction_law(motor);
-  std::optional<double> speed;
-  if (law) speed = std::visit([](const auto& m) { return synchronous_speed_of(m); }, *law);
-  check_start(motor, speed);
-  if (!law || messages.all().size() > before) return;
-  if (const auto* two_axis = std::get_if<TwoAxisMotor>(&*law)) return net.put(node, s.name, *two_axis, motor.window);
-  if (const auto* points = std::get_if<CatalogueMotor>(&*law)) return put_started(s.name, motor, *points, net, node);
-  put_started(s.name, motor, std::get<InductionMotor>(*law), net, node);
-}
-
 // The mains that a synchronous speed [rad/s] belongs to, with a whole number of pole pairs; 50 Hz where both fit.
 double mains_at(double synchronous_speed) {
   const auto fits = [&](double frequency) {
@@ -100,40 +86,57 @@ double mains_at(double synchronous_speed) {
   return !fits(50) && fits(60) ? 60 : 50;
 }
 
-}  // namespace
-
-std::optional<InductionData> induction_data(const Section& component) {
-  if (component.kind->name != "induction motor") return {};
-  Messages unheard("");
-  const auto motor = induction_fields().read(component, unheard);
-  const auto law = induction_law(motor);
-  if (!law) return {};
+InductionData data_of(const InductionKeys& motor, const InductionLaw& law) {
   InductionData data;
-  if (const auto* circuit = std::get_if<TwoAxisMotor>(&*law))
+  if (const auto* circuit = std::get_if<TwoAxisMotor>(&law))
     data = {circuit->line.rated_torque, circuit->line.synchronous_speed, circuit->line.breakdown_slip};
-  else if (const auto* kloss = std::get_if<InductionMotor>(&*law))
+  else if (const auto* kloss = std::get_if<InductionMotor>(&law))
     data = {kloss->rated_torque, kloss->synchronous_speed, kloss->breakdown_slip};
-  else if (const auto* points = std::get_if<CatalogueMotor>(&*law))
+  else if (const auto* points = std::get_if<CatalogueMotor>(&law))
     data = {points->rated_torque, points->synchronous_speed, 1 - points->breakdown_speed / points->synchronous_speed};
   data.mains = motor.frequency ? *motor.frequency : motor.poles ? motor.mains : mains_at(data.synchronous_speed);
-  data.has_circuit = std::holds_alternative<TwoAxisMotor>(*law);
+  data.has_circuit = std::holds_alternative<TwoAxisMotor>(law);
   data.by_converter = motor.starting == Starting::frequency_converter;
   return data;
 }
 
-std::optional<InductionWindings> induction_windings(const Section& component) {
-  if (component.kind->name != "induction motor") return {};
-  Messages unheard("");
-  const auto motor = induction_fields().read(component, unheard);
-  const auto law = induction_law(motor);
-  const TwoAxisMotor* const found = law ? std::get_if<TwoAxisMotor>(&*law) : nullptr;
-  if (!found) return {};
-  InductionWindings windings{found->circuit.stator_resistance, found->circuit.rotor_resistance};
+InductionWindings windings_of(const InductionKeys& motor, const EquivalentCircuit& circuit) {
+  InductionWindings windings{circuit.stator_resistance, circuit.rotor_resistance};
   if (motor.rated_speed)
-    windings.rated_current =
-        line_current(found->circuit, 1 - *motor.rated_speed / found->circuit.synchronous_speed()).current;
+    windings.rated_current = line_current(circuit, 1 - *motor.rated_speed / circuit.synchronous_speed()).current;
   return windings;
 }
+
+MotorRating rating_of(const InductionKeys& m) {
+  MotorRating rating{.duty = m.duty};
+  if (m.rated_power && m.rated_speed) rating.torque = *m.rated_power / *m.rated_speed;
+  if (m.breakdown_torque)
+    rating.breakdown = m.voltage_factor * m.voltage_factor * *m.breakdown_torque;
+  else if (rating.torque && m.breakdown_ratio)
+    rating.breakdown = m.voltage_factor * m.voltage_factor * *m.breakdown_ratio * *rating.torque;
+  return rating;
+}
+
+void build_induction(const Section& s, Network& net, Messages& messages) {
+  const auto motor = induction_fields().read(s, messages);
+  const int node = single_shaft(s, motor.inertia, net);
+  const std::size_t before = messages.all().size();
+  const auto law = induction_law(motor);
+  std::optional<double> speed;
+  if (law) speed = std::visit([](const auto& m) { return synchronous_speed_of(m); }, *law);
+  check_start(motor, speed);
+  if (!law || messages.all().size() > before) return;
+  net.data.add(s.name, data_of(motor, *law));
+  net.data.add(s.name, rating_of(motor));
+  if (const auto* two_axis = std::get_if<TwoAxisMotor>(&*law)) {
+    net.data.add(s.name, windings_of(motor, two_axis->circuit));
+    return net.put(node, s.name, *two_axis, motor.window);
+  }
+  if (const auto* points = std::get_if<CatalogueMotor>(&*law)) return put_started(s.name, motor, *points, net, node);
+  put_started(s.name, motor, std::get<InductionMotor>(*law), net, node);
+}
+
+}  // namespace
 
 std::vector<Kind> induction_kinds() {
   return {

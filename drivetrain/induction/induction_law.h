@@ -17,7 +17,7 @@ using InductionLaw = std::variant<InductionMotor, CatalogueMotor, TwoAxisMotor>;
 // None where the keys do not fit each other; what is wrong stands in the reading's messages.
 std::optional<InductionLaw> induction_law(const Reading<InductionKeys>& motor);
 
-// An induction motor as a study sees it, whatever keys described it.
+// An induction motor as a study sees it, whatever keys described it (Network::data).
 struct InductionData {
   double rated_torque = 0;       // M_n [N·m]; where the scene does not say it half of the breakdown torque
   double synchronous_speed = 0;  // ω_s [rad/s]
@@ -26,15 +26,11 @@ struct InductionData {
   bool has_circuit = false;      // data of the two-axis model
   bool by_converter = false;     // its supply is no mains
 };
-// Of a component that a scene has read without a fault; none: it is no induction motor.
-std::optional<InductionData> induction_data(const Section& component);
 
-// Of its two-axis circuit.
+// Of its two-axis circuit, where it has one (Network::data).
 struct InductionWindings {
   double stator_resistance = 0, rotor_resistance = 0;  // R_s, R_r′ [Ω]
   double rated_current = 0;                            // effective, of a line, at the rated slip [A]; 0: not known
 };
-// None: it has no circuit.
-std::optional<InductionWindings> induction_windings(const Section& component);
 
 }  // namespace kurbel

@@ -18,8 +18,16 @@ const Fields<BodyKeys>& body_fields() {
   return made;
 }
 
-void build_inertia(const Section& s, Network& net, Messages& messages) {
-  single_shaft(s, body_fields().read(s, messages).inertia, net);
+BodyKeys put_body(const Section& s, Network& net, Messages& messages) {
+  const auto body = body_fields().read(s, messages);
+  single_shaft(s, body.inertia, net);
+  if (body.rim.radius) net.data.add(s.name, body.rim);
+  return body;
+}
+
+void build_inertia(const Section& s, Network& net, Messages& messages) { put_body(s, net, messages); }
+void build_flywheel(const Section& s, Network& net, Messages& messages) {
+  net.data.add(s.name, Flywheel{put_body(s, net, messages).inertia});
 }
 
 }  // namespace
@@ -27,7 +35,7 @@ void build_inertia(const Section& s, Network& net, Messages& messages) {
 std::vector<Kind> inertia_kinds() {
   return {
       on_a_shaft("inertia", "rigid body on the shaft", body_fields().keys(), build_inertia),
-      on_a_shaft("flywheel", "the same, by its usual name", body_fields().keys(), build_inertia),
+      on_a_shaft("flywheel", "the same, by its usual name", body_fields().keys(), build_flywheel),
   };
 }
 

@@ -225,6 +225,10 @@ void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
   const auto m = shunt_fields().read(s, messages);
   const int node = single_shaft(s, m.inertia, net);
   if (messages.all().size() > before) return;
+  MotorRating rating{.duty = m.duty};
+  if (m.rated_torque > 0) rating.torque = m.rated_torque;
+  net.data.add(s.name, rating);
+  if (m.constant && !m.field) net.data.add(s.name, ArmatureCurrent{.by_square = 1 / (*m.constant * *m.constant)});
   if (!m.electrical())
     return net.put(node, s.name, DcShuntMotor{*m.stall_torque, *m.no_load_speed, m.rated_torque}, m.window);
   if (m.field)
@@ -294,6 +298,7 @@ const Fields<SeriesKeys>& series_fields() {
 void build_dc_series(const Section& s, Network& net, Messages& messages) {
   const auto m = series_fields().read(s, messages);
   const int node = single_shaft(s, m.inertia, net);
+  net.data.add(s.name, ArmatureCurrent{.by_mean = 1 / m.constant});
   DcSeriesMotor motor = m;
   motor.name = s.name;
   if (!m.given(&SeriesKeys::max_speed))

@@ -1,4 +1,4 @@
-// motors.h — DC shunt motor by its static characteristic M(ω) (theory 4).
+// motors.h — DC shunt motor by its static characteristic M(ω) (theory 4); the currents of DC motors by their torques.
 #pragma once
 
 #include "engine/elements/element.h"
@@ -21,6 +21,12 @@ struct DcShuntMotor {
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
   Rated rated() const { return {rated_torque > 0 ? rated_torque : stall_torque, no_load_speed}; }
+};
+
+// The mean square of an armature's current over the torque's integrals per time (Network::data).
+struct ArmatureCurrent {
+  double by_mean = 0;    // A² for a mean torque of 1 N·m: a series motor, M = κ i²
+  double by_square = 0;  // A² for a mean square of 1 N²·m²: a shunt motor under its full field, M = k i
 };
 
 }  // namespace kurbel

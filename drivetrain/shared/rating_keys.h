@@ -1,6 +1,5 @@
-// rating_keys.h — what a component may bear, where that is no part of its motion: heat of what slips, speed of a rim,
-// duty of a motor.
-// The verdicts on them stand in studies/limits.
+// rating_keys.h — what a component states that is no part of its motion: heat that what slips may take, speed of a rim,
+// torque and duty of a motor, inertia of a flywheel. Ratings are judged in studies/limits.
 #pragma once
 
 #include <optional>
@@ -33,5 +32,19 @@ struct DutyRating {
   std::optional<double> share;  // S3: of the time, in which M_N may act
 };
 const Fields<DutyRating>& duty_rating_fields();
+
+struct MotorRating {
+  std::optional<double> torque = {};  // M_n, as it is or by the rated power and speed [N·m]
+  std::optional<double> breakdown =
+      {};  // M_b of an induction motor by its catalogue, at the voltage that it runs on [N·m]
+  DutyRating duty;
+
+  bool states_duty() const { return duty.duty != DutyRating::Duty::none; }
+};
+
+// A body that the scene calls a flywheel.
+struct Flywheel {
+  double inertia = 0;  // [kg·m²]
+};
 
 }  // namespace kurbel

@@ -130,8 +130,7 @@ class Judge {
   std::optional<Answer> hangs(const Periods& p) const {
     if (!p.steady || p.run_down_begin) return {};
     for (const MotorTorque& motor : m_.motors) {
-      const Section* section = m_.scene.find(motor.component);
-      const std::optional<InductionData> data = section ? induction_data(*section) : std::nullopt;
+      const auto* data = m_.network.data.find<InductionData>(motor.component);
       if (!data || data->by_converter || !(torque_of(motor) > drives * motor.rated_torque)) continue;
       const double breakdown = data->synchronous_speed * (1 - data->breakdown_slip), now = speed_of(motor);
       const double mean = p.steady_speed * m_.node_ratio[at(motor.node)];

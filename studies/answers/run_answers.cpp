@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
 #include "studies/conclusions/headline.h"
-#include "studies/duty/motor_figures.h"
 #include "studies/findings/figure_text.h"
 #include "studies/limits/ratings.h"
 
@@ -64,21 +64,22 @@ void overloaded_motors(const Result& r, std::vector<Answer>& answers) {
   for (const Figure& f : r.figures) {
     const bool by_torque = f.name == Name::own("thermal_use", f.of).text;
     if (!by_torque && f.name != Name::own("current_use", f.of).text) continue;
-    const Section* motor = r.model ? r.model->scene.find(f.of) : nullptr;
-    if (!motor || !(f.value - f.error.value_or(0) > 1)) continue;
+    if (!r.model || !(f.value - f.error.value_or(0) > 1)) continue;
     const char* of = r.model->commands.empty() ? "its steady motion" : "its heaviest cycle";
-    if (std::optional<Answer> answer = overload_answer(*motor, f.value, by_torque, of))
+    if (std::optional<Answer> answer = overload_answer(*r.model, f.of, f.value, by_torque, of))
       answers.push_back(std::move(*answer));
   }
 }
 
 }  // namespace
 
-std::optional<Answer> overload_answer(const Section& motor, double use, bool by_torque, const std::string& of) {
-  if (motor.has("duty") || !(use > 1)) return {};
-  const std::optional<double> rated = by_torque ? rated_torque_of(motor) : std::nullopt;
+std::optional<Answer> overload_answer(const Model& model, const std::string& motor, double use, bool by_torque,
+                                      const std::string& of) {
+  const auto* rating = model.network.data.find<MotorRating>(motor);
+  if (!rating || rating->states_duty() || !(use > 1)) return {};
+  const std::optional<double> rated = by_torque ? rating->torque : std::nullopt;
   return Answer{Question::bears,
-                fmt::format("\"{}\" gets too hot: the {} of {} is {:.0f} % of the rated one{}", motor.name,
+                fmt::format("\"{}\" gets too hot: the {} of {} is {:.0f} % of the rated one{}", motor,
                             by_torque ? "RMS torque" : "RMS current", of, 100 * use,
                             rated ? fmt::format("; it holds from a rated torque of {:.4g} N·m on", *rated * use) : ""),
                 use};

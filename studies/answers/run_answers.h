@@ -16,7 +16,7 @@ namespace kurbel {
 std::vector<Answer> run_answers(const Result& result, const std::string& whose = {});
 
 // A motor that steady motion uses beyond its rated torque, or current; none of one that states a duty: that is judged.
-std::optional<Answer> overload_answer(const Section& motor, double use, bool by_torque,
+std::optional<Answer> overload_answer(const Model& model, const std::string& motor, double use, bool by_torque,
                                       const std::string& of = "its steady motion");
 
 // Nothing is rated, nothing is said. The worst by its value over its limit, with the value that would mend it.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 
@@ -12,22 +13,14 @@ namespace {
 
 constexpr double likeness = 1e-4;  // falls that differ by less are the same one, come again
 
-// Flywheels whose inertia is given.
-std::vector<const Section*> flywheels_of(const Model& model) {
-  std::vector<const Section*> list;
-  for (const Section& s : model.scene.components)
-    if (s.kind->name == "flywheel" && s.has("inertia")) list.push_back(&s);
-  return list;
-}
-
 }  // namespace
 
 FlywheelFalls::FlywheelFalls(const Model& model) : sources_(model) {
-  for (const Section* s : flywheels_of(model)) {
-    const std::size_t node = at(model.network.ports.at(s->name).out);
+  for (const auto& [component, flywheel] : model.network.data.all<Flywheel>()) {
+    const std::size_t node = at(model.network.ports.at(component).out);
     if (at(model.shaft_of_node[node]) >= model.free_shafts) continue;  // its speed is given
-    wheels_.push_back({.component = s->name,
-                       .inertia = s->number("inertia"),
+    wheels_.push_back({.component = component,
+                       .inertia = flywheel.inertia,
                        .shaft = model.shaft_of_node[node],
                        .gain = model.gain_of_node[node]});
   }
@@ -99,9 +92,9 @@ std::vector<Figure> FlywheelFalls::figures(double energy_scale) const {
 
 std::vector<Figure> flywheel_fall_list(const Model& model) {
   std::vector<Figure> list;
-  for (const Section* s : flywheels_of(model)) {
-    list.push_back(Figure::of_name(Name::own("speed_drop", s->name)));
-    list.push_back(Figure::of_name(Name::own("energy_given", s->name), 0, "J"));
+  for (const auto& [component, flywheel] : model.network.data.all<Flywheel>()) {
+    list.push_back(Figure::of_name(Name::own("speed_drop", component)));
+    list.push_back(Figure::of_name(Name::own("energy_given", component), 0, "J"));
   }
   return list;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "drivetrain/induction/induction_law.h"
+#include "drivetrain/motors/motors.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -13,8 +14,7 @@ namespace {
 // Synchronous speed of an induction motor at the mains that follows its static curve, and whose field nothing reverses;
 // none: no heat of slip is told.
 std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor) {
-  const Section* section = m.scene.find(motor.component);
-  const std::optional<InductionData> data = section ? induction_data(*section) : std::nullopt;
+  const auto* data = m.network.data.find<InductionData>(motor.component);
   const bool transient = std::any_of(m.own_states.begin(), m.own_states.end(),
                                      [&](const OwnStatePlace& own) { return own.component == motor.component; });
   const bool commanded = std::any_of(m.commands.begin(), m.commands.end(),
@@ -23,25 +23,17 @@ std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor
                                                                  : std::nullopt;
 }
 
-// The armature current's mean square over the torque's integrals per time; none: no law gives the current by the torque.
-struct MeanSquareCurrent {
-  double by_mean = 0;    // A² for a mean torque of 1 N·m: a series motor, M = κ i²
-  double by_square = 0;  // A² for a mean square of 1 N²·m²: a shunt motor, M = k i
-};
-std::optional<MeanSquareCurrent> mean_square_current(const Model& m, const MotorTorque& motor) {
-  const Section* section = m.scene.find(motor.component);
-  if (!section || !section->has("constant") || section->has("field")) return {};
-  const double constant = section->number("constant");
-  if (section->kind->name == "dc shunt motor") return MeanSquareCurrent{.by_square = 1 / (constant * constant)};
+// Null: no law gives the current by the torque, whose sign a reversed series motor turns round.
+const ArmatureCurrent* armature_current(const Model& m, const MotorTorque& motor) {
+  const auto* current = m.network.data.find<ArmatureCurrent>(motor.component);
   const bool reversed = std::any_of(m.scene.sequence.steps.begin(), m.scene.sequence.steps.end(),
                                     [](const SequenceStep& step) { return step.to < 0 || !step.law.empty(); });
-  if (section->kind->name == "dc series motor" && !reversed) return MeanSquareCurrent{.by_mean = 1 / constant};
-  return {};
+  return current && current->by_mean > 0 && reversed ? nullptr : current;
 }
 
 std::optional<double> rated_torque(const Model& m, const MotorTorque& motor) {
-  const Section* section = m.scene.find(motor.component);
-  return section ? rated_torque_of(*section) : std::nullopt;
+  const auto* rating = m.network.data.find<MotorRating>(motor.component);
+  return rating ? rating->torque : std::nullopt;
 }
 
 double driving_work(const Model& m, const std::string& component, const std::vector<double>& work) {
@@ -75,8 +67,7 @@ const CycleRecord* cycle_that_heats(const MotorRun& run, std::size_t i) {
 
 // RMS current and heat of the windings of a motor whose currents are states.
 void add_currents(const MotorRun& run, const MotorTorque& motor, std::size_t i, std::vector<Figure>& out) {
-  const Section* section = run.equations.model().scene.find(motor.component);
-  const std::optional<InductionWindings> windings = section ? induction_windings(*section) : std::nullopt;
+  const auto* windings = run.equations.model().network.data.find<InductionWindings>(motor.component);
   if (!windings || !run.currents) return;
   const double heat = std::max(run.energy_scale, std::abs(motor.rated_torque * motor.rated_speed) * run.duration);
   for (const MotorCurrents::Motor& m : run.currents->motors()) {
@@ -94,7 +85,7 @@ void add_currents(const MotorRun& run, const MotorTorque& motor, std::size_t i, 
 }
 
 // Of an armature, by its greatest torque.
-void add_peak_current(const MotorRun& run, const MotorTorque& motor, const MeanSquareCurrent& law,
+void add_peak_current(const MotorRun& run, const MotorTorque& motor, const ArmatureCurrent& law,
                       std::vector<Figure>& out) {
   if (!run.known) return;
   for (const Figure& peak : *run.known)
@@ -152,20 +143,6 @@ void add_thermal_use(const MotorRun& run, const MotorTorque& motor, std::size_t 
 
 }  // namespace
 
-std::optional<double> rated_torque_of(const Section& s) {
-  if (s.has("rated_torque")) return s.number("rated_torque");
-  if (s.has("rated_power") && s.has("rated_speed")) return s.number("rated_power") / s.number("rated_speed");
-  return {};
-}
-
-std::optional<double> breakdown_torque_of(const Section& s) {
-  const double voltage = s.number_or("voltage_factor", 1);
-  if (s.has("breakdown_torque")) return voltage * voltage * s.number("breakdown_torque");
-  const std::optional<double> rated = rated_torque_of(s);
-  return rated && s.has("breakdown_ratio") ? std::optional(voltage * voltage * s.number("breakdown_ratio") * *rated)
-                                           : std::nullopt;
-}
-
 std::vector<Figure> motor_figures(const MotorRun& run) {
   const Model& m = run.equations.model();
   std::vector<Figure> figures;
@@ -177,7 +154,7 @@ std::vector<Figure> motor_figures(const MotorRun& run) {
     figures.push_back(
         figure("motor_rms_torque", motor, root_mean_square(square, run.duration), "N*m", motor.rated_torque));
     figures.push_back(figure("motor_mean_power", motor, work / run.duration, "W", run.energy_scale / run.duration));
-    if (const auto current = mean_square_current(m, motor)) {
+    if (const auto* current = armature_current(m, motor)) {
       const auto rms = [&](double torque, double of_square) {
         return std::sqrt(std::max(0.0, current->by_mean * torque + current->by_square * of_square));
       };
@@ -238,7 +215,7 @@ std::vector<Figure> motor_figure_list(const Model& m) {
   for (const MotorTorque& motor : m.motors) {
     list.push_back(figure("motor_rms_torque", motor, 0, "N*m", 0));
     list.push_back(figure("motor_mean_power", motor, 0, "W", 0));
-    if (mean_square_current(m, motor))
+    if (armature_current(m, motor))
       for (const char* words : {"motor_rms_current", "motor_peak_current"})
         list.push_back(figure(words, motor, 0, "A", 0));
     if (synchronous_speed(m, motor))

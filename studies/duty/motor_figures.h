@@ -25,12 +25,6 @@
 
 namespace kurbel {
 
-// M_n of a component that states it, or its rated power and speed [N·m].
-std::optional<double> rated_torque_of(const Section& component);
-
-// M_b of an induction motor by its catalogue, at the voltage that it runs on [N·m]; none: it states none.
-std::optional<double> breakdown_torque_of(const Section& component);
-
 // What was integrated up to the end `y` of a run that lasted `duration` [s]; `work`: per account up to there [J]; `last`:
 // the last whole cycle of a motion that repeats, else null.
 struct MotorRun {

@@ -22,17 +22,7 @@ bool is_joint_of(const std::string& joint, const std::string& component) {
   return joint.starts_with(component + ".") && !joint.ends_with(".in") && !joint.ends_with(".out");
 }
 
-bool rates_heat(const Section& s) { return s.has("allowable_heat") || s.has("allowable_heat_power"); }
-// Watched all the same: what slips by its nature.
-bool makes_heat(const Section& s) {
-  const std::string& kind = s.kind->name;
-  return kind == "clutch" || kind == "brake" || kind == "torque limiter";
-}
-bool rates_belt(const Section& s) { return s.has("allowable_tension") || s.has("slip_reserve"); }
-
-bool rates_cycle(const Section& s) {
-  return s.has("endurance_limit") || s.has("yield_strength") || s.has("allowable_vibratory_stress");
-}
+bool rates_cycle(const ShaftRating& shaft) { return shaft.endurance || shaft.yield || shaft.vibratory; }
 
 Figure figure_of(const char* words, const std::string& of, double value, const char* unit, double scale) {
   return Figure::of_name(Name::own(words, of), value, unit, scale);
@@ -41,24 +31,30 @@ Figure figure_of(const char* words, const std::string& of, double value, const c
 // What a run found of one component, against what it states.
 class Rater {
  public:
-  Rater(const Result& result, const Section& section, std::vector<Verdict>& out)
-      : result_(result), section_(section), out_(out) {}
+  Rater(const Result& result, const std::string& component, std::vector<Verdict>& out)
+      : result_(result), component_(component), out_(out) {}
 
   void all() {
-    if (rates_heat(section_)) heat();
-    if (rates_belt(section_)) belt();
-    if (section_.number_or("maximum_torque", 0) > 0) coupling();
-    if (section_.has("allowable_shear_stress")) shaft();
-    if (rates_cycle(section_)) cycle_of_stress();
-    if (section_.has("rim_radius")) rim();
-    if (section_.has("duty")) motor();
+    if (const auto* rating = stated<HeatRating>()) heat(*rating);
+    if (const auto* rating = stated<BeltRating>()) belt(*rating);
+    if (const auto* limits = stated<CouplingLimits>(); limits && limits->maximum > 0) coupling(*limits);
+    if (const auto* keys = stated<ShaftKeys>()) {
+      if (keys->allowable_shear_stress) shaft(*keys);
+      if (rates_cycle(keys->rating)) cycle_of_stress(*keys);
+    }
+    if (const auto* rating = stated<RimRating>()) rim(*rating);
+    if (const auto* rating = stated<MotorRating>(); rating && rating->states_duty()) motor(*rating);
   }
 
  private:
+  template <class T>
+  const T* stated() const {
+    return result_.model->network.data.find<T>(component_);
+  }
   // `mends` makes words of the value that would hold; it gets how many times too large the value may be.
   template <class Mends>
   void add(const char* requirement, const Estimate& value, double limit, const char* unit, const Mends& mends) {
-    Verdict v{section_.name, requirement, value.value, limit, unit, "", value.error.value_or(0)};
+    Verdict v{component_, requirement, value.value, limit, unit, "", value.error.value_or(0)};
     if (v.state() != Compliance::holds) v.note = mends((v.value + v.error) / limit);
     if (!result_.errors_measured) v.note += std::string(v.note.empty() ? "" : "; ") + "its error was not measured";
     out_.push_back(std::move(v));
@@ -68,9 +64,8 @@ class Rater {
     return f ? std::optional(abs(*f)) : std::nullopt;
   }
 
-  void heat() {
-    const HeatRating rating = heat_rating_fields().read(section_);
-    const auto hottest = found("engagement_heat." + section_.name), power = found("heat_power." + section_.name);
+  void heat(const HeatRating& rating) {
+    const auto hottest = found("engagement_heat." + component_), power = found("heat_power." + component_);
     if (rating.engagement && hottest)
       add("heat of an engagement: W ≤ W_allowable", *hottest, *rating.engagement, "J", [](double times) {
         return fmt::format(
@@ -84,9 +79,8 @@ class Rater {
       });
   }
 
-  void belt() {
-    const BeltRating b = belt_rating(section_);
-    const auto peak = found("peak_torque." + section_.name), strand = found("strand_force." + section_.name);
+  void belt(const BeltRating& b) {
+    const auto peak = found("peak_torque." + component_), strand = found("strand_force." + component_);
     if (b.tension && strand)
       add("strand force: F₀ + |τ|/(2 r₁) ≤ F_allowable", *strand, *b.tension, "N", [&](double) {
         const double left = *b.tension - b.pretension, pull = strand->value + strand->error.value_or(0) - b.pretension;
@@ -113,8 +107,7 @@ class Rater {
   }
 
   // DIN 740-2: where starts weigh more than the mean torque, how much of that acts is not known here, and none counts.
-  void coupling() {
-    const CouplingLimits limits = coupling_limit_fields().read(section_);
+  void coupling(const CouplingLimits& limits) {
     const auto largest = largest_torque();
     if (!largest) return;
     const double factor = limits.temperature_factor * limits.start_factor;
@@ -127,8 +120,7 @@ class Rater {
                                       limits.temperature_factor, limits.start_factor);
   }
 
-  void shaft() {
-    const ShaftKeys shaft = shaft_fields().read(section_);
+  void shaft(const ShaftKeys& shaft) {
     const double modulus = shaft.polar_modulus();
     const auto largest = largest_torque();
     if (!largest) return;
@@ -140,8 +132,7 @@ class Rater {
   }
 
   // The widest cycle that rainflow could count: of the segment where it is worst.
-  void cycle_of_stress() {
-    const ShaftKeys shaft = shaft_fields().read(section_);
+  void cycle_of_stress(const ShaftKeys& shaft) {
     const double modulus = shaft.polar_modulus();
     JointLoad widest, largest;
     for (const Figure& f : result_.figures) {
@@ -169,11 +160,10 @@ class Rater {
     if (rating.yield)
       add(requirement::yield, rating.safety * abs(largest.largest()) / modulus, rating.yield_in_shear(), "Pa", thicker);
   }
-  bool is_of(const std::string& joint) const { return is_joint_of(joint, section_.name); }
+  bool is_of(const std::string& joint) const { return is_joint_of(joint, component_); }
 
-  void rim() {
-    const RimRating rating = rim_rating_fields().read(section_);
-    const auto speed = found("rim_speed." + section_.name);
+  void rim(const RimRating& rating) {
+    const auto speed = found("rim_speed." + component_);
     if (!speed) return;
     const auto smaller = [&](double times) {
       return fmt::format("it holds up to rim_radius = {:.4g} mm at this speed", 1e3 * *rating.radius / times);
@@ -185,18 +175,17 @@ class Rater {
         *rating.stress, "Pa", [&](double times) { return smaller(std::sqrt(times)); });
   }
 
-  void motor() {
-    const DutyRating rating = duty_rating_fields().read(section_);
-    const auto rms = found("motor_rms_torque." + section_.name);
-    const auto data = induction_data(section_);
-    const double rated = data ? data->rated_torque : section_.number_or("rated_torque", 0);
+  void motor(const MotorRating& rating) {
+    const auto rms = found("motor_rms_torque." + component_);
+    const auto* data = stated<InductionData>();
+    const double rated = data ? data->rated_torque : rating.torque.value_or(0);
     if (!rms || !(rated > 0)) return;
     const auto mends = [&](double times) {
       return fmt::format("it holds from a rated torque of {:.4g} N·m on", rated * times);
     };
     // Continuous duty is that of the steady motion, where the run comes to one: a start is soon forgotten.
-    const bool continuous = !rating.time && !rating.share && result_.find(QuantityKind::run_up_time, "");
-    if (const auto use = continuous ? found("thermal_use." + section_.name) : std::nullopt) {
+    const bool continuous = !rating.duty.time && !rating.duty.share && result_.find(QuantityKind::run_up_time, "");
+    if (const auto use = continuous ? found("thermal_use." + component_) : std::nullopt) {
       const bool changes = result_.model && !result_.model->commands.empty();
       add(changes ? "RMS torque of the heaviest cycle: √(∫ M² dt/T) ≤ M_N"
                   : "RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N",
@@ -204,7 +193,7 @@ class Rater {
     } else {
       // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
       const double span = result_.until - result_.begins_at,
-                   part = rating.time ? *rating.time / span : rating.share.value_or(1);
+                   part = rating.duty.time ? *rating.duty.time / span : rating.duty.share.value_or(1);
       add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", *rms, rated * std::sqrt(part), "N*m", mends);
     }
     std::string& note = out_.back().note;
@@ -212,26 +201,29 @@ class Rater {
   }
 
   const Result& result_;
-  const Section& section_;
+  const std::string& component_;
   std::vector<Verdict>& out_;
 };
+
+void add_heat_figures(const std::string& component, std::vector<Figure>& list) {
+  for (const auto& [words, unit] : {std::pair("engagement_heat", "J"), {"slip_time", "s"}, {"heat_power", "W"}})
+    list.push_back(figure_of(words, component, 0, unit, 0));
+}
 
 }  // namespace
 
 std::unique_ptr<HeatRecorder> heat_recorder_of(const Model& model) {
   std::vector<std::string> watched;
-  for (const Section& s : model.scene.components)
-    if (rates_heat(s) || makes_heat(s)) watched.push_back(s.name);
+  for (const auto& [component, rating] : model.network.data.all<HeatRating>()) watched.push_back(component);
   return watched.empty() ? nullptr : std::make_unique<HeatRecorder>(watched);
 }
 
 std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
   std::vector<ExtremeOf> wanted;
-  for (const Section& s : model.scene.components) {
-    if (!s.has("rim_radius")) continue;
-    const int node = model.network.ports.at(s.name).out, shaft = model.shaft_of_node[at(node)];
-    const double gain = *rim_rating_fields().read(s).radius * model.gain_of_node[at(node)];
-    ExtremeOf rim{.name = Name::own("rim_speed", s.name),
+  for (const auto& [component, rating] : model.network.data.all<RimRating>()) {
+    const int node = model.network.ports.at(component).out, shaft = model.shaft_of_node[at(node)];
+    const double gain = *rating.radius * model.gain_of_node[at(node)];
+    ExtremeOf rim{.name = Name::own("rim_speed", component),
                   .unit = "m/s",
                   .scale = std::abs(gain) * model.speed_scale * model.scale_ratio[at(node)] /
                            std::max(1e-300, std::abs(model.gain_of_node[at(node)])),
@@ -246,8 +238,8 @@ std::vector<ExtremeOf> rim_speeds_of(const Model& model) {
 std::vector<ExtremeOf> shaft_torques_of(const Model& model) {
   std::vector<ExtremeOf> wanted;
   std::vector<std::string> rated;
-  for (const Section& s : model.scene.components)
-    if (rates_cycle(s)) rated.push_back(s.name);
+  for (const auto& [component, shaft] : model.network.data.all<ShaftKeys>())
+    if (rates_cycle(shaft.rating)) rated.push_back(component);
   if (rated.empty()) return wanted;
   for (const ExtremeOf& peak : extremes_of(model)) {
     if (peak.name.what != QuantityKind::peak_torque) continue;
@@ -272,40 +264,37 @@ std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat,
       figures.push_back(figure_of("slip_time", h.component, h.slips, "s", duration));
       figures.push_back(figure_of("heat_power", h.component, h.total / duration, "W", energy / duration));
     }
-  for (const Section& s : model.scene.components) {
-    if (s.kind->name != "belt") continue;
-    const BeltRating belt = belt_rating(s);
+  for (const auto& [component, belt] : model.network.data.all<BeltRating>())
     for (const Figure& f : known)
-      if (f.what == QuantityKind::peak_torque && f.of == s.name) {
+      if (f.what == QuantityKind::peak_torque && f.of == component) {
         const double tight = belt.tight_strand(f.value), usual = belt.tight_strand(belt.limit);
-        figures.push_back(figure_of("strand_force", s.name, tight, "N", usual));
-        figures.push_back(figure_of("slack_force", s.name, 2 * belt.pretension - tight, "N", usual));
+        figures.push_back(figure_of("strand_force", component, tight, "N", usual));
+        figures.push_back(figure_of("slack_force", component, 2 * belt.pretension - tight, "N", usual));
       }
-  }
   return figures;
 }
 
 std::vector<Figure> watched_figure_list(const Model& model) {
   std::vector<Figure> list;
-  for (const Section& s : model.scene.components) {
-    if (makes_heat(s))
-      for (const auto& [words, unit] : {std::pair("engagement_heat", "J"), {"slip_time", "s"}, {"heat_power", "W"}})
-        list.push_back(figure_of(words, s.name, 0, unit, 0));
-    if (s.kind->name == "belt")
-      for (const char* words : {"strand_force", "slack_force"}) list.push_back(figure_of(words, s.name, 0, "N", 0));
+  for (const std::string& component : model.network.components) {
+    if (model.network.data.find<HeatRating>(component)) add_heat_figures(component, list);
+    if (model.network.data.find<BeltRating>(component))
+      for (const char* words : {"strand_force", "slack_force"}) list.push_back(figure_of(words, component, 0, "N", 0));
   }
   return list;
 }
 
 std::vector<Figure> rating_figure_list(const Model& model) {
   std::vector<Figure> list;
-  for (const Section& s : model.scene.components) {
-    if (rates_heat(s))
-      for (const auto& [words, unit] : {std::pair("engagement_heat", "J"), {"slip_time", "s"}, {"heat_power", "W"}})
-        list.push_back(figure_of(words, s.name, 0, unit, 0));
-    if (rates_belt(s)) list.push_back(figure_of("strand_force", s.name, 0, "N", 0));
-    if (s.has("duty")) list.push_back(figure_of("motor_rms_torque", s.name, 0, "N*m", 0));
-    if (s.has("rim_radius")) list.push_back(figure_of("rim_speed", s.name, 0, "m/s", 0));
+  const ComponentData& data = model.network.data;
+  for (const std::string& component : model.network.components) {
+    const auto* heat = data.find<HeatRating>(component);
+    if (heat && (heat->engagement || heat->power)) add_heat_figures(component, list);
+    const auto* belt = data.find<BeltRating>(component);
+    if (belt && (belt->tension || belt->reserve)) list.push_back(figure_of("strand_force", component, 0, "N", 0));
+    const auto* motor = data.find<MotorRating>(component);
+    if (motor && motor->states_duty()) list.push_back(figure_of("motor_rms_torque", component, 0, "N*m", 0));
+    if (data.find<RimRating>(component)) list.push_back(figure_of("rim_speed", component, 0, "m/s", 0));
   }
   for (const ExtremeOf& torque : shaft_torques_of(model)) list.push_back(Figure::of_name(torque.name, 0, torque.unit));
   return list;
@@ -314,7 +303,7 @@ std::vector<Figure> rating_figure_list(const Model& model) {
 std::vector<Verdict> judge_ratings(const Result& result) {
   std::vector<Verdict> verdicts;
   if (!result.complete || !result.model) return verdicts;
-  for (const Section& s : result.model->scene.components) Rater(result, s, verdicts).all();
+  for (const std::string& component : result.model->network.components) Rater(result, component, verdicts).all();
   return verdicts;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/duty/holding.h"
@@ -62,11 +63,10 @@ struct FlywheelOnLink {
 std::vector<FlywheelOnLink> flywheels_on_link(const Model& model) {
   std::vector<FlywheelOnLink> list;
   const std::size_t link = at(model.reduction_node);
-  for (const Section& s : model.scene.components) {
-    if (s.kind->name != "flywheel" || !s.has("inertia")) continue;
-    const std::size_t node = at(model.network.ports.at(s.name).out);
+  for (const auto& [component, flywheel] : model.network.data.all<Flywheel>()) {
+    const std::size_t node = at(model.network.ports.at(component).out);
     if (model.shaft_of_node[node] == model.shaft_of_node[link])
-      list.push_back({s.name, s.number("inertia"), model.gain_of_node[node] / model.gain_of_node[link]});
+      list.push_back({component, flywheel.inertia, model.gain_of_node[node] / model.gain_of_node[link]});
   }
   return list;
 }

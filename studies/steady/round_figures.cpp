@@ -8,8 +8,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
-#include "studies/duty/motor_figures.h"
 #include "studies/findings/report.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/figures.h"
@@ -204,8 +204,8 @@ class RoundFigures {
       }
       if (const auto delta = f.delta()) add(Name::make(QuantityKind::delta, f.shaft), *delta, "", 1);
       // What a flywheel gives from its largest to its least speed.
-      if (const Section* s = m_.scene.find(f.shaft); s && s->kind->name == "flywheel" && s->has("inertia"))
-        add(Name::own("flywheel_energy", f.shaft), 0.5 * s->number("inertia") * std::abs(f.max * f.max - f.min * f.min),
+      if (const auto* flywheel = m_.network.data.find<Flywheel>(f.shaft))
+        add(Name::own("flywheel_energy", f.shaft), 0.5 * flywheel->inertia * std::abs(f.max * f.max - f.min * f.min),
             "J", m_.torque_scale * 2 * std::numbers::pi);
       round_.shafts.push_back(std::move(f));
     }
@@ -234,10 +234,10 @@ class RoundFigures {
                    sums[0] / time,
                    extremes_.found()[first + i].value,
                    {}};
-      if (const Section* section = m_.scene.find(use.component)) {
-        use.rated = rated_torque_of(*section);
-        if (const std::optional<double> breakdown = breakdown_torque_of(*section); breakdown && *breakdown > 0)
-          add(Name::own("breakdown_use", use.component), std::abs(use.peak) / *breakdown, "", 1);
+      if (const auto* rating = m_.network.data.find<MotorRating>(use.component)) {
+        use.rated = rating->torque;
+        if (rating->breakdown && *rating->breakdown > 0)
+          add(Name::own("breakdown_use", use.component), std::abs(use.peak) / *rating->breakdown, "", 1);
       }
       add(Name::make(QuantityKind::mean_drive_torque, use.component), use.mean, "N*m", m_.torque_scale);
       add(Name::make(QuantityKind::rms_drive_torque, use.component), use.rms, "N*m", m_.torque_scale);

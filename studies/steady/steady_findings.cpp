@@ -396,8 +396,8 @@ Findings findings_of(const SteadyStudy& s) {
                fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), 50);
   for (const std::string& sentence : s.cycles.back().outside_data) f.answer(Question::sure, capitalised(sentence), 0.5);
   for (const MotorUse& use : s.cycles.back().motors)
-    if (const Section* motor = s.cycles.back().model->scene.find(use.component); motor && use.rated)
-      if (std::optional<Answer> answer = overload_answer(*motor, *use.thermal(), true))
+    if (use.rated)
+      if (std::optional<Answer> answer = overload_answer(*s.cycles.back().model, use.component, *use.thermal(), true))
         f.answers.push_back(std::move(*answer));
   const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());
   for (Answer& answer : rating_answers(ratings)) f.answers.push_back(std::move(answer));

@@ -22,12 +22,11 @@ void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
   const Figure* fastest = nullptr;
   for (const Figure& f : c.figures)
     if (f.what == QuantityKind::cycle_max_speed) fastest = &f;
-  for (const Section& s : c.model->scene.components) {
-    if (!s.has("rim_radius")) continue;
+  for (const auto& [component, rating] : c.model->network.data.all<RimRating>()) {
     for (const ShaftFluctuation& shaft : c.shafts) {
-      if (shaft.shaft != s.name) continue;
-      const double speed = *rim_rating_fields().read(s).radius * std::max(std::abs(shaft.max), std::abs(shaft.min));
-      Figure rim = Figure::of_name(Name::own("rim_speed", s.name), speed, "m/s");
+      if (shaft.shaft != component) continue;
+      const double speed = *rating.radius * std::max(std::abs(shaft.max), std::abs(shaft.min));
+      Figure rim = Figure::of_name(Name::own("rim_speed", component), speed, "m/s");
       if (fastest && fastest->error && fastest->value != 0)
         rim.error = speed * *fastest->error / std::abs(fastest->value);
       as_run.figures.push_back(std::move(rim));
@@ -87,8 +86,8 @@ std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
   std::vector<Verdict> verdicts = judge_ratings(as_run);
   add_loads(c, verdicts);
   std::erase_if(verdicts, [&](const Verdict& v) {
-    const Section* s = c.model->scene.find(v.component);
-    return s && s->has("duty") && duty_rating_fields().read(*s).duty == DutyRating::Duty::short_time;
+    const auto* motor = c.model->network.data.find<MotorRating>(v.component);
+    return motor && motor->duty.duty == DutyRating::Duty::short_time;
   });
   return verdicts;
 }

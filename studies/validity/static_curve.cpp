@@ -23,10 +23,9 @@ struct StaticMotor {
 // Of a frequency converter the supply is no mains.
 std::vector<StaticMotor> static_motors(const Model& model) {
   std::vector<StaticMotor> list;
-  for (const Section& s : model.scene.components) {
-    const auto motor = induction_data(s);
-    if (!motor || motor->by_converter || (motor->has_circuit && model.effects.transients)) continue;
-    list.push_back({s.name, motor->rated_torque, motor->breakdown_slip, motor->mains, motor->has_circuit});
+  for (const auto& [component, motor] : model.network.data.all<InductionData>()) {
+    if (motor.by_converter || (motor.has_circuit && model.effects.transients)) continue;
+    list.push_back({component, motor.rated_torque, motor.breakdown_slip, motor.mains, motor.has_circuit});
   }
   return list;
 }

@@ -96,10 +96,11 @@ inertia = "0.1 kg*m2"
 kind = "flywheel"
 inertia = "2 kg*m2"
 )");
-    const double was = induction_data(scene.components.front())->synchronous_speed;
+    const double was = build_network(scene).data.find<InductionData>("motor")->synchronous_speed;
     EXPECT_FALSE(scale_speeds(scene, 1.2).empty());
-    const auto now = induction_data(*scene.find("motor"));
-    ASSERT_TRUE(now.has_value()) << by;
+    const Network network = build_network(scene);
+    const auto* now = network.data.find<InductionData>("motor");
+    ASSERT_NE(now, nullptr) << by;
     EXPECT_NEAR(now->synchronous_speed, 1.2 * was, 1e-9 * was) << by;
     EXPECT_NO_THROW(compile(scene, {})) << by;
   }
