@@ -227,6 +227,9 @@ void build_gearbox(const Section& s, Network& net, Messages& messages) {
   needs_support(&Keys::housing_inertia);
   needs_support(&Keys::reversing);
   if (stages.empty()) return;
+  StageTeeth teeth;
+  for (const StageKeys& stage : box.stages) teeth.stages.push_back({1.0 * stage.teeth[0], 1.0 * stage.teeth[1]});
+  net.data.add(s.name, std::move(teeth));
 
   const GearEfficiency* losses = box.given(&Keys::losses) ? &box.losses : nullptr;
   int before = net.add_node(s.name, "in", stages.front().inertia[0]);

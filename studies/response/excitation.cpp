@@ -8,6 +8,7 @@
 #include <numeric>
 #include <unsupported/Eigen/FFT>
 
+#include "drivetrain/gears/gear_train_keys.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -294,16 +295,13 @@ class SourceSearch {
 
   // Teeth of the driving wheel times the speed of its shaft, stage by stage.
   void find_meshes() {
-    for (const Section& section : m_.scene.components) {
-      if (!section.kind || section.kind->name != "gearbox" || !section.has("stages")) continue;
-      double ratio = m_.scale_ratio[at(m_.network.ports.at(section.name).in)];
+    for (const auto& [gearbox, teeth] : m_.network.data.all<StageTeeth>()) {
+      double ratio = m_.scale_ratio[at(m_.network.ports.at(gearbox).in)];
       int k = 0;
-      for (const Section& stage : section["stages"].sections) {
-        if (!stage.has("teeth") || stage["teeth"].numbers.size() != 2) continue;
-        const std::vector<double>& teeth = stage["teeth"].numbers;
+      for (const auto& [driving, driven] : teeth.stages) {
         found_.meshes.push_back(
-            {fmt::format("{}, stage {}: {:g}/{:g} teeth", section.name, ++k, teeth[0], teeth[1]), teeth[0] * ratio});
-        ratio *= teeth[0] / teeth[1];
+            {fmt::format("{}, stage {}: {:g}/{:g} teeth", gearbox, ++k, driving, driven), driving * ratio});
+        ratio *= driving / driven;
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "drivetrain/gears/gear_train_keys.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -314,15 +315,15 @@ std::vector<std::size_t> gears_of(const Network& net, const std::string& compone
 
 class RatioTrial {
  public:
-  RatioTrial(const Scene& scene, const Effects& effects, std::string gearbox, double target, double limit,
-             const std::atomic<bool>* interrupted)
-      : scene_(scene),
+  RatioTrial(const Network& network, const Scene& scene, const Effects& effects, std::string gearbox, double target,
+             double limit, const std::atomic<bool>* interrupted)
+      : network_(network),
+        scene_(scene),
         effects_(effects),
         gearbox_(std::move(gearbox)),
         target_(target),
         limit_(limit),
         interrupted_(interrupted) {
-    network_ = build_network(scene);
     const auto model = compile_network(network_, scene, effects_);
     node_ = network_.ports.at(gearbox_).out;
     target_ *= model->node_ratio[at(node_)];
@@ -360,12 +361,12 @@ class RatioTrial {
     return false;
   }
 
+  const Network& network_;
   const Scene& scene_;
   const Effects& effects_;
   std::string gearbox_;
   double target_, limit_;
   const std::atomic<bool>* interrupted_;
-  Network network_;
   double present_ = 1;
   bool lies_in_a_loop_ = false;
   int node_ = 0;
@@ -380,11 +381,11 @@ constexpr int fine_ratios = 22;    // steps of the golden section, to 1e-5 of th
 std::vector<RatioSearch> fastest_ratios(const Scene& scene, const Effects& effects, double target, double limit,
                                         const std::atomic<bool>* interrupted) {
   std::vector<RatioSearch> found;
-  for (const Section& component : scene.components) {
-    if (component.kind->name != "gearbox") continue;
-    RatioTrial trial(scene, effects, component.name, target, limit, interrupted);
+  const Network network = build_network(scene);
+  for (const auto& [gearbox, teeth] : network.data.all<StageTeeth>()) {
+    RatioTrial trial(network, scene, effects, gearbox, target, limit, interrupted);
     if (!trial.has_gears()) continue;
-    RatioSearch search{component.name, trial.present(), 0, 0, 0, {}, {}, false};
+    RatioSearch search{gearbox, trial.present(), 0, 0, 0, {}, {}, false};
     const double reached = trial(trial.present());
     search.present_time = std::isfinite(reached) ? reached : 0;
     int best = -1;
