@@ -30,12 +30,18 @@ void build_component(const Section& section, Network& network, Messages& message
     messages.add(section.at, fmt::format("{} \"{}\": its values do not fit together: {}; check them, and their units",
                                          section.kind->name, section.name, why.what()));
   };
+  const std::size_t ranges = network.ranges.size();
+  network.kinds[section.name] = section.kind->name;
   try {
     section.kind->build(section, network, messages);
   } catch (const std::invalid_argument& error) {
     refuse(error);
   } catch (const std::runtime_error& error) {
     refuse(error);
+  }
+  for (std::size_t k = ranges; k < network.ranges.size(); ++k) {
+    Network::DataRange& range = network.ranges[k];
+    range.at = section.where(section.has(range.of) ? range.of : "table");
   }
 }
 

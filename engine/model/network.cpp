@@ -24,6 +24,11 @@ double Network::share_of_twist(const Joint& joint) const {
                           : 1 / static_cast<double>(shaft.nodes.size() - 1);
 }
 
+std::string Network::kind_of(const std::string& component) const {
+  const auto kind = kinds.find(component);
+  return kind == kinds.end() ? "" : kind->second;
+}
+
 void Network::join(int a, int b, double ratio, const std::string& component) {
   joints.push_back({.a = a, .b = b, .ratio = ratio, .component = component});
 }

@@ -12,6 +12,7 @@
 #include "engine/elements/gear_loss.h"
 #include "engine/model/component_data.h"
 #include "engine/numerics/curve.h"
+#include "engine/scene/messages.h"
 
 namespace kurbel {
 
@@ -93,6 +94,7 @@ class Network {
     std::string unit = {};                           // SI, of these
     Beyond below = Beyond::unsaid, above = Beyond::unsaid;
     bool line_below = false, line_above = false;  // its slope goes on there; else its value holds
+    Location at = {};                             // of its table in the scene
   };
   // Of a curve without a period; nothing where it says how it goes on at both ends.
   // Mirrored: points of positive quantities count for both signs.
@@ -122,6 +124,8 @@ class Network {
 
   // Of the twist of a shaft that is cut into parts, where all carry the same torque at rest; of any other joint 1.
   double share_of_twist(const Joint& joint) const;
+  // Empty where no scene names it.
+  std::string kind_of(const std::string& component) const;
 
   std::vector<Node> nodes;
   std::vector<Joint> joints;
@@ -130,9 +134,10 @@ class Network {
   std::vector<ShaftElement> elements;
   std::vector<PrescribedSpeed> prescribed;
   std::vector<DataRange> ranges;
-  std::map<std::string, Ports> ports;   // of each component
-  std::vector<std::string> components;  // canonical order
-  ComponentData data;                   // what they state beside their part in the equations
+  std::map<std::string, Ports> ports;        // of each component
+  std::map<std::string, std::string> kinds;  // as the scene names them: "clutch"
+  std::vector<std::string> components;       // canonical order
+  ComponentData data;                        // what they state beside their part in the equations
 };
 
 }  // namespace kurbel

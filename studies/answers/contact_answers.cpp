@@ -40,10 +40,7 @@ class ContactJudge {
 
  private:
   std::string text(double speed) const { return m_.scene.speed_unit.text(std::abs(speed)); }
-  bool is_kind(const std::string& component, const char* kind) const {
-    const Section* s = m_.scene.find(component);
-    return s && s->kind->name == kind;
-  }
+  bool is_kind(const std::string& component, const char* kind) const { return m_.network.kind_of(component) == kind; }
   const std::string& owner_of(const ElasticJoint& joint) const { return m_.network.joints[at(joint.joint)].component; }
 
   // --- to the end ---

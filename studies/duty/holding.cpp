@@ -23,9 +23,8 @@ std::vector<Holder> holders_of(const Model& m) {
   for (std::size_t e = 0; e < m.elastic.size(); ++e) {
     const int joint = m.elastic[e].joint;
     const std::string& component = m.network.joints[at(joint)].component;
-    const Section* section = m.scene.find(component);
-    if (!m.elastic[e].slips || !section) continue;
-    if (section->kind->name != "clutch" && section->kind->name != "torque limiter") continue;
+    const std::string kind = m.network.kind_of(component);
+    if (!m.elastic[e].slips || (kind != "clutch" && kind != "torque limiter")) continue;
     Holder h{.component = component, .elastic = static_cast<int>(e), .joint = joint};
     h.capacity = m.network.joints[at(joint)].element->capacity;
     h.scale = m.torque_scale / m.scale_ratio[at(m.network.joints[at(joint)].a)];

@@ -117,13 +117,12 @@ class Sizer {
     for (std::size_t n = 0; n < m.network.nodes.size(); ++n) {
       const std::string& name = m.network.nodes[n].component;
       const double ratio = m.node_ratio[n] / s_.flywheel_ratio, inertia = m.network.nodes[n].inertia * ratio * ratio;
-      const Section* section = m.scene.find(name);
       if (name == s_.flywheel) {
         s_.flywheel_now += inertia;
       } else if (std::count(motors.begin(), motors.end(), name)) {
         s_.motor_inertia += inertia;
         add_part(name, inertia);
-      } else if (section && section->kind->name.find("gear") != std::string::npos) {
+      } else if (m.network.kind_of(name).find("gear") != std::string::npos) {
         s_.gearbox_inertia += inertia;
         add_part(name, inertia);
       } else {

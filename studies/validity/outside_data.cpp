@@ -114,9 +114,7 @@ std::vector<std::string> DataRangeRecorder::sentences() const {
                                     : fmt::format("{} {}, and the motion goes to {}", above ? "ends at" : "begins at",
                                                   in_words(range, end, unit), in_words(range, reached, unit));
       if ((above ? range.above : range.below) == Beyond::refuse) {
-        const Section* section = model_.scene.find(range.component);
-        const std::string key = section && section->has(range.of) ? range.of : "table";
-        refused.push_back({model_.scene.file, section ? section->where(key) : Location{},
+        refused.push_back({model_.scene.file, range.at,
                            fmt::format("\"{}\": its table of {} {} {}, and the motion is beyond it from {:.4g} s on: "
                                        "there is nothing to compute "
                                        "with. Give more of it, or say how it goes on: beyond = \"hold\" or \"line\"",
