@@ -124,6 +124,13 @@ const MechanismElement* mechanism_of(const Network::ShaftElement& element) {
   return dynamic_cast<const MechanismElement*>(element.element.get());
 }
 
+const Mechanism* find_mechanism(const Network& network, const std::string& component) {
+  for (const Network::ShaftElement& e : network.elements)
+    if (const MechanismElement* element = mechanism_of(e); element && e.component == component)
+      return &element->mechanism();
+  return nullptr;
+}
+
 Network extracted_from(Network network, Extraction from) {
   for (Network::ShaftElement& e : network.elements)
     if (const MechanismElement* element = mechanism_of(e))

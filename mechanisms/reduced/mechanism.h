@@ -99,6 +99,8 @@ class MechanismElement : public AnyShaftElement {
 
 // Null for elements of other kinds.
 const MechanismElement* mechanism_of(const Network::ShaftElement& element);
+// Of a network as drawn, or of a model's, where it is as its effects have it. Null: no component of that name is one.
+const Mechanism* find_mechanism(const Network& network, const std::string& component);
 
 // Modes of a placed mechanism: the sign of x′ first, then the piece of each load; with joint friction the sign of β′ and
 // of what the two edges of the guide bear, behind these.

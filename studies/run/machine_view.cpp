@@ -52,8 +52,8 @@ double round_down(double x) {
 void add_parts(MachineView& view, const Model& model) {
   const auto add = [&](const std::string& name, int row) {
     if (!model.network.ports.contains(name)) return;
-    MachineView::Part part{.name = name, .kind = "inertia", .row = row};
-    if (const Section* section = model.scene.find(name); section && section->kind) part.kind = section->kind->name;
+    MachineView::Part part{.name = name, .kind = model.network.kind_of(name), .row = row};
+    if (part.kind.empty()) part.kind = "inertia";
     const Network::Ports& ports = model.network.ports.at(name);
     part.ratio_in = model.node_ratio[at(ports.in)];
     part.ratio_out = model.node_ratio[at(ports.out)];
@@ -93,17 +93,19 @@ void add_ties(MachineView& view, const Model& model) {
 }
 
 // What the first load of a mechanism is drawn as.
-std::string drawn_load(const Model& model, const std::string& component) {
-  const Section* const section = model.scene.find(component);
-  if (!section || !section->has("load") || (*section)["load"].sections.empty()) return "";
-  const std::string& kind = (*section)["load"].sections.front().kind->name;
-  return kind == "press" ? "press" : kind == "compressor" || kind == "cylinder" ? "cylinder" : "";
+std::string drawn_load(const Mechanism& mechanism) {
+  if (mechanism.loads.empty()) return "";
+  const auto& law = mechanism.loads.front().law;
+  if (std::holds_alternative<PressForce>(law) || std::holds_alternative<RoundedPressForce>(law)) return "press";
+  const bool gas = std::holds_alternative<CompressorForce>(law) || std::holds_alternative<ChamberOverTravel>(law) ||
+                   std::holds_alternative<ChamberOverAngle>(law);
+  return gas ? "cylinder" : "";
 }
 
 MachineView::Linkage linkage_of(const Mechanism& mechanism, const Model& model, int node) {
   const LinkageDrawing drawing = mechanism.data.drawing();
   MachineView::Linkage linkage{.name = mechanism.name,
-                               .load = drawn_load(model, mechanism.name),
+                               .load = drawn_load(mechanism),
                                .ratio = model.node_ratio[at(node)],
                                .direction = drawing.direction,
                                .x = {},
@@ -229,9 +231,8 @@ void enlarge_bends(MachineView& view, const Model& model) {
     double largest = 0, length = 0;
     for (const MachineView::Motion& motion : view.motions)
       for (const double bend : motion.bend[k]) largest = std::max(largest, std::abs(bend));
-    for (const Network::ShaftElement& e : model.network.elements)
-      if (const auto* element = mechanism_of(e); element && element->mechanism().name == linkage.name)
-        if (const auto* data = element->mechanism().data.as<SliderCrankData>()) length = data->rod_length;
+    if (const Mechanism* mechanism = find_mechanism(model.network, linkage.name))
+      if (const auto* data = mechanism->data.as<SliderCrankData>()) length = data->rod_length;
     if (largest > 0) linkage.bend_enlargement = round_down(std::max(1.0, shown_bend * length / largest));
   }
 }

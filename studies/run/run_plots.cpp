@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/measured_names.h"
 #include "studies/conclusions/headline.h"
 #include "studies/findings/figure_text.h"
@@ -185,24 +186,15 @@ std::vector<double> at_places(const Trace& trace, const std::vector<double>& ang
   return values;
 }
 
-// A compressor's cylinder as its load states it.
-struct Cylinder {
-  double area = 0, outside = 0;  // A [m²]; p on the other face of the piston [Pa]
-  double side = 1;               // of the working end: F = −side A (p − p_out)
-  double volumetric = 1;         // η_v = 1 + ε − ε (p₂/p₁)^(1/n), n of the re-expansion
-};
-std::optional<Cylinder> cylinder_of(const Scene& scene, const std::string& mechanism) {
-  const Section* section = scene.find(mechanism);
-  const Setting* loads = section ? section->find("load") : nullptr;
-  if (!loads || loads->sections.size() != 1 || loads->sections.front().kind->name != "compressor") return {};
-  const Section& gas = loads->sections.front();
-  const double suction = gas.number("suction_pressure"), ratio = gas.number("delivery_pressure") / suction;
-  const double clearance = gas.number("clearance"), bore = gas.number("bore");
-  const double exponent = gas.number_or("expansion_exponent", gas.number("compression_exponent"));
-  return Cylinder{.area = std::numbers::pi / 4 * bore * bore,
-                  .outside = gas.number_or("outside_pressure", suction),
-                  .side = gas.has("working_end") && gas.text("working_end") == "folded" ? -1.0 : 1.0,
-                  .volumetric = 1 + clearance - clearance * std::pow(ratio, 1 / exponent)};
+// The gas on a mechanism whose one load is a compressor; else null.
+const CompressorForce* compressor_of(const Network& network, const std::string& name) {
+  const Mechanism* mechanism = find_mechanism(network, name);
+  return mechanism && mechanism->loads.size() == 1 ? std::get_if<CompressorForce>(&mechanism->loads.front().law)
+                                                   : nullptr;
+}
+// η_v = 1 + ε − ε (p₂/p₁)^(1/n), n of the re-expansion.
+double volumetric_efficiency(const CompressorForce& gas) {
+  return 1 + gas.clearance - gas.clearance * std::pow(gas.delivery / gas.suction, 1 / gas.expansion_exponent);
 }
 
 // Force on what a mechanism's loads act on, over its travel: the loop of the last whole cycle, whose area is the work.
@@ -236,13 +228,13 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
     for (double& y : s.y) y *= size.factor;
   }
   plot.note = "Indicator diagram of the last whole cycle: ∮ F dx is the work of the loads (loop_work).";
-  if (const auto gas = cylinder_of(front.model->scene, mechanism)) {
+  if (const auto* gas = compressor_of(front.model->network, mechanism)) {
     plot.title.replace(0, plot.title.find(" of "), "Pressure");
     plot.y = {"absolute pressure", "bar"};
     for (Series& s : plot.series)
-      for (double& y : s.y) y = 1e-5 * (gas->outside - gas->side * y / size.factor / gas->area);
+      for (double& y : s.y) y = 1e-5 * (gas->outside - gas->end.side * y / size.factor / gas->area);
     plot.note += fmt::format(" Volumetric efficiency of the diagram 1 + ε − ε (p₂/p₁)^(1/n) = {}.",
-                             headline_number(gas->volumetric));
+                             headline_number(volumetric_efficiency(*gas)));
   }
   return plot;
 }

@@ -3,34 +3,29 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
-namespace {
-
-// It stands in the component's table.
-bool is_given(const Section& component, const EffectFlag& effect) {
-  return std::any_of(component.kind->keys.begin(), component.kind->keys.end(),
-                     [&](const Key& key) { return key.gives(effect.name) && component.given(key.name); });
-}
-
-}  // namespace
 
 std::vector<std::string> idle_effects(const Model& model) {
   std::vector<std::string> notes;
   if (model.effects.variable_inertia) return notes;
-  for (const Section& component : model.scene.components) {
+  for (const Network::ShaftElement& e : model.network.elements) {
+    const MechanismElement* const element = mechanism_of(e);
+    if (!element) continue;
     std::vector<std::string> idle;
     for (const EffectFlag& effect : effect_flags()) {
-      const bool needs_links = effect.flag == &Effects::joint_clearance || effect.flag == &Effects::flexible_rod;
-      if (needs_links && model.effects.*(effect.flag) && is_given(component, effect)) idle.emplace_back(effect.words);
+      const bool has_data = effect.flag == &Effects::joint_clearance ? !element->mechanism().clearances.empty()
+                            : effect.flag == &Effects::flexible_rod  ? element->mechanism().flexibility.has_value()
+                                                                     : false;
+      if (has_data && model.effects.*(effect.flag)) idle.emplace_back(effect.words);
     }
     if (idle.empty()) continue;
     notes.push_back(
         fmt::format("variable inertia is off: \"{}\" is a crank of constant inertia then, without rod and joints, and "
                     "{} {} with it, "
                     "although on",
-                    component.name, fmt::join(idle, " and "), idle.size() > 1 ? "go" : "goes"));
+                    e.component, fmt::join(idle, " and "), idle.size() > 1 ? "go" : "goes"));
   }
   return notes;
 }
