@@ -9,8 +9,4 @@ namespace kurbel {
 // main_bearing, crank_pin, slider_pin, guide: a table each, all without friction by default.
 Fields<SliderCrankJoints> joint_fields();
 
-// From a sound section of kind slider-crank.
-SliderCrankJoints slider_crank_joints(const Section& section);
-SliderCrankData slider_crank_data(const Section& section);
-
 }  // namespace kurbel

@@ -194,6 +194,7 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   const std::size_t before = messages.all().size();
   auto mechanism = slider_crank_fields().read(s, messages);
   put_phase(s, mechanism.firing, mechanism.mounting, messages);
+  net.data.add(s.name, mechanism.joints);
   const bool sound = messages.all().size() == before;
   const SliderCrankData& d = mechanism.linkage;
   DataFaults faults = faults_of(d);
@@ -221,9 +222,6 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
 }
 
 }  // namespace
-
-SliderCrankData slider_crank_data(const Section& section) { return slider_crank_fields().read(section).linkage; }
-SliderCrankJoints slider_crank_joints(const Section& section) { return slider_crank_fields().read(section).joints; }
 
 Kind slider_crank_kind() {
   return on_a_shaft("slider-crank",

@@ -24,8 +24,7 @@ void DeformingMechanismPool::place(Mechanism mechanism, std::shared_ptr<const Sl
   using Kind = GuardOwner::Kind;
   Placed placed{std::move(mechanism), std::move(dynamics), at};
   const std::size_t index = placed_.size();
-  for (const SliderLoad& load : placed.mechanism.loads)
-    placed.watches_travel = placed.watches_travel || load.depends_on_travel();
+  placed.watches_travel = placed.mechanism.watches_travel();
   if (placed.watches_travel) owners_.push_back({Kind::travel, index, 0, 0});
   for (std::size_t k = 0; k < placed.mechanism.loads.size(); ++k)
     if (placed.mechanism.loads[k].has_pieces())

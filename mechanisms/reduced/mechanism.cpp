@@ -142,13 +142,38 @@ bool has_tables(const Network& network) {
   return std::any_of(network.elements.begin(), network.elements.end(), mechanism_of);
 }
 
+bool Mechanism::watches_travel() const {
+  return std::any_of(loads.begin(), loads.end(), [](const SliderLoad& l) { return l.depends_on_travel(); });
+}
+
+int Mechanism::growth(double angle, int direction) const {
+  const auto here = reduced->at(angle);
+  double ratio = here.output_position().slope;
+  if (std::abs(ratio) < 1e-12 * output_scale()) ratio = here.output_velocity().slope * (direction >= 0 ? 1 : -1);
+  return ratio >= 0 ? 1 : -1;
+}
+
+double Mechanism::load(double angle, double speed, std::uint64_t acting) const {
+  require_on_arc(*this, angle);
+  const auto [x, ratio] = reduced->at(angle).output_position();
+  const int direction = speed > 0 ? 1 : speed < 0 ? -1 : 0;
+  SliderState<double> s{angle, x, ratio * speed, 0, 0};
+  s.travel = watches_travel() ? growth(angle, direction) * direction : (s.v >= 0 ? 1 : -1);
+  double sum = 0;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (!(acting >> k & 1)) continue;
+    loads[k].take_first_piece(s, s.mode);
+    sum += loads[k].value(s);
+  }
+  return sum;
+}
+
 bool Mechanism::has_weight() const { return !weightless && data.gravity() != 0; }
 
 MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(mechanism)) {
   const auto& loads = mechanism_.loads;
   const auto any = [&](auto what) { return std::any_of(loads.begin(), loads.end(), what); };
-  is = {.directional = mechanism_.joint_friction || any([](const SliderLoad& l) { return l.depends_on_travel(); }),
-        .uses_angle = true};
+  is = {.directional = mechanism_.joint_friction || mechanism_.watches_travel(), .uses_angle = true};
   account = Account::weight;
   // Weight and forces over travel depend on the angle alone; so does I_r.
   uses_time = false;

@@ -33,10 +33,9 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
     const SliderCrankData& d = placed.mechanism.joints->data();
     placed.rod_scale = d.radius / d.rod_length;
   }
-  placed.watches_travel = placed.mechanism.joint_friction;  // the guide's friction turns round with the slider
+  // The guide's friction turns round with the slider.
+  placed.watches_travel = placed.mechanism.joint_friction || placed.mechanism.watches_travel();
   reacts_ = reacts_ || placed.mechanism.joint_friction;
-  for (const SliderLoad& load : placed.mechanism.loads)
-    placed.watches_travel = placed.watches_travel || load.depends_on_travel();
   const std::size_t index = placed_.size();
   if (placed.mechanism.arc())
     for (const int end : {-1, 1}) owners_.push_back({index, GuardOwner::limit, end});
@@ -328,12 +327,7 @@ void MechanismPool::set_timed_modes(double /*t*/, int* /*mode*/, char* active) c
 void MechanismPool::first_modes(const Instant& now, int* mode) const {
   for (const Placed& p : placed_) {
     require_on_arc(p.mechanism, angle_of(p.at, now));
-    const auto here = p.mechanism.reduced->at(angle_of(p.at, now));
-    double ratio = here.output_position().slope;
-    // On a dead centre the sign is that of the motion to come.
-    if (std::abs(ratio) < 1e-12 * p.output_scale)
-      ratio = here.output_velocity().slope * (p.at.direction(now) >= 0 ? 1 : -1);
-    mode[p.at.mode] = ratio >= 0 ? 1 : -1;
+    mode[p.at.mode] = p.mechanism.growth(angle_of(p.at, now), p.at.direction(now));
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
       p.mechanism.loads[k].take_first_piece(slider(p, now, k), mode[p.at.mode + 1 + static_cast<int>(k)]);
     if (p.mechanism.joint_friction) take_first_signs(p, now, mode);

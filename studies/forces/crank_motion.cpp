@@ -15,6 +15,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
+#include "mechanisms/kinds/kinds.h"
 #include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
@@ -24,12 +25,6 @@ constexpr int grid_of_turn = 720;  // peaks are sought on this grid, work is int
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-const std::vector<std::string>& mechanism_kinds() {
-  static const std::vector<std::string> kinds = {"slider-crank", "four-bar", "quick-return", "inverted slider-crank",
-                                                 "knuckle press"};
-  return kinds;
-}
-
 // A step sets a load by the mechanism's name or by its own.
 bool sets(const SequenceStep& step, const std::string& component, const std::string& load) {
   return std::any_of(step.set.begin(), step.set.end(), [&](const std::string& said) {
@@ -38,40 +33,28 @@ bool sets(const SequenceStep& step, const std::string& component, const std::str
 }
 
 // What holds at the end of the sequence: a load acts where neither its mechanism nor itself was told off last.
-ActingLoads left_by(const Sequence& sequence, const std::string& component, const std::vector<std::string>& parts) {
+ActingLoads left_by(const Sequence& sequence, const std::string& component, const std::vector<SliderLoad>& loads) {
   ActingLoads left = all_loads;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  for (std::size_t k = 0; k < loads.size(); ++k) {
     std::map<std::string, bool> on;
     for (const SequenceStep& step : sequence.steps)
       for (const std::string& said : step.set)
-        if (said == component || said == parts[k] || parts[k].starts_with(said + ".")) on[said] = step.to > 0.5;
+        if (said == component || said == loads[k].name || loads[k].name.starts_with(said + "."))
+          on[said] = step.to > 0.5;
     for (const auto& [said, acts] : on)
       if (!acts) left &= ~(ActingLoads{1} << k);
   }
   return left;
 }
 
-// Loads of a mechanism by their names, in the order of their bits.
-std::vector<std::string> loads_of(const Network::ShaftElement& e) {
-  std::vector<std::string> loads;
-  for (const auto& [name, account] : e.element->further_accounts)
-    if (name.starts_with(e.component + ".load")) loads.push_back(name);
-  return loads;
-}
-
-// Where its loads are to be told what they do, by a sequence whose step never comes.
-std::shared_ptr<const Model> alone(const Scene& scene, const std::string& component, const Effects& effects,
-                                   bool told) {
-  const Network whole = build_network(scene);
+std::shared_ptr<const Model> alone(const AskedMechanism& asked, const Effects& effects) {
   Network network;
-  const int node = network.add_node(component, "", 1);  // kg·m²; forces do not see it
-  network.ports[component] = {node, node};
-  network.components = {component};
-  network.put(node, component, mechanism_element(whole, component).element, {}, 0);
+  const int node = network.add_node(asked.name, "", 1);  // kg·m²; forces do not see it
+  network.ports[asked.name] = {node, node};
+  network.components = {asked.name};
+  network.put(node, asked.name, mechanism_element(asked.network, asked.name).element, {}, 0);
   Scene bare;
-  bare.file = scene.file;
-  if (told && !loads_of(network.elements.front()).empty())
-    bare.sequence.steps.push_back({.when = SequenceStep::When::at, .value = 1e30, .set = {component}});
+  bare.file = asked.scene.file;
   return compile_network(std::move(network), bare, bare_machine(effects));
 }
 
@@ -85,28 +68,31 @@ const Network::ShaftElement& mechanism_element(const Network& network, const std
   throw std::logic_error("mechanism without an element");
 }
 
-OutputLoads::OutputLoads(const Scene& scene, const std::string& component, const Effects& effects)
-    : machine_(alone(scene, component, effects, false)),
-      equations_(alone(scene, component, effects, true), false),
-      component_(component) {
-  const std::vector<std::string> parts = loads_of(model().network.elements.front());
-  if (parts.size() > most_loads)
+AskedMechanism::AskedMechanism(const Scene& of, const std::string& wanted)
+    : scene(of),
+      name(chosen_mechanism(of, wanted).name),
+      kind(chosen_mechanism(of, wanted).kind->name),
+      network(build_network(of)) {}
+
+const Mechanism& AskedMechanism::mechanism() const { return *find_mechanism(network, name); }
+
+OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects)
+    : machine_(alone(asked, effects)), mechanism_(*find_mechanism(model().network, asked.name)) {
+  const std::vector<SliderLoad>& loads = mechanism_.loads;
+  const Sequence& sequence = asked.scene.sequence;
+  if (loads.size() > most_loads)
     throw std::invalid_argument(
-        fmt::format("\"{}\" has {} loads; forces are found under at most {}", component, parts.size(), most_loads));
-  const auto touched = [&](const std::string& load) {
-    return std::any_of(scene.sequence.steps.begin(), scene.sequence.steps.end(),
-                       [&](const SequenceStep& step) { return sets(step, component, load); });
+        fmt::format("\"{}\" has {} loads; forces are found under at most {}", asked.name, loads.size(), most_loads));
+  const auto touched = [&](const SliderLoad& load) {
+    return std::any_of(sequence.steps.begin(), sequence.steps.end(),
+                       [&](const SequenceStep& step) { return sets(step, asked.name, load.name); });
   };
-  goes_round_ = scene.sequence.repeat && std::any_of(parts.begin(), parts.end(), touched);
-  if (!scene.sequence.repeat) left_ = left_by(scene.sequence, component, parts);
+  goes_round_ = sequence.repeat && std::any_of(loads.begin(), loads.end(), touched);
+  if (!sequence.repeat) left_ = left_by(sequence, asked.name, loads);
   for (const WorkAccount& account : model().accounts) {
-    const auto part = std::find(parts.begin(), parts.end(), account.name);
-    of_account_.push_back(part == parts.end() ? 0 : ActingLoads{1} << (part - parts.begin()));
-  }
-  for (std::size_t k = 0; k < model().pool_channels.size(); ++k) {
-    const auto& name = model().pool_channels[k].name;
-    if (name.of == component && (name.what == QuantityKind::force || name.what == QuantityKind::load_torque))
-      channel_ = static_cast<int>(k);
+    const auto of =
+        std::find_if(loads.begin(), loads.end(), [&](const SliderLoad& l) { return l.name == account.name; });
+    of_account_.push_back(of == loads.end() ? 0 : ActingLoads{1} << (of - loads.begin()));
   }
 }
 
@@ -128,23 +114,22 @@ std::string OutputLoads::words_of_sequence() const {
     return fmt::format(
         "the operating sequence switches loads of {} as it goes round: where the crank turns evenly all act, in the "
         "motion of the machine those that are on",
-        component_);
+        mechanism_.name);
   std::vector<std::string> off;
-  const std::vector<std::string> parts = loads_of(model().network.elements.front());
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    if (!(left_ >> k & 1)) off.push_back(parts[k]);
+  for (std::size_t k = 0; k < mechanism_.loads.size(); ++k)
+    if (!(left_ >> k & 1)) off.push_back(mechanism_.loads[k].name);
   if (off.empty()) return {};
-  return fmt::format("loads of {} count as the operating sequence leaves them: switched off{}", component_,
-                     off.size() == parts.size() ? "" : " " + listed(off, "and"));
+  return fmt::format("loads of {} count as the operating sequence leaves them: switched off{}", mechanism_.name,
+                     off.size() == mechanism_.loads.size() ? "" : " " + listed(off, "and"));
 }
 
-double OutputLoads::force(double phi, const CrankMotion& motion) {
-  if (channel_ < 0) return 0;
-  const std::vector<double> y = equations_.modes_from_scratch(0, within(phi), motion.omega);
-  std::vector<Command>& told = equations_.changing_modes().command;  // the mechanism's first
-  for (std::size_t k = 1; k < told.size(); ++k)
-    told[k].value = told[k].to = static_cast<double>(motion.loads >> (k - 1) & 1);
-  return equations_.model().pool_channels[index(channel_)].value(equations_.snapshot(0, y));
+// Two whole turns are taken out of the angle as the equations do it.
+double OutputLoads::force(double phi, const CrankMotion& motion) const {
+  Modes modes;
+  modes.turns = {0};
+  std::array<double, 1> angle = {within(phi)};
+  wrap(modes, angle);
+  return mechanism_.load(angle[0], motion.omega, motion.loads);
 }
 
 std::span<const double> OutputLoads::shares(double phi, const CrankMotion& motion) {
@@ -165,7 +150,7 @@ ActingLoads acting_loads(const Model& model, std::size_t element, const Instant&
   const double* command = now.command + (told - model.commands.begin());
   if (command[0] <= 0.5) return 0;
   ActingLoads on = all_loads;
-  for (std::size_t k = 0; k < loads_of(e).size(); ++k)
+  for (std::size_t k = 0; k < mechanism_of(e)->mechanism().loads.size(); ++k)
     if (command[k + 1] <= 0.5) on &= ~(ActingLoads{1} << k);
   return on;
 }
@@ -313,9 +298,9 @@ CrankMotion motion_between(const std::vector<MotionSample>& samples, double phi)
 // --- the machine ---
 
 const Section& chosen_mechanism(const Scene& scene, const std::string& wanted) {
-  std::vector<std::string> names;
+  std::vector<std::string> names, kinds;
+  for (const Kind& kind : mechanism_kinds()) kinds.push_back(kind.name);
   for (const Section& s : scene.components) {
-    const auto& kinds = mechanism_kinds();
     if (std::find(kinds.begin(), kinds.end(), s.kind->name) == kinds.end()) continue;
     if (wanted.empty() || s.name == wanted) return s;
     names.push_back(s.name);
@@ -324,14 +309,9 @@ const Section& chosen_mechanism(const Scene& scene, const std::string& wanted) {
     throw std::invalid_argument(fmt::format(
         "{}: forces are found in the joints of mechanisms ({}), and there is none on its lines; add one (kurbel keys "
         "{}), or ask for the torques of joints (kurbel run), forces of teeth (kurbel gears)",
-        scene.file, listed(mechanism_kinds()), mechanism_kinds().front()));
+        scene.file, listed(kinds), kinds.front()));
   throw std::invalid_argument(
       fmt::format("--mechanism {}: no mechanism of that name; allowed: {}", wanted, listed(names)));
-}
-
-MechanismData mechanism_data(const Scene& scene, const std::string& component) {
-  const Network network = build_network(scene);
-  return mechanism_of(mechanism_element(network, component))->mechanism().data;
 }
 
 void check(const ForcesOptions& options) {

@@ -19,6 +19,19 @@ namespace kurbel {
 // At an instant of a machine whose element that is.
 ActingLoads acting_loads(const Model& model, std::size_t element, const Instant& now);
 
+struct Mechanism;
+
+// A mechanism of a scene, and the network that it stands in, as drawn: before any effect.
+struct AskedMechanism {
+  // The one of this name, or the first. Throws as chosen_mechanism and build_network.
+  AskedMechanism(const Scene& scene, const std::string& wanted);
+  const Mechanism& mechanism() const;
+
+  const Scene& scene;
+  std::string name, kind;
+  Network network;
+};
+
 struct CrankMotion {
   double omega = 0, alpha = 0;  // [rad/s], [rad/s²]
   ActingLoads loads = all_loads;
@@ -28,7 +41,7 @@ struct CrankMotion {
 class OutputLoads {
  public:
   // Of the effects those count that are part of the machine.
-  OutputLoads(const Scene& scene, const std::string& component, const Effects& effects);
+  OutputLoads(const AskedMechanism& asked, const Effects& effects);
   const Model& model() const { return machine_.model(); }
   double cycle() const { return machine_.cycle(); }
   // Angles within the cycle where forces jump or bend: edges of the loads, and those that are added of a turn.
@@ -40,7 +53,7 @@ class OutputLoads {
   // What is to be said of that; empty: all act.
   std::string words_of_sequence() const;
   // Sum of all forces along +x [N], or of all torques on an output that rocks [N·m].
-  double force(double phi, const CrankMotion& motion);
+  double force(double phi, const CrankMotion& motion) const;
   // Of each of model().accounts, reduced to the crank [N·m]; omega ≠ 0.
   std::span<const double> shares(double phi, const CrankMotion& motion);
 
@@ -51,9 +64,7 @@ class OutputLoads {
     return phi <= cycle() * (1 + 1e-12) ? phi : phi - cycle() * std::ceil(phi / cycle() * (1 - 1e-12) - 1);
   }
 
-  Equations equations_;
-  std::string component_;
-  int channel_ = -1;
+  const Mechanism& mechanism_;  // of that machine
   ActingLoads left_ = all_loads;
   bool goes_round_ = false;              // the sequence, and sets loads on its way
   std::vector<ActingLoads> of_account_;  // the load that an account is of; 0: of none
@@ -106,7 +117,6 @@ inline constexpr double rounding_of_forces = 1e-12;
 // The mechanism that was asked for, or the first; throws std::invalid_argument naming those there are.
 const Section& chosen_mechanism(const Scene& scene, const std::string& wanted);
 
-MechanismData mechanism_data(const Scene& scene, const std::string& component);
 // Throws std::invalid_argument for senseless ones.
 void check(const ForcesOptions& options);
 

@@ -3,23 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/forces/crank_motion.h"
 
 namespace kurbel {
 
 DeformedMechanism::DeformedMechanism(std::shared_ptr<const Model> model, const std::string& component)
     : model_(std::move(model)) {
   const Model& m = *model_;
-  const auto& elements = m.network.elements;
-  const auto found = std::find_if(elements.begin(), elements.end(), [&](const Network::ShaftElement& e) {
-    return e.component == component && mechanism_of(e);
-  });
-  if (found == elements.end()) throw std::logic_error("mechanism without an element");
-  element_ = static_cast<std::size_t>(found - elements.begin());
-  dynamics_ = mechanism_of(*found)->dynamics();
+  const Network::ShaftElement& element = mechanism_element(m.network, component);
+  element_ = static_cast<std::size_t>(&element - m.network.elements.data());
+  dynamics_ = mechanism_of(element)->dynamics();
   for (std::size_t k = 0; k < m.pool_channels.size(); ++k)
     if (m.pool_channels[k].name.what == QuantityKind::force && m.pool_channels[k].name.of == component)
       force_channel_ = static_cast<int>(k);

@@ -14,7 +14,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
-#include "mechanisms/kinds/joint_keys.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/force_cycle.h"
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
@@ -122,19 +122,20 @@ Effects effects_of(const Scene& scene, const ForcesOptions& options, const Slide
 
 class Study {
  public:
-  Study(const Scene& scene, const ForcesOptions& options, const Section& section) : scene_(scene), options_(options) {
+  Study(const AskedMechanism& asked, const ForcesOptions& options) : asked_(asked), options_(options) {
+    const Scene& scene = asked.scene;
     out_.title = scene.heading();
     out_.speed_unit = scene.speed_unit;
     out_.scene_file = scene.file;
     out_.scene_text = scene.text;
-    out_.mechanism = section.name;
-    out_.data = slider_crank_data(section);
-    out_.joints = slider_crank_joints(section);
+    out_.mechanism = asked.name;
+    out_.data = *asked.mechanism().data.as<SliderCrankData>();
+    out_.joints = *asked.network.data.find<SliderCrankJoints>(asked.name);
     const Effects effects = effects_of(scene, options, out_.joints);
     if (!effects.gravity) out_.data.gravity = 0;
-    machine_.emplace(scene, effects, section.name, options);
+    machine_.emplace(asked, effects, options);
     effects_ = effects;
-    loads_.emplace(scene, section.name, effects);
+    loads_.emplace(asked, effects);
     if (effects.joint_friction && !out_.joints.frictionless()) loads_->add_edges(turnings_of(out_.data));
     const SliderCrankJoints given = out_.joints;
     if (!effects.joint_friction) out_.joints = without_friction(given);
@@ -222,7 +223,7 @@ class Study {
   void solve_rigid() {
     out_.elastic = machine_->is_elastic();
     if (!out_.elastic || !options_.rigid_behind) return;
-    if (const auto rigid = rigid_motion(scene_, effects_, out_.mechanism, *loads_, options_))
+    if (const auto rigid = rigid_motion(asked_, effects_, *loads_, options_))
       out_.rigid = cycle_along(*statics_, *loads_, *rigid);
   }
 
@@ -230,7 +231,7 @@ class Study {
   static constexpr double rounding_of_torque =
       1e-3;  // of the crank pin's load at the radius: less is no torque to measure by
 
-  const Scene& scene_;
+  const AskedMechanism& asked_;
   const ForcesOptions& options_;
   Effects effects_;
   Forces out_;
@@ -252,11 +253,10 @@ std::optional<double> PowerFlow::efficiency() const {
 Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   check(options);
   const Deadline deadline(scene.run.budget);
-  const Section& section = chosen_mechanism(scene, options.mechanism);
-  if (section.kind->name != "slider-crank")
-    throw std::invalid_argument(
-        fmt::format("{}: {} is no slider-crank but a {}", scene.file, section.name, section.kind->name));
-  return Study(scene, options, section).result();
+  const AskedMechanism asked(scene, options.mechanism);
+  if (asked.kind != "slider-crank")
+    throw std::invalid_argument(fmt::format("{}: {} is no slider-crank but a {}", scene.file, asked.name, asked.kind));
+  return Study(asked, options).result();
 }
 
 }  // namespace kurbel

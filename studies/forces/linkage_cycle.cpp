@@ -13,6 +13,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/scene/units.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/machine_motion.h"
 #include "studies/validity/substitutes.h"
 
@@ -351,22 +352,22 @@ void hold_against_machine(const MechanismData& data, OutputLoads& loads, const S
 LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& options) {
   check(options);
   const Deadline deadline(scene.run.budget);
-  const Section& section = chosen_mechanism(scene, options.mechanism);
+  const AskedMechanism asked(scene, options.mechanism);
   LinkageStudy out;
   out.title = scene.heading();
   out.speed_unit = scene.speed_unit;
   out.scene_file = scene.file;
   out.scene_text = scene.text;
-  out.mechanism = section.name;
-  out.kind = section.kind->name;
+  out.mechanism = asked.name;
+  out.kind = asked.kind;
   const Effects effects = options.effects.value_or(scene.effects);
-  const MachineMotion machine(scene, effects, section.name, options);
-  const MechanismData data = mechanism_data(scene, section.name);
+  const MachineMotion machine(asked, effects, options);
+  const MechanismData& data = asked.mechanism().data;
   out.rocks = data.rocks();
-  OutputLoads loads(scene, section.name, effects);
+  OutputLoads loads(asked, effects);
   const CrankSpeed speed = prescribed_speed(machine, options);
   const std::string at = out.speed_unit.text(speed.value);
-  options.watch.say(fmt::format("first problem: {} at {} ({})", section.name, at, speed.source));
+  options.watch.say(fmt::format("first problem: {} at {} ({})", asked.name, at, speed.source));
   out.prescribed = linkage_cycle(data, loads, steady_motion(loads, speed.value, options.positions));
   out.prescribed->label = "prescribed";
   out.unbounded = unbounded_reactions(data, loads, speed.value);
@@ -391,8 +392,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   mark_unbounded(out.unbounded, *out.simulated);
   out.elastic = machine.is_elastic();
   if (!out.elastic || !options.rigid_behind) return out;
-  if (const auto rigid = rigid_motion(scene, effects, section.name, loads, options))
-    out.rigid = linkage_cycle(data, loads, *rigid);
+  if (const auto rigid = rigid_motion(asked, effects, loads, options)) out.rigid = linkage_cycle(data, loads, *rigid);
   return out;
 }
 

@@ -122,14 +122,13 @@ MachineMotion::Crank MachineMotion::crank_in(const Model& model, const std::stri
   throw std::logic_error("the crank's angle is not tracked");
 }
 
-MachineMotion::MachineMotion(const Scene& scene, const Effects& effects, const std::string& component,
-                             const ForcesOptions& options)
+MachineMotion::MachineMotion(const AskedMechanism& asked, const Effects& effects, const ForcesOptions& options)
     : options_(options),
-      settings_(scene.run),
+      settings_(asked.scene.run),
       effects_(effects.describe()),
-      model_(compile(scene, effects)),
-      crank_(crank_in(*model_, component)),
-      forces_(model_, component) {}
+      model_(compile_network(asked.network, asked.scene, effects)),
+      crank_(crank_in(*model_, asked.name)),
+      forces_(model_, asked.name) {}
 
 bool MachineMotion::deforms() const { return forces_.deforms(); }
 bool MachineMotion::is_elastic() const { return !model_->elastic.empty(); }
@@ -423,10 +422,10 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   return motion;
 }
 
-std::optional<MotionAlong> rigid_motion(const Scene& scene, const Effects& effects, const std::string& component,
-                                        OutputLoads& loads, const ForcesOptions& options) {
+std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effects& effects, OutputLoads& loads,
+                                        const ForcesOptions& options) {
   try {
-    const MachineMotion machine(scene, without_elasticity(effects), component, options);
+    const MachineMotion machine(asked, without_elasticity(effects), options);
     if (machine.is_elastic()) return {};
     std::vector<std::string> notes;
     bool complete = true;

@@ -35,7 +35,7 @@ struct SimulatedMotion {
 // The compiled machine, asked for the motion of a mechanism's crank.
 class MachineMotion {
  public:
-  MachineMotion(const Scene& scene, const Effects& effects, const std::string& component, const ForcesOptions& options);
+  MachineMotion(const AskedMechanism& asked, const Effects& effects, const ForcesOptions& options);
 
   double start_speed() const;  // of the crank [rad/s]
   double rated_speed() const;
@@ -86,8 +86,8 @@ class MachineMotion {
 
 // Of the same machine without elasticity, to be drawn behind it. Empty where the machine is rigid itself, or where the
 // rigid one makes no machine or turns the crank through no whole cycle.
-std::optional<MotionAlong> rigid_motion(const Scene& scene, const Effects& effects, const std::string& component,
-                                        OutputLoads& loads, const ForcesOptions& options);
+std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effects& effects, OutputLoads& loads,
+                                        const ForcesOptions& options);
 
 // Of the first problem, and where it comes from.
 struct CrankSpeed {

@@ -85,9 +85,7 @@ std::vector<SheetPosition> positions_of(const PrescribedCycle& c, const SheetCyc
   return sheet_positions(cycle, edges, largest > 1.001 * least ? std::optional(where) : std::nullopt, weight);
 }
 
-MechanismOnSheet drawn_mechanism(const Scene& scene, const std::string& name) {
-  const Network network = build_network(scene);
-  Mechanism mechanism = mechanism_of(mechanism_element(network, name))->mechanism();
+MechanismOnSheet drawn(Mechanism mechanism) {
   check_goes_round(mechanism);
   mechanism.phase = 0;  // angles are those of the crank
   return {std::move(mechanism), 1};
@@ -286,13 +284,13 @@ std::string ForcesSheet::html() const {
 ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Paper& paper, const std::string& author) {
   if (options.positions > 36)
     throw std::invalid_argument(fmt::format("--positions {}: a sheet has 4 … 36 of a turn", options.positions));
-  const Section& section = chosen_mechanism(scene, options.mechanism);
+  const AskedMechanism chosen(scene, options.mechanism);
   ForcesSheet sheet;
   sheet.paper = paper;
   sheet.author = author;
   sheet.title = scene.heading();
   sheet.scene_file = scene.file;
-  sheet.mechanisms = {drawn_mechanism(scene, section.name)};
+  sheet.mechanisms = {drawn(chosen.mechanism())};
   ForcesOptions asked = options;
   asked.also = [&](const PrescribedCycle& c) {
     const int turns = std::max(1, static_cast<int>(std::lround(c.length / (2 * std::numbers::pi))));
@@ -302,7 +300,7 @@ ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Pap
     sheet.speed = fmt::format("crank at {}, constant", scene.speed_unit.text(c.speed, 5));
     return looked_at(cycle, sheet.motion.positions);
   };
-  if (section.kind->name == "slider-crank") {
+  if (chosen.kind == "slider-crank") {
     sheet.slider_crank = find_forces(scene, asked);
     name_parts(sheet, sheet.slider_crank->links->positions.front().forces);
     take(sheet, sheet.slider_crank->also, sheet.slider_crank->prescribed->curve);
