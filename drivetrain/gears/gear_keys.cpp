@@ -97,15 +97,4 @@ std::optional<GearPair> gear_pair_of(const GearGeometryKeys& geometry, const std
   }
 }
 
-std::optional<GearPair> gear_pair_of(const Section& stage, const std::string& what, Messages& messages) {
-  struct TeethKeys {
-    std::vector<int> teeth;
-  };
-  const auto geometry_fields = gear_geometry_fields();
-  const auto geometry = geometry_fields.read(stage, messages, what);
-  const TeethKeys of = Fields<TeethKeys>().add(teeth_key(), &TeethKeys::teeth).read(stage);
-  return gear_pair_of(geometry, of.teeth,
-                      [&](const std::string& text) { geometry.refuse(&GearGeometryKeys::module, text); });
-}
-
 }  // namespace kurbel

@@ -39,8 +39,14 @@ Fields<GearGeometryKeys> gear_geometry_fields(const std::string& gap_effect = ""
 // The pair of a stage with a module; nothing where the stage has none, or one that cannot be. `refuse` is told why.
 std::optional<GearPair> gear_pair_of(const GearGeometryKeys& geometry, const std::vector<int>& teeth,
                                      const std::function<void(const std::string&)>& refuse);
-// The same of a sound table with teeth and geometry. Faults go into the messages with their place; `what` names the
-// stage in them.
-std::optional<GearPair> gear_pair_of(const Section& stage, const std::string& what, Messages& messages);
+
+// The stages of a gearbox from its driving side (Network::data).
+struct GearStages {
+  struct Stage {
+    std::array<double, 2> teeth{};  // of the driving and of the driven wheel
+    std::optional<GearPair> pair;   // where its module is given
+  };
+  std::vector<Stage> stages;
+};
 
 }  // namespace kurbel

@@ -104,6 +104,7 @@ struct Stage {
   std::optional<GearEfficiency> losses = {};
   std::optional<BacklashData> mesh = {};  // elastic flanks
   bool gap = false;                       // with backlash between them
+  GearStages::Stage data = {};
 };
 
 // Stiffness and gap of the flanks, about the driving wheel: given, or by the teeth's geometry.
@@ -157,6 +158,7 @@ std::optional<Stage> stage_of(const Reading<StageKeys>& s) {
     stage.inertia = {pair->wheel[0].inertia, pair->wheel[1].inertia};
   if (s.given(&Keys::losses)) stage.losses = s.losses;
   read_mesh(s, pair, stage);
+  stage.data = {{1.0 * s.teeth[0], 1.0 * s.teeth[1]}, std::move(pair)};
   if (stage.mesh && stage.losses)
     s.refuse(&Keys::mesh, "an elastic mesh has no efficiency; give that to another stage");
   return stage;
@@ -227,9 +229,9 @@ void build_gearbox(const Section& s, Network& net, Messages& messages) {
   needs_support(&Keys::housing_inertia);
   needs_support(&Keys::reversing);
   if (stages.empty()) return;
-  StageTeeth teeth;
-  for (const StageKeys& stage : box.stages) teeth.stages.push_back({1.0 * stage.teeth[0], 1.0 * stage.teeth[1]});
-  net.data.add(s.name, std::move(teeth));
+  GearStages data;
+  for (const Stage& stage : stages) data.stages.push_back(stage.data);
+  net.data.add(s.name, std::move(data));
 
   const GearEfficiency* losses = box.given(&Keys::losses) ? &box.losses : nullptr;
   int before = net.add_node(s.name, "in", stages.front().inertia[0]);

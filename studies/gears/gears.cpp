@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "drivetrain/gears/gear_keys.h"
+#include "engine/model/model.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
@@ -23,21 +24,17 @@ GearStage stage_of(const std::string& name, GearPair pair, std::optional<double>
 }
 
 // The stages of one gearbox; the speed goes on from stage to stage.
-void add_gearbox(const Section& gearbox, std::optional<double> speed, Gears& gears,
+void add_gearbox(const std::string& gearbox, const GearStages& given, std::optional<double> speed, Gears& gears,
                  std::vector<std::string>& without_module) {
-  Messages messages(gears.scene_file);
-  const std::vector<Section>& stages = gearbox["stages"].sections;
-  for (std::size_t k = 0; k < stages.size(); ++k) {
-    const std::string name = fmt::format("{}.stage{}", gearbox.name, k + 1);
-    const std::string what = fmt::format("gearbox \"{}\": stages[{}]", gearbox.name, k + 1);
-    if (std::optional<GearPair> pair = gear_pair_of(stages[k], what, messages))
-      gears.stages.push_back(stage_of(name, std::move(*pair), speed));
+  for (std::size_t k = 0; k < given.stages.size(); ++k) {
+    const std::string name = fmt::format("{}.stage{}", gearbox, k + 1);
+    const auto& [teeth, pair] = given.stages[k];
+    if (pair)
+      gears.stages.push_back(stage_of(name, *pair, speed));
     else
       without_module.push_back(name);
-    const std::vector<double>& teeth = stages[k]["teeth"].numbers;
-    if (speed && teeth.size() == 2) *speed *= teeth[0] / teeth[1];
+    if (speed) *speed *= teeth[0] / teeth[1];
   }
-  messages.throw_if_any();
 }
 
 bool wanted(const std::string& stage, const std::string& pair) {
@@ -49,8 +46,9 @@ bool wanted(const std::string& stage, const std::string& pair) {
 Gears find_gears(const Scene& scene, const GearsOptions& options) {
   Gears gears{.title = scene.heading(), .scene_file = scene.file, .scene_text = scene.text, .stages = {}, .notes = {}};
   std::vector<std::string> without_module;
-  for (const Section& section : scene.components)
-    if (section.kind && section.kind->name == "gearbox") add_gearbox(section, options.speed, gears, without_module);
+  const Network network = build_network(scene);
+  for (const auto& [gearbox, given] : network.data.all<GearStages>())
+    add_gearbox(gearbox, given, options.speed, gears, without_module);
   std::vector<std::string> names;
   for (const GearStage& stage : gears.stages) names.push_back(stage.name);
   if (names.empty())

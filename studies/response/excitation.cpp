@@ -8,7 +8,7 @@
 #include <numeric>
 #include <unsupported/Eigen/FFT>
 
-#include "drivetrain/gears/gear_train_keys.h"
+#include "drivetrain/gears/gear_keys.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -295,10 +295,11 @@ class SourceSearch {
 
   // Teeth of the driving wheel times the speed of its shaft, stage by stage.
   void find_meshes() {
-    for (const auto& [gearbox, teeth] : m_.network.data.all<StageTeeth>()) {
+    for (const auto& [gearbox, gears] : m_.network.data.all<GearStages>()) {
       double ratio = m_.scale_ratio[at(m_.network.ports.at(gearbox).in)];
       int k = 0;
-      for (const auto& [driving, driven] : teeth.stages) {
+      for (const GearStages::Stage& stage : gears.stages) {
+        const auto [driving, driven] = stage.teeth;
         found_.meshes.push_back(
             {fmt::format("{}, stage {}: {:g}/{:g} teeth", gearbox, ++k, driving, driven), driving * ratio});
         ratio *= driving / driven;

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "drivetrain/gears/gear_train_keys.h"
+#include "drivetrain/gears/gear_keys.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -382,7 +382,7 @@ std::vector<RatioSearch> fastest_ratios(const Scene& scene, const Effects& effec
                                         const std::atomic<bool>* interrupted) {
   std::vector<RatioSearch> found;
   const Network network = build_network(scene);
-  for (const auto& [gearbox, teeth] : network.data.all<StageTeeth>()) {
+  for (const auto& [gearbox, gears] : network.data.all<GearStages>()) {
     RatioTrial trial(network, scene, effects, gearbox, target, limit, interrupted);
     if (!trial.has_gears()) continue;
     RatioSearch search{gearbox, trial.present(), 0, 0, 0, {}, {}, false};
