@@ -14,12 +14,10 @@ std::vector<std::string> idle_effects(const Model& model) {
     const MechanismElement* const element = mechanism_of(e);
     if (!element) continue;
     std::vector<std::string> idle;
-    for (const EffectFlag& effect : effect_flags()) {
-      const bool has_data = effect.flag == &Effects::joint_clearance ? !element->mechanism().clearances.empty()
-                            : effect.flag == &Effects::flexible_rod  ? element->mechanism().flexibility.has_value()
-                                                                     : false;
-      if (has_data && model.effects.*(effect.flag)) idle.emplace_back(effect.words);
-    }
+    for (const EffectFlag& effect : effect_flags())
+      if ((effect.flag == &Effects::joint_clearance && !element->mechanism().clearances.empty()) ||
+          (effect.flag == &Effects::flexible_rod && element->mechanism().flexibility))
+        idle.emplace_back(effect.words);
     if (idle.empty()) continue;
     notes.push_back(
         fmt::format("variable inertia is off: \"{}\" is a crank of constant inertia then, without rod and joints, and "

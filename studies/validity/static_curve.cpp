@@ -13,20 +13,11 @@
 namespace kurbel {
 namespace {
 
-// A motor on its static curve, and its supply.
-struct StaticMotor {
-  std::string name;
-  double rated_torque = 0, breakdown_slip = 0, mains = 0;  // [N·m], [1], [Hz]
-  bool has_circuit = false;                                // data of the two-axis model
-};
-
-// Of a frequency converter the supply is no mains.
-std::vector<StaticMotor> static_motors(const Model& model) {
-  std::vector<StaticMotor> list;
-  for (const auto& [component, motor] : model.network.data.all<InductionData>()) {
-    if (motor.by_converter || (motor.has_circuit && model.effects.transients)) continue;
-    list.push_back({component, motor.rated_torque, motor.breakdown_slip, motor.mains, motor.has_circuit});
-  }
+// Motors on their static curves at the mains: of a frequency converter the supply is none.
+std::vector<std::pair<std::string, InductionData>> static_motors(const Model& model) {
+  std::vector<std::pair<std::string, InductionData>> list;
+  for (const auto& [component, motor] : model.network.data.all<InductionData>())
+    if (!motor.by_converter && !(motor.has_circuit && model.effects.transients)) list.emplace_back(component, motor);
   return list;
 }
 
@@ -37,12 +28,12 @@ struct DriveSwing {
   double missed() const { return torque * (1 - followed); }
 };
 
-double part_followed(double swing, const StaticMotor& motor) {
+double part_followed(double swing, const InductionData& motor) {
   return 1 / std::hypot(1, swing / (motor.breakdown_slip * motor.mains));
 }
 
 // The swing of which the curve gives most that a real motor would not, above the least share of the mains' frequency.
-DriveSwing worst_swing(const MotorMotion& m, const StaticMotor& motor, double least_share) {
+DriveSwing worst_swing(const MotorMotion& m, const InductionData& motor, double least_share) {
   DriveSwing worst;
   const auto change = [&](std::size_t k) { return m.speed[k + 1] - m.speed[k]; };
   std::vector<std::size_t> turns;
@@ -67,14 +58,14 @@ std::vector<std::string> static_curve_notes(const Model& model,
                                             const std::function<MotorMotion(const std::string&)>& motion_of) {
   constexpr double least_share = 0.03, least_torque = 0.05;  // of the mains' frequency, of the rated torque
   std::vector<std::string> notes;
-  for (const StaticMotor& motor : static_motors(model)) {
-    const DriveSwing swing = worst_swing(motion_of(motor.name), motor, least_share);
+  for (const auto& [name, motor] : static_motors(model)) {
+    const DriveSwing swing = worst_swing(motion_of(name), motor, least_share);
     if (!(swing.missed() > least_torque * motor.rated_torque)) continue;
     notes.push_back(fmt::format(
         "the drive \"{}\" swings at about {:.2g} Hz, {:.2g} % of the mains' {:g} Hz, from {:.3g} s on, and its static "
         "torque-speed curve lets its torque swing by {:.3g} N·m with that: too fast for the curve, whose fluxes follow "
         "at once. Estimated by its breakdown slip {:.2g}, a real motor's torque follows such a swing by {:.0f} %; {}",
-        motor.name, swing.frequency, 100 * swing.frequency / motor.mains, motor.mains, swing.at, swing.torque,
+        name, swing.frequency, 100 * swing.frequency / motor.mains, motor.mains, swing.at, swing.torque,
         motor.breakdown_slip, 100 * swing.followed,
         motor.has_circuit ? "the scene has the data of the two-axis model, which computes it: --effects with transients"
                           : fmt::format("the two-axis model computes it: keys frequency = \"{:g} Hz\" and "
