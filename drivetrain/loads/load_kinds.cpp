@@ -21,8 +21,8 @@ const Fields<DragKeys>& drag_fields() {
   return made;
 }
 
-void build_drag(const Section& s, Network& net, Messages&) {
-  const DragKeys drag = drag_fields().read(s);
+void build_drag(const Section& s, Network& net, Messages& messages) {
+  const auto drag = drag_fields().read(s, messages);
   net.put(single_shaft(s, drag.inertia, net), s.name, SpeedLoad{Account::harmful, drag.damping, 0});
 }
 

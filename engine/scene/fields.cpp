@@ -48,7 +48,7 @@ void belongs_to(const Place& place, const std::string& key, const std::string& o
 }
 
 bool is_one_table(const Place& place, const std::string& key, std::size_t tables) {
-  if (tables != 1 && place.messages)
+  if (tables != 1)
     place.messages->add(place.section->where(key),
                         fmt::format("{}: {} = a list of {} tables; must be one table", place.what, key, tables));
   return tables == 1;

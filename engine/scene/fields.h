@@ -44,10 +44,10 @@ class Fields;
 template <class T>
 class Tables;
 
-// Where a table is read, and where its faults go; without messages nothing is checked.
+// Where a table is read, and where its faults go.
 struct Place {
   const Section* section;
-  Messages* messages = nullptr;
+  Messages* messages;
   std::string what;  // how faults name it: gearbox "g": stages[2]
 };
 
@@ -272,7 +272,7 @@ class Fields {
       const Key* first = nullptr;
       for (const auto& [key, form] : forms) {
         if (!place.section->given(key.name)) continue;
-        if (first && place.messages) fields_detail::both_given(place, first->name, key.name, key.name);
+        if (first) fields_detail::both_given(place, first->name, key.name, key.name);
         first = &key;
         data.*as = form;
         data.*member = place.section->number(key.name);
@@ -297,13 +297,10 @@ class Fields {
   Reading<D> read(const Section& section, Messages& messages, std::string what = "") const {
     return read_at({&section, &messages, what.empty() ? fields_detail::who(section) : std::move(what)});
   }
-  // The same of a section whose faults were told before.
-  D read(const Section& section) const { return read_at({&section, nullptr, {}}); }
   Reading<D> read_at(const Place& place, D data = {}) const {
     for (const Entry& entry : entries_) entry.read(data, place);
     const Reading<D> reading(std::move(data), *this, place);
-    if (place.messages)
-      for (const auto rule : rules_) rule(reading);
+    for (const auto rule : rules_) rule(reading);
     return reading;
   }
 

@@ -166,7 +166,8 @@ TEST(Fields, WhatIsReadEqualsWhatWasWritten) {
 }
 
 TEST(Fields, DefaultsFollowFromWhatStandsAbove) {
-  const Table t = fields().read(section_of({number("mass", 3)}));
+  Messages messages("f");
+  const Table t = fields().read(section_of({number("mass", 3)}), messages);
   EXPECT_EQ(t.guide, 6);
   EXPECT_DOUBLE_EQ(t.pin.radius, 0.3);
   EXPECT_FALSE(t.maybe);
@@ -175,7 +176,10 @@ TEST(Fields, DefaultsFollowFromWhatStandsAbove) {
   EXPECT_TRUE(t.loads.empty());
 }
 
-TEST(Fields, RequiredKeyIsNeverPassedOver) { EXPECT_THROW(fields().read(section_of({})), std::logic_error); }
+TEST(Fields, RequiredKeyIsNeverPassedOver) {
+  Messages messages("f");
+  EXPECT_THROW(fields().read(section_of({}), messages), std::logic_error);
+}
 
 TEST(Fields, FaultsNameTheMembersKeyAndItsPlace) {
   Messages messages("f");
@@ -204,7 +208,8 @@ TEST(Fields, OneTableIsNotAList) {
 }
 
 TEST(Fields, NumbersBeyondIntsStayDefined) {
-  EXPECT_EQ(fields().read(section_of({number("mass", 1), number("teeth", 1e300)})).teeth,
+  Messages messages("f");
+  EXPECT_EQ(fields().read(section_of({number("mass", 1), number("teeth", 1e300)}), messages).teeth,
             std::numeric_limits<int>::max());
 }
 
