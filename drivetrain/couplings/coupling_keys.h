@@ -38,7 +38,6 @@ struct ShaftKeys {
   double polar_moment() const;   // J_p = π (D⁴ − d⁴)/32 [m⁴]; of one given by its diameter
   double polar_modulus() const;  // W_p = 2 J_p/D [m³]
 };
-const Fields<ShaftKeys>& shaft_fields();
 
 const Fields<Damping>& damping_fields();  // in its four forms
 

@@ -113,6 +113,35 @@ void check_shaft(const Reading<ShaftKeys>& shaft) {
   }
 }
 
+const Fields<ShaftKeys>& shaft_fields() {
+  static const auto made =
+      Fields<ShaftKeys>()
+          .add(quantity("stiffness", "N*m/rad", positive, "torsional stiffness k of the whole shaft"),
+               &ShaftKeys::stiffness)
+          .add(quantity("length", "m", positive, "length, in place of the stiffness"), &ShaftKeys::length)
+          .add(quantity("diameter", "m", positive,
+                        "outer diameter; beside a stiffness that of the section whose stress is judged"),
+               &ShaftKeys::diameter)
+          .add(defaulted("bore", "m", "0 m", not_negative, "inner diameter"), &ShaftKeys::bore)
+          .add(defaulted("shear_modulus", "Pa", "79.3 GPa", positive, "G; steel unless given"),
+               &ShaftKeys::shear_modulus)
+          .add(defaulted("density", "kg/m3", "7850 kg/m3", positive, "ρ; steel unless given"), &ShaftKeys::density)
+          .add(quantity("inertia", "kg*m2", not_negative, "of the whole shaft; default: from its dimensions, else 0"),
+               &ShaftKeys::inertia)
+          .add(quantity("segments", "", {.low = 1, .high = 100000},
+                        "number of equal springs that it is cut into; default: by dimensions it is continuous, by its "
+                        "stiffness one spring"),
+               &ShaftKeys::segments)
+          .add(quantity("allowable_shear_stress", "Pa", positive,
+                        "limit of the largest stress for kurbel modes, run, steady; needs the diameter"),
+               &ShaftKeys::allowable_shear_stress)
+          .add(shaft_rating_fields(), &ShaftKeys::rating)
+          .add(damping_fields(), &ShaftKeys::damping)
+          .add(application_factor_key(), &ShaftKeys::application_factor)
+          .check(check_shaft);
+  return made;
+}
+
 // k = G J_p/L, J = ρ J_p L. By its dimensions it is continuous; else, and where its segments are told, it is cut into
 // equal springs with the inertia between and at the ends.
 void build_shaft(const Section& s, Network& net, Messages& messages) {
@@ -151,35 +180,6 @@ double ShaftKeys::polar_moment() const {
 }
 
 double ShaftKeys::polar_modulus() const { return 2 * polar_moment() / diameter.value(); }
-
-const Fields<ShaftKeys>& shaft_fields() {
-  static const auto made =
-      Fields<ShaftKeys>()
-          .add(quantity("stiffness", "N*m/rad", positive, "torsional stiffness k of the whole shaft"),
-               &ShaftKeys::stiffness)
-          .add(quantity("length", "m", positive, "length, in place of the stiffness"), &ShaftKeys::length)
-          .add(quantity("diameter", "m", positive,
-                        "outer diameter; beside a stiffness that of the section whose stress is judged"),
-               &ShaftKeys::diameter)
-          .add(defaulted("bore", "m", "0 m", not_negative, "inner diameter"), &ShaftKeys::bore)
-          .add(defaulted("shear_modulus", "Pa", "79.3 GPa", positive, "G; steel unless given"),
-               &ShaftKeys::shear_modulus)
-          .add(defaulted("density", "kg/m3", "7850 kg/m3", positive, "ρ; steel unless given"), &ShaftKeys::density)
-          .add(quantity("inertia", "kg*m2", not_negative, "of the whole shaft; default: from its dimensions, else 0"),
-               &ShaftKeys::inertia)
-          .add(quantity("segments", "", {.low = 1, .high = 100000},
-                        "number of equal springs that it is cut into; default: by dimensions it is continuous, by its "
-                        "stiffness one spring"),
-               &ShaftKeys::segments)
-          .add(quantity("allowable_shear_stress", "Pa", positive,
-                        "limit of the largest stress for kurbel modes, run, steady; needs the diameter"),
-               &ShaftKeys::allowable_shear_stress)
-          .add(shaft_rating_fields(), &ShaftKeys::rating)
-          .add(damping_fields(), &ShaftKeys::damping)
-          .add(application_factor_key(), &ShaftKeys::application_factor)
-          .check(check_shaft);
-  return made;
-}
 
 std::vector<Kind> coupling_kinds() {
   return {

@@ -6,7 +6,6 @@
 
 #include "drivetrain/couplings/coupling_keys.h"
 #include "drivetrain/friction/belt.h"
-#include "drivetrain/friction/belt_rating.h"
 #include "drivetrain/shared/kinds.h"
 #include "engine/model/network.h"
 #include "engine/scene/effects.h"

@@ -1,13 +1,12 @@
 // build_network.cpp — from a scene's components to the machine as drawn; the one place where a kind's builder is
 // called.
-#include "engine/model/build_network.h"
+#include "engine/model/model.h"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "engine/model/continuous_shafts.h"
-#include "engine/model/model.h"
 #include "engine/numerics/deadline.h"
 
 namespace kurbel {

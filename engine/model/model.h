@@ -180,6 +180,8 @@ JacobianLayout lay_out_jacobian(const Model& model);
 
 // Fills the network from a scene's components. Throws SceneError with everything that the components refuse.
 Network build_network(const Scene& scene);
+// Of one component's table; what its parts refuse together is said with the component's place.
+void build_component(const Section& section, Network& network, Messages& messages);
 
 // Compiles a scene with the given effects. Throws SceneError where the equations would be singular.
 std::shared_ptr<const Model> compile(const Scene& scene, const Effects& effects);

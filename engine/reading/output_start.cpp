@@ -10,7 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include "engine/model/build_network.h"
 #include "engine/model/model.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"

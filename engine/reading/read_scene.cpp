@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "engine/model/build_network.h"
-#include "engine/model/network.h"
+#include "engine/model/model.h"
 #include "engine/reading/scene_reading.h"
 #include "engine/reading/sequence_reader.h"
 #include "engine/scene/units.h"

@@ -10,20 +10,21 @@
 #include "engine/scene/scene.h"
 
 namespace kurbel {
-namespace {
 
-bool gives(const Section& section, const std::string& effect) {
+bool has_parameters(const Section& section, const EffectFlag& effect) {
   for (const Setting& setting : section.settings) {
     if (setting.given && section.kind) {
       const auto& keys = section.kind->keys;
       const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
-      if (key != keys.end() && key->gives(effect)) return true;
+      if (key != keys.end() && key->gives(effect.name)) return true;
     }
     for (const Section& nested : setting.sections)
-      if (gives(nested, effect)) return true;
+      if (has_parameters(nested, effect)) return true;
   }
   return false;
 }
+
+namespace {
 
 void switch_elasticity(const std::string& component, bool on, const Scene& scene, Effects& effects) {
   const Section* section = scene.find(component);
@@ -133,7 +134,7 @@ std::span<const EffectFlag> effect_flags() {
 
 bool has_parameters(const Scene& scene, const EffectFlag& effect) {
   return std::any_of(scene.components.begin(), scene.components.end(),
-                     [&](const Section& section) { return gives(section, effect.name); });
+                     [&](const Section& section) { return has_parameters(section, effect); });
 }
 
 bool Effects::is_elastic(const std::string& component) const {

@@ -8,6 +8,7 @@
 namespace kurbel {
 
 struct Scene;
+struct Section;
 
 // Every name in `elastic` is a component whose elasticity is on.
 struct Effects {
@@ -66,8 +67,9 @@ Effects bare_machine(const Effects& effects);
 // What two models share: effects that are on in both; of what is part of the machine, what is off in both.
 Effects in_both(const Effects& a, const Effects& b);
 
-// A key that this effect needs stands somewhere in the scene.
+// A key that this effect needs stands somewhere in the scene, in a component's table.
 bool has_parameters(const Scene& scene, const EffectFlag& effect);
+bool has_parameters(const Section& section, const EffectFlag& effect);
 
 // "none", "all" (that the scene has parameters for), or names joined by commas: "elasticity" or
 // "elasticity:motor_coupling,main_coupling", and names of flags; "-name" takes one away, at the beginning of the list

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "drivetrain/couplings/coupling_keys.h"
-#include "drivetrain/friction/belt_rating.h"
+#include "drivetrain/friction/belt.h"
 #include "drivetrain/induction/induction_law.h"
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"

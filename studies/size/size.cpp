@@ -119,16 +119,12 @@ class Sizer {
       const double ratio = m.node_ratio[n] / s_.flywheel_ratio, inertia = m.network.nodes[n].inertia * ratio * ratio;
       if (name == s_.flywheel) {
         s_.flywheel_now += inertia;
-      } else if (std::count(motors.begin(), motors.end(), name)) {
-        s_.motor_inertia += inertia;
-        add_part(name, inertia);
-      } else if (m.network.kind_of(name).find("gear") != std::string::npos) {
-        s_.gearbox_inertia += inertia;
-        add_part(name, inertia);
-      } else {
-        s_.other_inertia += inertia;
-        add_part(name, inertia);
+        continue;
       }
+      const bool motor = std::count(motors.begin(), motors.end(), name) > 0,
+                 gears = m.network.kind_of(name).find("gear") != std::string::npos;
+      (motor ? s_.motor_inertia : gears ? s_.gearbox_inertia : s_.other_inertia) += inertia;
+      add_part(name, inertia);
     }
   }
   void add_part(const std::string& name, double inertia) {

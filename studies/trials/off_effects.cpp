@@ -39,12 +39,10 @@ bool makes_machine(const Scene& scene, const Effects& effects) {
 std::vector<std::string> carriers(const Scene& scene, const EffectFlag& effect,
                                   const std::vector<std::string>& could_be_elastic) {
   std::vector<std::string> names;
-  for (const Section& section : scene.components) {
-    if (std::find(could_be_elastic.begin(), could_be_elastic.end(), section.name) == could_be_elastic.end()) continue;
-    Scene alone;
-    alone.components = {section};
-    if (has_parameters(alone, effect)) names.push_back(section.name);
-  }
+  for (const Section& section : scene.components)
+    if (std::count(could_be_elastic.begin(), could_be_elastic.end(), section.name) > 0 &&
+        has_parameters(section, effect))
+      names.push_back(section.name);
   return names;
 }
 
