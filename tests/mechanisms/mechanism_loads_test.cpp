@@ -4,6 +4,8 @@
 #include <numbers>
 #include <string>
 
+#include "engine/events/equations.h"
+#include "engine/model/model.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/mechanisms/linkage_truth.h"
 #include "tests/support/scenes.h"
@@ -272,6 +274,53 @@ TEST(Linkages, MultibodyRunIsRefusedInWords) {
                         "\"reduced\""),
               std::string::npos)
         << error.what();
+  }
+}
+
+// A study asks the mechanism for what the equations apply: the same pieces, the same terms, to the bit.
+TEST(MechanismLoad, ByAngleAndSpeedIsTheForceThatTheEquationsApply) {
+  const std::string crank = R"(
+line = ["m", "wheel"]
+[wheel]
+kind = "flywheel"
+inertia = "1 kg*m2"
+[m]
+kind = "slider-crank"
+radius = "100 mm"
+rod = "400 mm"
+offset = "10 mm"
+slider_mass = "5 kg"
+load = )";
+  for (
+      const char* load : {
+          R"({ kind = "press", force = "100 kN", nominal_travel = "20 mm", rise = "2 mm" })",
+          R"({ kind = "opposing", force = "1 kN" })",
+          R"([{ kind = "medium", viscous = "100 N*s/m" }, { kind = "constant", force = "-50 N" }])",
+          R"({ kind = "compressor", bore = "80 mm", suction_pressure = "1 bar", delivery_pressure = "6 bar", clearance = 0.06 })",
+      }) {
+    const Scene scene = test::scene_from(crank + load + "\n");
+    for (const bool load_edges : {true, false}) {
+      Effects effects;
+      effects.load_edges = load_edges;
+      const auto model = compile(scene, effects);
+      const Mechanism* const mechanism = find_mechanism(model->network, "m");
+      ASSERT_NE(mechanism, nullptr);
+      EXPECT_EQ(find_mechanism(model->network, "wheel"), nullptr);
+      Equations equations(model, false);
+      for (const Channel& channel : model->pool_channels) {
+        if (channel.name.what != QuantityKind::force || channel.name.of != "m") continue;
+        for (const double omega : {30.0, -30.0})
+          for (int k = 0; k < 400; ++k) {
+            const double phi = pi * k / 100;
+            const std::vector<double> y = equations.modes_from_scratch(0, phi, omega);
+            EXPECT_EQ(mechanism->load(phi, omega), channel.value(equations.snapshot(0, y))) << load << " at " << phi;
+          }
+      }
+      double sum = 0;
+      for (std::size_t k = 0; k < mechanism->loads.size(); ++k) sum += mechanism->load(1, 30, std::uint64_t{1} << k);
+      EXPECT_DOUBLE_EQ(sum, mechanism->load(1, 30));
+      EXPECT_EQ(mechanism->load(1, 30, 0), 0);
+    }
   }
 }
 
