@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <span>
+#include <unordered_map>
 
 #include "engine/scene/units.h"
-#include "studies/dictionary/entries.h"
+#include "studies/dictionary/own_entries.h"
+#include "studies/dictionary/run_entries.h"
+#include "studies/dictionary/study_entries.h"
 
 namespace kurbel {
 namespace {
@@ -32,9 +36,18 @@ std::string as_name(std::string_view text) {
   return name;
 }
 
+bool has_star(const Definition& d) { return d.name.find('*') != std::string_view::npos; }
+
 const Definition* find(std::string_view name) {
+  static const std::unordered_map<std::string_view, const Definition*> in_full = [] {
+    std::unordered_map<std::string_view, const Definition*> known;
+    for (const Definition& d : dictionary())
+      if (!has_star(d)) known.emplace(d.name, &d);
+    return known;
+  }();
+  if (const auto known = in_full.find(name); known != in_full.end()) return known->second;
   for (const Definition& d : dictionary())
-    if (fits(d.name, name)) return &d;
+    if (has_star(d) && fits(d.name, name)) return &d;
   return nullptr;
 }
 
@@ -51,14 +64,10 @@ const Definition* find_with_peaks(std::string_view name) {
 const std::vector<Definition>& dictionary() {
   static const std::vector<Definition> all = [] {
     std::vector<Definition> list;
-    for (const std::vector<KindEntry>& kinds : {entries_of_kinds(), entries_of_cycles()})
-      for (const KindEntry& entry : kinds) {
-        list.push_back(entry.told);
-        list.back().name = word(entry.what);
-      }
-    // Names in full before those with a star.
-    for (const std::vector<Definition>& more : {entries_of_studies(), entries_of_own()})
-      list.insert(list.end(), more.begin(), more.end());
+    for (const std::span<const Definition> rows :
+         {std::span<const Definition>(entries::of_channels_and_runs), std::span<const Definition>(entries::of_a_cycle),
+          std::span<const Definition>(entries::of_one_study), std::span<const Definition>(entries::of_elements)})
+      list.insert(list.end(), rows.begin(), rows.end());
     return list;
   }();
   return all;
@@ -133,7 +142,7 @@ std::vector<std::string> names_like(std::string_view asked, std::size_t most) {
   const std::string name = as_name(asked.substr(0, asked.find('.')));
   std::vector<std::string> names, like;
   for (const Definition& d : dictionary())
-    if (d.name.find('*') == std::string_view::npos) names.emplace_back(d.name);
+    if (!has_star(d)) names.emplace_back(d.name);
   const auto take = [&](const std::string& one) {
     if (like.size() < most && std::find(like.begin(), like.end(), one) == like.end()) like.push_back(one);
   };

@@ -17,11 +17,11 @@ struct Definition {
   std::string_view words = {};    // "speed fluctuation δ"
   std::string_view unit = {};     // SI; empty: a plain number
   std::string_view of = {};       // whose it is, behind the point: "shaft"; empty: the machine's, nothing stands behind
+  std::string_view theory = {};   // "2.6": page 2, equation 6; "15": a page; empty: none
+  std::string_view verbs = {};    // that print it: "run, compare"; empty: none does
   std::string_view is = {};       // what it is
   std::string_view formula = {};  // empty: there is none
   std::string_view is_not = {};   // what it is taken for; empty: nothing
-  std::string_view theory = {};   // "2.6": page 2, equation 6; "15": a page; empty: none
-  std::string_view verbs = {};    // that print it: "run, compare"; empty: none does
 
   // "delta.SHAFT"
   std::string form() const;

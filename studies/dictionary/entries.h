@@ -1,20 +1,17 @@
-// entries.h — the dictionary's pages, each filled in its own file.
+// entries.h — what the rows of the dictionary share: the commands that print a figure.
+//
+// A row, as its header has it: name, words, unit, whose it is, theory, commands, what it is, formula, what it is not.
 #pragma once
-
-#include <vector>
 
 #include "studies/dictionary/dictionary.h"
 
-namespace kurbel {
+namespace kurbel::entries {
 
-// Of a typed quantity, whose word is its name.
-struct KindEntry {
-  QuantityKind what;
-  Definition told;  // its name is filled in
-};
-std::vector<KindEntry> entries_of_kinds();     // run_entries.cpp: channels and figures of a whole run
-std::vector<KindEntry> entries_of_cycles();    // cycle_entries.cpp: of one cycle
-std::vector<Definition> entries_of_own();      // own_entries.cpp: states and outputs of elements
-std::vector<Definition> entries_of_studies();  // study_entries.cpp
+// trajectory.csv
+inline constexpr std::string_view of_files = "run, compare";
+inline constexpr std::string_view of_runs = "run, compare, effects, advise, accuracy, sweep, uncertainty";
+inline constexpr std::string_view of_both = "run, compare, effects, advise, accuracy, steady, sweep, uncertainty";
+inline constexpr std::string_view of_cycles = "steady, sweep, uncertainty";
+inline constexpr std::string_view of_sizing = "size, sweep, uncertainty";
 
-}  // namespace kurbel
+}  // namespace kurbel::entries
