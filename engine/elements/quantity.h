@@ -1,137 +1,166 @@
-// quantity.h — what channels and figures tell of: the words that their names are made of, each once.
+// quantity.h — what channels and figures tell of, functional ∘ channel ∘ window, and the names that are made of it.
 //
 // A name is "what.whose", as peak_torque.main_coupling. Programs that look for one ask for the quantity and its owner;
 // no name is ever taken apart.
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "engine/base/enumerators.h"
-
 namespace kurbel {
 
-enum class QuantityKind {
-  other,  // an element's own state or output
-  // channels
-  angle,
-  speed,
-  twist,
-  slip,
-  torque,
-  spring_torque,
-  position,
-  velocity,
-  acceleration,
-  force,
-  load_torque,
-  // figures of a whole run
-  peak_torque,
-  peak_spring_torque,
-  peak_velocity,
-  peak_acceleration,
-  peak_force,
-  peak_load_torque,
-  peak_other,  // of an element's own state or output
-  // of one steady cycle
-  peak_drive_torque,
-  cycle_peak_torque,
-  cycle_peak_spring_torque,
-  cycle_peak_velocity,
-  cycle_peak_acceleration,
-  cycle_peak_force,
-  cycle_peak_load_torque,
-  cycle_peak_other,
-  // of a whole run
-  max_speed,
-  min_speed,
-  rms_torque,
-  rms_spring_torque,
-  steady_speed,
-  // of one cycle: the steady one, or a run's last whole one before it runs down
-  cycle_max_speed,
-  cycle_min_speed,
-  mid_speed,
-  mean_speed,
-  delta,              // of motion that repeats
-  cycle_fluctuation,  // the same of motion that does not
-  cycle_time,
-  period,
-  cycle_rms_torque,
-  mean_drive_torque,
-  rms_drive_torque,
-  // of a whole run
-  final_angle,
-  final_speed,
-  run_up_time,
-  run_down_time,
-  stopping_time,
-  stopping_angle,
-  slip_heat,
-  impacts,
-  amplification,  // of a torque: peak with elasticity over peak without
-  work,           // "work.driving": of a line of the energy balance
-  driving_work_per_cycle,
-  useful_work_per_cycle,
-  harmful_work_per_cycle,
-  weight_work_per_cycle,
-  work_per_cycle  // of one account
+// What is made of a channel.
+enum class Functional {
+  none,      // the channel itself, or a figure whose word says all
+  peak,      // its value of greatest magnitude, with its sign
+  greatest,  // its largest value
+  least,     // its smallest
+  mid,       // the middle of those two
+  mean,      // over time
+  rms,       // root of the mean square over time
+  last       // at the end
 };
 
-// Empty of an element's own, whose words it has itself.
-inline const char* word(QuantityKind quantity) {
-  using enum QuantityKind;
-  const bool of_element = quantity == other || quantity == peak_other || quantity == cycle_peak_other;
-  return of_element ? "" : enumerator_name<work_per_cycle>(quantity);
+inline const char* prefix(Functional functional) {
+  switch (functional) {
+    case Functional::none:
+      return "";
+    case Functional::peak:
+      return "peak_";
+    case Functional::greatest:
+      return "max_";
+    case Functional::least:
+      return "min_";
+    case Functional::mid:
+      return "mid_";
+    case Functional::mean:
+      return "mean_";
+    case Functional::rms:
+      return "rms_";
+    case Functional::last:
+      return "final_";
+  }
+  return "";
+}
+
+struct QuantityKind {
+  enum class Window {
+    moment,       // a channel
+    run,          // from the start of a run to its end
+    cycle,        // the steady one, or a run's last whole one before it runs down
+    steady_cycle  // the steady one, of what is told of a whole run, too
+  };
+  std::string_view channel = {};  // "torque"; empty: an element's own, which its name's text has
+  Functional functional = Functional::none;
+  Window window = Window::moment;
+
+  friend constexpr bool operator==(const QuantityKind&, const QuantityKind&) = default;
+};
+
+// All of them that programs look for, each once; all others are told under words of their own.
+namespace quantity {
+using enum Functional;
+using enum QuantityKind::Window;
+inline constexpr QuantityKind other{};  // an element's own state or output
+// channels
+inline constexpr QuantityKind angle{"angle"};
+inline constexpr QuantityKind speed{"speed"};
+inline constexpr QuantityKind twist{"twist"};
+inline constexpr QuantityKind slip{"slip"};
+inline constexpr QuantityKind torque{"torque"};
+inline constexpr QuantityKind spring_torque{"spring_torque"};
+inline constexpr QuantityKind position{"position"};
+inline constexpr QuantityKind velocity{"velocity"};
+inline constexpr QuantityKind acceleration{"acceleration"};
+inline constexpr QuantityKind force{"force"};
+inline constexpr QuantityKind load_torque{"load_torque"};
+// of a whole run
+inline constexpr QuantityKind peak_torque{"torque", peak, run};
+inline constexpr QuantityKind peak_spring_torque{"spring_torque", peak, run};
+inline constexpr QuantityKind peak_velocity{"velocity", peak, run};
+inline constexpr QuantityKind peak_acceleration{"acceleration", peak, run};
+inline constexpr QuantityKind peak_force{"force", peak, run};
+inline constexpr QuantityKind peak_load_torque{"load_torque", peak, run};
+inline constexpr QuantityKind peak_other{"", peak, run};
+inline constexpr QuantityKind max_speed{"speed", greatest, run};
+inline constexpr QuantityKind min_speed{"speed", least, run};
+inline constexpr QuantityKind rms_torque{"torque", rms, run};
+inline constexpr QuantityKind rms_spring_torque{"spring_torque", rms, run};
+inline constexpr QuantityKind final_angle{"angle", last, run};
+inline constexpr QuantityKind final_speed{"speed", last, run};
+inline constexpr QuantityKind steady_speed{"steady_speed", none, run};
+inline constexpr QuantityKind run_up_time{"run_up_time", none, run};
+inline constexpr QuantityKind run_down_time{"run_down_time", none, run};
+inline constexpr QuantityKind stopping_time{"stopping_time", none, run};
+inline constexpr QuantityKind stopping_angle{"stopping_angle", none, run};
+inline constexpr QuantityKind slip_heat{"slip_heat", none, run};
+inline constexpr QuantityKind impacts{"impacts", none, run};
+inline constexpr QuantityKind amplification{"amplification", none, run};  // peak with elasticity over peak without
+inline constexpr QuantityKind work{"work", none, run};                    // of a line of the energy balance
+// of one cycle
+inline constexpr QuantityKind cycle_peak_torque{"torque", peak, steady_cycle};
+inline constexpr QuantityKind cycle_max_speed{"speed", greatest, steady_cycle};
+inline constexpr QuantityKind cycle_min_speed{"speed", least, steady_cycle};
+inline constexpr QuantityKind cycle_rms_torque{"torque", rms, steady_cycle};
+inline constexpr QuantityKind peak_drive_torque{"drive_torque", peak, cycle};
+inline constexpr QuantityKind mean_drive_torque{"drive_torque", mean, cycle};
+inline constexpr QuantityKind rms_drive_torque{"drive_torque", rms, cycle};
+inline constexpr QuantityKind mid_speed{"speed", mid, cycle};
+inline constexpr QuantityKind mean_speed{"speed", mean, cycle};
+inline constexpr QuantityKind delta{"delta", none, cycle};                          // of motion that repeats
+inline constexpr QuantityKind cycle_fluctuation{"cycle_fluctuation", none, cycle};  // the same of motion that does not
+inline constexpr QuantityKind cycle_time{"cycle_time", none, cycle};
+inline constexpr QuantityKind period{"period", none, cycle};
+inline constexpr QuantityKind driving_work_per_cycle{"driving_work_per_cycle", none, cycle};
+inline constexpr QuantityKind useful_work_per_cycle{"useful_work_per_cycle", none, cycle};
+inline constexpr QuantityKind harmful_work_per_cycle{"harmful_work_per_cycle", none, cycle};
+inline constexpr QuantityKind weight_work_per_cycle{"weight_work_per_cycle", none, cycle};
+inline constexpr QuantityKind work_per_cycle{"work_per_cycle", none, cycle};  // of one account
+}  // namespace quantity
+
+// "cycle_peak_torque"; empty: of an element's own.
+inline std::string word(const QuantityKind& what) {
+  if (what.channel.empty()) return {};
+  std::string text = what.window == QuantityKind::Window::steady_cycle ? "cycle_" : "";
+  return text.append(prefix(what.functional)).append(what.channel);
+}
+
+inline bool is_one_of(const QuantityKind& what, std::initializer_list<QuantityKind> kinds) {
+  return std::find(kinds.begin(), kinds.end(), what) != kinds.end();
 }
 
 // A largest magnitude: of two equal ones of opposite sign either may be taken.
-inline bool is_peak(QuantityKind quantity) {
-  return quantity >= QuantityKind::peak_torque && quantity <= QuantityKind::cycle_peak_other;
-}
+inline bool is_peak(const QuantityKind& what) { return what.functional == Functional::peak; }
 
 // A quantity and whose it is.
 struct Name {
-  QuantityKind what = QuantityKind::other;
+  QuantityKind what = {};
   std::string of;    // component or part of it: "main_coupling", "gearbox.in"; empty: of the whole machine
   std::string text;  // "peak_torque.main_coupling"
 
-  static Name make(QuantityKind what, std::string of = {}) {
+  static Name make(const QuantityKind& what, std::string of = {}) {
     std::string text = word(what);
-    if (!of.empty()) text += "." + of;
+    if (!of.empty()) text.append(".").append(of);
     return {what, std::move(of), std::move(text)};
   }
   // An element's own: "current", "motor".
-  static Name own(const std::string& words, const std::string& of) {
-    return {QuantityKind::other, of, words + "." + of};
+  static Name own(std::string_view words, const std::string& of) {
+    return {quantity::other, of, std::string(words).append(".").append(of)};
   }
   friend bool operator==(const Name& a, const Name& b) { return a.text == b.text; }
   friend bool operator==(const Name& a, std::string_view text) { return a.text == text; }
-  // Of a channel, the figure that tells its peak.
+  // Of a channel, the figure that tells its peak over a whole run.
   Name peak() const {
-    using enum QuantityKind;
-    static constexpr std::pair<QuantityKind, QuantityKind> peaks[] = {
-        {torque, peak_torque},     {spring_torque, peak_spring_torque},
-        {velocity, peak_velocity}, {acceleration, peak_acceleration},
-        {force, peak_force},       {load_torque, peak_load_torque}};
-    for (const auto& [channel, figure] : peaks)
-      if (channel == what) return make(figure, of);
-    return {peak_other, of, "peak_" + text};
+    return {{what.channel, Functional::peak, QuantityKind::Window::run}, of, prefix(Functional::peak) + text};
   }
-  // Of a figure of a whole run, the like figure of one steady cycle; others are what they were.
+  // Of an extreme or an RMS value of a whole run, the like of one steady cycle; others are what they were.
   Name of_cycle() const {
-    using enum QuantityKind;
-    static constexpr std::pair<QuantityKind, QuantityKind> figures[] = {
-        {peak_torque, cycle_peak_torque},     {peak_spring_torque, cycle_peak_spring_torque},
-        {peak_velocity, cycle_peak_velocity}, {peak_acceleration, cycle_peak_acceleration},
-        {peak_force, cycle_peak_force},       {peak_load_torque, cycle_peak_load_torque},
-        {max_speed, cycle_max_speed},         {min_speed, cycle_min_speed},
-        {rms_torque, cycle_rms_torque}};
-    for (const auto& [of_run, of_round] : figures)
-      if (of_run == what) return make(of_round, of);
-    if (what == peak_other) return {cycle_peak_other, of, "cycle_" + text};
-    return *this;
+    if (what.window != QuantityKind::Window::run) return *this;
+    if (what.functional == Functional::none || what.functional == Functional::last) return *this;
+    return {{what.channel, what.functional, QuantityKind::Window::steady_cycle}, of, "cycle_" + text};
   }
 };
 

@@ -49,7 +49,7 @@ class ChannelList {
       if (is_wanted(wanted_, component_of(joint.component))) add_joint(joint);
     for (const GearTorque& torque : model_.gear_torques)
       if (is_wanted(wanted_, component_of(torque.name)))
-        add(Name::make(QuantityKind::torque, torque.name), "N*m",
+        add(Name::make(quantity::torque, torque.name), "N*m",
             [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); });
     for (std::size_t k = 0; k < model_.own_states.size(); ++k) {
       const auto& [component, state] = model_.own_states[k];
@@ -69,8 +69,8 @@ class ChannelList {
   void add_motion(const std::string& name, int node) {
     const int shaft = model_.shaft_of_node[at(node)];
     const double gain = model_.gain_of_node[at(node)];
-    add(Name::make(QuantityKind::angle, name), "rad", [node](const Snapshot& s) { return s.node_angle[node]; });
-    add(Name::make(QuantityKind::speed, name), "rad/s",
+    add(Name::make(quantity::angle, name), "rad", [node](const Snapshot& s) { return s.node_angle[node]; });
+    add(Name::make(quantity::speed, name), "rad/s",
         [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; });
   }
   void add_motions(const std::string& component) {
@@ -89,7 +89,7 @@ class ChannelList {
       if (model_.network.elements[e].component == component && model_.network.elements[e].element->cycle == 0)
         own.push_back(e);
     if (own.empty()) return;
-    add(Name::make(QuantityKind::torque, component), "N*m", [own](const Snapshot& s) {
+    add(Name::make(quantity::torque, component), "N*m", [own](const Snapshot& s) {
       double sum = 0;
       for (const std::size_t e : own) sum += s.sums.element_torque[e];
       return sum;
@@ -100,7 +100,7 @@ class ChannelList {
   void add_drive(const std::string& component) {
     for (const MotorTorque& drive : model_.motors) {
       if (!drive.prescribed || drive.component != component) continue;
-      add(Name::make(QuantityKind::torque, component), "N*m", [drive](const Snapshot& s) { return drive.torque(s); });
+      add(Name::make(quantity::torque, component), "N*m", [drive](const Snapshot& s) { return drive.torque(s); });
       const int shaft = model_.shaft_of_node[at(drive.node)];
       const double gain = model_.gain_of_node[at(drive.node)];
       add(Name::own("power", component), "W",
@@ -110,20 +110,20 @@ class ChannelList {
 
   void add_joint(const TorqueJoint& joint) {
     const int j = joint.joint, e = joint.elastic;
-    add(Name::make(QuantityKind::torque, joint.component), "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; });
+    add(Name::make(quantity::torque, joint.component), "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; });
     if (e < 0) return;
     const ElasticJoint& elastic = model_.elastic[at(e)];
     if (elastic.slips || elastic.springless) {
       const int a = elastic.shaft_a, b = elastic.shaft_b;
       const double ga = elastic.gain_a, gb = elastic.gain_b;
-      add(Name::make(QuantityKind::slip, joint.component), "rad/s",
+      add(Name::make(quantity::slip, joint.component), "rad/s",
           [=](const Snapshot& s) { return ga * s.now.speed[a] - gb * s.now.speed[b]; });
       return;
     }
-    add(Name::make(QuantityKind::spring_torque, joint.component), "N*m",
+    add(Name::make(quantity::spring_torque, joint.component), "N*m",
         [e](const Snapshot& s) { return s.sums.spring_torque[e]; });
     const int first = joint.first, last = joint.last;
-    add(Name::make(QuantityKind::twist, joint.component), "rad", [first, last](const Snapshot& s) {
+    add(Name::make(quantity::twist, joint.component), "rad", [first, last](const Snapshot& s) {
       double twist = 0;
       for (int k = first; k <= last; ++k) twist += s.now.twist[k];
       return twist;
@@ -156,7 +156,7 @@ void tell_rates_of_row(const Model& model, const TorqueJoint& joint, const AnyCo
 // What a joint transmits and what its spring does of that; no spring: the torque alone. The model outlives the run.
 void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<ExtremeOf>& wanted) {
   const int j = joint.joint, e = joint.elastic;
-  ExtremeOf transmitted{.name = Name::make(QuantityKind::peak_torque, joint.component),
+  ExtremeOf transmitted{.name = Name::make(quantity::peak_torque, joint.component),
                         .unit = "N*m",
                         .scale = joint.torque_scale,
                         .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
@@ -167,7 +167,7 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
   }
   if (!model.network.joints[at(j)].element) return wanted.push_back(std::move(transmitted));  // no spring at all
   ExtremeOf spring = transmitted;
-  spring.name = Name::make(QuantityKind::peak_spring_torque, joint.component);
+  spring.name = Name::make(quantity::peak_spring_torque, joint.component);
   if (e >= 0) {
     const ElasticJoint elastic = model.elastic[at(e)];
     const AnyConnection* element = model.network.joints[at(j)].element.get();
@@ -198,7 +198,7 @@ void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
   const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
   const double gain = model.gain_of_node[at(node)];
   const std::string link = model.network.nodes[at(node)].component;
-  ExtremeOf speed{.name = Name::make(QuantityKind::max_speed, link),
+  ExtremeOf speed{.name = Name::make(quantity::max_speed, link),
                   .unit = "rad/s",
                   .scale = model.speed_scale,
                   .which = ExtremeOf::Which::maximum,
@@ -206,7 +206,7 @@ void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
                   .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
   speed.slope = speed.rate;
   wanted.push_back(speed);
-  speed.name = Name::make(QuantityKind::min_speed, link);
+  speed.name = Name::make(quantity::min_speed, link);
   speed.which = ExtremeOf::Which::minimum;
   wanted.push_back(std::move(speed));
 }
@@ -224,7 +224,7 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
   for (const TorqueJoint& joint : model.torque_joints) add_peaks(model, joint, wanted);
   for (const GearTorque& torque : model.gear_torques)
     wanted.push_back(
-        {.name = Name::make(QuantityKind::peak_torque, torque.name),
+        {.name = Name::make(quantity::peak_torque, torque.name),
          .unit = "N*m",
          .scale = model.torque_scale / model.scale_ratio[at(torque.node)],
          .value =
@@ -241,7 +241,7 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
                         .rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; }});
   }
   for (const Channel& channel : model.pool_channels)
-    if (channel.name.what != QuantityKind::position)
+    if (channel.name.what != quantity::position)
       wanted.push_back({.name = channel.name.peak(), .unit = channel.unit, .value = channel.value, .rate = {}});
   return wanted;
 }

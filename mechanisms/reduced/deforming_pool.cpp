@@ -301,21 +301,20 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
     const Placed& placed = placed_[i];
     const std::string& name = placed.mechanism.name;
     using Value = std::function<double(const Snapshot&)>;
-    const auto add = [&](QuantityKind quantity, const char* unit, Value value) {
+    const auto add = [&](const QuantityKind& quantity, const char* unit, Value value) {
       channels.push_back({Name::make(quantity, name), unit, std::move(value)});
     };
     const auto add_own = [&](const std::string& words, const char* unit, Value value) {
       channels.push_back({Name::own(words, name), unit, std::move(value)});
     };
     const auto here = [this, i](const Snapshot& s) { return motion(placed_[i], s.now); };
-    add(QuantityKind::position, "m", [here](const Snapshot& s) { return here(s).x; });
-    add(QuantityKind::velocity, "m/s", [here](const Snapshot& s) { return here(s).x_rate; });
-    add(QuantityKind::acceleration, "m/s2", [this, i, here](const Snapshot& s) {
+    add(quantity::position, "m", [here](const Snapshot& s) { return here(s).x; });
+    add(quantity::velocity, "m/s", [here](const Snapshot& s) { return here(s).x_rate; });
+    add(quantity::acceleration, "m/s2", [this, i, here](const Snapshot& s) {
       return placed_[i].dynamics->acceleration_x(here(s), acceleration(placed_[i], s));
     });
     if (!placed.mechanism.loads.empty())
-      add(QuantityKind::force, "N",
-          [this, i, here](const Snapshot& s) { return load_force(placed_[i], s.now, here(s)); });
+      add(quantity::force, "N", [this, i, here](const Snapshot& s) { return load_force(placed_[i], s.now, here(s)); });
     const auto& free = placed.dynamics->free();
     if (std::find(free.begin(), free.end(), std::size_t{C::y}) == free.end())
       add_own("guide_reaction", "N", [this, i](const Snapshot& s) { return reactions(placed_[i], s)[C::y]; });

@@ -41,8 +41,8 @@ namespace {
 
 // Angles count in rad, whatever was turned; speeds and twists over the largest that they reach.
 bool is_state(const Channel& channel) {
-  const QuantityKind what = channel.name.what;
-  return what == QuantityKind::angle || what == QuantityKind::speed || what == QuantityKind::twist;
+  const QuantityKind& what = channel.name.what;
+  return what == quantity::angle || what == quantity::speed || what == quantity::twist;
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ double trajectory_difference(const TrajectoryRecorder& a, const TrajectoryRecord
       scale = std::max(scale, std::abs(reference.value(row, k)));
       difference = std::max(difference, std::abs(a.value(row, k) - reference.value(row, k)));
     }
-    if (a.channels()[k].name.what == QuantityKind::angle) scale = 1;
+    if (a.channels()[k].name.what == quantity::angle) scale = 1;
     if (scale > 0) largest = std::max(largest, difference / scale);
   }
   return largest;

@@ -20,12 +20,12 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
     return std::abs(f.value) > 1e-9 * std::max(f.scale, 1e-300) && f.error && std::isfinite(*f.error);
   };
   for (const Figure& f : full.figures)
-    if (sound(f) && f.what == QuantityKind::peak_torque) peaks.push_back(&f);
-  using enum QuantityKind;
-  for (const QuantityKind what :
-       {delta, cycle_fluctuation, run_up_time, final_angle, final_speed, max_speed, peak_force})
+    if (sound(f) && f.what == quantity::peak_torque) peaks.push_back(&f);
+  for (const QuantityKind& what :
+       {quantity::delta, quantity::cycle_fluctuation, quantity::run_up_time, quantity::final_angle,
+        quantity::final_speed, quantity::max_speed, quantity::peak_force})
     for (const Figure& f : full.figures)
-      if (sound(f) && f.what == what && ((what != final_angle && what != final_speed) || f.of == link_of(model)))
+      if (sound(f) && f.what == what && (what.functional != Functional::last || f.of == link_of(model)))
         others.push_back(&f);
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const Figure* a, const Figure* b) { return std::abs(a->value) > std::abs(b->value); });

@@ -2,7 +2,6 @@
 #include "studies/advise/settled.h"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 
 #include "studies/steady/cycle_search.h"
@@ -11,18 +10,10 @@ namespace kurbel {
 namespace {
 
 bool is_compared(const Figure& figure) {
-  using enum QuantityKind;
-  static const std::set<QuantityKind> compared = {delta,
-                                                  mean_speed,
-                                                  mid_speed,
-                                                  cycle_max_speed,
-                                                  cycle_min_speed,
-                                                  cycle_peak_torque,
-                                                  cycle_rms_torque,
-                                                  peak_drive_torque,
-                                                  mean_drive_torque,
-                                                  rms_drive_torque};
-  return figure.scale > 0 && compared.count(figure.what) > 0;
+  return figure.scale > 0 &&
+         is_one_of(figure.what, {quantity::delta, quantity::mean_speed, quantity::mid_speed, quantity::cycle_max_speed,
+                                 quantity::cycle_min_speed, quantity::cycle_peak_torque, quantity::cycle_rms_torque,
+                                 quantity::peak_drive_torque, quantity::mean_drive_torque, quantity::rms_drive_torque});
 }
 
 bool is_asked(const Figure& figure, const std::vector<std::string>& figures) {

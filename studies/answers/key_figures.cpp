@@ -2,7 +2,6 @@
 #include "studies/answers/key_figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -18,69 +17,60 @@ constexpr std::size_t most_peaks = 3;
 constexpr int never = 100;
 constexpr double stands_within_the_cycle = 2;  // (ω_max − ω_min)/ω_mid from there on: ω_min ≤ 0
 
-// Ranks of figures by their names' beginnings.
+// Ranks of a figure of the link, and of the same of others.
 struct Ranked {
-  int rank;
-  std::string_view name;
+  std::string_view words;
+  int of_link, of_others = of_link;
 };
-constexpr std::array own_names = {
-    Ranked{3, "thermal_use"},        Ranked{3, "cycle_motor_power"},
-    Ranked{3, "motor_mean_power"},   Ranked{3, "motor_rms_torque"},
-    Ranked{4, "motor_rms_current"},  Ranked{6, "motor_slip_heat"},
-    Ranked{8, "loop_work"},          Ranked{2, "flywheel_energy"},
-    Ranked{5, "machine_efficiency"}, Ranked{8, "loop_power"},
-    Ranked{4, "speed_drop"},         Ranked{6, "energy_given"},
-    Ranked{6, "torque_reserve"},     Ranked{6, "engagement_heat"},
-    Ranked{8, "slip_time"},          Ranked{8, "heat_power"},
-    Ranked{6, "strand_force"},       Ranked{3, "current_use"},
-    Ranked{6, "start_heat"},         Ranked{8, "volumetric_efficiency"},
+constexpr Ranked ranks[] = {
+    {"cycle_fluctuation", 2, never},
+    {"delta", 2, never},
+    {"flywheel_energy", 2},
+    {"mean_speed", 2, never},
+    {"current_use", 3},
+    {"cycle_motor_power", 3},
+    {"motor_mean_power", 3},
+    {"motor_rms_torque", 3},
+    {"thermal_use", 3},
+    {"motor_rms_current", 4},
+    {"peak_torque", 4},
+    {"speed_drop", 4},
+    {"machine_efficiency", 5},
+    {"peak_force", 5},
+    {"peak_load_torque", 5},
+    {"useful_work_per_cycle", 5},
+    {"energy_given", 6},
+    {"engagement_heat", 6},
+    {"impacts", 6},
+    {"motor_slip_heat", 6},
+    {"run_down_time", 6},
+    {"run_up_time", 6},
+    {"slip_heat", 6},
+    {"start_heat", 6},
+    {"stopping_angle", 6},
+    {"stopping_time", 6},
+    {"strand_force", 6},
+    {"torque_reserve", 6},
+    {"final_speed", 7, 9},
+    {"peak_velocity", 7},
+    {"final_angle", 8, 10},
+    {"heat_power", 8},
+    {"loop_power", 8},
+    {"loop_work", 8},
+    {"max_speed", 8},
+    {"peak_acceleration", 8, 10},
+    {"slip_time", 8},
+    {"volumetric_efficiency", 8},
+    {"work", 10},
 };
-
-bool begins(const std::string& name, std::string_view word) {
-  return name.starts_with(word) && (name.size() == word.size() || name[word.size()] == '.');
-}
 
 int rank_of(const Figure& f, const std::string& link, const std::set<std::string>& judged) {
-  using enum QuantityKind;
   if (judged.contains(f.name)) return 1;
-  const bool of_link = f.of == link;
-  if (f.name.starts_with("motor_peak_")) return 9;  // behind what heats it
-  switch (f.what) {
-    case cycle_fluctuation:
-      return of_link && f.value < stands_within_the_cycle ? 2 : never;
-    case delta:
-    case mean_speed:
-      return of_link ? 2 : never;
-    case peak_torque:
-      return 4;
-    case peak_force:
-    case peak_load_torque:
-    case useful_work_per_cycle:
-      return 5;
-    case run_up_time:
-    case run_down_time:
-    case stopping_time:
-    case stopping_angle:
-    case slip_heat:
-    case impacts:
-      return 6;
-    case peak_velocity:
-      return 7;
-    case final_speed:
-      return of_link ? 7 : 9;
-    case final_angle:
-    case peak_acceleration:
-      return of_link ? 8 : 10;
-    case peak_other:
-    case max_speed:
-      return 8;
-    case work:
-      return 10;
-    default:
-      break;
-  }
-  for (const Ranked& own : own_names)
-    if (begins(f.name, own.name)) return own.rank;
+  if (f.words().starts_with("motor_peak_")) return 9;  // behind what heats it
+  if (f.what == quantity::peak_other) return 8;
+  if (f.what == quantity::cycle_fluctuation && !(f.value < stands_within_the_cycle)) return never;
+  for (const Ranked& known : ranks)
+    if (f.words() == known.words) return f.of == link ? known.of_link : known.of_others;
   return never;
 }
 

@@ -93,8 +93,8 @@ bool Definition::is_printed_by(std::string_view verb) const {
   return false;
 }
 
-const Definition* definition_of(QuantityKind what) {
-  const std::string_view name = word(what);
+const Definition* definition_of(const QuantityKind& what) {
+  const std::string name = word(what);
   return name.empty() ? nullptr : find(name);
 }
 
@@ -125,13 +125,13 @@ const Definition* meant_by(std::string_view asked) {
 }
 
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {
-  using enum QuantityKind;
   const std::string_view what = asked.substr(0, asked.find('.'));
   const std::string owner(asked.substr(what.size()));
   std::vector<std::string> others = {"cycle_" + std::string(what)};
   if (what.starts_with("cycle_")) others.emplace_back(what.substr(std::string_view("cycle_").size()));
-  if (what == word(delta)) others.emplace_back(word(cycle_fluctuation));
-  if (what == word(cycle_fluctuation)) others.emplace_back(word(delta));
+  const std::string delta = word(quantity::delta), fluctuation = word(quantity::cycle_fluctuation);
+  if (what == delta) others.push_back(fluctuation);
+  if (what == fluctuation) others.push_back(delta);
   for (const std::string& other : others)
     for (const std::string& name : names)
       if (name == other + owner || (owner.empty() && name.starts_with(other + "."))) return name;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 namespace kurbel {
@@ -13,36 +12,25 @@ constexpr double rounding = 1e-9;  // of a rated quantity
 
 // What matters of a speed or a work is how it compares with the machine's own: a shaft that trembles at the end at a
 // hundredth of its speed, or a loss of a thousandth of what is driven, tells little however much it changes of itself.
-bool is_judged_by_the_machine(QuantityKind what) {
-  using enum QuantityKind;
-  switch (what) {
-    case max_speed:
-    case min_speed:
-    case steady_speed:
-    case mid_speed:
-    case mean_speed:
-    case final_speed:
-    case work:
-      return true;
-    default:
-      return false;
-  }
+bool is_judged_by_the_machine(const QuantityKind& what) {
+  return is_one_of(what, {quantity::max_speed, quantity::min_speed, quantity::steady_speed, quantity::mid_speed,
+                          quantity::mean_speed, quantity::final_speed, quantity::work});
 }
 
 }  // namespace
 
 bool is_telling(const Figure& figure) {
-  using enum QuantityKind;
-  static const std::set<QuantityKind> telling = {
-      peak_torque,   max_speed,     min_speed,      delta,       cycle_fluctuation, run_up_time,
-      run_down_time, steady_speed,  mid_speed,      mean_speed,  rms_torque,        work,
-      slip_heat,     stopping_time, stopping_angle, final_speed, cycle_time};
-  return figure.scale > 0 && telling.count(figure.what) > 0;
+  return figure.scale > 0 &&
+         (is_judged_by_the_machine(figure.what) ||
+          is_one_of(figure.what,
+                    {quantity::peak_torque, quantity::delta, quantity::cycle_fluctuation, quantity::run_up_time,
+                     quantity::run_down_time, quantity::rms_torque, quantity::slip_heat, quantity::stopping_time,
+                     quantity::stopping_angle, quantity::cycle_time}));
 }
 
 bool measure_the_same(const Figure& a, const Figure& b) {
   const auto fluctuates = [](const Figure& f) {
-    return f.what == QuantityKind::delta || f.what == QuantityKind::cycle_fluctuation;
+    return is_one_of(f.what, {quantity::delta, quantity::cycle_fluctuation});
   };
   return a.name == b.name || (fluctuates(a) && fluctuates(b) && a.of == b.of);
 }

@@ -12,7 +12,7 @@ const Figure* Result::find(const std::string& name) const {
   return found == figures.end() ? nullptr : &*found;
 }
 
-const Figure* Result::find(QuantityKind what, const std::string& of) const {
+const Figure* Result::find(const QuantityKind& what, const std::string& of) const {
   const auto found =
       std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.what == what && f.of == of; });
   return found == figures.end() ? nullptr : &*found;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/estimate.h"
@@ -17,16 +18,20 @@ struct Traces;
 
 // Its error is measured by other runs (measured_errors.h).
 struct Figure : Estimate {
-  std::string name = {};                    // dotted and stable: "peak_torque.main_coupling"
-  std::string unit = {};                    // SI
-  std::optional<double> at = {};            // time it belongs to [s]
-  double scale = 0;                         // rated quantity that the error is judged by; 0: the error is not judged
-  double resolution = 0;                    // part of the error that all runs share: what location leaves open
-  std::optional<double> at_error = {};      // of the time, measured as the error of the value is [s]
-  bool exact = false;                       // by construction: a count, a speed that is given or held
-  QuantityKind what = QuantityKind::other;  // what it tells of
-  std::string of = {};                      // and of whom: the component; empty: of the whole machine
+  std::string name = {};                // dotted and stable: "peak_torque.main_coupling"
+  std::string unit = {};                // SI
+  std::optional<double> at = {};        // time it belongs to [s]
+  double scale = 0;                     // rated quantity that the error is judged by; 0: the error is not judged
+  double resolution = 0;                // part of the error that all runs share: what location leaves open
+  std::optional<double> at_error = {};  // of the time, measured as the error of the value is [s]
+  bool exact = false;                   // by construction: a count, a speed that is given or held
+  QuantityKind what = {};               // what it tells of
+  std::string of = {};                  // and of whom: the component; empty: of the whole machine
 
+  // Its name without its owner: "peak_torque".
+  std::string_view words() const {
+    return std::string_view(name).substr(0, name.size() - (of.empty() ? 0 : of.size() + 1));
+  }
   // Of a name: its words, its quantity and its owner.
   static Figure of_name(Name name, double value = 0, std::string unit = {}, double scale = 0) {
     Figure figure{{value}, std::move(name.text), std::move(unit), {}, scale};
@@ -97,7 +102,7 @@ struct Result {
   std::shared_ptr<const Model> model;
 
   const Figure* find(const std::string& name) const;
-  const Figure* find(QuantityKind what, const std::string& of) const;
+  const Figure* find(const QuantityKind& what, const std::string& of) const;
   // Ran to the end, but not to the accuracy asked for: its figures stand with the errors that were measured, if any.
   bool unconfirmed() const { return complete && confirmation_asked && !accuracy_confirmed; }
   // "accuracy 1e-06 was asked for, 3.1e-05 measured"

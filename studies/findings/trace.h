@@ -16,7 +16,7 @@ namespace kurbel {
 struct Trace {
   std::string name, unit;  // SI
   std::vector<double> x, y;
-  QuantityKind what = QuantityKind::other;
+  QuantityKind what = {};
   std::string of = {};
 };
 

@@ -126,20 +126,20 @@ TorqueHistory simulate_torque(const Scene& scene, const Effects& effects, const 
   SimulateOptions options;
   options.watch = wanted.watch;
   const Result result = simulate(recorded(scene, wanted, component), effects, "elastic", options);
-  const auto samples = [&](QuantityKind what, const std::string& of, const std::string& part) {
+  const auto samples = [&](const QuantityKind& what, const std::string& of, const std::string& part) {
     return column(*result.trajectory, {Name::make(what, of), Name::make(what, of + part)}, wanted.torque);
   };
   TorqueHistory history;
   history.component = wanted.torque;
-  history.channel = Name::make(QuantityKind::torque, wanted.torque).text;
+  history.channel = Name::make(quantity::torque, wanted.torque).text;
   history.time = result.trajectory->time();
-  history.value = samples(QuantityKind::torque, wanted.torque, ".1");
-  history.speed = samples(QuantityKind::speed, wanted.link, ".in");
-  history.angle = samples(QuantityKind::angle, wanted.link, ".in");
+  history.value = samples(quantity::torque, wanted.torque, ".1");
+  history.speed = samples(quantity::speed, wanted.link, ".in");
+  history.angle = samples(quantity::angle, wanted.link, ".in");
   history.complete = result.complete;
   history.diagnosis = result.diagnosis;
-  const Figure* peak = result.find(QuantityKind::peak_torque, wanted.torque);
-  if (!peak) peak = result.find(QuantityKind::peak_torque, wanted.torque + ".1");
+  const Figure* peak = result.find(quantity::peak_torque, wanted.torque);
+  if (!peak) peak = result.find(quantity::peak_torque, wanted.torque + ".1");
   double largest = 0;
   for (const double v : history.value) largest = std::max(largest, std::abs(v));
   if (peak)

@@ -185,7 +185,7 @@ SteadyLoads constant_loads(const Regime& regime, const std::shared_ptr<const Mod
 
 ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, ExtremeOf::Which which) {
   const int j = joint.joint;
-  ExtremeOf extreme{.name = Name::make(QuantityKind::peak_torque, joint.name),
+  ExtremeOf extreme{.name = Name::make(quantity::peak_torque, joint.name),
                     .unit = "N*m",
                     .scale = joint.rated,
                     .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
@@ -193,7 +193,7 @@ ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, Extrem
   for (const TorqueJoint& known : machine.torque_joints)
     if (known.joint == j)
       for (ExtremeOf& e : extremes_of(machine))
-        if (e.name == Name::make(QuantityKind::peak_torque, known.component)) extreme = std::move(e);
+        if (e.name == Name::make(quantity::peak_torque, known.component)) extreme = std::move(e);
   extreme.which = which;
   return extreme;
 }

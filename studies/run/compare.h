@@ -14,7 +14,7 @@ struct ComparisonRow {
   std::optional<Estimate> a, b;
   double difference = 0;        // b − a
   std::optional<double> ratio;  // b/a
-  QuantityKind what = QuantityKind::other;
+  QuantityKind what = {};
   std::string of = {};
 };
 

@@ -97,12 +97,12 @@ class Figures {
     run_.figures.push_back(Figure::of_name(std::move(name), value, unit, scale));
     run_.figures.back().at = time;
   }
-  void add(QuantityKind what, const std::string& of, double value, const std::string& unit, double scale,
+  void add(const QuantityKind& what, const std::string& of, double value, const std::string& unit, double scale,
            std::optional<double> time = {}) {
     add(Name::make(what, of), value, unit, scale, time);
   }
   // A duration up to a time; `resolution`: how sharply that time is located.
-  void add_located(QuantityKind what, double begin, double end, double resolution) {
+  void add_located(const QuantityKind& what, double begin, double end, double resolution) {
     add(what, "", end - begin, "s", run_.outcome.t, end);
     run_.figures.back().resolution = resolution;
   }
@@ -132,7 +132,7 @@ class Figures {
         if (spring && elastic >= 0 && model_.elastic[at(elastic)].slips) continue;
         if (spring && !model_.network.joints[at(model_.torque_joints[i].joint)].element) continue;
         const double square = run_.outcome.state[equations_.square_index(i, spring)];
-        add(spring ? QuantityKind::rms_spring_torque : QuantityKind::rms_torque, model_.torque_joints[i].component,
+        add(spring ? quantity::rms_spring_torque : quantity::rms_torque, model_.torque_joints[i].component,
             std::sqrt(std::max(0.0, square) / run_.outcome.t), "N*m", model_.torque_joints[i].torque_scale);
       }
   }
@@ -143,10 +143,9 @@ class Figures {
       const Network::Ports& ports = model_.network.ports.at(component);
       const int node = ports.out;
       const double ratio = model_.scale_ratio[at(node)];
-      add(QuantityKind::final_angle, component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
-      add(QuantityKind::final_speed, component,
-          model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]], "rad/s",
-          model_.speed_scale * ratio, run_.outcome.t);
+      add(quantity::final_angle, component, s.node_angle[node], "rad", std::max(1.0, ratio), run_.outcome.t);
+      add(quantity::final_speed, component, model_.gain_of_node[at(node)] * s.now.speed[model_.shaft_of_node[at(node)]],
+          "rad/s", model_.speed_scale * ratio, run_.outcome.t);
       const std::size_t shaft = at(model_.shaft_of_node[at(node)]);
       run_.figures.back().exact = shaft >= model_.free_shafts || equations_.at_standstill(shaft);
     }
@@ -155,23 +154,23 @@ class Figures {
   void collect_heat() {
     for (const ElasticJoint& e : model_.elastic)
       if (e.slips && !run_.energy->work.empty())  // empty: failed before its first step
-        add(QuantityKind::slip_heat, model_.network.joints[at(e.joint)].component,
-            -run_.energy->work[at(e.loss_account)], "J", energy_scale(), run_.outcome.t);
+        add(quantity::slip_heat, model_.network.joints[at(e.joint)].component, -run_.energy->work[at(e.loss_account)],
+            "J", energy_scale(), run_.outcome.t);
   }
   // Joints with clearance: how often one is hit after flight.
   void collect_impacts() {
     for (const std::string& component : components_with_impacts(model_)) {
       int count = 0;
       for (const Event& e : run_.outcome.events) count += e.component == component && e.kind == EventKind::impact;
-      add(QuantityKind::impacts, component, count, "", std::max(1, count), run_.outcome.t);
+      add(quantity::impacts, component, count, "", std::max(1, count), run_.outcome.t);
       run_.figures.back().exact = true;
     }
   }
   void collect_stopping() {
     const auto stopping = first_stopping(model_, run_.outcome.events);
     if (!stopping) return;
-    add(QuantityKind::stopping_time, link(), stopping->time, "s", model_.scene.run.until, stopping->at);
-    add(QuantityKind::stopping_angle, link(), stopping->angle, "rad", 1, stopping->at);
+    add(quantity::stopping_time, link(), stopping->time, "s", model_.scene.run.until, stopping->at);
+    add(quantity::stopping_angle, link(), stopping->angle, "rad", 1, stopping->at);
   }
   // A machine that nothing drives repeats its cycles, too, unless it loses something: like the two before it.
   bool comes_again(const CycleRecord& last) const {
@@ -198,10 +197,10 @@ class Figures {
     if (!last) return;
     const bool repeats = run_.periods.steady || comes_again(*last);
     if (repeats) repeating_ = last;
-    add(repeats ? QuantityKind::delta : QuantityKind::cycle_fluctuation, link(), last->fluctuation(), "", 1, last->end);
-    add(QuantityKind::mid_speed, link(), last->mid_speed(), "rad/s", model_.speed_scale, last->end);
-    add(QuantityKind::mean_speed, link(), last->mean_speed(model_.cycle), "rad/s", model_.speed_scale, last->end);
-    add(QuantityKind::cycle_time, link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
+    add(repeats ? quantity::delta : quantity::cycle_fluctuation, link(), last->fluctuation(), "", 1, last->end);
+    add(quantity::mid_speed, link(), last->mid_speed(), "rad/s", model_.speed_scale, last->end);
+    add(quantity::mean_speed, link(), last->mean_speed(model_.cycle), "rad/s", model_.speed_scale, last->end);
+    add(quantity::cycle_time, link(), last->end - last->begin, "s", 2 * M_PI / model_.speed_scale, last->end);
     std::array<double, 4> sum{};  // by account
     for (std::size_t k = 0; k < last->work.size(); ++k)
       sum[static_cast<std::size_t>(model_.accounts[k].kind)] += last->work[k];
@@ -217,7 +216,7 @@ class Figures {
     if (repeats) collect_flywheels(*last);
     if (!repeats || !(sum[0] > 0)) return;
     if (const auto efficiency = efficiency_of(sum[0], sum[1], sum[3], last->energy_after - last->energy_before))
-      add(Name{QuantityKind::other, "", "machine_efficiency"}, *efficiency, "", 1, last->end);
+      add(Name{quantity::other, "", "machine_efficiency"}, *efficiency, "", 1, last->end);
   }
   void add_loop(const std::string& mechanism, double work, const CycleRecord& c) {
     const double time = c.end - c.begin;
@@ -233,17 +232,17 @@ class Figures {
   }
   void collect_periods() {
     const Periods& p = run_.periods;
-    if (p.run_up_end) add_located(QuantityKind::run_up_time, 0, *p.run_up_end, p.run_up_resolution);
-    if (p.steady) add(QuantityKind::steady_speed, link(), p.steady_speed, "rad/s", model_.speed_scale);
+    if (p.run_up_end) add_located(quantity::run_up_time, 0, *p.run_up_end, p.run_up_resolution);
+    if (p.steady) add(quantity::steady_speed, link(), p.steady_speed, "rad/s", model_.speed_scale);
     if (p.run_down_begin && p.standstill)
-      add_located(QuantityKind::run_down_time, *p.run_down_begin, *p.standstill, p.standstill_resolution);
+      add_located(quantity::run_down_time, *p.run_down_begin, *p.standstill, p.standstill_resolution);
   }
   void collect_work() {
     for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
       double sum = 0;
       for (std::size_t k = 0; k < run_.energy->work.size(); ++k)
         if (model_.accounts[k].kind == kind) sum += run_.energy->work[k];
-      add(QuantityKind::work, name_of(kind), sum, "J", energy_scale());
+      add(quantity::work, name_of(kind), sum, "J", energy_scale());
     }
   }
   void collect_ratings() {
@@ -333,15 +332,15 @@ std::vector<Figure> last_state(const Model& m, Equations& equations, const RunOu
 QuantityKind work_per_cycle_of(Account account) {
   switch (account) {
     case Account::driving:
-      return QuantityKind::driving_work_per_cycle;
+      return quantity::driving_work_per_cycle;
     case Account::useful:
-      return QuantityKind::useful_work_per_cycle;
+      return quantity::useful_work_per_cycle;
     case Account::harmful:
-      return QuantityKind::harmful_work_per_cycle;
+      return quantity::harmful_work_per_cycle;
     case Account::weight:
       break;
   }
-  return QuantityKind::weight_work_per_cycle;
+  return quantity::weight_work_per_cycle;
 }
 
 void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run) {
@@ -382,27 +381,27 @@ std::map<std::string, ComponentState> final_state(const Model& model, const std:
 
 std::vector<Figure> figure_list(const Model& model) {
   std::vector<Figure> list;
-  const auto add = [&](QuantityKind what, const std::string& of, const std::string& unit) {
+  const auto add = [&](const QuantityKind& what, const std::string& of, const std::string& unit) {
     list.push_back(Figure::of_name(Name::make(what, of), 0, unit));
   };
   const std::string link = model.network.nodes[at(model.reduction_node)].component;
   for (const ExtremeOf& e : extremes_of(model)) list.push_back(Figure::of_name(e.name, 0, e.unit));
   for (const TorqueJoint& joint : model.torque_joints) {
-    add(QuantityKind::rms_torque, joint.component, "N*m");
-    if (model.network.joints[at(joint.joint)].element) add(QuantityKind::rms_spring_torque, joint.component, "N*m");
+    add(quantity::rms_torque, joint.component, "N*m");
+    if (model.network.joints[at(joint.joint)].element) add(quantity::rms_spring_torque, joint.component, "N*m");
   }
   for (const std::string& component : model.network.components) {
     if (model.network.components.size() > 60 && component != link) continue;
-    add(QuantityKind::final_angle, component, "rad");
-    add(QuantityKind::final_speed, component, "rad/s");
+    add(quantity::final_angle, component, "rad");
+    add(quantity::final_speed, component, "rad/s");
   }
-  for (const std::string& component : components_with_impacts(model)) add(QuantityKind::impacts, component, "");
+  for (const std::string& component : components_with_impacts(model)) add(quantity::impacts, component, "");
   if (model.cycle > 0) {
-    add(QuantityKind::delta, link, "");
-    add(QuantityKind::cycle_fluctuation, link, "");
-    add(QuantityKind::mid_speed, link, "rad/s");
-    add(QuantityKind::mean_speed, link, "rad/s");
-    add(QuantityKind::cycle_time, link, "s");
+    add(quantity::delta, link, "");
+    add(quantity::cycle_fluctuation, link, "");
+    add(quantity::mid_speed, link, "rad/s");
+    add(quantity::mean_speed, link, "rad/s");
+    add(quantity::cycle_time, link, "s");
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
       add(work_per_cycle_of(kind), "", "J");
     for (const WorkAccount& account : model.accounts)
@@ -411,16 +410,16 @@ std::vector<Figure> figure_list(const Model& model) {
           list.push_back(Figure::of_name(Name::own(words, mechanism), 0, unit));
     for (const Intake& intake : intakes_of(model))
       list.push_back(Figure::of_name(Name::own("volumetric_efficiency", intake.name)));
-    list.push_back(Figure::of_name({QuantityKind::other, "", "machine_efficiency"}));
+    list.push_back(Figure::of_name({quantity::other, "", "machine_efficiency"}));
     for (const FlywheelOnLink& f : flywheels_on_link(model))
       list.push_back(Figure::of_name(Name::own("flywheel_energy", f.name), 0, "J"));
   }
-  add(QuantityKind::run_up_time, "", "s");
-  add(QuantityKind::steady_speed, link, "rad/s");
-  add(QuantityKind::run_down_time, "", "s");
-  for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(QuantityKind::work, kind, "J");
+  add(quantity::run_up_time, "", "s");
+  add(quantity::steady_speed, link, "rad/s");
+  add(quantity::run_down_time, "", "s");
+  for (const char* kind : {"driving", "useful", "harmful", "weight"}) add(quantity::work, kind, "J");
   for (const ElasticJoint& e : model.elastic)
-    if (e.slips) add(QuantityKind::slip_heat, model.network.joints[at(e.joint)].component, "J");
+    if (e.slips) add(quantity::slip_heat, model.network.joints[at(e.joint)].component, "J");
   for (Figure& f : motor_figure_list(model)) list.push_back(std::move(f));
   for (Figure& f : work_figure_list(model)) list.push_back(std::move(f));
   for (Figure& f : flywheel_fall_list(model)) list.push_back(std::move(f));
@@ -433,8 +432,8 @@ std::vector<Figure> figure_list(const Model& model) {
         list.push_back(std::move(f));
   // Of a signal that makes the link stop.
   if (!model.scene.sequence.steps.empty()) {
-    add(QuantityKind::stopping_time, link, "s");
-    add(QuantityKind::stopping_angle, link, "rad");
+    add(quantity::stopping_time, link, "s");
+    add(quantity::stopping_angle, link, "rad");
   }
   return list;
 }

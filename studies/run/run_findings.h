@@ -39,7 +39,7 @@ std::string sure(const Figure& figure, const SpeedUnit& speed);  // the same, of
 SpeedUnit speed_unit_of(const Result& result);                   // of its scene
 std::string at_time(const Figure& figure);                       // "at 1.23 s"; empty: at none
 const Figure* largest_peak(const Result& result);                // of torque in any coupling
-const Figure* first_of(const Result& result, QuantityKind what);
+const Figure* first_of(const Result& result, const QuantityKind& what);
 
 // The figures asked for, in a sentence without a full stop.
 std::string figures_in_words(const Result& result);

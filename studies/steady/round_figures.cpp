@@ -117,25 +117,25 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
   for (const NamedShaft& shaft : shafts_of(m)) {
     const int s = m.shaft_of_node[at(shaft.node)];
     const double gain = m.gain_of_node[at(shaft.node)];
-    ExtremeOf speed{.name = Name::make(QuantityKind::max_speed, shaft.name),
+    ExtremeOf speed{.name = Name::make(quantity::max_speed, shaft.name),
                     .unit = "rad/s",
                     .scale = m.speed_scale * m.scale_ratio[at(shaft.node)],
                     .which = ExtremeOf::Which::maximum,
                     .value = [=](const Snapshot& x) { return gain * x.now.speed[s]; },
                     .rate = [=](const Snapshot& x) { return gain * x.alpha[s]; }};
     wanted.push_back(speed);
-    speed.name = Name::make(QuantityKind::min_speed, shaft.name);
+    speed.name = Name::make(quantity::min_speed, shaft.name);
     speed.which = ExtremeOf::Which::minimum;
     wanted.push_back(std::move(speed));
   }
   for (ExtremeOf& e : extremes_of(m))
-    if (e.name.what != QuantityKind::max_speed && e.name.what != QuantityKind::min_speed) {
+    if (e.name.what != quantity::max_speed && e.name.what != quantity::min_speed) {
       e.name = e.name.of_cycle();
       wanted.push_back(std::move(e));
     }
   for (ExtremeOf& torque : shaft_torques_of(m)) wanted.push_back(std::move(torque));
   for (Drive& drive : drives_of(m))
-    wanted.push_back({.name = Name::make(QuantityKind::peak_drive_torque, drive.component),
+    wanted.push_back({.name = Name::make(quantity::peak_drive_torque, drive.component),
                       .unit = "N*m",
                       .scale = m.torque_scale,
                       .value = [drive = std::move(drive)](const Snapshot& s) { return drive.torque(s); },
@@ -186,10 +186,10 @@ class RoundFigures {
   // Of the link: its cycle, and the period after which all repeats.
   void add_times(const std::string& link) {
     const double time = outcome_.t - map_.start_time();
-    add(Name::make(QuantityKind::period), time, "s", time);
+    add(Name::make(quantity::period), time, "s", time);
     if (m_.cycle > 0 && turned_ != 0)
-      add(Name::make(QuantityKind::cycle_time, link), time * m_.cycle / std::abs(turned_), "s", time);
-    add(Name::make(QuantityKind::mean_speed, link), turned_ / time, "rad/s", m_.speed_scale);
+      add(Name::make(quantity::cycle_time, link), time * m_.cycle / std::abs(turned_), "s", time);
+    add(Name::make(quantity::mean_speed, link), turned_ / time, "rad/s", m_.speed_scale);
   }
   void add_speeds() {
     const std::vector<NamedShaft> shafts = shafts_of(m_);
@@ -198,11 +198,11 @@ class RoundFigures {
                          extremes_.found()[2 * i + 1].value};
       if (shafts[i].node == m_.reduction_node) {
         add_times(f.shaft);
-        add(Name::make(QuantityKind::mid_speed, f.shaft), f.mid(), "rad/s", m_.speed_scale);
-        add(Name::make(QuantityKind::cycle_max_speed, f.shaft), f.max, "rad/s", m_.speed_scale);
-        add(Name::make(QuantityKind::cycle_min_speed, f.shaft), f.min, "rad/s", m_.speed_scale);
+        add(Name::make(quantity::mid_speed, f.shaft), f.mid(), "rad/s", m_.speed_scale);
+        add(Name::make(quantity::cycle_max_speed, f.shaft), f.max, "rad/s", m_.speed_scale);
+        add(Name::make(quantity::cycle_min_speed, f.shaft), f.min, "rad/s", m_.speed_scale);
       }
-      if (const auto delta = f.delta()) add(Name::make(QuantityKind::delta, f.shaft), *delta, "", 1);
+      if (const auto delta = f.delta()) add(Name::make(quantity::delta, f.shaft), *delta, "", 1);
       // What a flywheel gives from its largest to its least speed.
       if (const auto* flywheel = m_.network.data.find<Flywheel>(f.shaft))
         add(Name::own("flywheel_energy", f.shaft), 0.5 * flywheel->inertia * std::abs(f.max * f.max - f.min * f.min),
@@ -219,7 +219,7 @@ class RoundFigures {
       }
     const double time = outcome_.t - map_.start_time();
     for (std::size_t i = 0; i < m_.torque_joints.size(); ++i)
-      add(Name::make(QuantityKind::cycle_rms_torque, m_.torque_joints[i].component),
+      add(Name::make(quantity::cycle_rms_torque, m_.torque_joints[i].component),
           std::sqrt(std::max(0.0, outcome_.state[equations_.square_index(i, false)]) / time), "N*m",
           m_.torque_joints[i].torque_scale);
   }
@@ -239,8 +239,8 @@ class RoundFigures {
         if (rating->breakdown && *rating->breakdown > 0)
           add(Name::own("breakdown_use", use.component), std::abs(use.peak) / *rating->breakdown, "", 1);
       }
-      add(Name::make(QuantityKind::mean_drive_torque, use.component), use.mean, "N*m", m_.torque_scale);
-      add(Name::make(QuantityKind::rms_drive_torque, use.component), use.rms, "N*m", m_.torque_scale);
+      add(Name::make(quantity::mean_drive_torque, use.component), use.mean, "N*m", m_.torque_scale);
+      add(Name::make(quantity::rms_drive_torque, use.component), use.rms, "N*m", m_.torque_scale);
       round_.motors.push_back(std::move(use));
     }
   }
@@ -268,11 +268,11 @@ class RoundFigures {
       if (kind == Account::useful) useful = of_kind;
       add(Name::make(work_per_cycle_of(kind)), of_kind, "J", m_.torque_scale * 2 * std::numbers::pi);
     }
-    if (driving > 0 && useful < 0) add(Name{QuantityKind::other, "", "machine_efficiency"}, -useful / driving, "", 1);
+    if (driving > 0 && useful < 0) add(Name{quantity::other, "", "machine_efficiency"}, -useful / driving, "", 1);
     add_powers();
     for (std::size_t a = 0; a < m_.accounts.size(); ++a)
       if (const double work = outcome_.state[equations_.work_index(a)]; work != 0)
-        add(Name::make(QuantityKind::work_per_cycle,
+        add(Name::make(quantity::work_per_cycle,
                        fmt::format("{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind))),
             work, "J", m_.torque_scale * 2 * std::numbers::pi);
     round_.work_residual = std::abs(sum) / std::max(turnover, 1e-6 * m_.torque_scale * map_.periodicity().angle);

@@ -52,7 +52,7 @@ struct SettledRun {
   double cpu_seconds = 0;
 
   bool equilibrium() const;  // the speed of the link does not vary
-  const Measured* find(QuantityKind what, const std::string& of) const;
+  const Measured* find(const QuantityKind& what, const std::string& of) const;
 };
 
 // Throws as compile() does; a run that fails is of no kind, in words.

@@ -42,14 +42,53 @@ const std::map<std::string, Told>& told_by_scenes() {
 
 Name name_of(const Figure& f) { return {f.what, f.of, f.name}; }
 
-bool is_of_elements_own(QuantityKind what) {
-  return what == QuantityKind::other || what == QuantityKind::peak_other || what == QuantityKind::cycle_peak_other;
-}
-
 TEST(Dictionary, EveryQuantityHasItsDefinition) {
-  for (int k = 0; k <= static_cast<int>(QuantityKind::work_per_cycle); ++k) {
-    const auto what = static_cast<QuantityKind>(k);
-    if (is_of_elements_own(what)) continue;
+  for (const QuantityKind& what : {quantity::angle,
+                                   quantity::speed,
+                                   quantity::twist,
+                                   quantity::slip,
+                                   quantity::torque,
+                                   quantity::spring_torque,
+                                   quantity::position,
+                                   quantity::velocity,
+                                   quantity::acceleration,
+                                   quantity::force,
+                                   quantity::load_torque,
+                                   quantity::peak_torque,
+                                   quantity::peak_spring_torque,
+                                   quantity::peak_velocity,
+                                   quantity::peak_acceleration,
+                                   quantity::peak_force,
+                                   quantity::peak_load_torque,
+                                   quantity::max_speed,
+                                   quantity::min_speed,
+                                   quantity::rms_torque,
+                                   quantity::rms_spring_torque,
+                                   quantity::final_angle,
+                                   quantity::final_speed,
+                                   quantity::steady_speed,
+                                   quantity::run_up_time,
+                                   quantity::run_down_time,
+                                   quantity::stopping_time,
+                                   quantity::stopping_angle,
+                                   quantity::slip_heat,
+                                   quantity::impacts,
+                                   quantity::amplification,
+                                   quantity::work,
+                                   quantity::peak_drive_torque,
+                                   quantity::mean_drive_torque,
+                                   quantity::rms_drive_torque,
+                                   quantity::mid_speed,
+                                   quantity::mean_speed,
+                                   quantity::delta,
+                                   quantity::cycle_fluctuation,
+                                   quantity::cycle_time,
+                                   quantity::period,
+                                   quantity::driving_work_per_cycle,
+                                   quantity::useful_work_per_cycle,
+                                   quantity::harmful_work_per_cycle,
+                                   quantity::weight_work_per_cycle,
+                                   quantity::work_per_cycle}) {
     const Definition* d = definition_of(what);
     ASSERT_NE(d, nullptr) << word(what);
     EXPECT_EQ(d->name, word(what));
@@ -102,12 +141,10 @@ TEST(Dictionary, WhatRunsOfAllScenesTellIsExplained) {
 
 // What moves may rock, and what shifts has a rate: their units are told beside the first.
 TEST(Dictionary, UnitsAreThoseOfTheFigures) {
-  using enum QuantityKind;
-  const std::set<QuantityKind> may_rock = {peak_velocity, peak_acceleration};
   for (const auto& [scene, told] : told_by_scenes())
     for (const Figure& f : told.figures) {
       const Definition* d = definition_of(name_of(f));
-      if (!d || may_rock.contains(f.what)) continue;
+      if (!d || is_one_of(f.what, {quantity::peak_velocity, quantity::peak_acceleration})) continue;
       EXPECT_EQ(d->unit, f.unit) << scene << ": " << f.name;
     }
 }
@@ -170,9 +207,9 @@ TEST(Dictionary, AFigureUnderAnotherNameIsNamed) {
 
 // The peaks of a cycle have names of their own: none is that of a whole run.
 TEST(Dictionary, FiguresOfACycleAreNotCalledAsThoseOfARun) {
-  using enum QuantityKind;
-  for (const QuantityKind what : {peak_torque, peak_spring_torque, peak_velocity, peak_acceleration, peak_force,
-                                  peak_load_torque, max_speed, min_speed, rms_torque}) {
+  for (const QuantityKind& what : {quantity::peak_torque, quantity::peak_spring_torque, quantity::peak_velocity,
+                                   quantity::peak_acceleration, quantity::peak_force, quantity::peak_load_torque,
+                                   quantity::max_speed, quantity::min_speed, quantity::rms_torque}) {
     const Name whole = Name::make(what, "a"), cycle = whole.of_cycle();
     EXPECT_EQ(cycle.text, "cycle_" + whole.text);
     EXPECT_EQ(cycle.of, "a");
@@ -181,7 +218,7 @@ TEST(Dictionary, FiguresOfACycleAreNotCalledAsThoseOfARun) {
     EXPECT_EQ(is_peak(cycle.what), is_peak(what));
   }
   EXPECT_EQ(Name::own("current", "motor").peak().of_cycle().text, "cycle_peak_current.motor");
-  EXPECT_EQ(Name::make(delta, "a").of_cycle(), Name::make(delta, "a"));
+  EXPECT_EQ(Name::make(quantity::delta, "a").of_cycle(), Name::make(quantity::delta, "a"));
 }
 
 TEST(Dictionary, APageDefinesTheFiguresThatItShowsAndNoOthers) {
