@@ -33,6 +33,33 @@ void refuse_too_many(const Scene& scene, std::size_t channels) {
                                  scene.run.samples, channels, needed)}});
 }
 
+// --- channels, and their peaks over a run ---
+
+Channel torque_of(const TorqueJoint& joint) {
+  return {Name::make(quantity::torque, joint.component), "N*m",
+          [j = joint.joint](const Snapshot& s) { return s.joint_torque[j]; }};
+}
+Channel spring_torque_of(const TorqueJoint& joint) {
+  return {Name::make(quantity::spring_torque, joint.component), "N*m",
+          [e = joint.elastic](const Snapshot& s) { return s.sums.spring_torque[e]; }};
+}
+Channel torque_of(const GearTorque& torque) {
+  return {Name::make(quantity::torque, torque.name), "N*m",
+          [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); }};
+}
+Channel own_state(const Model& model, std::size_t k) {
+  const auto& [component, state] = model.own_states[k];
+  return {Name::own(state.name, component), state.unit, [k](const Snapshot& s) { return s.now.own[k]; }};
+}
+
+ExtremeOf peak_of(Channel channel, double scale = 0) {
+  return {.name = channel.name.peak(),
+          .unit = std::move(channel.unit),
+          .scale = scale,
+          .value = std::move(channel.value),
+          .rate = {}};
+}
+
 class ChannelList {
  public:
   ChannelList(const Model& model, const std::vector<std::string>& components)
@@ -48,14 +75,9 @@ class ChannelList {
     for (const TorqueJoint& joint : model_.torque_joints)
       if (is_wanted(wanted_, component_of(joint.component))) add_joint(joint);
     for (const GearTorque& torque : model_.gear_torques)
-      if (is_wanted(wanted_, component_of(torque.name)))
-        add(Name::make(quantity::torque, torque.name), "N*m",
-            [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); });
-    for (std::size_t k = 0; k < model_.own_states.size(); ++k) {
-      const auto& [component, state] = model_.own_states[k];
-      if (is_wanted(wanted_, component))
-        add(Name::own(state.name, component), state.unit, [k](const Snapshot& s) { return s.now.own[k]; });
-    }
+      if (is_wanted(wanted_, component_of(torque.name))) channels_.push_back(torque_of(torque));
+    for (std::size_t k = 0; k < model_.own_states.size(); ++k)
+      if (is_wanted(wanted_, model_.own_states[k].component)) channels_.push_back(own_state(model_, k));
     for (const Channel& channel : model_.pool_channels)
       if (is_wanted(wanted_, channel.name.of)) channels_.push_back(channel);
     return std::move(channels_);
@@ -101,16 +123,13 @@ class ChannelList {
     for (const MotorTorque& drive : model_.motors) {
       if (!drive.prescribed || drive.component != component) continue;
       add(Name::make(quantity::torque, component), "N*m", [drive](const Snapshot& s) { return drive.torque(s); });
-      const int shaft = model_.shaft_of_node[at(drive.node)];
-      const double gain = model_.gain_of_node[at(drive.node)];
-      add(Name::own("power", component), "W",
-          [=](const Snapshot& s) { return drive.torque(s) * gain * s.now.speed[shaft]; });
+      channels_.push_back(power_of(model_, drive));
     }
   }
 
   void add_joint(const TorqueJoint& joint) {
-    const int j = joint.joint, e = joint.elastic;
-    add(Name::make(quantity::torque, joint.component), "N*m", [j](const Snapshot& s) { return s.joint_torque[j]; });
+    const int e = joint.elastic;
+    channels_.push_back(torque_of(joint));
     if (e < 0) return;
     const ElasticJoint& elastic = model_.elastic[at(e)];
     if (elastic.slips || elastic.springless) {
@@ -120,8 +139,7 @@ class ChannelList {
           [=](const Snapshot& s) { return ga * s.now.speed[a] - gb * s.now.speed[b]; });
       return;
     }
-    add(Name::make(quantity::spring_torque, joint.component), "N*m",
-        [e](const Snapshot& s) { return s.sums.spring_torque[e]; });
+    channels_.push_back(spring_torque_of(joint));
     const int first = joint.first, last = joint.last;
     add(Name::make(quantity::twist, joint.component), "rad", [first, last](const Snapshot& s) {
       double twist = 0;
@@ -156,11 +174,7 @@ void tell_rates_of_row(const Model& model, const TorqueJoint& joint, const AnyCo
 // What a joint transmits and what its spring does of that; no spring: the torque alone. The model outlives the run.
 void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<ExtremeOf>& wanted) {
   const int j = joint.joint, e = joint.elastic;
-  ExtremeOf transmitted{.name = Name::make(quantity::peak_torque, joint.component),
-                        .unit = "N*m",
-                        .scale = joint.torque_scale,
-                        .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
-                        .rate = {}};
+  ExtremeOf transmitted = peak_of(torque_of(joint), joint.torque_scale);
   if (e >= 0 && (model.elastic[at(e)].slips || model.elastic[at(e)].springless)) {
     wanted.push_back(std::move(transmitted));
     return;
@@ -178,7 +192,7 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
             elastic.gain_a * s.alpha[elastic.shaft_a] - elastic.gain_b * s.alpha[elastic.shaft_b];
         return element->torque_rate(s.now.twist[e], s.sums.twist_rate[e], acceleration);
       };
-    spring.value = [e](const Snapshot& s) { return s.sums.spring_torque[e]; };
+    spring.value = spring_torque_of(joint).value;
     // Where a spring goes slack or changes its mode its slope at the ends of a step says nothing.
     if (known && element->stiffness > 0 && element->is.guards == 0) {
       transmitted.slope = transmitted.rate;
@@ -201,13 +215,13 @@ void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
   ExtremeOf speed{.name = Name::make(quantity::max_speed, link),
                   .unit = "rad/s",
                   .scale = model.speed_scale,
-                  .which = ExtremeOf::Which::maximum,
+                  .functional = Functional::greatest,
                   .value = [=](const Snapshot& s) { return gain * s.now.speed[shaft]; },
                   .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
   speed.slope = speed.rate;
   wanted.push_back(speed);
   speed.name = Name::make(quantity::min_speed, link);
-  speed.which = ExtremeOf::Which::minimum;
+  speed.functional = Functional::least;
   wanted.push_back(std::move(speed));
 }
 
@@ -219,30 +233,26 @@ std::vector<Channel> channels_of(const Model& model, const std::vector<std::stri
   return channels;
 }
 
+Channel power_of(const Model& model, const MotorTorque& drive) {
+  const int shaft = model.shaft_of_node[at(drive.node)];
+  const double gain = model.gain_of_node[at(drive.node)];
+  return {Name::own("power", drive.component), "W",
+          [=](const Snapshot& s) { return drive.torque(s) * gain * s.now.speed[shaft]; }};
+}
+
 std::vector<ExtremeOf> extremes_of(const Model& model) {
   std::vector<ExtremeOf> wanted;
   for (const TorqueJoint& joint : model.torque_joints) add_peaks(model, joint, wanted);
   for (const GearTorque& torque : model.gear_torques)
-    wanted.push_back(
-        {.name = Name::make(quantity::peak_torque, torque.name),
-         .unit = "N*m",
-         .scale = model.torque_scale / model.scale_ratio[at(torque.node)],
-         .value =
-             [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); },
-         .rate = {}});
+    wanted.push_back(peak_of(torque_of(torque), model.torque_scale / model.scale_ratio[at(torque.node)]));
   add_link_speeds(model, wanted);
-  for (std::size_t k = 0; k < model.own_states.size(); ++k) {
-    const auto& [component, state] = model.own_states[k];
-    if (state.peak)
-      wanted.push_back({.name = Name::own(state.name, component).peak(),
-                        .unit = state.unit,
-                        .scale = state.scale,
-                        .value = [k](const Snapshot& s) { return s.now.own[k]; },
-                        .rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; }});
-  }
+  for (std::size_t k = 0; k < model.own_states.size(); ++k)
+    if (const OwnState& state = model.own_states[k].state; state.peak) {
+      wanted.push_back(peak_of(own_state(model, k), state.scale));
+      wanted.back().rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; };
+    }
   for (const Channel& channel : model.pool_channels)
-    if (channel.name.what != quantity::position)
-      wanted.push_back({.name = channel.name.peak(), .unit = channel.unit, .value = channel.value, .rate = {}});
+    if (channel.name.what != quantity::position) wanted.push_back(peak_of(channel));
   return wanted;
 }
 

@@ -47,15 +47,8 @@ void TrajectoryRecorder::step(StepView& view) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 double ExtremeRecorder::merit(std::size_t i, double value) const {
-  switch (wanted_[i].which) {
-    case ExtremeOf::Which::largest_magnitude:
-      return std::abs(value);
-    case ExtremeOf::Which::maximum:
-      return value;
-    case ExtremeOf::Which::minimum:
-      return -value;
-  }
-  return value;
+  if (wanted_[i].functional == Functional::peak) return std::abs(value);
+  return wanted_[i].functional == Functional::least ? -value : value;
 }
 
 void ExtremeRecorder::consider(std::size_t i, double t, double value) {
@@ -64,7 +57,7 @@ void ExtremeRecorder::consider(std::size_t i, double t, double value) {
   if (found.any && merit_now <= merit(i, found.value)) return;
   if (found.any && found.time < first_.t && merit_now <= found.merit_then + same_peak * std::abs(value)) {
     // Of either sign where magnitudes count: the sign is that of the time.
-    found.value = wanted_[i].which == ExtremeOf::Which::largest_magnitude ? std::copysign(value, found.value) : value;
+    found.value = wanted_[i].functional == Functional::peak ? std::copysign(value, found.value) : value;
     return;
   }
   found.value = value, found.time = t, found.any = true, found.merit_then = merit_now;

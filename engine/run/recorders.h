@@ -16,6 +16,9 @@ namespace kurbel {
 // both ends of a long one.
 std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components);
 
+// What a prescribed shaft's drive gives [W].
+Channel power_of(const Model& model, const MotorTorque& drive);
+
 // Values of channels at equidistant times.
 class TrajectoryRecorder final : public Observer {
  public:
@@ -49,11 +52,10 @@ class TrajectoryRecorder final : public Observer {
 
 // A quantity whose extreme is wanted, located on the continuous solution by a root of its rate.
 struct ExtremeOf {
-  enum class Which { largest_magnitude, maximum, minimum };
   Name name;
   std::string unit;
-  double scale = 0;  // for its error
-  Which which = Which::largest_magnitude;
+  double scale = 0;                          // for its error
+  Functional functional = Functional::peak;  // or greatest, or least
   std::function<double(const Snapshot&)> value;
   std::function<double(const Snapshot&)> rate;  // vanishes at the extreme; empty: by central differences of the value
   // d value/dt, where it bounds what the value does between two points of a step; empty: unknown.

@@ -110,7 +110,7 @@ SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
   run.from = {map.start_time(), y};
   std::vector<ExtremeOf> wanted;
   for (const LimitedJoint& joint : joints)
-    for (const auto which : {ExtremeOf::Which::maximum, ExtremeOf::Which::minimum})
+    for (const auto which : {Functional::greatest, Functional::least})
       wanted.push_back(torque_extreme(m, joint, which));
   ExtremeRecorder extremes(std::move(wanted));
   Integrals integrals(m, joints, map.start_time(), point.time);
@@ -183,7 +183,7 @@ SteadyLoads constant_loads(const Regime& regime, const std::shared_ptr<const Mod
 
 }  // namespace
 
-ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, ExtremeOf::Which which) {
+ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, Functional functional) {
   const int j = joint.joint;
   ExtremeOf extreme{.name = Name::make(quantity::peak_torque, joint.name),
                     .unit = "N*m",
@@ -194,7 +194,7 @@ ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, Extrem
     if (known.joint == j)
       for (ExtremeOf& e : extremes_of(machine))
         if (e.name == Name::make(quantity::peak_torque, known.component)) extreme = std::move(e);
-  extreme.which = which;
+  extreme.functional = functional;
   return extreme;
 }
 

@@ -46,7 +46,7 @@ struct SteadyLoads {
 SteadyLoads steady_loads(const Regime& regime, const std::shared_ptr<const Model>& machine,
                          const std::vector<LimitedJoint>& joints);
 
-// What tells a joint's torque and its extremes while a machine runs: `which` of them is looked for.
-ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, ExtremeOf::Which which);
+// What tells a joint's torque and its extremes while a machine runs: `functional`: which of them is looked for.
+ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, Functional functional);
 
 }  // namespace kurbel

@@ -246,10 +246,10 @@ std::vector<ExtremeOf> shaft_torques_of(const Model& model) {
     if (std::none_of(rated.begin(), rated.end(),
                      [&](const std::string& shaft) { return is_joint_of(peak.name.of, shaft); }))
       continue;
-    for (const auto& [words, which] :
-         {std::pair("greatest_torque", ExtremeOf::Which::maximum), {"least_torque", ExtremeOf::Which::minimum}}) {
+    for (const auto& [words, functional] :
+         {std::pair("greatest_torque", Functional::greatest), {"least_torque", Functional::least}}) {
       wanted.push_back(peak);
-      wanted.back().name = Name::own(words, peak.name.of), wanted.back().which = which;
+      wanted.back().name = Name::own(words, peak.name.of), wanted.back().functional = functional;
     }
   }
   return wanted;

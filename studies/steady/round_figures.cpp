@@ -120,12 +120,12 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
     ExtremeOf speed{.name = Name::make(quantity::max_speed, shaft.name),
                     .unit = "rad/s",
                     .scale = m.speed_scale * m.scale_ratio[at(shaft.node)],
-                    .which = ExtremeOf::Which::maximum,
+                    .functional = Functional::greatest,
                     .value = [=](const Snapshot& x) { return gain * x.now.speed[s]; },
                     .rate = [=](const Snapshot& x) { return gain * x.alpha[s]; }};
     wanted.push_back(speed);
     speed.name = Name::make(quantity::min_speed, shaft.name);
-    speed.which = ExtremeOf::Which::minimum;
+    speed.functional = Functional::least;
     wanted.push_back(std::move(speed));
   }
   for (ExtremeOf& e : extremes_of(m))

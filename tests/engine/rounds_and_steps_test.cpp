@@ -218,7 +218,7 @@ TEST(ExtremeRecorder, FindsAPeakThatThreeSamplesOnALineHide) {
     const auto value = [sign](const Snapshot& s) { return sign * (std::pow(s.now.t, 3) - 0.9 * s.now.t); };
     ExtremeRecorder recorder({{.name = {quantity::other, "", "cubic"},
                                .unit = "1",
-                               .which = ExtremeOf::Which::maximum,
+                               .functional = Functional::greatest,
                                .value = value,
                                .rate = {}}});
     recorder.begin(-1, y, equations);
