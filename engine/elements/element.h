@@ -83,6 +83,7 @@
 //   static constexpr bool other_forms = true;                if so; as above
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -127,6 +128,7 @@ struct OwnState {
 
 // Lines of the energy balance. Useful work goes into the process; harmful work is friction and damping.
 enum class Account { driving, useful, harmful, weight };
+inline constexpr std::array all_accounts = {Account::driving, Account::useful, Account::harmful, Account::weight};
 inline const char* name_of(Account account) { return enumerator_name<Account::weight>(account); }
 
 // Orders of magnitude that scale errors and tolerances; 0 = the element cannot tell.

@@ -62,8 +62,8 @@ class RunWords {
 
 void overloaded_motors(const Result& r, std::vector<Answer>& answers) {
   for (const Figure& f : r.figures) {
-    const bool by_torque = f.name == Name::own("thermal_use", f.of).text;
-    if (!by_torque && f.name != Name::own("current_use", f.of).text) continue;
+    const bool by_torque = f.words() == "thermal_use";
+    if (!by_torque && f.words() != "current_use") continue;
     if (!r.model || !(f.value - f.error.value_or(0) > 1)) continue;
     const char* of = r.model->commands.empty() ? "its steady motion" : "its heaviest cycle";
     if (std::optional<Answer> answer = overload_answer(*r.model, f.of, f.value, by_torque, of))

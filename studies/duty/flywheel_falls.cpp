@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
@@ -77,26 +78,21 @@ void FlywheelFalls::search(StepView& view, const Wheel& w, const See& see) {
   turn(middle, rm, end, r1);
 }
 
-std::vector<Figure> FlywheelFalls::figures(double energy_scale) const {
-  std::vector<Figure> list;
-  for (const Wheel& w : wheels_) {
-    if (!(w.from > 0)) continue;
-    list.push_back(Figure::of_name(Name::own("speed_drop", w.component), (w.from - w.to) / w.from, "", 1));
-    list.back().at = w.low_at;
-    list.push_back(Figure::of_name(Name::own("energy_given", w.component),
-                                   0.5 * w.inertia * (w.from * w.from - w.to * w.to), "J", energy_scale));
-    list.back().at = w.low_at;
-  }
-  return list;
-}
-
-std::vector<Figure> flywheel_fall_list(const Model& model) {
-  std::vector<Figure> list;
+void FlywheelFalls::tell(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureTeller& tell) {
   for (const auto& [component, flywheel] : model.network.data.all<Flywheel>()) {
-    list.push_back(Figure::of_name(Name::own("speed_drop", component)));
-    list.push_back(Figure::of_name(Name::own("energy_given", component), 0, "J"));
+    const Wheel* wheel = nullptr;
+    for (const Wheel& w : seen ? std::span(seen->wheels_) : std::span<const Wheel>())
+      if (w.component == component && w.from > 0) wheel = &w;
+    tell("speed_drop", component, [&]() -> std::optional<Found> {
+      if (!wheel) return {};
+      return Found{(wheel->from - wheel->to) / wheel->from, 1, wheel->low_at};
+    });
+    tell("energy_given", component, [&]() -> std::optional<Found> {
+      if (!wheel) return {};
+      return Found{0.5 * wheel->inertia * (wheel->from * wheel->from - wheel->to * wheel->to), energy_scale,
+                   wheel->low_at};
+    });
   }
-  return list;
 }
 
 }  // namespace kurbel

@@ -20,7 +20,8 @@ class FlywheelFalls final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override { tape(wheels_); }
 
-  std::vector<Figure> figures(double energy_scale) const;
+  // Of all flywheels whose inertia is given; `seen`: in a run.
+  static void tell(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureTeller& tell);
 
  private:
   struct Wheel {
@@ -44,6 +45,5 @@ class FlywheelFalls final : public Observer {
   Sources sources_;
   std::vector<Wheel> wheels_;
 };
-std::vector<Figure> flywheel_fall_list(const Model& model);
 
 }  // namespace kurbel

@@ -52,21 +52,13 @@ std::vector<ExtremeOf> held_torques_of(const Model& model) {
   return wanted;
 }
 
-std::vector<Figure> reserves(const Model& model, const std::vector<Figure>& known) {
-  std::vector<Figure> list;
+void tell_reserves(const Model& model, FigureTeller& tell) {
   for (const Holder& h : holders_of(model))
-    for (const Figure& f : known)
-      if (f.name == Name::own("held_torque", h.component).text && std::abs(f.value) > least_held * h.capacity)
-        list.push_back(
-            Figure::of_name(Name::own("torque_reserve", h.component), h.capacity / std::abs(f.value), "", 1));
-  return list;
-}
-
-std::vector<Figure> reserve_list(const Model& model) {
-  std::vector<Figure> list;
-  for (const ExtremeOf& held : held_torques_of(model)) list.push_back(Figure::of_name(held.name, 0, held.unit));
-  for (const Holder& h : holders_of(model)) list.push_back(Figure::of_name(Name::own("torque_reserve", h.component)));
-  return list;
+    tell("torque_reserve", h.component, [&]() -> std::optional<Found> {
+      const Figure* held = tell.find("held_torque." + h.component);
+      if (!held || !(std::abs(held->value) > least_held * h.capacity)) return {};
+      return Found{h.capacity / std::abs(held->value), 1};
+    });
 }
 
 }  // namespace kurbel

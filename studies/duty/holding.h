@@ -12,9 +12,7 @@ namespace kurbel {
 
 // Largest torques that clutches hold, to be looked for along with the others.
 std::vector<ExtremeOf> held_torques_of(const Model& model);
-// From those among `known`.
-std::vector<Figure> reserves(const Model& model, const std::vector<Figure>& known);
-// Those that a run can yield: names and units.
-std::vector<Figure> reserve_list(const Model& model);
+// From those that the run is known to have held.
+void tell_reserves(const Model& model, FigureTeller& tell);
 
 }  // namespace kurbel

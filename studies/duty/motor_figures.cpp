@@ -36,19 +36,6 @@ std::optional<double> rated_torque(const Model& m, const MotorTorque& motor) {
   return rating ? rating->torque : std::nullopt;
 }
 
-double driving_work(const Model& m, const std::string& component, const std::vector<double>& work) {
-  double sum = 0;
-  for (std::size_t k = 0; k < work.size(); ++k)
-    if (m.accounts[k].name == component && m.accounts[k].kind == Account::driving) sum += work[k];
-  return sum;
-}
-
-double root_mean_square(double square, double time) { return std::sqrt(std::max(0.0, square) / time); }
-
-Figure figure(const char* words, const MotorTorque& motor, double value, const char* unit, double scale) {
-  return Figure::of_name(Name::own(words, motor.component), value, unit, scale);
-}
-
 // The cycle by which a motor's heating is judged: the last one of a motion that repeats. Where commands change it, the
 // last may be the lightest: then the one that heats the most of all that come again, in speed and in heat, so that
 // neither a start nor what a switching leaves behind counts. Null: none comes again.
@@ -65,121 +52,151 @@ const CycleRecord* cycle_that_heats(const MotorRun& run, std::size_t i) {
   return most;
 }
 
-// RMS current and heat of the windings of a motor whose currents are states.
-void add_currents(const MotorRun& run, const MotorTorque& motor, std::size_t i, std::vector<Figure>& out) {
-  const auto* windings = run.equations.model().network.data.find<InductionWindings>(motor.component);
-  if (!windings || !run.currents) return;
-  const double heat = std::max(run.energy_scale, std::abs(motor.rated_torque * motor.rated_speed) * run.duration);
-  for (const MotorCurrents::Motor& m : run.currents->motors()) {
-    if (m.component != motor.component) continue;
-    out.push_back(figure("motor_rms_current", motor, root_mean_square(m.stator_square(), run.duration), "A", m.usual));
-    out.push_back(figure("motor_slip_heat", motor, 3 * windings->rotor_resistance * m.rotor_square(), "J", heat));
-    out.push_back(figure("motor_stator_heat", motor, 3 * windings->stator_resistance * m.stator_square(), "J", heat));
-    const CycleRecord* cycle = cycle_that_heats(run, i);
-    if (!cycle || !(windings->rated_current > 0)) continue;
-    const double square = run.currents->stator_square(m, cycle->begin, cycle->end);
-    out.push_back(figure("current_use", motor,
-                         root_mean_square(square, cycle->end - cycle->begin) / windings->rated_current, "", 1));
-    out.back().at = cycle->end;
-  }
-}
+// The figures of one motor, the i-th; `run`: null for a list.
+class OneMotor {
+ public:
+  OneMotor(const Model& m, std::size_t i, const MotorRun* run, FigureTeller& tell)
+      : m_(m), motor_(m.motors[i]), i_(i), run_(run), tell_(tell) {}
 
-// Of an armature, by its greatest torque.
-void add_peak_current(const MotorRun& run, const MotorTorque& motor, const ArmatureCurrent& law,
-                      std::vector<Figure>& out) {
-  if (!run.known) return;
-  for (const Figure& peak : *run.known)
-    if (peak.name == "motor_peak_torque." + motor.component) {
-      const auto current = [&](double torque) {
-        return std::sqrt(law.by_mean * std::abs(torque) + law.by_square * torque * torque);
-      };
-      out.push_back(figure("motor_peak_current", motor, current(peak.value), "A", current(motor.rated_torque)));
-      out.back().at = peak.at;
-      return;
+  void of_run() {
+    tell("motor_rms_torque", [&] { return Found{root_mean_square(square(), run_->duration), motor_.rated_torque}; });
+    tell("motor_mean_power", [&] { return Found{work() / run_->duration, run_->energy_scale / run_->duration}; });
+    if (const auto* current = armature_current(m_, motor_)) armature_currents(*current);
+    if (const std::optional<double> synchronous = synchronous_speed(m_, motor_)) {
+      const double usual = motor_.rated_torque * *synchronous * (run_ ? run_->duration : 0);
+      tell("motor_slip_heat", [&] {
+        return Found{*synchronous * mean() - work(), std::max(run_->energy_scale, usual)};
+      });
+      tell("start_heat", [&]() -> std::optional<Found> {
+        const std::optional<double> heat = start_heat(*synchronous);
+        if (!heat) return {};
+        return Found{*heat, std::max(run_->energy_scale, usual)};
+      });
     }
-}
+    if (run_) return phase_currents(*run_->currents);
+    phase_currents(MotorCurrents(m_));
+  }
+  void thermal_use() {
+    const std::optional<double> rated = rated_torque(m_, motor_);
+    if (!rated) return;
+    tell("thermal_use", [&]() -> std::optional<Found> {
+      if (!(*rated > 0)) return {};
+      // Without a cycle, in steady motion, by the torque at the end: all that varies has faded.
+      if (m_.cycle == 0 && !run_->last && run_->steady) return Found{std::abs(torque_at_end()) / *rated, 1, run_->end};
+      const CycleRecord* cycle = m_.cycle > 0 ? cycle_that_heats(*run_, i_) : nullptr;
+      if (!cycle) return {};
+      const double rms = root_mean_square(cycle->of_motors[2 * i_ + 1], cycle->end - cycle->begin);
+      return Found{rms / *rated, 1, cycle->end};
+    });
+  }
+  void cycle_power() {
+    if (m_.cycle == 0) return;
+    tell("cycle_motor_power", [&]() -> std::optional<Found> {
+      const CycleRecord* last = run_->last;
+      if (!last) return {};
+      return Found{driving_work(m_, motor_.component, last->work) / (last->end - last->begin),
+                   std::abs(motor_.rated_torque * motor_.rated_speed), last->end};
+    });
+  }
 
-double torque_at_end(const MotorRun& run, const MotorTorque& motor) {
-  return motor.torque(run.equations.snapshot(run.end, run.y));
-}
+ private:
+  template <class Find>
+  void tell(const char* words, const Find& find) {
+    tell_(words, motor_.component, find);
+  }
+  double mean() const { return run_->y[run_->equations.motor_index(i_, false)]; }   // ∫M dt
+  double square() const { return run_->y[run_->equations.motor_index(i_, true)]; }  // ∫M² dt
+  double work() const { return driving_work(m_, motor_.component, run_->work); }
+  double torque_at_end() const { return motor_.torque(run_->equations.snapshot(run_->end, run_->y)); }
 
-// Of a machine in steady motion that knows no cycle, by the torque at the end: all that varies has faded.
-void add_steady_use(const MotorRun& run, const MotorTorque& motor, double rated, std::vector<Figure>& out) {
-  out.push_back(figure("thermal_use", motor, std::abs(torque_at_end(run, motor)) / rated, "", 1));
-  out.back().at = run.end;
-}
+  // Of an armature: the RMS value by the torque's integrals, the peak by its greatest torque.
+  void armature_currents(const ArmatureCurrent& law) {
+    const auto rms = [&law](double torque, double of_square) {
+      return std::sqrt(std::max(0.0, law.by_mean * torque + law.by_square * of_square));
+    };
+    const auto peak = [&law](double torque) {
+      return std::sqrt(law.by_mean * std::abs(torque) + law.by_square * torque * torque);
+    };
+    const double rated = motor_.rated_torque;
+    tell("motor_rms_current", [&] {
+      return Found{rms(mean() / run_->duration, square() / run_->duration), rms(rated, rated * rated)};
+    });
+    tell("motor_peak_current", [&]() -> std::optional<Found> {
+      const Figure* torque = tell_.find("motor_peak_torque." + motor_.component);
+      if (!torque) return {};
+      return Found{peak(torque->value), peak(rated), torque->at};
+    });
+  }
 
-// Heat of slip that steady motion makes in a second: by its last cycle, without one by the torque at the end.
-double steady_slip_power(const MotorRun& run, const MotorTorque& motor, std::size_t i, double synchronous) {
-  const Model& m = run.equations.model();
-  if (run.last)
-    return (synchronous * run.last->of_motors[2 * i] - driving_work(m, motor.component, run.last->work)) /
-           (run.last->end - run.last->begin);
-  const double torque = torque_at_end(run, motor);
-  const Snapshot& s = run.equations.snapshot(run.end, run.y);
-  return torque * (synchronous - m.gain_of_node[at(motor.node)] * s.now.speed[m.shaft_of_node[at(motor.node)]]);
-}
+  // RMS current and heat of the windings of a motor whose currents are states.
+  void phase_currents(const MotorCurrents& currents) {
+    const auto* windings = m_.network.data.find<InductionWindings>(motor_.component);
+    if (run_ && !windings) return;
+    for (const MotorCurrents::Motor& m : currents.motors()) {
+      if (m.component != motor_.component) continue;
+      const auto heat = [&](double resistance, double square) {
+        const double usual = std::abs(motor_.rated_torque * motor_.rated_speed) * run_->duration;
+        return Found{3 * resistance * square, std::max(run_->energy_scale, usual)};
+      };
+      tell("motor_rms_current", [&] { return Found{root_mean_square(m.stator_square(), run_->duration), m.usual}; });
+      tell("motor_slip_heat", [&] { return heat(windings->rotor_resistance, m.rotor_square()); });
+      tell("motor_stator_heat", [&] { return heat(windings->stator_resistance, m.stator_square()); });
+      if (m_.cycle > 0)
+        tell("current_use", [&]() -> std::optional<Found> {
+          const CycleRecord* cycle = cycle_that_heats(*run_, i_);
+          if (!cycle || !(windings->rated_current > 0)) return {};
+          const double square = currents.stator_square(m, cycle->begin, cycle->end);
+          return Found{root_mean_square(square, cycle->end - cycle->begin) / windings->rated_current, 1, cycle->end};
+        });
+    }
+  }
 
-// Heat of slip up to run-up's end: that of the run less what steady motion makes of it.
-void add_start_heat(const MotorRun& run, const MotorTorque& motor, std::size_t i, double synchronous,
-                    std::vector<Figure>& out) {
-  if (!run.after_run_up || (!run.last && !run.steady)) return;
-  const double work = driving_work(run.equations.model(), motor.component, run.work);
-  const double all = synchronous * run.y[run.equations.motor_index(i, false)] - work;
-  const double steady =
-      steady_slip_power(run, motor, i, synchronous) * (run.after_run_up->end - run.after_run_up->begin);
-  out.push_back(figure("start_heat", motor, all - steady, "J",
-                       std::max(run.energy_scale, motor.rated_torque * synchronous * run.duration)));
-}
+  // Heat of slip that steady motion makes in a second: by its last cycle, without one by the torque at the end.
+  double steady_slip_power(double synchronous) const {
+    if (run_->last)
+      return (synchronous * run_->last->of_motors[2 * i_] - driving_work(m_, motor_.component, run_->last->work)) /
+             (run_->last->end - run_->last->begin);
+    const double torque = torque_at_end();
+    const Snapshot& s = run_->equations.snapshot(run_->end, run_->y);
+    return torque * (synchronous - m_.gain_of_node[at(motor_.node)] * s.now.speed[m_.shaft_of_node[at(motor_.node)]]);
+  }
+  // Heat of slip up to run-up's end: that of the run less what steady motion makes of it.
+  std::optional<double> start_heat(double synchronous) const {
+    if (!run_->after_run_up || (!run_->last && !run_->steady)) return {};
+    const double all = synchronous * mean() - work();
+    return all - steady_slip_power(synchronous) * (run_->after_run_up->end - run_->after_run_up->begin);
+  }
 
-void add_thermal_use(const MotorRun& run, const MotorTorque& motor, std::size_t i, double rated,
-                     std::vector<Figure>& out) {
-  const CycleRecord* cycle = cycle_that_heats(run, i);
-  if (!cycle) return;
-  const double rms = root_mean_square(cycle->of_motors[2 * i + 1], cycle->end - cycle->begin);
-  out.push_back(figure("thermal_use", motor, rms / rated, "", 1));
-  out.back().at = cycle->end;
-}
+  const Model& m_;
+  const MotorTorque& motor_;
+  std::size_t i_;
+  const MotorRun* run_;
+  FigureTeller& tell_;
+};
 
 }  // namespace
 
-std::vector<Figure> motor_figures(const MotorRun& run) {
+double driving_work(const Model& m, const std::string& component, std::span<const double> work) {
+  double sum = 0;
+  for (std::size_t k = 0; k < work.size(); ++k)
+    if (m.accounts[k].name == component && m.accounts[k].kind == Account::driving) sum += work[k];
+  return sum;
+}
+
+void tell_motors(const MotorRun& run, FigureTeller& tell) {
   const Model& m = run.equations.model();
-  std::vector<Figure> figures;
-  if (!(run.duration > 0) || run.work.empty()) return figures;
+  if (!(run.duration > 0) || run.work.empty()) return;
   for (std::size_t i = 0; i < m.motors.size(); ++i) {
-    const MotorTorque& motor = m.motors[i];
-    const double mean = run.y[run.equations.motor_index(i, false)], square = run.y[run.equations.motor_index(i, true)];
-    const double work = driving_work(m, motor.component, run.work);
-    figures.push_back(
-        figure("motor_rms_torque", motor, root_mean_square(square, run.duration), "N*m", motor.rated_torque));
-    figures.push_back(figure("motor_mean_power", motor, work / run.duration, "W", run.energy_scale / run.duration));
-    if (const auto* current = armature_current(m, motor)) {
-      const auto rms = [&](double torque, double of_square) {
-        return std::sqrt(std::max(0.0, current->by_mean * torque + current->by_square * of_square));
-      };
-      figures.push_back(figure("motor_rms_current", motor, rms(mean / run.duration, square / run.duration), "A",
-                               rms(motor.rated_torque, motor.rated_torque * motor.rated_torque)));
-      add_peak_current(run, motor, *current, figures);
-    }
-    if (const std::optional<double> synchronous = synchronous_speed(m, motor)) {
-      const double usual = motor.rated_torque * *synchronous * run.duration;
-      figures.push_back(
-          figure("motor_slip_heat", motor, *synchronous * mean - work, "J", std::max(run.energy_scale, usual)));
-      add_start_heat(run, motor, i, *synchronous, figures);
-    }
-    add_currents(run, motor, i, figures);
-    const std::optional<double> rated = rated_torque(m, motor);
-    if (!run.last && run.steady && m.cycle == 0 && rated && *rated > 0) add_steady_use(run, motor, *rated, figures);
-    if (rated && *rated > 0 && m.cycle > 0) add_thermal_use(run, motor, i, *rated, figures);
-    if (!run.last) continue;
-    const double time = run.last->end - run.last->begin;
-    const double of_cycle = driving_work(m, motor.component, run.last->work);
-    figures.push_back(
-        figure("cycle_motor_power", motor, of_cycle / time, "W", std::abs(motor.rated_torque * motor.rated_speed)));
-    figures.back().at = run.last->end;
+    OneMotor motor(m, i, &run, tell);
+    motor.of_run(), motor.thermal_use(), motor.cycle_power();
   }
-  return figures;
+}
+
+void list_motors(const Model& m, FigureTeller& tell) {
+  for (std::size_t i = 0; i < m.motors.size(); ++i) {
+    OneMotor motor(m, i, nullptr, tell);
+    motor.of_run(), motor.cycle_power(), motor.thermal_use();
+  }
 }
 
 std::vector<ExtremeOf> motor_extremes_of(const Model& m) {
@@ -192,10 +209,7 @@ std::vector<ExtremeOf> motor_extremes_of(const Model& m) {
   for (const MotorTorque& motor : m.motors) {
     want("motor_peak_torque", motor, "N*m", motor.rated_torque, [motor](const Snapshot& s) { return motor.torque(s); });
     if (!motor.prescribed) continue;
-    const int shaft = m.shaft_of_node[at(motor.node)];
-    const double gain = m.gain_of_node[at(motor.node)];
-    want("motor_peak_power", motor, "W", std::abs(motor.rated_torque * motor.rated_speed),
-         [=](const Snapshot& s) { return motor.torque(s) * gain * s.now.speed[shaft]; });
+    want("motor_peak_power", motor, "W", std::abs(motor.rated_torque * motor.rated_speed), power_of(m, motor).value);
   }
   const MotorCurrents currents(m);
   for (const MotorTorque& motor : m.motors)
@@ -207,31 +221,6 @@ std::vector<ExtremeOf> motor_extremes_of(const Model& m) {
           return std::sqrt(square);
         });
   return wanted;
-}
-
-std::vector<Figure> motor_figure_list(const Model& m) {
-  std::vector<Figure> list;
-  for (const ExtremeOf& e : motor_extremes_of(m)) list.push_back(Figure::of_name(e.name, 0, e.unit));
-  for (const MotorTorque& motor : m.motors) {
-    list.push_back(figure("motor_rms_torque", motor, 0, "N*m", 0));
-    list.push_back(figure("motor_mean_power", motor, 0, "W", 0));
-    if (armature_current(m, motor))
-      for (const char* words : {"motor_rms_current", "motor_peak_current"})
-        list.push_back(figure(words, motor, 0, "A", 0));
-    if (synchronous_speed(m, motor))
-      for (const char* words : {"motor_slip_heat", "start_heat"}) list.push_back(figure(words, motor, 0, "J", 0));
-    const MotorCurrents currents(m);
-    for (const MotorCurrents::Motor& of : currents.motors())
-      if (of.component == motor.component) {
-        list.push_back(figure("motor_rms_current", motor, 0, "A", 0));
-        for (const char* words : {"motor_slip_heat", "motor_stator_heat"})
-          list.push_back(figure(words, motor, 0, "J", 0));
-        if (m.cycle > 0) list.push_back(figure("current_use", motor, 0, "", 0));
-      }
-    if (m.cycle > 0) list.push_back(figure("cycle_motor_power", motor, 0, "W", 0));
-    if (rated_torque(m, motor)) list.push_back(figure("thermal_use", motor, 0, "", 0));
-  }
-  return list;
 }
 
 }  // namespace kurbel

@@ -15,7 +15,11 @@
 // All of them are integrated along with the motion: ∫ M dt and ∫ M² dt are quadratures of the audit.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "engine/events/equations.h"
@@ -40,13 +44,18 @@ struct MotorRun {
   struct Span {
     double begin = 0, end = 0;
   };
-  const std::vector<Figure>* known = nullptr;  // figures of the run so far: the peaks among them
   std::optional<Span> after_run_up = {};  // from run-up's end to where the drive goes off, of a run with a run-up [s]
 };
-std::vector<Figure> motor_figures(const MotorRun& run);
+// Peaks among them are told before.
+void tell_motors(const MotorRun& run, FigureTeller& tell);
+// Those that a run can yield.
+void list_motors(const Model& model, FigureTeller& tell);
 // Peaks that are looked for along the run: of torque, of the power of a prescribed shaft's drive, of a current in axes.
 std::vector<ExtremeOf> motor_extremes_of(const Model& model);
-// Those that a run can yield: names and units.
-std::vector<Figure> motor_figure_list(const Model& model);
+
+// √( (1/t) ∫ x² dt )
+inline double root_mean_square(double integral, double time) { return std::sqrt(std::max(0.0, integral) / time); }
+// Of all that drives under a component's name, of works per account [J].
+double driving_work(const Model& model, const std::string& component, std::span<const double> work);
 
 }  // namespace kurbel

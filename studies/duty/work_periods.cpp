@@ -10,16 +10,7 @@
 namespace kurbel {
 namespace {
 
-constexpr std::array kinds = {Account::driving, Account::useful, Account::harmful, Account::weight};
 constexpr std::array names = {"run_up", "steady_motion", "run_down"};
-
-std::array<double, 4> by_kind(const Model& m, const std::vector<double>& work) {
-  std::array<double, 4> sums{};
-  for (std::size_t k = 0; k < work.size(); ++k)
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-      if (m.accounts[k].kind == kinds[i]) sums[i] += work[k];
-  return sums;
-}
 
 // A moment at which works and energy are known.
 struct Border {
@@ -35,6 +26,18 @@ WorkPeriod between(const char* name, const Border& a, const Border& b) {
 }
 
 }  // namespace
+
+std::array<double, 4> works_by_kind(const Model& m, std::span<const double> work) {
+  std::array<double, 4> sums{};
+  for (std::size_t k = 0; k < work.size(); ++k) sums[static_cast<std::size_t>(m.accounts[k].kind)] += work[k];
+  return sums;
+}
+
+std::vector<double> works_done(const Equations& equations, std::span<const double> y) {
+  std::vector<double> work;
+  for (std::size_t k = 0; k < equations.model().accounts.size(); ++k) work.push_back(y[equations.work_index(k)]);
+  return work;
+}
 
 double WorkPeriod::residual() const {
   double sum = 0;
@@ -60,16 +63,17 @@ std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, con
   }
   if (!first) return {};
   const auto at_begin = [&](const CycleRecord& c) {
-    return Border{c.begin, c.energy_before, by_kind(m, c.work_before)};
+    return Border{c.begin, c.energy_before, works_by_kind(m, c.work_before)};
   };
   // The end of a cycle is the begin of the next, seen or not: its works are those before it and its own.
   const auto at_end = [&](const CycleRecord& c) {
-    Border b{c.end, c.energy_after, by_kind(m, c.work_before)};
-    const std::array<double, 4> own = by_kind(m, c.work);
+    Border b{c.end, c.energy_after, works_by_kind(m, c.work_before)};
+    const std::array<double, 4> own = works_by_kind(m, c.work);
     for (std::size_t i = 0; i < own.size(); ++i) b.work[i] += own[i];
     return b;
   };
-  const Border start{whole.begin, whole.energy_begin, {}}, end{whole.end, whole.energy_end, by_kind(m, whole.work)};
+  const Border start{whole.begin, whole.energy_begin, {}},
+      end{whole.end, whole.energy_end, works_by_kind(m, whole.work)};
   std::vector<WorkPeriod> list;
   if (first->begin > whole.begin) list.push_back(between(names[0], start, at_begin(*first)));
   list.push_back(between(names[1], at_begin(*first), at_end(*last)));
@@ -77,22 +81,21 @@ std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, con
   return list;
 }
 
-std::vector<Figure> work_figures(const std::vector<WorkPeriod>& periods) {
-  std::vector<Figure> figures;
-  for (const WorkPeriod& p : periods) {
-    const std::string words = std::string("work_of_") + p.name;
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-      figures.push_back(Figure::of_name(Name::own(words, name_of(kinds[i])), p.work[i], "J"));
-    figures.push_back(Figure::of_name(Name::own(words, "energy"), p.energy, "J"));
+void tell_works(const Model& m, const std::vector<WorkPeriod>& periods, FigureTeller& tell) {
+  if (m.cycle == 0) return;
+  for (const std::string name : names) {
+    const auto period =
+        std::find_if(periods.begin(), periods.end(), [&](const WorkPeriod& p) { return p.name == name; });
+    const auto tell_one = [&](const char* of, auto value) {
+      tell(Name::own("work_of_" + name, of), [&]() -> std::optional<Found> {
+        if (period == periods.end()) return {};
+        return Found{value(*period)};
+      });
+    };
+    for (std::size_t i = 0; i < all_accounts.size(); ++i)
+      tell_one(name_of(all_accounts[i]), [i](const WorkPeriod& p) { return p.work[i]; });
+    tell_one("energy", [](const WorkPeriod& p) { return p.energy; });
   }
-  return figures;
-}
-
-std::vector<Figure> work_figure_list(const Model& m) {
-  if (m.cycle == 0) return {};
-  std::vector<WorkPeriod> all;
-  for (const char* name : names) all.push_back({.name = name});
-  return work_figures(all);
 }
 
 }  // namespace kurbel

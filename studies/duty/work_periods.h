@@ -6,11 +6,19 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "engine/events/equations.h"
 #include "studies/findings/result.h"
 
 namespace kurbel {
+
+// Sums over the accounts of each kind, by Account: driving, useful, harmful, weight [J].
+std::array<double, 4> works_by_kind(const Model& model, std::span<const double> work);
+// Per account, up to a state of audited equations [J].
+std::vector<double> works_done(const Equations& equations, std::span<const double> y);
 
 // Useful work over what was spent on it and on losses: driving work, that of weights, and what stored energy gave. So it is
 // at most 1 while harmful works take, whether the period closes or not; none where nothing useful was done.
@@ -38,7 +46,6 @@ std::vector<WorkPeriod> work_periods(const Model& model, const Periods& periods,
 
 // "work_of_run_up.driving" … "work_of_run_up.energy": their errors are told, not judged, as a border may be another in
 // another run.
-std::vector<Figure> work_figures(const std::vector<WorkPeriod>& periods);
-std::vector<Figure> work_figure_list(const Model& model);
+void tell_works(const Model& model, const std::vector<WorkPeriod>& periods, FigureTeller& tell);
 
 }  // namespace kurbel

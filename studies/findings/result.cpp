@@ -5,11 +5,24 @@
 
 #include <algorithm>
 
+#include "studies/dictionary/dictionary.h"
+
 namespace kurbel {
 
-const Figure* Result::find(const std::string& name) const {
+Figure Figure::defined(Name name, double value, double scale) {
+  const Definition* definition = definition_of(name);
+  return of_name(std::move(name), value, definition ? std::string(definition->unit) : "", scale);
+}
+
+const Figure* find(const std::vector<Figure>& figures, std::string_view name) {
   const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
   return found == figures.end() ? nullptr : &*found;
+}
+
+void FigureTeller::add(Name name, const Found& found) {
+  Figure figure = Figure::defined(std::move(name), found.value, found.scale);
+  figure.at = found.at, figure.exact = found.exact, figure.resolution = found.resolution;
+  figures_.push_back(std::move(figure));
 }
 
 const Figure* Result::find(const QuantityKind& what, const std::string& of) const {

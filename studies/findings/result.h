@@ -38,6 +38,54 @@ struct Figure : Estimate {
     figure.what = name.what, figure.of = std::move(name.of);
     return figure;
   }
+  // The same in the unit that its definition has.
+  static Figure defined(Name name, double value = 0, double scale = 0);
+};
+
+// Null: none of that name.
+const Figure* find(const std::vector<Figure>& figures, std::string_view name);
+
+// What a run finds of a figure: members as those of Figure.
+struct Found {
+  double value = 0, scale = 0;
+  std::optional<double> at = {};
+  bool exact = false;
+  double resolution = 0;
+};
+
+// Figures that a run may have are told here, each in one place: to list them before there is a run, or with what the run
+// found.
+class FigureTeller {
+ public:
+  // Adds to `figures`; `listing`: all of them, without values.
+  explicit FigureTeller(std::vector<Figure>& figures, bool listing) : figures_(figures), listing_(listing) {}
+  bool listing() const { return listing_; }
+  // What is told already; null: nothing under that name.
+  const Figure* find(std::string_view name) const { return kurbel::find(figures_, name); }
+  // A figure that is made elsewhere, or in a unit of its own.
+  Figure& take(Figure figure) { return figures_.emplace_back(std::move(figure)); }
+
+  // find() → Found, or std::optional of it: none, this run has no such figure. For a list it is not called.
+  template <class Find>
+  void operator()(const QuantityKind& what, std::string of, const Find& find) {
+    (*this)(Name::make(what, std::move(of)), find);
+  }
+  template <class Find>
+  void operator()(const char* words, const std::string& of, const Find& find) {
+    (*this)(Name::own(words, of), find);
+  }
+  template <class Find>
+  void operator()(Name name, const Find& find) {
+    std::optional<Found> found;
+    if (!listing_) found = find();
+    if (listing_ || found) add(std::move(name), found.value_or(Found{}));
+  }
+
+ private:
+  void add(Name name, const Found& found);
+
+  std::vector<Figure>& figures_;
+  bool listing_;
 };
 
 struct ComponentState {
@@ -101,7 +149,7 @@ struct Result {
   std::shared_ptr<const Traces> traces;                  // for plots; null unless asked for
   std::shared_ptr<const Model> model;
 
-  const Figure* find(const std::string& name) const;
+  const Figure* find(std::string_view name) const { return kurbel::find(figures, name); }
   const Figure* find(const QuantityKind& what, const std::string& of) const;
   // Ran to the end, but not to the accuracy asked for: its figures stand with the errors that were measured, if any.
   bool unconfirmed() const { return complete && confirmation_asked && !accuracy_confirmed; }

@@ -69,7 +69,7 @@ void TraceRecorder::record(double t, std::span<const double> y, Equations& equat
   std::size_t k = channels_.size();
   now_[k++] = equations.kinetic_energy(t, y);
   now_[k++] = equations.stored_energy(t, y);
-  for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
+  for (const Account kind : all_accounts) {
     double sum = 0;
     for (std::size_t a = 0; a < model_->accounts.size() && equations.audit(); ++a)
       if (model_->accounts[a].kind == kind) sum += y[equations.work_index(a)];

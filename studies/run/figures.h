@@ -18,10 +18,10 @@
 
 namespace kurbel {
 
-// One run at one tolerance with all that watches it.
 // Of a line of the energy balance, in a cycle.
 QuantityKind work_per_cycle_of(Account account);
 
+// One run at one tolerance with all that watches it.
 struct OneRun {
   RunOutcome outcome;
   std::shared_ptr<TrajectoryRecorder> trajectory;

@@ -199,8 +199,8 @@ class MultibodySimulation {
     result_.statistics.cpu_seconds = processor_time() - last_begin;
   }
 
-  void add(const QuantityKind& what, double value, double other, const std::string& unit, double scale) {
-    Figure figure = Figure::of_name(Name::make(what, crank_.name), value, unit, scale);
+  void add(const QuantityKind& what, double value, double other, double scale) {
+    Figure figure = Figure::defined(Name::make(what, crank_.name), value, scale);
     figure.at = fine_.samples.back().t;
     if (options_.measure_error) {
       figure.error = std::abs(value - other);
@@ -214,8 +214,8 @@ class MultibodySimulation {
     result_.statistics.stepper.rejected = fine_.rejected;
     result_.statistics.stepper.flow_calls = fine_.evaluations;
     const MultibodySample &a = coarse_.samples.back(), &b = fine_.samples.back();
-    add(quantity::final_angle, b.phi - crank_.phase, a.phi - crank_.phase, "rad", 1);
-    add(quantity::final_speed, b.omega, a.omega, "rad/s", model_->speed_scale);
+    add(quantity::final_angle, b.phi - crank_.phase, a.phi - crank_.phase, 1);
+    add(quantity::final_speed, b.omega, a.omega, model_->speed_scale);
     result_.errors_measured = result_.confirmation_asked = options_.measure_error;
     result_.accuracy_confirmed = options_.measure_error && result_.measured_accuracy <= result_.accuracy;
     result_.final_state[crank_.name] = {{b.phi - crank_.phase}, {b.omega}};

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/scene/units.h"
+#include "studies/dictionary/dictionary.h"
 #include "studies/findings/figure_text.h"
 
 namespace kurbel {
@@ -53,8 +54,7 @@ std::string told(const EnergyBalance& e) {
 std::string in_words(const Figure& f) {
   std::string words(f.words());
   std::replace(words.begin(), words.end(), '_', ' ');
-  if (f.what == quantity::delta) words = "speed fluctuation δ";
-  if (f.what == quantity::cycle_fluctuation) words = "fluctuation in the last cycle";
+  if (is_one_of(f.what, {quantity::delta, quantity::cycle_fluctuation})) words = definition_of(f.what)->words;
   return f.of.empty() ? words : words + ", " + f.of;
 }
 
@@ -96,7 +96,7 @@ std::string figures_in_words(const Result& r) {
     more(fmt::format("the speed of \"{}\" changes by {} of its middle in the last cycle, which is not steady",
                      cycle->of, told(*cycle)));
   for (const Figure& f : r.figures)
-    if (f.name == Name::own("thermal_use", f.of).text && f.value <= 1)  // more is told before
+    if (f.words() == "thermal_use" && f.value <= 1)  // more is told before
       more(fmt::format(
           "\"{}\" is used to {:.0f} % thermally (RMS over rated torque{})", f.of, 100 * f.value,
           r.model && !r.model->commands.empty() && f.at

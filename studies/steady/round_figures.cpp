@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
+#include "studies/duty/motor_figures.h"
+#include "studies/duty/work_periods.h"
 #include "studies/findings/report.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/figures.h"
@@ -179,17 +182,20 @@ class RoundFigures {
   }
 
  private:
-  void add(Name name, double value, const std::string& unit, double scale) {
-    round_.figures.push_back(Figure::of_name(std::move(name), value, unit, scale));
+  void add(Name name, double value, double scale) {
+    round_.figures.push_back(Figure::defined(std::move(name), value, scale));
+  }
+  void add(const QuantityKind& what, const std::string& of, double value, double scale) {
+    add(Name::make(what, of), value, scale);
   }
   double link_angle(std::span<const double> y) const { return equations_.angle_with_turns(at(m_.reduction_angle), y); }
+  double time() const { return outcome_.t - map_.start_time(); }
+  double energy_scale() const { return m_.torque_scale * 2 * std::numbers::pi; }
   // Of the link: its cycle, and the period after which all repeats.
   void add_times(const std::string& link) {
-    const double time = outcome_.t - map_.start_time();
-    add(Name::make(quantity::period), time, "s", time);
-    if (m_.cycle > 0 && turned_ != 0)
-      add(Name::make(quantity::cycle_time, link), time * m_.cycle / std::abs(turned_), "s", time);
-    add(Name::make(quantity::mean_speed, link), turned_ / time, "rad/s", m_.speed_scale);
+    add(quantity::period, "", time(), time());
+    if (m_.cycle > 0 && turned_ != 0) add(quantity::cycle_time, link, time() * m_.cycle / std::abs(turned_), time());
+    add(quantity::mean_speed, link, turned_ / time(), m_.speed_scale);
   }
   void add_speeds() {
     const std::vector<NamedShaft> shafts = shafts_of(m_);
@@ -198,15 +204,15 @@ class RoundFigures {
                          extremes_.found()[2 * i + 1].value};
       if (shafts[i].node == m_.reduction_node) {
         add_times(f.shaft);
-        add(Name::make(quantity::mid_speed, f.shaft), f.mid(), "rad/s", m_.speed_scale);
-        add(Name::make(quantity::cycle_max_speed, f.shaft), f.max, "rad/s", m_.speed_scale);
-        add(Name::make(quantity::cycle_min_speed, f.shaft), f.min, "rad/s", m_.speed_scale);
+        add(quantity::mid_speed, f.shaft, f.mid(), m_.speed_scale);
+        add(quantity::cycle_max_speed, f.shaft, f.max, m_.speed_scale);
+        add(quantity::cycle_min_speed, f.shaft, f.min, m_.speed_scale);
       }
-      if (const auto delta = f.delta()) add(Name::make(quantity::delta, f.shaft), *delta, "", 1);
+      if (const auto delta = f.delta()) add(quantity::delta, f.shaft, *delta, 1);
       // What a flywheel gives from its largest to its least speed.
       if (const auto* flywheel = m_.network.data.find<Flywheel>(f.shaft))
         add(Name::own("flywheel_energy", f.shaft), 0.5 * flywheel->inertia * std::abs(f.max * f.max - f.min * f.min),
-            "J", m_.torque_scale * 2 * std::numbers::pi);
+            energy_scale());
       round_.shafts.push_back(std::move(f));
     }
   }
@@ -214,67 +220,55 @@ class RoundFigures {
     for (std::size_t i = 2 * shafts_of(m_).size(); i < extremes_.wanted().size(); ++i)
       if (extremes_.found()[i].any) {
         const ExtremeOf& wanted = extremes_.wanted()[i];
-        add(wanted.name, extremes_.found()[i].value, wanted.unit,
-            wanted.scale > 0 ? wanted.scale : std::abs(extremes_.found()[i].value));
+        const double value = extremes_.found()[i].value;
+        round_.figures.push_back(
+            Figure::of_name(wanted.name, value, wanted.unit, wanted.scale > 0 ? wanted.scale : std::abs(value)));
       }
-    const double time = outcome_.t - map_.start_time();
     for (std::size_t i = 0; i < m_.torque_joints.size(); ++i)
-      add(Name::make(quantity::cycle_rms_torque, m_.torque_joints[i].component),
-          std::sqrt(std::max(0.0, outcome_.state[equations_.square_index(i, false)]) / time), "N*m",
+      add(quantity::cycle_rms_torque, m_.torque_joints[i].component,
+          root_mean_square(outcome_.state[equations_.square_index(i, false)], time()),
           m_.torque_joints[i].torque_scale);
   }
   void add_drives() {
-    const double time = outcome_.t - map_.start_time();
     const std::vector<Drive> drives = drives_of(m_);
     const std::size_t first = extremes_.wanted().size() - drives.size();
     for (std::size_t i = 0; i < drives.size(); ++i) {
       const double* const sums = outcome_.state.data() + drives_.begin() + 2 * i;
       MotorUse use{drives[i].component,
-                   std::sqrt(std::max(0.0, sums[1]) / time),
-                   sums[0] / time,
+                   root_mean_square(sums[1], time()),
+                   sums[0] / time(),
                    extremes_.found()[first + i].value,
                    {}};
       if (const auto* rating = m_.network.data.find<MotorRating>(use.component)) {
         use.rated = rating->torque;
         if (rating->breakdown && *rating->breakdown > 0)
-          add(Name::own("breakdown_use", use.component), std::abs(use.peak) / *rating->breakdown, "", 1);
+          add(Name::own("breakdown_use", use.component), std::abs(use.peak) / *rating->breakdown, 1);
       }
-      add(Name::make(quantity::mean_drive_torque, use.component), use.mean, "N*m", m_.torque_scale);
-      add(Name::make(quantity::rms_drive_torque, use.component), use.rms, "N*m", m_.torque_scale);
+      add(quantity::mean_drive_torque, use.component, use.mean, m_.torque_scale);
+      add(quantity::rms_drive_torque, use.component, use.rms, m_.torque_scale);
       round_.motors.push_back(std::move(use));
-    }
-  }
-  void add_powers() {
-    const double time = outcome_.t - map_.start_time();
-    for (const MotorTorque& motor : m_.motors) {
-      double work = 0;
-      for (std::size_t a = 0; a < m_.accounts.size(); ++a)
-        if (m_.accounts[a].name == motor.component && m_.accounts[a].kind == Account::driving)
-          work += outcome_.state[equations_.work_index(a)];
-      add(Name::own("cycle_motor_power", motor.component), work / time, "W",
-          std::abs(motor.rated_torque * motor.rated_speed));
     }
   }
   // Over a steady cycle all works add up to nothing.
   void add_works() {
-    double sum = 0, turnover = 0, driving = 0, useful = 0;
-    for (const Account kind : {Account::driving, Account::useful, Account::harmful, Account::weight}) {
-      double of_kind = 0;
-      for (std::size_t a = 0; a < m_.accounts.size(); ++a)
-        if (m_.accounts[a].kind == kind) of_kind += outcome_.state[equations_.work_index(a)];
+    const std::vector<double> work = works_done(equations_, outcome_.state);
+    const std::array<double, 4> by_kind = works_by_kind(m_, work);
+    double sum = 0, turnover = 0;
+    for (const Account kind : all_accounts) {
+      const double of_kind = by_kind[static_cast<std::size_t>(kind)];
       sum += of_kind;
       turnover += std::abs(of_kind);
-      if (kind == Account::driving) driving = of_kind;
-      if (kind == Account::useful) useful = of_kind;
-      add(Name::make(work_per_cycle_of(kind)), of_kind, "J", m_.torque_scale * 2 * std::numbers::pi);
+      add(work_per_cycle_of(kind), "", of_kind, energy_scale());
     }
-    if (driving > 0 && useful < 0) add(Name{quantity::other, "", "machine_efficiency"}, -useful / driving, "", 1);
-    add_powers();
+    const auto [driving, useful, harmful, weight] = by_kind;
+    if (driving > 0 && useful < 0) add(Name{quantity::other, "", "machine_efficiency"}, -useful / driving, 1);
+    for (const MotorTorque& motor : m_.motors)
+      add(Name::own("cycle_motor_power", motor.component), driving_work(m_, motor.component, work) / time(),
+          std::abs(motor.rated_torque * motor.rated_speed));
     for (std::size_t a = 0; a < m_.accounts.size(); ++a)
-      if (const double work = outcome_.state[equations_.work_index(a)]; work != 0)
-        add(Name::make(quantity::work_per_cycle,
-                       fmt::format("{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind))),
-            work, "J", m_.torque_scale * 2 * std::numbers::pi);
+      if (work[a] != 0)
+        add(quantity::work_per_cycle, fmt::format("{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind)),
+            work[a], energy_scale());
     round_.work_residual = std::abs(sum) / std::max(turnover, 1e-6 * m_.torque_scale * map_.periodicity().angle);
   }
 

@@ -298,11 +298,6 @@ class Study {
 
 }  // namespace
 
-const Figure* SteadyCycle::find(const std::string& name) const {
-  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
-  return found == figures.end() ? nullptr : &*found;
-}
-
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options) {
   const Deadline deadline(scene.run.budget);
   return Study(scene, effects, options).run();

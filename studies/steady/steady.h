@@ -83,7 +83,7 @@ struct SteadyCycle {
       {};  // what it takes from beyond the ends of tables: no figure has an error then
   double cpu_seconds = 0;
 
-  const Figure* find(const std::string& name) const;
+  const Figure* find(std::string_view name) const { return kurbel::find(figures, name); }
 };
 
 struct SteadyStudy {

@@ -66,7 +66,7 @@ std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
   for (const Figure& f : c.figures) {
     if (f.what == quantity::cycle_peak_torque)
       as_run.figures.push_back(renamed(f, Name::make(quantity::peak_torque, f.of)));
-    if (f.name.starts_with("greatest_torque.") || f.name.starts_with("least_torque.")) as_run.figures.push_back(f);
+    if (f.words() == "greatest_torque" || f.words() == "least_torque") as_run.figures.push_back(f);
     if (f.what == quantity::rms_drive_torque) as_run.figures.push_back(renamed(f, Name::own("motor_rms_torque", f.of)));
   }
   add_rim_speeds(c, as_run);
