@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -24,26 +25,10 @@ enum class Functional {
   last       // at the end
 };
 
+// What a name begins with for it.
 inline const char* prefix(Functional functional) {
-  switch (functional) {
-    case Functional::none:
-      return "";
-    case Functional::peak:
-      return "peak_";
-    case Functional::greatest:
-      return "max_";
-    case Functional::least:
-      return "min_";
-    case Functional::mid:
-      return "mid_";
-    case Functional::mean:
-      return "mean_";
-    case Functional::rms:
-      return "rms_";
-    case Functional::last:
-      return "final_";
-  }
-  return "";
+  constexpr const char* prefixes[] = {"", "peak_", "max_", "min_", "mid_", "mean_", "rms_", "final_"};
+  return prefixes[static_cast<std::size_t>(functional)];
 }
 
 struct QuantityKind {
@@ -134,6 +119,11 @@ inline bool is_one_of(const QuantityKind& what, std::initializer_list<QuantityKi
 
 // A largest magnitude: of two equal ones of opposite sign either may be taken.
 inline bool is_peak(const QuantityKind& what) { return what.functional == Functional::peak; }
+
+// Whether a figure is among those that are asked for: by its whole name, or by its quantity ("delta": of whatever has one).
+inline bool is_asked_for(std::string_view name, std::string_view asked) {
+  return name.starts_with(asked) && (name.size() == asked.size() || name[asked.size()] == '.');
+}
 
 // A quantity and whose it is.
 struct Name {

@@ -75,7 +75,7 @@ class Adviser {
   void check_figures() const {
     for (const std::string& name : options_.figures) {
       const bool known = std::any_of(a_.full.figures.begin(), a_.full.figures.end(),
-                                     [&](const Figure& f) { return f.name == name || f.name.starts_with(name + "."); });
+                                     [&](const Figure& f) { return is_asked_for(f.name, name); });
       if (known) continue;
       std::vector<std::string> names;
       for (const Figure& f : a_.full.figures) names.push_back(f.name);
@@ -115,7 +115,7 @@ class Adviser {
     if (figures.empty()) return found;
     for (const Figure& f : full.figures)
       for (const std::string& name : figures)
-        if ((f.name == name || f.name.starts_with(name + ".")) && !other.find(f.name))
+        if (is_asked_for(f.name, name) && !other.find(f.name))
           found.of = HUGE_VAL, found.error = 0, found.figure = f.name, found.within = false;
     return found;
   }
@@ -254,9 +254,8 @@ class Adviser {
       std::vector<FigureChange> changes = left.changes;
       if (!options_.figures.empty())
         std::erase_if(changes, [&](const FigureChange& c) {
-          return std::none_of(options_.figures.begin(), options_.figures.end(), [&](const std::string& name) {
-            return c.figure == name || c.figure.starts_with(name + ".");
-          });
+          return std::none_of(options_.figures.begin(), options_.figures.end(),
+                              [&](const std::string& name) { return is_asked_for(c.figure, name); });
         });
       const Deviation d = deviation_of(changes, options_.within);
       if (!left.refused.empty())

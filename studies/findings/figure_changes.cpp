@@ -35,6 +35,10 @@ bool measure_the_same(const Figure& a, const Figure& b) {
   return a.name == b.name || (fluctuates(a) && fluctuates(b) && a.of == b.of);
 }
 
+double apart(const Figure& a, const Figure& b) {
+  return is_peak(a.what) ? std::abs(std::abs(b.value) - std::abs(a.value)) : std::abs(b.value - a.value);
+}
+
 const Figure* like_in(const Result& run, const Figure& figure) {
   const auto found = std::find_if(run.figures.begin(), run.figures.end(),
                                   [&](const Figure& f) { return measure_the_same(f, figure); });
@@ -51,18 +55,14 @@ std::vector<FigureChange> changes_between(const Result& full, const Result& othe
                                           const std::vector<std::string>& wanted) {
   std::vector<FigureChange> changes;
   for (const Figure& figure : full.figures) {
-    const bool asked = std::any_of(wanted.begin(), wanted.end(), [&](const std::string& name) {
-      return figure.name == name || figure.name.starts_with(name + ".");
-    });
+    const bool asked = std::any_of(wanted.begin(), wanted.end(),
+                                   [&](const std::string& name) { return is_asked_for(figure.name, name); });
     if (wanted.empty() ? !is_telling(figure) : !asked) continue;
     const Figure* same = like_in(other, figure);
     if (!same) continue;
     const double nothing = floor_of(figure, full);
     if (std::abs(figure.value) <= nothing && std::abs(same->value) <= floor_of(*same, other)) continue;  // both zero
-    // Of two equal peaks of opposite sign either may be the larger one.
-    const bool magnitude = is_peak(figure.what);
-    const double difference =
-        magnitude ? std::abs(std::abs(same->value) - std::abs(figure.value)) : std::abs(same->value - figure.value);
+    const double difference = apart(figure, *same);
     const double usual = is_judged_by_the_machine(figure.what) ? figure.scale : 0;
     const double size = std::max({std::abs(figure.value), usual, nothing, 1e-300});
     changes.push_back({figure.name, figure.unit, figure.value, same->value, difference / size,

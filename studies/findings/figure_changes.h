@@ -31,6 +31,8 @@ double error_of(const Figure& figure, const Result& run);
 double floor_of(const Figure& figure, const Result& run);
 // δ and a fluctuation that is none differ by what a run found of its motion, not by how they are measured.
 bool measure_the_same(const Figure& a, const Figure& b);
+// How far two of them are apart: peaks by magnitude, for of two equal ones of opposite sign either may be the larger.
+double apart(const Figure& a, const Figure& b);
 // What in a run measures the same as a figure of another one; null: nothing.
 const Figure* like_in(const Result& run, const Figure& figure);
 // Figures worth comparing: peaks, speeds, fluctuation, periods, works; not those of single angles or of rounding.

@@ -20,11 +20,6 @@ const Figure* find(const std::vector<Figure>& figures, const Figure& like, std::
   return found == figures.end() ? nullptr : &*found;
 }
 
-double difference(const Figure& a, const Figure& b) {
-  const bool magnitude = is_peak(a.what);
-  return magnitude ? std::abs(std::abs(a.value) - std::abs(b.value)) : std::abs(a.value - b.value);
-}
-
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -43,7 +38,7 @@ double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& 
     for (const Witness& witness : witnesses) {
       const Figure* other = find(*witness.figures, figure, k);
       if (!other) continue;
-      figure.error = std::max(figure.error.value_or(0), witness.weight * difference(figure, *other));
+      figure.error = std::max(figure.error.value_or(0), witness.weight * apart(figure, *other));
       if (figure.at && other->at)
         figure.at_error = std::max(figure.at_error.value_or(rounding * std::abs(*figure.at)),
                                    witness.weight * std::abs(*figure.at - *other->at));
@@ -68,7 +63,7 @@ double add_differences(std::vector<Figure>& figures, const std::vector<Figure>& 
     Figure& figure = figures[k];
     const Figure* other = find(finer, figure, k);
     if (!figure.error || !other) continue;
-    const double off = difference(figure, *other);
+    const double off = apart(figure, *other);
     *figure.error += off;
     if (figure.at && other->at && figure.at_error) *figure.at_error += std::abs(*figure.at - *other->at);
     if (figure.scale > 0) worst = std::max(worst, off / figure.scale);

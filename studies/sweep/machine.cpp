@@ -297,7 +297,7 @@ std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std
   for (const std::string& name : asked) {
     const std::size_t before = list.size();
     for (const SweptFigure& f : known)
-      if (f.name == name || f.name.starts_with(name + "."))
+      if (is_asked_for(f.name, name))
         if (std::none_of(list.begin(), list.end(), [&](const SweptFigure& g) { return g.name == f.name; }))
           list.push_back(f);
     if (list.size() > before) continue;
