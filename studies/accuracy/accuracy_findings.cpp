@@ -199,13 +199,8 @@ void add_key_figures(Findings& f, const AccuracyStudy& study) {
   const auto fastest =
       std::min_element(study.settings.begin(), study.settings.end(),
                        [](const MeasuredSetting& a, const MeasuredSetting& b) { return a.seconds < b.seconds; });
-  f.figures.push_back({"settings measured",
-                       static_cast<double>(study.settings.size()),
-                       "",
-                       {},
-                       fmt::format("the fastest: {}", study.name_of(*fastest)),
-                       4,
-                       "settings_measured"});
+  f.key("settings measured", {static_cast<double>(study.settings.size())}, "settings_measured",
+        fmt::format("the fastest: {}", study.name_of(*fastest)), 4);
 }
 
 Text how_measured(const AccuracyStudy& study) {

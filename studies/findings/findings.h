@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "studies/conclusions/conclusion.h"
 #include "studies/findings/report.h"
 #include "studies/findings/rows.h"
@@ -67,6 +68,9 @@ struct Brief {
   static constexpr std::size_t most_lines = 23;  // two more tell where the files are
 };
 
+// In the unit of its definition.
+KeyFigure key_figure(std::string name, const Estimate& value, std::string means, std::string note = {}, int digits = 0);
+
 struct Findings {
   // What the terminal's text begins with.
   enum class Opening { conclusion, title_and_conclusion, title };
@@ -93,6 +97,10 @@ struct Findings {
   std::string conclusion() const { return in_one_line(concluded(answers)); }
   void answer(Question question, std::string sentence, double severity = 0) {
     answers.push_back({question, std::move(sentence), severity});
+  }
+
+  void key(std::string name, const Estimate& value, std::string means, std::string note = {}, int digits = 0) {
+    figures.push_back(key_figure(std::move(name), value, std::move(means), std::move(note), digits));
   }
 
   // A chapter without cards is not shown.

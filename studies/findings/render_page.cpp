@@ -114,6 +114,11 @@ void Findings::note(Chapter in, const std::vector<std::string>& notes, const std
   say(in, Sentences{.lines = lines, .terminal = false});
 }
 
+KeyFigure key_figure(std::string name, const Estimate& value, std::string means, std::string note, int digits) {
+  const std::string unit(definition_of(std::string_view(means))->unit);
+  return {std::move(name), value.value, unit, value.error, std::move(note), digits, std::move(means)};
+}
+
 void Findings::show_scene(const std::string& file, const std::string& text) {
   show(chapter("Scene"), Text{.title = file, .body = text, .verbatim = true, .folded = true});
 }

@@ -325,22 +325,20 @@ double greatest_specific_sliding(const GearPair& p) {
 void add_key_figures(Findings& f, const Gears& g) {
   for (const GearStage& s : g.stages) {
     const std::string prefix = g.stages.size() > 1 ? s.name + ": " : "";
-    const auto add = [&](const char* name, double value, const char* unit, double error, const char* note,
-                         const char* means) {
-      f.figures.push_back({prefix + name, value, unit, std::isfinite(error) ? std::optional(error) : std::nullopt, note,
-                           std::isfinite(error) ? 0 : 3, means});
+    const auto add = [&](const char* name, double value, double error, const char* note, const char* means) {
+      const bool known = std::isfinite(error);
+      f.key(prefix + name, {value, known ? std::optional(error) : std::nullopt}, means, note, known ? 0 : 3);
     };
     const auto distance = [](const GearPair& p) { return std::abs(p.centre_distance); };
-    add("centre distance", in_millimetres * distance(s.pair), "mm", in_millimetres * s.error_of(distance), "",
+    add("centre distance", in_millimetres * distance(s.pair), in_millimetres * s.error_of(distance), "",
         "centre_distance");
-    add("contact ratio ε_α", s.pair.contact_ratio, "", s.error_of(&GearPair::contact_ratio), "", "contact_ratio");
-    add("greatest specific sliding", greatest_specific_sliding(s.pair), "", s.error_of(greatest_specific_sliding, 1),
+    add("contact ratio ε_α", s.pair.contact_ratio, s.error_of(&GearPair::contact_ratio), "", "contact_ratio");
+    add("greatest specific sliding", greatest_specific_sliding(s.pair), s.error_of(greatest_specific_sliding, 1),
         "at the foot of a flank", "specific_sliding");
-    add("backlash at wheel 1", 1e3 * s.pair.backlash_angle(0), "mrad", 1e3 * backlash_error(s, backlash_angle_of(0)),
-        "", "backlash_angle");
+    add("backlash at wheel 1", 1e3 * s.pair.backlash_angle(0), 1e3 * backlash_error(s, backlash_angle_of(0)), "",
+        "backlash_angle");
     if (s.stiffness.torsional > 0)
-      add("mesh stiffness about wheel 1", s.stiffness.torsional, "N*m/rad",
-          stiffness_error(s.stiffness, s.stiffness.torsional),
+      add("mesh stiffness about wheel 1", s.stiffness.torsional, stiffness_error(s.stiffness, s.stiffness.torsional),
           s.stiffness.within ? "ISO 6336-1 B, within 8 %" : "ISO 6336-1 B, outside of its range: error not known",
           "mesh_stiffness");
   }

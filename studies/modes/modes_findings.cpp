@@ -274,15 +274,14 @@ std::optional<double> swing_error(const ModesStudy& m, std::size_t j) {
 
 void add_key_figures(Findings& f, const ModesStudy& m) {
   for (std::size_t k = 0; k < m.modes.size() && k < 4; ++k)
-    f.figures.push_back(
-        {fmt::format("mode {}", m.modes[k].number), hertz(m.modes[k].natural()), "Hz", hertz(m.modes[k].error),
-         m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "", 6, "natural_frequency"});
+    f.key(fmt::format("mode {}", m.modes[k].number), {hertz(m.modes[k].natural()), hertz(m.modes[k].error)},
+          "natural_frequency", m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "", 6);
   if (!is_forced(m)) return;
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
   const std::size_t j = joint_with_largest_swing(said);
   if (std::isfinite(said.joints[j].peak))
-    f.figures.push_back({fmt::format("largest swing at {}", m.speed_unit.text(std::abs(m.drive.at.speed), 4)),
-                         said.joints[j].peak, "N*m", swing_error(m, j), m.joint_names[j], 5, "largest_swing"});
+    f.key(fmt::format("largest swing at {}", m.speed_unit.text(std::abs(m.drive.at.speed), 4)),
+          {said.joints[j].peak, swing_error(m, j)}, "largest_swing", m.joint_names[j], 5);
 }
 
 FormulaCard rayleigh(const ModesStudy& m) {

@@ -132,10 +132,9 @@ void say_spots(Findings& f, Chapter in, const ModesStudy& m) {
   f.say(in, spot_table(m));
   f.tell("spot_checks", each(m.spots, [&m](const SpotCheck& spot) { return spot_record(m, spot); }));
   if (const SpotCheck* spot = to_tell(m))
-    f.figures.push_back({fmt::format("swing at {}, nonlinear", m.speed_unit.text(spot->speed, 5)),
-                         really(*spot, spot->joint).peak, "N*m", spot->error(spot->joint),
-                         fmt::format("{}; linear {}", m.joint_names[spot->joint], difference_text(*spot, spot->joint)),
-                         5, "spot_swing"});
+    f.key(fmt::format("swing at {}, nonlinear", m.speed_unit.text(spot->speed, 5)),
+          {really(*spot, spot->joint).peak, spot->error(spot->joint)}, "spot_swing",
+          fmt::format("{}; linear {}", m.joint_names[spot->joint], difference_text(*spot, spot->joint)), 5);
 }
 
 void mark_spots(const ModesStudy& m, std::size_t joint, Plot& plot) {

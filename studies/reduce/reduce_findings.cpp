@@ -279,18 +279,10 @@ Findings findings_of(const MachineReduction& r) {
              .subtitle = fmt::format("Machine reduced to {}", r.to),
              .scene_file = r.scene_file,
              .speed_unit = r.speed_unit.name,
-             .tells_complete = false,
-             .figures = {{"constant inertia of the drive",
-                          r.constant_inertia,
-                          "kg*m2",
-                          {},
-                          r.to_output ? "on " + r.link : "",
-                          0,
-                          "constant_inertia"},
-                         {"mean driving torque", r.mean_drive.value, "N*m", r.mean_drive.error, "on " + r.link, 0,
-                          "mean_driving_torque"},
-                         {"mean resisting torque", r.mean_load.value, "N*m", r.mean_load.error, "on " + r.link, 0,
-                          "mean_resisting_torque"}}};
+             .tells_complete = false};
+  f.key("constant inertia of the drive", {r.constant_inertia}, "constant_inertia", r.to_output ? "on " + r.link : "");
+  f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);
+  f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
   f.answer(Question::figures, conclusion_of(r));
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");

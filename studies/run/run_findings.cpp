@@ -170,13 +170,8 @@ std::vector<KeyFigure> key_figures_of(const Result& r) {
     const Figure& f = r.figures[i];
     figures.push_back(key_of(f, f.what == quantity::peak_torque ? at_time(f) : "", speed_unit_of(r)));
   }
-  figures.push_back({"coordinates",
-                     static_cast<double>(r.coordinates),
-                     "",
-                     {},
-                     processor_time_in_words(r) + " of processor time a run",
-                     0,
-                     "coordinates"});
+  figures.push_back(key_figure("coordinates", {static_cast<double>(r.coordinates)}, "coordinates",
+                               processor_time_in_words(r) + " of processor time a run"));
   return figures;
 }
 

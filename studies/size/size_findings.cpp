@@ -307,26 +307,17 @@ std::string diagrams_csv(const Sizing& s) {
 
 void add_key_figures(Findings& f, const Sizing& s) {
   if (s.meeting)
-    f.figures.push_back({"flywheel that meets δ", s.meeting->flywheel, "kg*m2", s.meeting->error, s.meeting->name, 0,
-                         "flywheel_that_meets"});
-  f.figures.push_back({"flywheel", exact_method(s).flywheel, "kg*m2", exact_method(s).error,
-                       "Wittenbauer, exact " + basis_of(s), 0, "flywheel"});
-  if (s.soft)
-    f.figures.push_back(
-        {"flywheel with " + slope_of_what(s), s.soft->flywheel, "kg*m2", s.soft->error, "", 0, "flywheel_with_slope"});
+    f.key("flywheel that meets δ", {s.meeting->flywheel, s.meeting->error}, "flywheel_that_meets", s.meeting->name);
+  f.key("flywheel", {exact_method(s).flywheel, exact_method(s).error}, "flywheel", "Wittenbauer, exact " + basis_of(s));
+  if (s.soft) f.key("flywheel with " + slope_of_what(s), {s.soft->flywheel, s.soft->error}, "flywheel_with_slope");
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
-      f.figures.push_back({fmt::format("δ at the crank, {}", name_of(r.model)), r.crank.value, "", r.crank.error, "", 0,
-                           "delta_reached"});
+      f.key(fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "delta_reached");
       if (r.model == SizedModel::elastic && !s.motor.empty())
-        f.figures.push_back({fmt::format("δ at the motor, {}", name_of(r.model)), r.motor.value, "", r.motor.error, "",
-                             0, "delta_reached"});
+        f.key(fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "delta_reached");
     }
-  f.figures.push_back(
-      {"fluctuation of energy", s.diagram.fluctuation(), "J", s.fluctuation_error, "", 0, "fluctuation_of_energy"});
-  if (s.dimensions)
-    f.figures.push_back(
-        {"mass", s.dimensions->mass, "kg", s.mass_error, s.dimensions->material.name, 0, "flywheel_mass"});
+  f.key("fluctuation of energy", {s.diagram.fluctuation(), s.fluctuation_error}, "fluctuation_of_energy");
+  if (s.dimensions) f.key("mass", {s.dimensions->mass, s.mass_error}, "flywheel_mass", s.dimensions->material.name);
 }
 
 void show_all(Findings& f, Chapter in, const std::vector<FormulaCard>& formulas) {

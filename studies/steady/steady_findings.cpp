@@ -334,12 +334,12 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
     if (const Figure* mean = c.find("mean_speed." + s.link))
       f.figures.push_back(
           {"mean speed, " + c.label, unit.of(mean->value), unit.name, (*mean / unit.size).error, "", 0, mean->name});
-    if (const Figure* delta = c.find("delta." + s.link))
-      f.figures.push_back({"speed fluctuation δ, " + c.label, delta->value, "", delta->error, "", 0, delta->name});
+    if (const Figure* delta = c.find("delta." + s.link)) f.key("speed fluctuation δ, " + c.label, *delta, delta->name);
     if (!c.point.multipliers.empty())
-      f.figures.push_back({"left of a deviation after a cycle, " + c.label, c.point.largest(), "",
-                           c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front()),
-                           c.stability, 4, "largest_multiplier"});
+      f.key(
+          "left of a deviation after a cycle, " + c.label,
+          {c.point.largest(), c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front())},
+          "largest_multiplier", c.stability, 4);
   }
   if (const SteadyCycle& last = s.cycles.back(); last.found)
     for (const MotorUse& m : last.motors)
