@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace kurbel {
 
@@ -23,6 +24,20 @@ Bracket halved(Bracket b, int times, const F& below) {
     (below(middle) ? b.low : b.high) = middle;
   }
   return b;
+}
+
+// A place and the value of a function there.
+struct Sampled {
+  double at = 0, value = 0;
+};
+// Where the rate of something vanishes between three samples of it, in each half at whose ends its signs differ: there it
+// turns. turn(place) for each, in order.
+template <class Rate, class Turn>
+void for_each_turn(const Rate& rate, const Sampled& begin, const Sampled& middle, const Sampled& end,
+                   const Turn& turn) {
+  for (const auto& [a, b] : {std::pair(begin, middle), std::pair(middle, end)})
+    if (a.value != 0 && b.value != 0 && (a.value > 0) != (b.value > 0))
+      turn(find_root(rate, a.at, a.value, b.at, b.value));
 }
 
 // The place and value of the maximum of f in [a, b], where f rises to it and falls after it; by the golden section,

@@ -150,13 +150,8 @@ void ExtremeRecorder::search(StepView& view, std::size_t i) {
   const double r0 = wanted_[i].rate ? first_.rate[i] : rate(first_.t);
   const double rm = wanted_[i].rate ? middle_.rate[i] : rate(middle_.t);
   const double r1 = wanted_[i].rate ? last_.rate[i] : rate(last_.t);
-  const auto look = [&](double ta, double ra, double tb, double rb) {
-    if (ra == 0 || rb == 0 || (ra > 0) == (rb > 0)) return;
-    const double t = find_root(rate, ta, ra, tb, rb);
-    consider(i, t, wanted_[i].value(view.snapshot(t)));
-  };
-  look(first_.t, r0, middle_.t, rm);
-  look(middle_.t, rm, last_.t, r1);
+  for_each_turn(rate, {first_.t, r0}, {middle_.t, rm}, {last_.t, r1},
+                [&](double t) { consider(i, t, wanted_[i].value(view.snapshot(t))); });
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -255,9 +250,6 @@ void CycleRecorder::step(StepView& view) {
   double from = view.t_previous();
   const auto alpha = [&](double time) { return gain * view.snapshot(time).alpha[shaft]; };
   const auto speed = [&](double time) { return gain * view.snapshot(time).now.speed[shaft]; };
-  const auto peak_between = [&](double ta, double aa, double tb, double ab) {
-    if (aa != 0 && ab != 0 && (aa > 0) != (ab > 0)) see_speed(speed(find_root(alpha, ta, aa, tb, ab)));
-  };
   // An even number of extremes leaves the signs at the ends as they are: the middle is asked wherever the speed could
   // get beyond what is known of the cycle (a cubic goes at most 4/27 h (|α₀| + |α₁|) beyond its ends).
   const auto extreme_until = [&](double t) {
@@ -268,8 +260,7 @@ void CycleRecorder::step(StepView& view) {
       if (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) {
         const double middle = 0.5 * (from + t), am = alpha(middle);
         see_speed(speed(middle));
-        peak_between(from, a0, middle, am);
-        peak_between(middle, am, t, a1);
+        for_each_turn(alpha, {from, a0}, {middle, am}, {t, a1}, [&](double turn) { see_speed(speed(turn)); });
       }
     }
     from = t;

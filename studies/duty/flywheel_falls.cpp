@@ -68,14 +68,8 @@ void FlywheelFalls::search(StepView& view, const Wheel& w, const See& see) {
   const double begin = view.t_previous(), end = view.t(), middle = 0.5 * (begin + end), delta = 1e-3 * (end - begin);
   const auto speed = [&](double t) { return std::abs(w.gain * view.at(t, w.state)); };
   const auto rate = [&](double t) { return speed(std::min(t + delta, end)) - speed(std::max(t - delta, begin)); };
-  const double r0 = rate(begin), rm = rate(middle), r1 = rate(end);
-  const auto turn = [&](double ta, double ra, double tb, double rb) {
-    if (ra == 0 || rb == 0 || (ra > 0) == (rb > 0)) return;
-    const double t = find_root(rate, ta, ra, tb, rb);
-    see(t, speed(t));
-  };
-  turn(begin, r0, middle, rm);
-  turn(middle, rm, end, r1);
+  for_each_turn(rate, {begin, rate(begin)}, {middle, rate(middle)}, {end, rate(end)},
+                [&](double t) { see(t, speed(t)); });
 }
 
 void FlywheelFalls::tell(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureTeller& tell) {
