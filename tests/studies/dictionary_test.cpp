@@ -221,6 +221,36 @@ TEST(Dictionary, FiguresOfACycleAreNotCalledAsThoseOfARun) {
   EXPECT_EQ(Name::make(quantity::delta, "a").of_cycle(), Name::make(quantity::delta, "a"));
 }
 
+TEST(Dictionary, AFigureIsAskedForByItsNameOrItsQuantity) {
+  EXPECT_TRUE(is_asked_for("delta.press", "delta.press"));
+  EXPECT_TRUE(is_asked_for("delta.press", "delta"));
+  EXPECT_FALSE(is_asked_for("delta_reached", "delta"));
+  EXPECT_FALSE(is_asked_for("delta", "delta.press"));
+  EXPECT_FALSE(is_asked_for("delta", ""));
+}
+
+TEST(Dictionary, AListHasEveryFigureAndARunWhatItFound) {
+  const auto told = [](bool listing) {
+    std::vector<Figure> figures;
+    FigureTeller tell(figures, listing);
+    tell(quantity::mid_speed, "press", [] { return Found{6.2, 6, 1.5, true, 1e-9}; });
+    tell("thermal_use", "motor", []() -> std::optional<Found> { return {}; });
+    return figures;
+  };
+  const std::vector<Figure> list = told(true), found = told(false);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0].name, "mid_speed.press");
+  EXPECT_EQ(list[0].unit, "rad/s");
+  EXPECT_EQ(list[1].name, "thermal_use.motor");
+  EXPECT_EQ(list[1].words(), "thermal_use");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].value, 6.2);
+  EXPECT_EQ(found[0].scale, 6);
+  EXPECT_EQ(found[0].at, 1.5);
+  EXPECT_EQ(found[0].resolution, 1e-9);
+  EXPECT_TRUE(found[0].exact);
+}
+
 TEST(Dictionary, APageDefinesTheFiguresThatItShowsAndNoOthers) {
   const Result result = test::run_until(test::scene_file("scenes/crank_press.toml"), 1);
   const Report page = page_of(findings_of(result));
