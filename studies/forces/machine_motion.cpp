@@ -13,7 +13,6 @@
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
-#include "studies/steady/steady_simulation.h"
 
 namespace kurbel {
 namespace {
@@ -438,6 +437,18 @@ std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effec
   } catch (const std::runtime_error&) {  // its way does not come again between two tolerances
     return {};
   }
+}
+
+double still_to_come(const std::vector<double>& course, double noise) {
+  if (course.size() < 3) return HUGE_VAL;
+  const std::size_t last = course.size() - 1, quarter = std::max<std::size_t>(1, last / 4);
+  const double now = course[last] - course[last - quarter];
+  const double before = course[last - quarter] - course[last - 2 * quarter];
+  if (std::abs(now) <= noise) return 0;
+  constexpr double no_nearer = 0.999;  // of the quarter before: shrinking so slowly is not told from a straight run
+  if (!(std::abs(now) < no_nearer * std::abs(before))) return HUGE_VAL;
+  const double ratio = now / before;
+  return std::abs(now) * (ratio > 0 ? ratio / (1 - ratio) : 1);
 }
 
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {

@@ -89,6 +89,11 @@ class MachineMotion {
 std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effects& effects, OutputLoads& loads,
                                         const ForcesOptions& options);
 
+// What a quantity that is looked at once a cycle has still to change, from its course so far: the change over the last
+// quarter of it, going on as a geometric sequence with the ratio q to the quarter before: d q/(1 − q); swinging,
+// q < 0: |d|. ∞ where the changes do not shrink (a runaway at any rate: q = 1), 0 where they are below `noise`.
+double still_to_come(const std::vector<double>& course, double noise);
+
 // Of the first problem, and where it comes from.
 struct CrankSpeed {
   double value = 0;  // [rad/s]

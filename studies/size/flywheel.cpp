@@ -65,16 +65,6 @@ WorkDiagram with_constant_load(const Piecewise& drive_torque) {
   return work_diagram(drive_torque, drive_torque.constant(work / drive_torque.length()));
 }
 
-double fluctuation_of_areas(const std::vector<double>& areas, double scale) {
-  double sum = 0, most = 0, least = 0;
-  for (const double area : areas) {
-    sum += area;
-    most = std::max(most, sum);
-    least = std::min(least, sum);
-  }
-  return (most - least) * scale;
-}
-
 Wittenbauer wittenbauer(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mid_speed, double delta) {
   check_delta(delta);
   check_speed(mid_speed);
@@ -185,24 +175,6 @@ double SpeedCycle::speed(double phi) const {
 
 double SpeedCycle::delta() const {
   return (fastest_.value - slowest_.value) / (0.5 * (fastest_.value + slowest_.value));
-}
-
-// --- punch presses ---
-
-double inertia_for_range(double energy, double faster, double slower) {
-  if (!(faster > slower && slower >= 0))
-    throw std::invalid_argument(
-        fmt::format("speed range {:.6g} … {:.6g} rad/s; must fall to a speed ≥ 0 below the first", faster, slower));
-  return 2 * energy / ((faster - slower) * (faster + slower));
-}
-
-double speed_after(double inertia, double speed, double energy) {
-  const double left = speed * speed - 2 * energy / inertia;
-  if (!(left >= 0))
-    throw std::invalid_argument(
-        fmt::format("the flywheel holds {:.6g} J at {:.6g} rad/s, less than the {:.6g} J taken from it: it would stop",
-                    0.5 * inertia * speed * speed, speed, energy));
-  return std::sqrt(left);
 }
 
 // --- customary δ ---

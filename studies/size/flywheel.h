@@ -37,10 +37,6 @@ WorkDiagram work_diagram(const Piecewise& drive_torque, const Piecewise& load_to
 WorkDiagram with_constant_drive(const Piecewise& load_torque);
 WorkDiagram with_constant_load(const Piecewise& drive_torque);
 
-// Areas between the torque curve and its mean, in order, times the scale of the drawing: the greatest difference of
-// their running sums. [area] · [J per area] → J.
-double fluctuation_of_areas(const std::vector<double>& areas, double scale);
-
 // --- inertia for a demanded δ ---
 
 // A tangent to the energy–mass curve (ΔT over I_em) and the angle at which it touches.
@@ -87,7 +83,6 @@ class SpeedCycle {
   Extreme fastest() const { return fastest_; }
   Extreme slowest() const { return slowest_; }
   double delta() const;  // (theory 2.6)
-  double kinetic_energy_at_begin() const { return energy_; }
 
  private:
   struct Extremes {
@@ -102,7 +97,7 @@ class SpeedCycle {
   Extreme fastest_, slowest_;
 };
 
-// --- punch presses: energy per stroke, time, speed range ---
+// --- punch presses: energy per stroke, time ---
 
 struct PunchPress {
   double energy = 0;                // per stroke E [J], > 0
@@ -114,10 +109,6 @@ struct PunchPress {
   // The motor goes on while the tool works: ΔE = E (1 − t_w/t_c).
   double from_flywheel() const { return energy * (1 - working_time / cycle_time); }
 };
-// ΔE = ½ I (ω₁² − ω₂²), solved for I and for ω₂. Throw std::invalid_argument for ω₁ ≤ ω₂, and where the energy is more
-// than the flywheel holds.
-double inertia_for_range(double energy, double faster, double slower);
-double speed_after(double inertia, double speed, double energy);
 
 // --- dimensions ---
 

@@ -289,20 +289,6 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
   return result;
 }
 
-double fastest_start_ratio(double motor_torque, double motor_inertia, double load_torque, double load_inertia,
-                           double efficiency) {
-  if (!(motor_torque > 0 && motor_inertia > 0 && load_torque >= 0 && load_inertia > 0 && efficiency > 0 &&
-        efficiency <= 1))
-    throw std::invalid_argument(fmt::format(
-        "fastest start: motor torque {:g} N·m, motor inertia {:g} kg·m², load torque {:g} N·m, load inertia "
-        "{:g} kg·m², efficiency {:g}; torques and inertias must be > 0 (load torque ≥ 0), efficiency in "
-        "0 … 1",
-        motor_torque, motor_inertia, load_torque, load_inertia, efficiency));
-  const double root =
-      std::sqrt(load_torque * load_torque + efficiency * motor_torque * motor_torque * load_inertia / motor_inertia);
-  return (load_torque + root) / (efficiency * motor_torque);
-}
-
 namespace {
 
 // Gears of one component: its ideal joints.

@@ -100,13 +100,7 @@ struct StartRun {
 StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double target, double limit,
                          const std::atomic<bool>* interrupted = nullptr, int node = -1, bool with_error = true);
 
-// Ratio of the gearbox between motor and machine with which the machine's shaft starts fastest under constant torques:
-//     α = (η i T_m − T_c)/(J + η i² J_m)  is greatest at  i = [T_c + √(T_c² + η T_m² J/J_m)]/(η T_m)
-// T_c = 0 and η = 1: i = √(J/J_m). All > 0, load torque ≥ 0, 0 < efficiency ≤ 1; throws std::invalid_argument else.
-double fastest_start_ratio(double motor_torque, double motor_inertia, double load_torque, double load_inertia,
-                           double efficiency = 1);
-
-// The same for any characteristic: start times over the ratio of a gearbox, by simulation.
+// Start times over the ratio of a gearbox, by simulation.
 struct RatioSearch {
   std::string gearbox;
   double present = 0, best = 0;            // ratio of the gearbox

@@ -11,8 +11,8 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "studies/forces/machine_motion.h"
 #include "studies/run/figures.h"
-#include "studies/steady/steady_simulation.h"
 #include "tests/agreement/passings.h"
 
 namespace kurbel::agreement {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -18,6 +19,26 @@ constexpr double pi = std::numbers::pi, degree = pi / 180;
 constexpr double digits = 5e-9;  // of the case's numbers, relative
 
 double rpm(double n) { return n * pi / 30; }
+
+// Areas between the torque curve and its mean, in order, times the scale of the drawing: the greatest difference of
+// their running sums. [area] · [J per area] → J.
+double fluctuation_of_areas(const std::vector<double>& areas, double scale) {
+  double sum = 0, most = 0, least = 0;
+  for (const double area : areas) {
+    sum += area;
+    most = std::max(most, sum);
+    least = std::min(least, sum);
+  }
+  return (most - least) * scale;
+}
+
+// ΔE = ½ I (ω₁² − ω₂²), solved for I and for ω₂.
+double inertia_for_range(double energy, double faster, double slower) {
+  return 2 * energy / ((faster - slower) * (faster + slower));
+}
+double speed_after(double inertia, double speed, double energy) {
+  return std::sqrt(speed * speed - 2 * energy / inertia);
+}
 
 // A turn without corners, cut so that no extreme of 3φ hides in a symmetric piece.
 const std::vector<double> turn = {0, 2.0, 4.1, 2 * pi};

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "studies/steady/steady.h"
-#include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
+#include "tests/support/steady_simulation.h"
 
 namespace kurbel::backwards_delta_test {
 namespace {
@@ -26,8 +26,8 @@ run = { start = { speed = "8 rad/s" } }
   EXPECT_GT(link, 0);
   EXPECT_NEAR(c.find("delta.motor")->value, link, 1e-9);
   const auto model = compile(scene, Effects{});
-  const SteadySimulation s =
-      simulate_steady(scene, Effects{}, 8, 2 * std::numbers::pi, model->network.ports.at("motor").in, {}, 10);
+  const test::SteadySimulation s =
+      test::simulate_steady(scene, Effects{}, 8, 2 * std::numbers::pi, model->network.ports.at("motor").in, {}, 10);
   EXPECT_NEAR(s.motor_delta, s.link_delta, 1e-9);
 }
 

@@ -11,8 +11,8 @@
 #include "studies/reduce/reduce.h"
 #include "studies/response/forced_response.h"
 #include "studies/steady/steady.h"
-#include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
+#include "tests/support/steady_simulation.h"
 
 namespace kurbel::judged_by_hand_test {
 namespace {
@@ -92,7 +92,7 @@ pump = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", slider_mass =
 )");
   const auto model = compile(scene, Effects{});
   const int motor = model->network.ports.at("motor").in;
-  const SteadySimulation s = simulate_steady(scene, Effects{}, 11.3, 2 * pi, motor, {}, 10);
+  const test::SteadySimulation s = test::simulate_steady(scene, Effects{}, 11.3, 2 * pi, motor, {}, 10);
   ASSERT_TRUE(s.complete) << s.diagnosis;
   ASSERT_EQ(s.motor.size(), s.link.size());
   for (std::size_t k = 0; k < s.link.size(); ++k) EXPECT_NEAR(s.motor[k], s.link[k], 1e-12 * s.link[k]);
@@ -109,7 +109,7 @@ drive = { kind = "torque source", torque = "2e-3 N*m" }
 crank = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia = "0.3 kg*m2", slider_mass = "30 kg" }
 )");
   const auto model = compile(scene, Effects{});
-  const SteadySimulation s = simulate_steady(scene, Effects{}, 10, 2 * pi, model->reduction_node, {}, 10);
+  const test::SteadySimulation s = test::simulate_steady(scene, Effects{}, 10, 2 * pi, model->reduction_node, {}, 10);
   ASSERT_TRUE(s.complete) << s.diagnosis;
   EXPECT_FALSE(s.settled);
   EXPECT_TRUE(std::isinf(s.speed_to_come));

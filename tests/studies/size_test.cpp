@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "studies/report/render.h"
-#include "studies/steady/steady_simulation.h"
 #include "tests/published/published.h"
+#include "tests/support/steady_simulation.h"
 
 namespace kurbel::size_test {
 namespace {
@@ -101,7 +101,7 @@ TEST(Size, SteadyCycleAgreesWithALongSimulation) {
   ASSERT_TRUE(cycle.found) << cycle.why;
   EXPECT_GT(cycle.multiplier, 0);
   EXPECT_LT(cycle.multiplier, 1);
-  const SteadySimulation run = simulate_steady(scene, Effects{}, 0.8 * near, 2 * pi, 0, {});
+  const test::SteadySimulation run = test::simulate_steady(scene, Effects{}, 0.8 * near, 2 * pi, 0, {});
   ASSERT_TRUE(run.complete && run.settled);
   EXPECT_NEAR(run.link_delta, cycle.delta(), 1e-5 * cycle.delta());
   EXPECT_NEAR(run.mid_speed, cycle.mid_speed(), 1e-5 * near);

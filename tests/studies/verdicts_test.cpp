@@ -10,8 +10,8 @@
 #include "studies/effects/effect_study.h"
 #include "studies/forces/forces.h"
 #include "studies/forces/forces_findings.h"
-#include "studies/steady/steady_simulation.h"
 #include "tests/support/scenes.h"
+#include "tests/support/steady_simulation.h"
 
 namespace kurbel::verdicts_test {
 namespace {
@@ -35,8 +35,8 @@ press = {{ kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inerti
 TEST(Settled, RunawayIsNotSettledHoweverStillItsFluctuationStands) {
   for (const double torque : {100.0, 70.0}) {
     const double inertia = 2e6, speed = 8;
-    const SteadySimulation run =
-        simulate_steady(test::scene_from(runaway_press(torque, inertia)), Effects{}, speed, 2 * pi, 0, {}, 40);
+    const test::SteadySimulation run =
+        test::simulate_steady(test::scene_from(runaway_press(torque, inertia)), Effects{}, speed, 2 * pi, 0, {}, 40);
     ASSERT_TRUE(run.complete) << run.diagnosis;
     const double gain = (2 * pi * torque - 540) / (inertia * speed * speed);  // δ changes by 7e-7 of itself a cycle
     EXPECT_LT(std::abs(gain), 1e-5);

@@ -1,15 +1,34 @@
-// steady_simulation.cpp — runs of growing length, watched cycle by cycle.
-#include "studies/steady/steady_simulation.h"
-#include "engine/numerics/roots.h"
+// steady_simulation.h — simulates a scene until its cycles repeat, and measures δ at the crank and at the motor: what the
+// studies' steady cycles are held against.
+#pragma once
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <string>
+#include <vector>
 
-namespace kurbel {
-namespace {
+#include "engine/numerics/roots.h"
+#include "studies/forces/machine_motion.h"
+#include "studies/run/simulate.h"
+
+namespace kurbel::test {
+
+struct SteadySimulation {
+  bool complete = false;
+  std::string diagnosis;
+  double link_delta = 0, motor_delta = 0;  // of the last cycle; the motor's shaft by its own mid speed
+  double link_error = 0, motor_error = 0;  // difference to a run with 100 × looser tolerances
+  double mid_speed = 0;                    // of the link [rad/s]
+  bool settled = false;                    // speed and δ have come within 1e-5 of where they tend to
+  double speed_change = 0;                 // of the link's mid speed from cycle to cycle, over itself
+  double speed_to_come = 0;                // what it has still to change, over itself; ∞: it tends nowhere
+  int cycles = 0;
+  std::vector<double> phi, link, motor;  // last cycle: angle [rad], speeds [rad/s], the motor's reduced to the link
+};
+
+namespace settling {
 
 // Speeds of two nodes over each cycle; their extremes are located by roots of the acceleration.
 class CycleSpeeds final : public Observer {
@@ -80,11 +99,11 @@ class CycleSpeeds final : public Observer {
   std::vector<Cycle> cycles_;
 };
 
-constexpr double tolerance = 1e-9, near_enough = 1e-5;
-constexpr double noise = 100 * tolerance;  // that integration leaves in a speed, over itself
+inline constexpr double tolerance = 1e-9, near_enough = 1e-5;
+inline constexpr double noise = 100 * tolerance;  // that integration leaves in a speed, over itself
 
 // Settled is what has nothing left to change: δ of a machine that runs away may stand still long before.
-void judge(const CycleSpeeds& speeds, SteadySimulation& result) {
+inline void judge(const CycleSpeeds& speeds, SteadySimulation& result) {
   const std::size_t n = speeds.whole();
   std::vector<double> mid, delta[2];
   for (std::size_t i = 0; i < n; ++i) {
@@ -99,29 +118,19 @@ void judge(const CycleSpeeds& speeds, SteadySimulation& result) {
     result.settled = result.settled && still_to_come(d, noise) <= std::max(noise, near_enough * std::abs(d.back()));
 }
 
-}  // namespace
+}  // namespace settling
 
-double still_to_come(const std::vector<double>& course, double noise) {
-  if (course.size() < 3) return HUGE_VAL;
-  const std::size_t last = course.size() - 1, quarter = std::max<std::size_t>(1, last / 4);
-  const double now = course[last] - course[last - quarter];
-  const double before = course[last - quarter] - course[last - 2 * quarter];
-  if (std::abs(now) <= noise) return 0;
-  constexpr double no_nearer = 0.999;  // of the quarter before: shrinking so slowly is not told from a straight run
-  if (!(std::abs(now) < no_nearer * std::abs(before))) return HUGE_VAL;
-  const double ratio = now / before;
-  return std::abs(now) * (ratio > 0 ? ratio / (1 - ratio) : 1);
-}
-
-SteadySimulation simulate_steady(Scene scene, const Effects& effects, double start_speed, double cycle, int motor_node,
-                                 const SimulateOptions& options, int most_cycles) {
+// Starts at the cycle's begin with `start_speed` of the reduction link and twists in equilibrium. `cycle` is the
+// cycle's angle; runs double in length until settled, at most `most_cycles`. Throws as compile does.
+inline SteadySimulation simulate_steady(Scene scene, const Effects& effects, double start_speed, double cycle, int motor_node,
+                                 const SimulateOptions& options, int most_cycles = 320) {
   scene.run.start = {};
   scene.run.start.speed = start_speed;
   scene.run.start.equilibrium = true;
   const auto model = compile(scene, effects);
   const double period = cycle / start_speed;
   SteadySimulation result;
-  const auto once = [&](double local_tolerance, int cycles, CycleSpeeds& speeds) {
+  const auto once = [&](double local_tolerance, int cycles, settling::CycleSpeeds& speeds) {
     Equations equations(model, false);
     RunOptions run{.tolerance = local_tolerance,
                    .method = options.method.value_or("auto"),
@@ -133,8 +142,8 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
   };
   for (int cycles = 10;; cycles *= 2) {
     options.watch.say(fmt::format("sized machine, effects {}: {} cycles", effects.describe(), cycles));
-    CycleSpeeds speeds(*model, cycle, model->reduction_node, motor_node);
-    const RunOutcome outcome = once(tolerance, cycles, speeds);
+    settling::CycleSpeeds speeds(*model, cycle, model->reduction_node, motor_node);
+    const RunOutcome outcome = once(settling::tolerance, cycles, speeds);
     result.complete = outcome.complete;
     result.diagnosis = outcome.diagnosis;
     const std::size_t whole = speeds.whole();
@@ -143,8 +152,8 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
       result.complete = false;
       return result;
     }
-    const CycleSpeeds::Cycle& last = speeds.cycle(whole - 1);
-    judge(speeds, result);
+    const settling::CycleSpeeds::Cycle& last = speeds.cycle(whole - 1);
+    settling::judge(speeds, result);
     result.cycles = static_cast<int>(whole);
     result.link_delta = last.delta(0);
     result.motor_delta = last.delta(1);
@@ -160,8 +169,8 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
     for (double& v : result.motor) v /= ratio;
     if (!outcome.complete) return result;
     if (!result.settled && 2 * cycles <= most_cycles) continue;
-    CycleSpeeds looser(*model, cycle, model->reduction_node, motor_node);
-    if (once(100 * tolerance, cycles, looser).complete && looser.whole() >= whole) {
+    settling::CycleSpeeds looser(*model, cycle, model->reduction_node, motor_node);
+    if (once(100 * settling::tolerance, cycles, looser).complete && looser.whole() >= whole) {
       result.link_error = std::abs(looser.cycle(whole - 1).delta(0) - result.link_delta);
       result.motor_error = std::abs(looser.cycle(whole - 1).delta(1) - result.motor_delta);
     }
@@ -169,4 +178,4 @@ SteadySimulation simulate_steady(Scene scene, const Effects& effects, double sta
   }
 }
 
-}  // namespace kurbel
+}  // namespace kurbel::test
