@@ -8,7 +8,7 @@
 #include "app/command_line.h"
 #include "app/terminal.h"
 #include "app/verb.h"
-#include "studies/accuracy/accuracy_findings.h"
+#include "studies/accuracy/accuracy.h"
 
 namespace kurbel::app::accuracy_command {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/command_line.h"
 #include "app/verb.h"
-#include "studies/advise/advise_findings.h"
+#include "studies/advise/advise.h"
 #include "studies/files/whole_file.h"
 
 namespace kurbel::app::advise_command {

@@ -6,7 +6,7 @@
 #include "app/command_line.h"
 #include "app/terminal.h"
 #include "app/verb.h"
-#include "studies/effects/effect_study_findings.h"
+#include "studies/effects/effect_study.h"
 
 namespace kurbel::app::effects_command {
 namespace {

@@ -7,7 +7,7 @@
 #include "app/command_line.h"
 #include "app/terminal.h"
 #include "app/verb.h"
-#include "studies/modes/modes_findings.h"
+#include "studies/modes/modes.h"
 
 namespace kurbel::app::modes_command {
 namespace {

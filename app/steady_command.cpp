@@ -11,7 +11,7 @@
 #include "app/verb.h"
 #include "studies/measured/overlay.h"
 #include "studies/run/compare.h"
-#include "studies/steady/steady_findings.h"
+#include "studies/steady/steady.h"
 
 namespace kurbel::app::steady_command {
 namespace {

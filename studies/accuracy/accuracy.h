@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "studies/findings/output.h"
 #include "studies/findings/watch.h"
 
 namespace kurbel {
@@ -114,5 +115,8 @@ void judge_accuracy(AccuracyStudy& study, const AccuracyOptions& options);
 
 // Places of the settings that no other beats in both error (by more than a tenth) and time, cheapest first.
 std::vector<std::size_t> pareto_front(const std::vector<double>& error, const std::vector<double>& seconds);
+
+// Files: settings.csv. The study must outlive the findings.
+Findings findings_of(const AccuracyStudy& study);
 
 }  // namespace kurbel

@@ -1,5 +1,5 @@
 // accuracy_findings.cpp — words and tables of the study of accuracy.
-#include "studies/accuracy/accuracy_findings.h"
+#include "studies/accuracy/accuracy.h"
 
 #include <fmt/format.h>
 

@@ -43,11 +43,10 @@ std::vector<Series> method_series(const AccuracyStudy& study, std::size_t level,
     auto found = std::find_if(all.begin(), all.end(), [&](const Series& x) { return x.name == s.method; });
     if (found == all.end()) {
       const Style style = style_of(s.method);
-      all.push_back({.name = s.method, .role = style.role, .x = {}, .y = {}, .dashed = style.dashed, .points = true});
+      all.push_back({.name = s.method, .role = style.role, .dashed = style.dashed, .points = true});
       found = all.end() - 1;
     }
-    found->x.push_back(error(s));
-    found->y.push_back(1e3 * s.seconds);
+    found->add(error(s), 1e3 * s.seconds);
     found->labels.push_back(label_of(study, s));
   }
   return all;
@@ -61,10 +60,9 @@ Series front_series(const AccuracyStudy& study, Member wanted, Error error) {
     if (wanted(s) && error(s) > 0) front.push_back(&s);
   std::sort(front.begin(), front.end(),
             [](const MeasuredSetting* a, const MeasuredSetting* b) { return a->seconds < b->seconds; });
-  Series series{.name = "Pareto front", .role = Role::reference, .x = {}, .y = {}, .dashed = true, .points = false};
+  Series series{.name = "Pareto front", .role = Role::reference, .dashed = true, .points = false};
   for (const MeasuredSetting* s : front) {
-    series.x.push_back(error(*s));
-    series.y.push_back(1e3 * s->seconds);
+    series.add(error(*s), 1e3 * s->seconds);
     series.labels.push_back(label_of(study, *s));
   }
   return series;
@@ -107,17 +105,15 @@ Plot error_plane(const AccuracyStudy& study) {
   const std::size_t k = study.key;
   Plot plot{.title = fmt::format("Error of the model against error of the numbers: {}", study.figures[k].name),
             .x = {"numerical error", "relative", true},
-            .y = {"error of the model", "relative", true},
-            .series = {}};
+            .y = {"error of the model", "relative", true}};
   double low = HUGE_VAL, high = 0;
   const double floor = study.levels[study.fullest].floor[k];
   for (std::size_t level = 0; level < study.levels.size(); ++level) {
     const ModelLevel& m = study.levels[level];
-    Series series{.name = m.name, .role = level_role(level, study.fullest), .x = {}, .y = {}, .line = false};
+    Series series{.name = m.name, .role = level_role(level, study.fullest), .line = false};
     for (const MeasuredSetting& s : study.settings) {
       if (s.level != level || !(s.numerical_error[k] > 0)) continue;
-      series.x.push_back(s.numerical_error[k]);
-      series.y.push_back(std::max(m.model_error[k], floor));
+      series.add(s.numerical_error[k], std::max(m.model_error[k], floor));
       series.labels.push_back(label_of(study, s));
       low = std::min({low, series.x.back(), series.y.back()});
       high = std::max({high, series.x.back(), series.y.back()});
@@ -141,15 +137,12 @@ Plot total_cost(const AccuracyStudy& study) {
   const auto error = [&](const MeasuredSetting& s) { return s.total_error[k]; };
   Plot plot{.title = fmt::format("What is bought per time, model and numbers together: {}", study.figures[k].name),
             .x = {"total error", "relative", true},
-            .y = {"processor time", "ms", true},
-            .series = {}};
+            .y = {"processor time", "ms", true}};
   for (std::size_t level = 0; level < study.levels.size(); ++level) {
-    Series series{
-        .name = study.levels[level].name, .role = level_role(level, study.fullest), .x = {}, .y = {}, .line = false};
+    Series series{.name = study.levels[level].name, .role = level_role(level, study.fullest), .line = false};
     for (const MeasuredSetting& s : study.settings) {
       if (s.level != level || !(error(s) > 0)) continue;
-      series.x.push_back(error(s));
-      series.y.push_back(1e3 * s.seconds);
+      series.add(error(s), 1e3 * s.seconds);
       series.labels.push_back(label_of(study, s));
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));

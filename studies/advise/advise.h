@@ -9,6 +9,7 @@
 #include "studies/advise/advise_screens.h"
 #include "studies/advise/deviation.h"
 #include "studies/effects/effect_study.h"
+#include "studies/findings/output.h"
 
 namespace kurbel {
 
@@ -61,5 +62,8 @@ struct Advice {
 
 // Never recommends a set that was not run. Throws std::invalid_argument where there is nothing to choose.
 Advice advise(const Scene& scene, const AdviseOptions& options);
+
+// The advice must outlive the findings.
+Findings findings_of(const Advice& advice);
 
 }  // namespace kurbel

@@ -1,5 +1,5 @@
 // advise_findings.cpp — error bought and time saved on one plane, the screens and the runs behind the advice.
-#include "studies/advise/advise_findings.h"
+#include "studies/advise/advise.h"
 
 #include <fmt/format.h>
 
@@ -90,15 +90,13 @@ Record tried_record(const Advice& a, const TriedSet& t) {
 Plot plane(const Advice& a) {
   Plot plot{.title = "Error bought against time saved: every set that was run",
             .x = {"processor time of a run", "ms", true},
-            .y = {"greatest deviation from the full model", "%", true},
-            .series = {}};
+            .y = {"greatest deviation from the full model", "%", true}};
   const auto add = [&](const std::string& name, Role role, auto belongs) {
-    Series series{.name = name, .role = role, .x = {}, .y = {}, .points = true, .line = false};
+    Series series{.name = name, .role = role, .points = true, .line = false};
     for (std::size_t i = 0; i < a.tried.size(); ++i) {
       const TriedSet& t = a.tried[i];
       if (!t.refused.empty() || !std::isfinite(t.deviation) || !belongs(i, t)) continue;
-      series.x.push_back(1e3 * t.cpu_seconds);
-      series.y.push_back(std::max(100 * t.deviation, least_shown));
+      series.add(1e3 * t.cpu_seconds, std::max(100 * t.deviation, least_shown));
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   };

@@ -122,16 +122,13 @@ std::optional<Plot> picture(const MachineDifference& d) {
   Plot plot{.title = fmt::format("What changes from {} to {}", names.a, names.b),
             .x = {.label = "figure"},
             .y = {"change of its value", "%"},
-            .series = {},
             .bars = true,
             .wide = true};
-  Series up{.name = "rises", .role = Role::elastic, .x = {}, .y = {}},
-      down{.name = "falls", .role = Role::orange, .x = {}, .y = {}};
+  Series up{.name = "rises", .role = Role::elastic}, down{.name = "falls", .role = Role::orange};
   for (std::size_t i = 0; i < list.size() && i < most; ++i) {
     plot.x.names.push_back(list[i]->name);
     Series& series = *list[i]->relative() > 0 ? up : down;
-    series.x.push_back(static_cast<double>(i + 1));
-    series.y.push_back(100 * *list[i]->relative());
+    series.add(static_cast<double>(i + 1), 100 * *list[i]->relative());
   }
   for (Series* series : {&up, &down})
     if (!series->x.empty()) plot.series.push_back(std::move(*series));

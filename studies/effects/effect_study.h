@@ -7,6 +7,7 @@
 
 #include "studies/effects/effect_units.h"
 #include "studies/findings/figure_changes.h"
+#include "studies/findings/output.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel {
@@ -40,5 +41,8 @@ LeftOut study_in_place_of_others(const Scene& scene, const std::vector<EffectUni
 
 // Throws std::invalid_argument where the scene has no effect to leave out.
 EffectStudy study_effects(const Scene& scene, const SimulateOptions& options);
+
+// The study must outlive the findings.
+Findings findings_of(const EffectStudy& study);
 
 }  // namespace kurbel

@@ -1,5 +1,5 @@
 // effect_study_findings.cpp — effects ranked: what changes without each, what each adds, what each costs.
-#include "studies/effects/effect_study_findings.h"
+#include "studies/effects/effect_study.h"
 
 #include <fmt/format.h>
 
@@ -102,8 +102,7 @@ Record left_out_record(const LeftOut& l) {
 Plot plane(const EffectStudy& s) {
   Plot plot{.title = "What each effect changes, and what it costs (theory 14.1)",
             .x = {"time with the effect over time without", "×"},
-            .y = {"greatest change of a figure without it", "%", true},
-            .series = {}};
+            .y = {"greatest change of a figure without it", "%", true}};
   std::size_t k = 0;
   for (const LeftOut& l : s.left_out) {
     if (!l.refused.empty() || l.changes.empty()) continue;

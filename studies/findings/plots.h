@@ -14,10 +14,9 @@ namespace kurbel {
 // x and y are members or functions of an item.
 template <class Items, class X, class Y>
 Series series_of(std::string name, Role role, const Items& items, X x, Y y) {
-  Series series{.name = std::move(name), .role = role, .x = {}, .y = {}};
+  Series series{.name = std::move(name), .role = role};
   for (const auto& item : items) {
-    series.x.push_back(std::invoke(x, item));
-    series.y.push_back(std::invoke(y, item));
+    series.add(std::invoke(x, item), std::invoke(y, item));
   }
   return series;
 }

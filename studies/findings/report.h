@@ -41,7 +41,7 @@ struct Axis {
 struct Series {
   std::string name;
   Role role = Role::elastic;
-  std::vector<double> x, y;
+  std::vector<double> x = {}, y = {};
   bool dashed = false;                   // references
   bool points = false;                   // markers beside the line
   bool line = true;                      // false: markers alone
@@ -49,6 +49,8 @@ struct Series {
   std::vector<double> sizes = {};        // of markers, over the usual one; none, or one each
   // Written beside its first and its last point, in its colour; a series that says its name so is not in the legend.
   std::string text_at_start = {}, text_at_end = {};
+
+  void add(double at, double value) { x.push_back(at), y.push_back(value); }
 };
 
 // Something that happened, on the x-axis.
@@ -74,7 +76,7 @@ struct ColourMap {
 struct Plot {
   std::string title;  // says what it shows
   Axis x, y;
-  std::vector<Series> series;
+  std::vector<Series> series = {};
   std::vector<EventMark> marks = {};
   std::string note = {};
   bool equal_axes = false;  // one unit is as long on either axis: polar diagrams, loci

@@ -18,17 +18,14 @@ using Quantity = std::function<double(const CyclePosition&)>;
 
 // Where it is finite.
 Series over_angle(const std::string& name, Role role, const ForceCycle& c, const Quantity& value) {
-  Series series{.name = name, .role = role, .x = {}, .y = {}};
+  Series series{.name = name, .role = role};
   for (const CyclePosition& p : c.curve)
-    if (const double v = value(p); std::isfinite(v)) {
-      series.x.push_back(in_degrees * p.state.phi);
-      series.y.push_back(v);
-    }
+    if (const double v = value(p); std::isfinite(v)) series.add(in_degrees * p.state.phi, v);
   return series;
 }
 
 Plot angle_plot(const std::string& title, const std::string& quantity) {
-  return {.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}, .series = {}};
+  return {.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}};
 }
 
 // Of both problems, in the unit in which it reads easily.
@@ -72,14 +69,13 @@ Plot in_forces(Plot plot, double largest) {
 // Locus of a force's tip over the cycle.
 Plot locus(const Forces& f, const std::string& title, const std::string& x, const std::string& y,
            const std::function<Force2(const CyclePosition&)>& force) {
-  Plot plot{.title = title, .x = {x, ""}, .y = {y, ""}, .series = {}};
+  Plot plot{.title = title, .x = {x, ""}, .y = {y, ""}};
   double largest = 0;
   for (const auto& c : force_curves_of(f)) {
-    Series& s = plot.series.emplace_back(Series{.name = c.name, .role = c.role, .x = {}, .y = {}});
+    Series& s = plot.series.emplace_back(Series{.name = c.name, .role = c.role});
     for (const CyclePosition& p : c.cycle->curve) {
       const Force2 v = force(p);
-      s.x.push_back(v.x);
-      s.y.push_back(v.y);
+      s.add(v.x, v.y);
       largest = std::max(largest, v.magnitude());
     }
   }
@@ -148,7 +144,6 @@ Plot counterweight_plot(const Forces& f) {
   Plot plot{.title = "Shaking force before and after balancing, at constant speed",
             .x = {"along the stroke", ""},
             .y = {"across", ""},
-            .series = {},
             .note = "Tip of the force on the frame over a turn."};
   double largest = 0;
   for (const Counterweight& c : f.counterweights) {

@@ -24,14 +24,14 @@ Series over_angle(const std::string& name, Role role, const LinkageCycle& c, con
 
 Plot both(const LinkageStudy& f, const std::string& title, const std::string& quantity, const std::string& unit,
           const Quantity& value) {
-  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}, .series = {}};
+  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}};
   for (const auto& c : force_curves_of(f)) plot.series.push_back(over_angle(c.name, c.role, *c.cycle, value));
   return in_readable_unit(std::move(plot), unit);
 }
 
 Plot link_plot(const LinkageCycle& c, const std::string& title, const std::string& quantity, const std::string& unit,
                const std::function<double(const LinkForces&)>& of) {
-  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}, .series = {}};
+  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}};
   for (std::size_t k = 0; k < c.links.size(); ++k)
     plot.series.push_back(
         over_angle(c.links[k].name, further_role(k), c, [&, k](P p) { return of(p.forces.links[k]); }));
@@ -70,8 +70,7 @@ std::vector<Plot> polar_plots(const LinkageStudy& f) {
     if (j.slides) continue;
     Plot plot{.title = fmt::format("{}: {} on {}", j.name, j.from, j.on),
               .x = {f.rocks ? "along the ground link" : "along the stroke", ""},
-              .y = {"across", ""},
-              .series = {}};
+              .y = {"across", ""}};
     double largest = 0;
     for (const auto& c : force_curves_of(f)) {
       plot.series.push_back(series_of(

@@ -55,16 +55,13 @@ Plot efficiency_plot(const WormPair& pair) {
   Plot plot{.title = "Efficiency falls with friction; where the wheel cannot drive, the pair locks itself",
             .x = {"coefficient of friction μ", ""},
             .y = {"efficiency η", ""},
-            .series = {{.name = "worm drives", .role = Role::elastic, .x = {}, .y = {}},
-                       {.name = "wheel drives", .role = Role::orange, .x = {}, .y = {}}}};
+            .series = {{.name = "worm drives", .role = Role::elastic}, {.name = "wheel drives", .role = Role::orange}}};
   WormPair p = pair;
   for (int i = 0; i <= 200; ++i) {
     p.friction = 0.2 * i / 200;
-    plot.series[0].x.push_back(p.friction);
-    plot.series[0].y.push_back(p.efficiency());
+    plot.series[0].add(p.friction, p.efficiency());
     if (p.self_locking()) continue;
-    plot.series[1].x.push_back(p.friction);
-    plot.series[1].y.push_back(p.efficiency_back());
+    plot.series[1].add(p.friction, p.efficiency_back());
   }
   plot.marks = {{pair.friction, "this pair"}};
   return plot;

@@ -94,7 +94,7 @@ Series measured_series(const Residuals& r, const std::vector<double>& y, const s
   std::iota(order.begin(), order.end(), std::size_t{0});
   const bool ascends = std::is_sorted(r.time.begin(), r.time.end());
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return r.time[a] < r.time[b]; });
-  Series series{.name = name, .role = role, .x = {}, .y = {}};
+  Series series{.name = name, .role = role};
   for (const std::size_t i : order) series.x.push_back(r.time[i]), series.y.push_back(y[i]);
   return ascends ? series : marks(std::move(series));
 }
@@ -107,15 +107,14 @@ Plot overlay_plot(const Overlay& o, std::size_t k) {
   Plot plot{.title = fmt::format("{} measured and simulated: {} rms between them", s.channel,
                                  told_shortly(last.rms, s.unit, o.speed)),
             .x = time_axis(o),
-            .y = {s.channel, ""},
-            .series = {}};
+            .y = {s.channel, ""}};
   const auto [from, to] = std::minmax_element(last.time.begin(), last.time.end());
   for (const ModelOverlay& m : o.models) {
     const Signal& signal = m.simulated[k];
-    Series series{.name = m.label, .role = m.role, .x = {}, .y = {}};
+    Series series{.name = m.label, .role = m.role};
     for (std::size_t i = 0; i < signal.time().size(); ++i)
       if (o.of_cycle || (signal.time()[i] >= *from && signal.time()[i] <= *to))
-        series.x.push_back(signal.time()[i]), series.y.push_back(signal.value()[i]);
+        series.add(signal.time()[i], signal.value()[i]);
     plot.series.push_back(std::move(series));
   }
   plot.series.push_back(dashed(measured_series(last, last.measured, "measured", Role::reference)));
@@ -131,8 +130,7 @@ Plot residual_plot(const Overlay& o, std::size_t k) {
   Plot plot{.title = fmt::format("What is left of {}: at most {} at {}", s.channel,
                                  told_shortly(std::abs(last.largest), s.unit, o.speed), told_shortly(last.at, "s")),
             .x = time_axis(o),
-            .y = {"measured − simulated", ""},
-            .series = {}};
+            .y = {"measured − simulated", ""}};
   for (const ModelOverlay& m : o.models) {
     const Residuals& r = m.alignment.signals[k];
     std::vector<double> left;

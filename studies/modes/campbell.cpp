@@ -134,14 +134,13 @@ std::string words_of(const ModesStudy& m, const CriticalSpeed& c) {
 
 // Circles whose areas go with their severity.
 Series circles(const ModesStudy& m, const std::vector<std::size_t>& orders) {
-  Series s{.name = "critical speeds, larger ones severer", .role = Role::vermillion, .x = {}, .y = {}};
+  Series s{.name = "critical speeds, larger ones severer", .role = Role::vermillion};
   double most = 0;
   for (const CriticalSpeed& c : m.critical) most = std::max(most, c.share);
   for (const CriticalSpeed& c : m.critical) {
     if (std::find(orders.begin(), orders.end(), c.harmonic) == orders.end()) continue;
     if (!(c.share > least_circle * most) && !std::isinf(c.share)) continue;
-    s.x.push_back(m.speed_unit.of(c.speed));
-    s.y.push_back(hertz(c.order * c.speed));
+    s.add(m.speed_unit.of(c.speed), hertz(c.order * c.speed));
     s.sizes.push_back(std::isinf(c.share) ? 3 : std::isinf(most) ? 1 : 0.7 + 2.3 * std::sqrt(c.share / most));
     s.labels.push_back(words_of(m, c));
   }
@@ -239,7 +238,6 @@ Plot campbell_plot(const ModesStudy& m) {
             .least = m.speed_unit.of(m.slowest),
             .greatest = m.speed_unit.of(m.fastest)},
       .y = {.label = "frequency", .unit = "Hz", .least = 0, .greatest = top},
-      .series = {},
       .note = "Level lines: modes. Grey rays: orders of the turn of " + m.link + ", with what excites them most. ",
       .wide = true,
       .bands = bands_of(m)};
@@ -305,7 +303,6 @@ Plot waterfall_plot(const ModesStudy& m, const TorqueHistory& h) {
             .x = {.label = "frequency", .unit = "Hz", .least = 0, .greatest = end},
             .y = over_speed ? Axis{.label = "speed of " + m.link, .unit = m.speed_unit.name}
                             : Axis{.label = "time", .unit = "s"},
-            .series = {},
             .note = over_speed
                         ? "Of windows at like speeds the larger amplitude; grey: orders of the turn of " + m.link + "."
                         : "The speed hardly changes: over time.",

@@ -17,6 +17,7 @@
 #include "engine/linear/cycle_samples.h"
 #include "engine/linear/eigen_modes.h"
 #include "engine/scene/scene.h"
+#include "studies/findings/output.h"
 #include "studies/findings/watch.h"
 #include "studies/history/torque_history.h"
 #include "studies/limits/barred_ranges.h"
@@ -171,5 +172,8 @@ Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode);
 
 // Relative half width of the first-order zone around ν = 2ω; 0 where damping ζ closes it (ε ≤ 4ζ).
 double parametric_half_width(double variation, double damping_ratio);
+
+// Files: mode_shapes.csv, and forced_response.csv where a range of speeds was swept. The study must outlive the findings.
+Findings findings_of(const ModesStudy& study);
 
 }  // namespace kurbel

@@ -1,5 +1,5 @@
 // modes_findings.cpp — words and tables of modes, critical speeds, forced response and a torque's spectrum.
-#include "studies/modes/modes_findings.h"
+#include "studies/modes/modes.h"
 
 #include <fmt/format.h>
 

@@ -33,11 +33,9 @@ Axis axis_of(const std::string& label, std::vector<std::string> names) {
 
 // Amplitudes of a spectrum's lines up to `end`.
 Series lines_of(const std::string& name, const AmplitudeSpectrum& s, double end) {
-  Series series{.name = name, .role = Role::elastic, .x = {}, .y = {}};
-  for (std::size_t i = 0; i < s.frequency.size() && s.frequency[i] <= end; ++i) {
-    series.x.push_back(s.frequency[i]);
-    series.y.push_back(s.amplitude[i]);
-  }
+  Series series{.name = name, .role = Role::elastic};
+  for (std::size_t i = 0; i < s.frequency.size() && s.frequency[i] <= end; ++i)
+    series.add(s.frequency[i], s.amplitude[i]);
   return series;
 }
 
@@ -61,23 +59,19 @@ Plot shape_plot(const ModesStudy& m) {
   Plot plot{.title = "Mode shapes along the drive, reduced to one shaft",
             .x = axis_of("shaft", m.shaft_names),
             .y = {"relative amplitude", ""},
-            .series = {},
             .wide = m.shaft_names.size() > 8};
   const std::vector<char> held = held_by_springs(m.drive);
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
     Series s{.name = fmt::format("mode {}, {:.4g} Hz: {}", m.modes[k].number, hertz(m.modes[k].natural()),
                                  name_of(m, m.modes[k])),
-             .role = further_role(k),
-             .x = {},
-             .y = {}};
+             .role = further_role(k)};
     const Eigen::VectorXd shape = shaft_shape(m, m.modes[k]);
     s.points = shape.size() <= 60;
     double largest = 0;
     for (Eigen::Index i = 0; i < shape.size(); ++i) {
       if (!held[static_cast<std::size_t>(i)]) continue;
       const double ratio = m.drive.ratio[static_cast<std::size_t>(i)];
-      s.x.push_back(static_cast<double>(i + 1));
-      s.y.push_back(ratio != 0 ? shape[i] / ratio : shape[i]);
+      s.add(static_cast<double>(i + 1), ratio != 0 ? shape[i] / ratio : shape[i]);
       if (std::abs(s.y.back()) > std::abs(largest)) largest = s.y.back();
     }
     if (largest == 0) continue;  // only what no spring holds moves in it
@@ -95,15 +89,11 @@ Plot energy_plot(const ModesStudy& m, bool kinetic) {
   Plot plot{.title = kinetic ? "Where the kinetic energy of each mode sits" : "Which elastic element each mode twists",
             .x = axis_of(kinetic ? "shaft" : "elastic element", kinetic ? m.shaft_names : m.joint_names),
             .y = {"share of the energy", "%"},
-            .series = {},
             .bars = true};
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
-    Series s{.name = fmt::format("mode {}", m.modes[k].number), .role = further_role(k), .x = {}, .y = {}};
+    Series s{.name = fmt::format("mode {}", m.modes[k].number), .role = further_role(k)};
     const std::vector<double>& share = kinetic ? m.modes[k].shares.shaft : m.modes[k].shares.joint;
-    for (std::size_t i = 0; i < share.size() && i < 200; ++i) {
-      s.x.push_back(static_cast<double>(i + 1));
-      s.y.push_back(100 * share[i]);
-    }
+    for (std::size_t i = 0; i < share.size() && i < 200; ++i) s.add(static_cast<double>(i + 1), 100 * share[i]);
     plot.series.push_back(std::move(s));
   }
   return plot;
@@ -111,11 +101,10 @@ Plot energy_plot(const ModesStudy& m, bool kinetic) {
 
 // What the joint would swing by in a machine that is rigid.
 Series rigid_curve(const ModesStudy& m, std::size_t j) {
-  Series curve{.name = "rigid machine", .role = Role::rigid, .x = {}, .y = {}};
+  Series curve{.name = "rigid machine", .role = Role::rigid};
   for (const SpeedResponse& s : m.rigid) {
     if (!s.kept || !std::isfinite(s.joints[j].peak)) continue;
-    curve.x.push_back(m.speed_unit.of(s.speed));
-    curve.y.push_back(s.joints[j].peak);
+    curve.add(m.speed_unit.of(s.speed), s.joints[j].peak);
   }
   return curve;
 }
@@ -160,24 +149,19 @@ Plot order_plot(const ModesStudy& m) {
   Plot plot{.title = fmt::format("Orders of the torque in {} at {}", m.joint_names[j],
                                  m.speed_unit.text(std::abs(m.drive.at.speed), 5)),
             .x = {"order of the turn of " + m.link, ""},
-            .y = {"amplitude", "N·m"},
-            .series = {}};
+            .y = {"amplitude", "N·m"}};
   plot.bars = true;
-  Series response{.name = "in the joint", .role = Role::elastic, .x = {}, .y = {}};
-  for (std::size_t r = 1; r < m.here.orders[j].size(); ++r) {
-    response.x.push_back(m.excitations.order(r));
-    response.y.push_back(std::abs(m.here.orders[j][r]));
-  }
+  Series response{.name = "in the joint", .role = Role::elastic};
+  for (std::size_t r = 1; r < m.here.orders[j].size(); ++r)
+    response.add(m.excitations.order(r), std::abs(m.here.orders[j][r]));
   plot.series.push_back(std::move(response));
   if (!m.cycle) return in_readable_unit(std::move(plot), "N*m");
   plot.series.back().name = "linear drive";
-  Series really{.name = "steady motion", .role = Role::orange, .x = {}, .y = {}};
+  Series really{.name = "steady motion", .role = Role::orange};
   const std::vector<Complex>& orders = m.cycle->orders[j];
   const double end = m.excitations.order(m.excitations.harmonics);
-  for (std::size_t r = 1; r < orders.size() && static_cast<double>(r) * m.cycle_order <= end * (1 + 1e-9); ++r) {
-    really.x.push_back(static_cast<double>(r) * m.cycle_order);
-    really.y.push_back(std::abs(orders[r]));
-  }
+  for (std::size_t r = 1; r < orders.size() && static_cast<double>(r) * m.cycle_order <= end * (1 + 1e-9); ++r)
+    really.add(static_cast<double>(r) * m.cycle_order, std::abs(orders[r]));
   plot.series.push_back(std::move(really));
   return in_readable_unit(std::move(plot), "N*m");
 }

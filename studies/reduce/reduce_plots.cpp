@@ -32,14 +32,12 @@ Plot harmonics_plot(const Spectrum& s, const std::string& link) {
   Plot plot{.title = fmt::format("Harmonics of the {}", s.name),
             .x = {fmt::format("order (per turn of {})", link), ""},
             .y = {"amplitude", pretty_unit(s.unit)},
-            .series = {{.name = s.name, .role = Role::elastic, .x = {}, .y = {}}},
+            .series = {{.name = s.name, .role = Role::elastic}},
             .note = fmt::format("Without the mean of {:.6g} {}; these orders hold {:.6g} % of the mean square.",
                                 s.harmonics.front().amplitude.value, pretty_unit(s.unit), 100 * s.captured),
             .bars = true};
-  for (std::size_t n = 1; n < s.harmonics.size(); ++n) {
-    plot.series[0].x.push_back(s.harmonics[n].order);
-    plot.series[0].y.push_back(is_dust(s.harmonics[n], s) ? 0 : s.harmonics[n].amplitude.value);
-  }
+  for (std::size_t n = 1; n < s.harmonics.size(); ++n)
+    plot.series[0].add(s.harmonics[n].order, is_dust(s.harmonics[n], s) ? 0 : s.harmonics[n].amplitude.value);
   return in_readable_unit(std::move(plot), s.unit);
 }
 
@@ -96,8 +94,7 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
   std::vector<Plot> plots;
   Plot inertia{.title = fmt::format("Reduced {} of the mechanism, on {}", n.inertia == "m" ? "mass" : "inertia", r.to),
                .x = {angle, "°"},
-               .y = {n.inertia + "_em", pretty_unit(n.inertia_unit)},
-               .series = {}};
+               .y = {n.inertia + "_em", pretty_unit(n.inertia_unit)}};
   const auto mechanism = [](const ReducedPosition& p) { return p.mechanism_inertia; };
   inertia.series = {over_angle(r, n.inertia + "_em", Role::elastic, mechanism),
                     at_positions(r, Role::vermillion, mechanism)};
@@ -119,8 +116,7 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
       .note = speed_text(r) + "\n"};
   Plot shares{.title = "Share of each force, positive when it drives",
               .x = {angle, "°"},
-              .y = {n.torque, pretty_unit(n.torque_unit)},
-              .series = {}};
+              .y = {n.torque, pretty_unit(n.torque_unit)}};
   for (const std::size_t k : acting(r))
     shares.series.push_back(over_angle(r, r.accounts[k], further_role(shares.series.size()),
                                        [k](const ReducedPosition& p) { return p.share[k]; }));
@@ -151,7 +147,6 @@ Plot chain_plot(const MachineReduction& r) {
   Plot plot{.title = "The elastic chain: discs are inertias, distances are compliances",
             .x = {"compliance from the first inertia", "µrad/(N·m)"},
             .y = {"∛(J/J_max)", ""},
-            .series = {},
             .note = "Height of a disc: cube root of its reduced inertia. The table names what is on each."};
   for (const ChainSpring& s : chain.springs) {
     const Place a = places[s.a], b = places[s.b];

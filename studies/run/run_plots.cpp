@@ -71,8 +71,7 @@ std::optional<Plot> over_time(const Results& results, const std::string& channel
     if (const Trace* trace = r->traces->find(channel)) traces.push_back(trace);
   if (traces.empty()) return {};
   const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit, speed_unit_of(*results.back()));
-  Plot plot{
-      .title = title, .x = {"time", "s"}, .y = {label, unit.unit}, .series = {}, .marks = marks_of(*results.back())};
+  Plot plot{.title = title, .x = {"time", "s"}, .y = {label, unit.unit}, .marks = marks_of(*results.back())};
   for (const Result* r : results)
     if (const Trace* trace = r->traces->find(channel))
       plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 1, unit.factor));
@@ -94,7 +93,7 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
   std::vector<const Trace*> traces;
   for (const auto& [r, trace] : found) traces.push_back(trace);
   const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit, speed_unit_of(*results.back()));
-  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {label, unit.unit}, .series = {}};
+  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {label, unit.unit}};
   for (const auto& [r, trace] : found)
     plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 180 / std::numbers::pi, unit.factor));
   const CycleTraces& last = results.back()->traces->last_cycles.back();
@@ -126,7 +125,6 @@ Plot energy_plot(const Result& r) {
   Plot plot{.title = fmt::format("Where the energy goes, {} model", r.label),
             .x = {"time", "s"},
             .y = {"energy, work since the start", unit.unit},
-            .series = {},
             .marks = marks_of(r)};
   for (std::size_t i = 0; i < traces.size(); ++i)
     if (largest({traces[i]}) > 0)
@@ -199,7 +197,7 @@ double volumetric_efficiency(const CompressorForce& gas) {
 
 // Force on what a mechanism's loads act on, over its travel: the loop of the last whole cycle, whose area is the work.
 std::optional<Plot> indicator_diagram(const Results& results, const std::string& mechanism, bool rocks) {
-  Plot plot{.title = "", .x = {rocks ? "angle" : "travel", ""}, .y = {rocks ? "torque" : "force", ""}, .series = {}};
+  Plot plot{.title = "", .x = {rocks ? "angle" : "travel", ""}, .y = {rocks ? "torque" : "force", ""}};
   double farthest = 0, largest = 0;
   for (const Result* r : results) {
     if (r->traces->last_cycles.empty()) continue;
@@ -257,7 +255,7 @@ std::pair<std::string, std::string> of_joint_or_rod(const Trace& trace) {
 // Product of two traces of each model over time, on the times of the first; nothing where a model has not both.
 std::optional<Plot> product_over_time(const Results& results, const std::string& channel, const std::string& times,
                                       const std::string& title, const std::string& label) {
-  Plot plot{.title = title, .x = {"time", "s"}, .y = {label, ""}, .series = {}, .marks = marks_of(*results.back())};
+  Plot plot{.title = title, .x = {"time", "s"}, .y = {label, ""}, .marks = marks_of(*results.back())};
   for (const Result* r : results) {
     const Trace *first = r->traces->find(channel), *second = r->traces->find(times);
     if (!first || !second || first->x.empty() || second->x.empty()) continue;

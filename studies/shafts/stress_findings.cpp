@@ -86,12 +86,11 @@ Rows peak_table(const ShaftStresses& s, const char* key, const char* title, cons
 
 // From one speed of the sweep to the next.
 Series curve_of(const ShaftStresses& s, const Firing& firing, std::string name, Role role, const auto& value) {
-  Series series{.name = std::move(name), .role = role, .x = {}, .y = {}};
+  Series series{.name = std::move(name), .role = role};
   for (const SpeedResponse& at : firing.sweep) {
     const double y = at.kept ? value(at) / megapascal : HUGE_VAL;
     if (!std::isfinite(y)) continue;
-    series.x.push_back(s.unit.of(at.speed));
-    series.y.push_back(y);
+    series.add(s.unit.of(at.speed), y);
   }
   return series;
 }
@@ -118,7 +117,6 @@ Plot stress_plot(const ShaftStresses& s, std::size_t j, const std::vector<Stress
   Plot plot{.title = fmt::format("Vibratory stress of {} over the speed", joint.name),
             .x = {"speed of " + s.link, s.unit.name},
             .y = {"amplitude", "MPa"},
-            .series = {},
             .wide = true};
   const auto sum = [&](const SpeedResponse& r) { return summed_stress(joint, r.joints[j]); };
   plot.series.push_back(curve_of(s, s.normal, "all orders", Role::elastic, sum));

@@ -86,13 +86,10 @@ std::vector<Plot> energy_mass_plots(const Sizing& s) {
   const Piecewise &excess = s.diagram.excess, &inertia = s.cycle.mechanism.value;
   const double least = inertia.minimum(s.cycle.mechanism.slope).value,
                most = inertia.maximum(s.cycle.mechanism.slope).value;
-  Series closed{.name = "ΔT over I_em", .role = Role::elastic, .x = {}, .y = {}};
+  Series closed{.name = "ΔT over I_em", .role = Role::elastic};
   const Tangent &upper = s.exact.upper, &lower = s.exact.lower;
   const ReadableUnit unit = readable_unit(std::max(std::abs(upper.intercept()), std::abs(lower.intercept())), "J");
-  for (const double phi : angles_of(excess)) {
-    closed.x.push_back(inertia.value(phi));
-    closed.y.push_back(excess.value(phi) * unit.factor);
-  }
+  for (const double phi : angles_of(excess)) closed.add(inertia.value(phi), excess.value(phi) * unit.factor);
   const double span = std::max(most - least, 1e-3 * std::abs(most));
   const auto plot = [&](const std::string& title, double from, double to, const std::string& note) {
     Plot p{.title = title, .x = {"I_em", "kg·m²"}, .y = {"ΔT", unit.unit}, .series = {closed}, .note = note};
@@ -122,16 +119,13 @@ std::optional<Plot> speed_plot(const Sizing& s) {
                      (s.flywheel_now - s.methods.front().flywheel) * s.flywheel_ratio * s.flywheel_ratio;
   Plot p{.title = "Speed over the cycle, before and after",
          .x = {fmt::format("angle of {}", s.link), "°"},
-         .y = {fmt::format("speed of {}", s.link), s.speed_unit.name},
-         .series = {}};
+         .y = {fmt::format("speed of {}", s.link), s.speed_unit.name}};
   const auto add = [&](const std::string& name, Role role, double inertia, bool dashed) {
     try {
       const SpeedCycle cycle(s.diagram, s.cycle.mechanism, inertia, s.mid_speed);
-      Series series{.name = name, .role = role, .x = {}, .y = {}, .dashed = dashed};
-      for (const double phi : angles_of(s.diagram.excess)) {
-        series.x.push_back(phi * in_degrees);
-        series.y.push_back(s.speed_unit.of(cycle.speed(phi)));
-      }
+      Series series{.name = name, .role = role, .dashed = dashed};
+      for (const double phi : angles_of(s.diagram.excess))
+        series.add(phi * in_degrees, s.speed_unit.of(cycle.speed(phi)));
       p.series.push_back(std::move(series));
     } catch (const std::invalid_argument&) {  // it would stop within the cycle
     }
@@ -141,13 +135,8 @@ std::optional<Plot> speed_plot(const Sizing& s) {
   for (const DeltaReached& r : s.reached) {
     if (r.by != SizedBy::constant_drive || r.model == SizedModel::work_equation) continue;
     Series series{.name = fmt::format("sized, {}", name_of(r.model)),
-                  .role = r.model == SizedModel::rigid ? Role::rigid : Role::elastic,
-                  .x = {},
-                  .y = {}};
-    for (std::size_t k = 0; k < r.phi.size(); ++k) {
-      series.x.push_back(r.phi[k] * in_degrees);
-      series.y.push_back(s.speed_unit.of(r.speed[k]));
-    }
+                  .role = r.model == SizedModel::rigid ? Role::rigid : Role::elastic};
+    for (std::size_t k = 0; k < r.phi.size(); ++k) series.add(r.phi[k] * in_degrees, s.speed_unit.of(r.speed[k]));
     p.series.push_back(std::move(series));
     if (r.model != SizedModel::elastic || s.motor.empty()) continue;
     Series motor{.name = fmt::format("sized, elastic, {} (reduced)", s.motor),

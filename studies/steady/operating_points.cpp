@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "drivetrain/gears/gear_keys.h"
 #include "engine/base/gauss.h"

@@ -9,6 +9,7 @@
 
 #include "engine/analysis/moment.h"
 #include "engine/analysis/regime.h"
+#include "studies/findings/output.h"
 #include "studies/findings/watch.h"
 #include "studies/limits/joint_loads.h"
 #include "studies/run/simulate.h"
@@ -108,5 +109,8 @@ SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, cons
 // "stable: the slowest deviation halves in 3.2 cycles"; what differs from 1 by no more than the error is neutral.
 std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving,
                            double error);
+
+// Files: operating_points.csv, and steady.LABEL.csv per model with traces. The study must outlive the findings.
+Findings findings_of(const SteadyStudy& study);
 
 }  // namespace kurbel

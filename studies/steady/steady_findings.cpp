@@ -1,7 +1,7 @@
 // steady_findings.cpp — words, tables and plots of steady cycles.
-#include "studies/steady/steady_findings.h"
 #include "engine/numerics/angles.h"
 #include "studies/run/compare.h"
+#include "studies/steady/steady.h"
 
 #include <fmt/format.h>
 
@@ -194,7 +194,7 @@ void add_files(Findings& f, const SteadyStudy& s) {
 
 std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel, const std::string& title,
                                const std::string& label) {
-  Plot plot{.title = title, .x = {s.link + " angle", "°"}, .y = {label, ""}, .series = {}};
+  Plot plot{.title = title, .x = {s.link + " angle", "°"}, .y = {label, ""}};
   std::string si_unit;
   for (const SteadyCycle& c : s.cycles)
     if (const CycleTraces* cycle = whole_cycle(c))
@@ -218,8 +218,7 @@ std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel,
 std::optional<Plot> power_over_angle(const SteadyStudy& s, const std::string& motor) {
   Plot plot{.title = fmt::format("Power of {} over a steady cycle", motor),
             .x = {s.link + " angle", "°"},
-            .y = {"power", ""},
-            .series = {}};
+            .y = {"power", ""}};
   for (const SteadyCycle& c : s.cycles) {
     const Trace *torque = nullptr, *speed = nullptr;
     if (const CycleTraces* cycle = whole_cycle(c))

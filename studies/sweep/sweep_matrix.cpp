@@ -86,7 +86,7 @@ std::vector<Plot> scatter_matrix(const SweepStudyResult& s) {
   if (n < 3 || s.rows.size() < 5) return {};
   const std::vector<const SweepRow*> rows = some_rows(s, most_dots / (n * (n - 1) / 2));
   const auto series = [](const char* name, Role role) {
-    return Series{.name = name, .role = role, .x = {}, .y = {}, .points = true, .line = false};
+    return Series{.name = name, .role = role, .points = true, .line = false};
   };
   std::vector<Series> dots = {series(s.limits.empty() ? "variants" : "all limits hold", Role::elastic),
                               series("one within its error", Role::orange), series("one beyond", Role::vermillion)};
@@ -96,13 +96,12 @@ std::vector<Plot> scatter_matrix(const SweepStudyResult& s) {
         const double x = variables[column].at(*r), y = variables[row].at(*r);
         if (!std::isfinite(x) || !std::isfinite(y)) continue;
         Series& to = dots[verdict_on(s, *r)];
-        to.x.push_back(static_cast<double>(column) + 1 + 0.84 * (x - 0.5));
-        to.y.push_back(static_cast<double>(n - row) + 0.84 * (y - 0.5));
+        to.add(static_cast<double>(column) + 1 + 0.84 * (x - 0.5), static_cast<double>(n - row) + 0.84 * (y - 0.5));
         to.labels.push_back(
             fmt::format("row {}: {}, {}", r->row, variables[column].text_at(*r), variables[row].text_at(*r)));
         to.sizes.push_back(0.5);
       }
-  Plot plot{.title = "Parameters and figures in pairs", .x = {.label = ""}, .y = {.label = ""}, .series = {}};
+  Plot plot{.title = "Parameters and figures in pairs", .x = {.label = ""}, .y = {.label = ""}};
   for (std::size_t k = 0; k + 1 < n; ++k)
     for (const auto& [axis, v] : {std::pair(&plot.x, &variables[k]), std::pair(&plot.y, &variables[n - 1 - k])})
       axis->names.push_back(v->name + "\n" + v->ends());

@@ -28,27 +28,27 @@ std::vector<const SweepRow*> shown(const SweepStudyResult& s) { return some_rows
 // Of one parameter: the curve with the band of its errors.
 void add_curve(Plot& plot, const std::vector<std::pair<const SweepRow*, double>>& points, std::size_t figure,
                double factor) {
-  Series curve{.name = "value", .role = Role::elastic, .x = {}, .y = {}, .points = true};
-  Series low{.name = "− error", .role = Role::reference, .x = {}, .y = {}, .dashed = true}, high = low;
+  Series curve{.name = "value", .role = Role::elastic, .points = true};
+  Series low{.name = "− error", .role = Role::reference, .dashed = true}, high = low;
   high.name = "+ error";
   for (const auto& [row, x] : points) {
     const double v = factor * value_in(*row, figure), error = factor * error_in(*row, figure).value_or(0);
-    curve.x.push_back(x), curve.y.push_back(v);
-    low.x.push_back(x), low.y.push_back(v - error);
-    high.x.push_back(x), high.y.push_back(v + error);
+    curve.add(x, v);
+    low.add(x, v - error);
+    high.add(x, v + error);
   }
   plot.series = {std::move(low), std::move(high), std::move(curve)};
 }
 
 void add_cloud(Plot& plot, const SweepStudyResult& s, const std::vector<std::pair<const SweepRow*, double>>& points,
                std::size_t figure, double factor) {
-  Series cloud{.name = "variants", .role = Role::sky, .x = {}, .y = {}, .points = true, .line = false};
+  Series cloud{.name = "variants", .role = Role::sky, .points = true, .line = false};
   for (const auto& [row, x] : points) {
-    cloud.x.push_back(x), cloud.y.push_back(factor * value_in(*row, figure));
+    cloud.add(x, factor * value_in(*row, figure));
     cloud.labels.push_back(label_of(s, *row));
   }
   // The mean along the parameter: of equally many rows each.
-  Series mean{.name = "mean along the parameter", .role = Role::elastic, .x = {}, .y = {}, .points = true};
+  Series mean{.name = "mean along the parameter", .role = Role::elastic, .points = true};
   // Of each value, where there are few; else of equally many rows each.
   std::size_t different = 1;
   for (std::size_t i = 1; i < points.size(); ++i) different += points[i].second != points[i - 1].second;
@@ -58,7 +58,7 @@ void add_cloud(Plot& plot, const SweepStudyResult& s, const std::vector<std::pai
     while (to < points.size() && points[to].second == points[to - 1].second) ++to;
     double x = 0, y = 0;
     for (std::size_t i = from; i < to; ++i) x += points[i].second, y += cloud.y[i];
-    mean.x.push_back(x / static_cast<double>(to - from)), mean.y.push_back(y / static_cast<double>(to - from));
+    mean.add(x / static_cast<double>(to - from), y / static_cast<double>(to - from));
   }
   plot.series = {std::move(cloud), std::move(mean)};
 }
@@ -92,8 +92,7 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
       points.emplace_back(r, r->parameters[parameter]), largest = std::max(largest, std::abs(v));
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   const ReadableUnit unit = readable_unit(largest, f.unit);
-  Plot plot{
-      .title = fmt::format("{} over {}", f.name, p.path), .x = axis_of(p), .y = {f.name, unit.unit}, .series = {}};
+  Plot plot{.title = fmt::format("{} over {}", f.name, p.path), .x = axis_of(p), .y = {f.name, unit.unit}};
   if (s.identity.parameters.size() == 1)
     add_curve(plot, points, figure, unit.factor);
   else
@@ -146,17 +145,16 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
   Plot plot{
       .title = fmt::format("{} over {} and {}", f.name, s.identity.parameters[a].path, s.identity.parameters[b].path),
       .x = axis_of(s.identity.parameters[a]),
-      .y = axis_of(s.identity.parameters[b]),
-      .series = {}};
+      .y = axis_of(s.identity.parameters[b])};
   double largest = 0;
   for (const SweepRow& r : s.rows)
     if (const double v = value_in(r, figure); std::isfinite(v)) largest = std::max(largest, std::abs(v));
   const ReadableUnit unit = readable_unit(largest, f.unit);
   const auto add = [&](std::string name, Role role, const auto& belongs) {
-    Series series{.name = std::move(name), .role = role, .x = {}, .y = {}, .points = true, .line = false};
+    Series series{.name = std::move(name), .role = role, .points = true, .line = false};
     for (const SweepRow* r : shown(s))
       if (belongs(*r)) {
-        series.x.push_back(r->parameters[a]), series.y.push_back(r->parameters[b]);
+        series.add(r->parameters[a], r->parameters[b]);
         series.labels.push_back(
             fmt::format("{}; {:.6g} {}", label_of(s, *r), unit.factor * value_in(*r, figure), unit.unit));
       }
@@ -246,12 +244,11 @@ std::vector<Plot> influence_plots(const SweepStudyResult& s) {
   for (const std::size_t figure : figures_drawn(s)) {
     const FigureInfluence& found = s.influences[figure];
     if (found.ranked.size() < 2) continue;
-    Series first{.name = "first order", .role = Role::elastic, .x = {}, .y = {}},
-        total{.name = "total", .role = Role::orange, .x = {}, .y = {}};
+    Series first{.name = "first order", .role = Role::elastic}, total{.name = "total", .role = Role::orange};
     std::vector<std::string> names;
     for (std::size_t k = 0; k < found.ranked.size(); ++k) {
       const Influence& i = found.ranked[k];
-      first.x.push_back(static_cast<double>(k + 1)), first.y.push_back(i.first.value);
+      first.add(static_cast<double>(k + 1), i.first.value);
       names.push_back(s.identity.parameters[i.parameter].path);
       if (i.total) total.x.push_back(static_cast<double>(k + 1)), total.y.push_back(i.total->value);
     }

@@ -126,7 +126,6 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
     Plot plot{.title = fmt::format("What makes {} uncertain", f.figure.name),
               .x = {.label = "where it comes from"},
               .y = {"of its value", "%"},
-              .series = {},
               .note = {},
               .bars = true};
     double at = 1;

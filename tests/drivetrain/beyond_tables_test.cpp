@@ -11,7 +11,7 @@
 #include "engine/scene/messages.h"
 #include "studies/report/render.h"
 #include "studies/run/run_findings.h"
-#include "studies/steady/steady_findings.h"
+#include "studies/steady/steady.h"
 #include "studies/validity/outside_data.h"
 #include "tests/support/scenes.h"
 

@@ -8,7 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "studies/accuracy/accuracy_findings.h"
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/report/render.h"
 #include "tests/support/scenes.h"

@@ -12,7 +12,7 @@
 #include "studies/limits/ratings.h"
 #include "studies/modes/modes.h"
 #include "studies/run/run_findings.h"
-#include "studies/steady/steady_findings.h"
+#include "studies/steady/steady.h"
 #include "studies/steady/steady_ratings.h"
 #include "tests/published/published.h"
 #include "tests/support/conclusions.h"

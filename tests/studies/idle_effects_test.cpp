@@ -5,7 +5,6 @@
 
 #include "studies/advise/advise.h"
 #include "studies/effects/effect_study.h"
-#include "studies/effects/effect_study_findings.h"
 #include "studies/validity/idle_effects.h"
 #include "tests/support/scenes.h"
 

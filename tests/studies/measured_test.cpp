@@ -15,7 +15,7 @@
 #include "studies/report/render.h"
 #include "studies/run/run_findings.h"
 #include "studies/run/simulate.h"
-#include "studies/steady/steady_findings.h"
+#include "studies/steady/steady.h"
 #include "studies/tables/trajectory_rows.h"
 #include "tests/support/scenes.h"
 

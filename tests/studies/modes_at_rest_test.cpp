@@ -9,7 +9,6 @@
 #include <string>
 
 #include "studies/modes/modes.h"
-#include "studies/modes/modes_findings.h"
 #include "tests/published/published.h"
 
 namespace kurbel::modes_at_rest_test {

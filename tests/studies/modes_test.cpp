@@ -11,7 +11,6 @@
 #include <numbers>
 #include <random>
 
-#include "studies/modes/modes_findings.h"
 #include "studies/modes/modes_plots.h"
 #include "studies/report/render.h"
 #include "tests/published/published.h"

@@ -14,7 +14,6 @@
 #include "studies/run/run_findings.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
-#include "studies/steady/steady_findings.h"
 #include "tests/support/scenes.h"
 #include "tests/support/waiting.h"
 

@@ -18,7 +18,6 @@
 #include "studies/findings/output.h"
 #include "studies/limits/ratings.h"
 #include "studies/modes/modes.h"
-#include "studies/modes/modes_findings.h"
 #include "studies/report/render.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"

@@ -9,7 +9,7 @@
 
 #include "studies/findings/figure_text.h"
 #include "studies/modes/campbell.h"
-#include "studies/modes/modes_findings.h"
+#include "studies/modes/modes.h"
 #include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
 

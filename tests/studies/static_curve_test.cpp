@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <string>
 
-#include "studies/accuracy/accuracy_findings.h"
-#include "studies/advise/advise_findings.h"
-#include "studies/effects/effect_study_findings.h"
+#include "studies/accuracy/accuracy.h"
+#include "studies/advise/advise.h"
+#include "studies/effects/effect_study.h"
 #include "studies/run/compare.h"
 #include "studies/run/run_findings.h"
 #include "studies/size/size.h"
-#include "studies/steady/steady_findings.h"
+#include "studies/steady/steady.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::static_curve_test {

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <random>
 
-#include "studies/steady/steady_findings.h"
 #include "tests/published/published.h"
 
 namespace kurbel::test::steady_test {

@@ -11,7 +11,7 @@
 
 #include "studies/run/run_findings.h"
 #include "studies/run/simulate.h"
-#include "studies/steady/steady_findings.h"
+#include "studies/steady/steady.h"
 #include "studies/tables/data_table.h"
 #include "studies/tables/mat_file.h"
 #include "studies/tables/table_files.h"

@@ -122,8 +122,8 @@ inline void judge(const CycleSpeeds& speeds, SteadySimulation& result) {
 
 // Starts at the cycle's begin with `start_speed` of the reduction link and twists in equilibrium. `cycle` is the
 // cycle's angle; runs double in length until settled, at most `most_cycles`. Throws as compile does.
-inline SteadySimulation simulate_steady(Scene scene, const Effects& effects, double start_speed, double cycle, int motor_node,
-                                 const SimulateOptions& options, int most_cycles = 320) {
+inline SteadySimulation simulate_steady(Scene scene, const Effects& effects, double start_speed, double cycle,
+                                        int motor_node, const SimulateOptions& options, int most_cycles = 320) {
   scene.run.start = {};
   scene.run.start.speed = start_speed;
   scene.run.start.equilibrium = true;

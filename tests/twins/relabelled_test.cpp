@@ -5,7 +5,6 @@
 #include <regex>
 
 #include "studies/modes/modes.h"
-#include "studies/modes/modes_findings.h"
 #include "studies/reduce/reduce.h"
 #include "studies/run/run_findings.h"
 #include "tests/support/scenes.h"
