@@ -18,6 +18,7 @@
 
 #include "engine/base/estimate.h"
 #include "studies/conclusions/conclusion.h"
+#include "studies/findings/formulas.h"
 #include "studies/findings/report.h"
 #include "studies/findings/rows.h"
 
@@ -113,6 +114,9 @@ struct Findings {
   // On the page alone.
   void show(Chapter in, Card card) {
     statements.push_back({in, Drawn{[cards = Cards{std::move(card)}] { return cards; }}});
+  }
+  void show(Chapter in, const Formulas& formulas) {
+    for (const FormulaCard& formula : formulas.cards()) show(in, Card(formula));
   }
   // The same, made when the page is: a Plot, std::optional<Plot>, or list of plots.
   template <class Made>

@@ -18,7 +18,6 @@
 #include "studies/forces/force_cycle.h"
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
-#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -124,11 +123,7 @@ class Study {
  public:
   Study(const AskedMechanism& asked, const ForcesOptions& options) : asked_(asked), options_(options) {
     const Scene& scene = asked.scene;
-    out_.title = scene.heading();
-    out_.speed_unit = scene.speed_unit;
-    out_.scene_file = scene.file;
-    out_.scene_text = scene.text;
-    out_.mechanism = asked.name;
+    describe(asked, out_);
     out_.data = *asked.mechanism().data.as<SliderCrankData>();
     out_.joints = *asked.network.data.find<SliderCrankJoints>(asked.name);
     const Effects effects = effects_of(scene, options, out_.joints);
@@ -170,16 +165,12 @@ class Study {
  private:
   void solve_first() {
     const CrankSpeed speed = prescribed_speed(*machine_, options_);
-    const std::string at = out_.speed_unit.text(speed.value);
-    options_.watch.say(fmt::format("first problem: {} at {} ({})", out_.mechanism, at, speed.source));
+    options_.watch.say(
+        fmt::format("first problem: {} at {} ({})", out_.mechanism, out_.speed_unit.text(speed.value), speed.source));
     prescribed_ = steady_motion(*loads_, speed.value, options_.positions);
     out_.prescribed = cycle_along(*statics_, *loads_, prescribed_, &out_.counterweights);
-    out_.prescribed->label = "prescribed";
     out_.unbounded = unbounded_reactions(out_.data, *loads_, speed.value);
-    if (out_.unbounded.any()) out_.notes.push_back(out_.unbounded.words);
-    if (const std::string words = loads_->words_of_sequence(); !words.empty()) out_.notes.push_back(words);
-    for (const std::string& note : substitutes(machine_->model())) out_.notes.push_back(note);
-    out_.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
+    describe_first(speed, *loads_, *machine_, out_, *out_.prescribed);
     if (options_.also) look_further(speed.value);
   }
 

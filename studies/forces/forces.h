@@ -153,23 +153,30 @@ struct Counterweight {
   std::vector<Force2> shaking;     // over the turn, as the positions of the first problem
 };
 
-struct Forces {
+// What a study of forces is about, of whichever mechanism.
+struct AboutForces {
   std::string title, scene_file, scene_text, mechanism;
   SpeedUnit speed_unit;
-  SliderCrankData data;
-  SliderCrankJoints joints;
-  double rotating_moment = 0;     // of crank and the rod's share in the crank pin, towards the pin [kg·m]
-  double reciprocating_mass = 0;  // of slider and the rod's share in the slider pin [kg]
-  std::optional<ForceCycle> prescribed, simulated;
-  std::optional<ForceCycle> rigid;            // the second problem of an elastic machine without elasticity, for plots
-  bool elastic = false;                       // the second problem's machine is
-  std::shared_ptr<const LinkageCycle> links;  // of the problem in front, joints without friction: motion and inertia
-  std::vector<CyclePosition> also;            // of the first problem, at the further angles that were asked for
-  std::vector<Counterweight> counterweights;  // the first: as it is
+  bool elastic = false;  // the second problem's machine is
   UnboundedReactions unbounded;
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;
+};
+template <class Cycle, class Position>
+struct StudyOfForces : AboutForces {
+  std::optional<Cycle> prescribed, simulated;
+  std::optional<Cycle> rigid;  // the second problem of an elastic machine without elasticity, for plots
+  std::vector<Position> also;  // of the first problem, at the further angles that were asked for
+};
+
+struct Forces : StudyOfForces<ForceCycle, CyclePosition> {
+  SliderCrankData data;
+  SliderCrankJoints joints;
+  double rotating_moment = 0;                 // of crank and the rod's share in the crank pin, towards the pin [kg·m]
+  double reciprocating_mass = 0;              // of slider and the rod's share in the slider pin [kg]
+  std::shared_ptr<const LinkageCycle> links;  // of the problem in front, joints without friction: motion and inertia
+  std::vector<Counterweight> counterweights;  // the first: as it is
 };
 
 // Of a study of forces: the problems that were solved, the first of them first; the last one is the machine's own motion,

@@ -14,7 +14,6 @@
 namespace kurbel {
 namespace {
 
-// "12.3 kN": in the unit that reads easily.
 // --- figures ---
 
 std::vector<NamedPeak> peaks_of(const ForceCycle& c) {
@@ -37,16 +36,8 @@ std::string efficiency_text(const ForceCycle& c) {
 
 std::string conclusion_of(const Forces& f) {
   const ForceCycle& c = front_of(f);
-  const Peak& bearing = c.reaction[0];
-  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(c.mean_speed.value, 4));
-  std::string text = fmt::format("{}, {}, the shaking force peaks at {}",
-                                 f.unbounded.any() ? begin_unbounded(moving, f.unbounded)
-                                                   : fmt::format("{}: the main bearing carries up to {} (at {})",
-                                                                 moving, in_words(bearing, "N"), at_angle(bearing)),
-                                 is_nothing(c.torque) ? std::string("no balancing torque is needed")
-                                                      : fmt::format("the balancing torque peaks at {} (at {})",
-                                                                    in_words(c.torque, "N*m"), at_angle(c.torque)),
-                                 in_words(c.shaking_force, "N"));
+  std::string text = fmt::format("{}, {}, the shaking force peaks at {}", begin_conclusion(f, c, c.reaction[0]),
+                                 torque_in_words(c), in_words(c.shaking_force, "N"));
   if (has_friction(f))
     text += c.efficiency
                 ? fmt::format("; efficiency of the cycle {}{}", efficiency_text(c),
@@ -58,9 +49,6 @@ std::string conclusion_of(const Forces& f) {
 }
 
 // --- tables ---
-
-// Rounding errors beside large forces read as zero.
-double or_zero(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
 
 Rows position_table(const ForceCycle& c) {
   using P = const CyclePosition&;
@@ -195,7 +183,7 @@ std::string csv_of(const ForceCycle& c) {
 
 // --- formulas ---
 
-FormulaCard torque_formula(const Forces& f) {
+Formulas torque_formula(const Forces& f) {
   // With the numbers of the peak.
   const ForceCycle& c = front_of(f);
   const CyclePosition* const peak = &c.at_torque_peak;
@@ -203,42 +191,40 @@ FormulaCard torque_formula(const Forces& f) {
   const auto inertia = g.inertia(peak->state.phi);
   const double w = peak->state.omega, slope = g.slider(peak->state.phi).slope,
                weight = g.gravity_torque(peak->state.phi).value, loss = w != 0 ? peak->power.friction / w : 0;
-  return {.title = fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(peak->state.phi)),
-          .symbols = "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
-          .numbers = fmt::format(
-              "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) "
-              "= {:.6g} N·m",
-              inertia.value, peak->state.alpha, inertia.slope, w, weight, peak->state.slider_force, slope, loss,
-              peak->forces.torque),
-          .note =
-              "I_r reduced inertia, M_g torque of the weights, F force on the slider, P_f power lost in the joints; "
-              "SI units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the "
-              "power balance below."};
+  return Formulas()
+      .add(fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(peak->state.phi)),
+           "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
+           "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) "
+           "= {:.6g} N·m",
+           inertia.value, peak->state.alpha, inertia.slope, w, weight, peak->state.slider_force, slope, loss,
+           peak->forces.torque)
+      .note(
+          "I_r reduced inertia, M_g torque of the weights, F force on the slider, P_f power lost in the joints; "
+          "SI units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the "
+          "power balance below.");
 }
 
-FormulaCard mass_formula(const Forces& f) {
+Formulas mass_formula(const Forces& f) {
   const double share = f.data.rod_com / f.data.rod_length;
-  return {.title = "Masses that rotate and that reciprocate (theory 9.11)",
-          .symbols = "U_rot = m₁ s₁ + m₂ (1 − c/l) r,   m_rec = m₃ + m₂ c/l",
-          .numbers = fmt::format(
-              "U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + "
-              "{:.5g} · {:.4g} = {:.5g} kg",
-              f.data.crank_mass, f.data.crank_com, f.data.rod_mass, share, f.data.radius, f.rotating_moment,
-              f.data.slider_mass, f.data.rod_mass, share, f.reciprocating_mass),
-          .note =
-              "A counterweight U = U_rot balances the rotating masses; each κ m_rec r more takes κ of the first order "
-              "along the stroke and puts it across. A negative U is taken off, or set on the pin's side."};
+  return Formulas()
+      .add("Masses that rotate and that reciprocate (theory 9.11)",
+           "U_rot = m₁ s₁ + m₂ (1 − c/l) r,   m_rec = m₃ + m₂ c/l",
+           "U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + "
+           "{:.5g} · {:.4g} = {:.5g} kg",
+           f.data.crank_mass, f.data.crank_com, f.data.rod_mass, share, f.data.radius, f.rotating_moment,
+           f.data.slider_mass, f.data.rod_mass, share, f.reciprocating_mass)
+      .note(
+          "A counterweight U = U_rot balances the rotating masses; each κ m_rec r more takes κ of the first order "
+          "along the stroke and puts it across. A negative U is taken off, or set on the pin's side.");
 }
 
 void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
   if (c.efficiency)
-    to.show(in, FormulaCard{.title = fmt::format("Efficiency of the cycle, {} motion", c.label),
-                            .symbols = "η = A_useful / (A_in − ΔT)",
-                            .numbers = fmt::format("η = {:.6g} J / {:.6g} J = {:.6g}", c.useful.value, c.spent,
-                                                   c.efficiency->value),
-                            .note = fmt::format("{}. Harmful work {:.5g} J, kinetic energy gained {:.5g} J.",
-                                                efficiency_text(c), c.harmful.value,
-                                                or_zero(c.kinetic_change.value, 1e3 * c.spent))});
+    to.show(in, Formulas()
+                    .add(fmt::format("Efficiency of the cycle, {} motion", c.label), "η = A_useful / (A_in − ΔT)",
+                         "η = {:.6g} J / {:.6g} J = {:.6g}", c.useful.value, c.spent, c.efficiency->value)
+                    .note(fmt::format("{}. Harmful work {:.5g} J, kinetic energy gained {:.5g} J.", efficiency_text(c),
+                                      c.harmful.value, or_zero(c.kinetic_change.value, 1e3 * c.spent))));
   else
     to.show(in, Text{.title = fmt::format("No efficiency of the cycle, {} motion", c.label),
                      .body = c.no_efficiency + "."});
@@ -247,10 +233,9 @@ void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
 void show_friction_circle(Findings& to, Chapter in, const char* name, const RevoluteJoint& j) {
   if (j.radius == 0) return;
   const double f_k = j.friction.kinetic;
-  to.show(in, FormulaCard{.title = fmt::format("Friction circle of the {} (theory 8.4)", name),
-                          .symbols = "ρ = r sin(atan f)",
-                          .numbers = fmt::format("ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
-                                                 1e3 * friction_circle_radius(j.radius, f_k))});
+  to.show(in, Formulas().add(fmt::format("Friction circle of the {} (theory 8.4)", name), "ρ = r sin(atan f)",
+                             "ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
+                             1e3 * friction_circle_radius(j.radius, f_k)));
 }
 
 // --- all of it ---
@@ -289,7 +274,7 @@ void say_friction(Findings& to, Chapter in, const Forces& f) {
 }
 
 void say_shaking(Findings& to, Chapter in, const Forces& f) {
-  to.draw(in, [&f] { return shaking_plots(f); });
+  to.draw(in, [&f] { return shaking_plots(f, "along the stroke", "across the stroke"); });
   for (const ForceCycle* c : problems_of(f)) {
     to.draw(in, [c] { return harmonic_plot(*c); });
     to.say(in, harmonic_table(*c, c == &front_of(f)));
@@ -304,15 +289,7 @@ void say_shaking(Findings& to, Chapter in, const Forces& f) {
 }  // namespace
 
 Findings findings_of(const Forces& f) {
-  Findings to{.title = f.title,
-              .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front_of(f).description),
-              .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
-              .scene_file = f.scene_file,
-              .speed_unit = f.speed_unit.name,
-              .complete = f.complete,
-              .diagnosis = f.diagnosis,
-              .footer = report_footer()};
-  to.answer(f.complete ? Question::figures : Question::runs, conclusion_of(f), f.complete ? 0 : 100);
+  Findings to = begin_findings(f, front_of(f), conclusion_of(f));
   for (const NamedPeak& p : peaks_of(front_of(f))) to.figures.push_back(key_figure(p));
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
                 links = to.chapter("Links: motion, inertia forces, shares"),
@@ -320,7 +297,6 @@ Findings findings_of(const Forces& f) {
                 shaking = to.chapter("Shaking force and moment; balancing"),
                 friction = to.chapter("Work, friction, efficiency"), positions = to.chapter("Position by position"),
                 notes = to.chapter("Notes");
-  to.tell("mechanism", f.mechanism);
   to.draw(torque, [&f] { return torque_plot(f); });
   to.show(torque, torque_formula(f));
   to.tell("signs", signs);

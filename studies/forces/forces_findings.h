@@ -18,6 +18,14 @@ std::string at_angle(const Peak& p);
 bool is_nothing(const Peak& p);
 std::string in_words(const Peak& p, const std::string& si_unit);
 std::string peak_text(const Peak& p, double factor = 1);
+// Rounding errors beside large forces read as zero.
+double or_zero(double value, double largest);
+
+// With what findings of both kinds begin.
+Findings begin_findings(const AboutForces& f, const CycleOfForces& front, const std::string& conclusion);
+// "press at 60 rpm: the main bearing carries up to 10.45 kN (at 90.0°)", or that reactions have no bound.
+std::string begin_conclusion(const AboutForces& f, const CycleOfForces& front, const Peak& main_bearing);
+std::string torque_in_words(const CycleOfForces& cycle);
 
 // What both kinds of study say of a cycle: its largest values side by side, works, orders, and the record for programs.
 std::vector<NamedPeak> with_torque_and_shaking(std::vector<NamedPeak> reactions, const CycleOfForces& cycle);

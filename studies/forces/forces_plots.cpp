@@ -1,40 +1,13 @@
-// forces_plots.cpp — curves over the angle of the crank in readable units, tips of forces over the cycle, orders.
+// forces_plots.cpp — curves over the angle of the crank, tips of forces over the cycle, orders.
 #include "studies/forces/forces_plots.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
-
-#include "engine/numerics/angles.h"
-#include "studies/findings/plots.h"
 
 namespace kurbel {
 namespace {
-
-using Quantity = std::function<double(const CyclePosition&)>;
-
-// Where it is finite.
-Series over_angle(const std::string& name, Role role, const ForceCycle& c, const Quantity& value) {
-  Series series{.name = name, .role = role};
-  for (const CyclePosition& p : c.curve)
-    if (const double v = value(p); std::isfinite(v)) series.add(in_degrees * p.state.phi, v);
-  return series;
-}
-
-Plot angle_plot(const std::string& title, const std::string& quantity) {
-  return {.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}};
-}
-
-// Of both problems, in the unit in which it reads easily.
-Plot both(const Forces& f, const std::string& title, const std::string& quantity, const std::string& unit,
-          const Quantity& value) {
-  Plot plot = angle_plot(title, quantity);
-  for (const auto& c : force_curves_of(f)) plot.series.push_back(over_angle(c.name, c.role, *c.cycle, value));
-  return unit.empty() ? plot : in_readable_unit(std::move(plot), unit);
-}
 
 Plot guide_point_plot(const Forces& f) {
   Plot plot =
@@ -55,7 +28,12 @@ Plot guide_point_plot(const Forces& f) {
   return in_readable_unit(std::move(plot), "m");
 }
 
-// Equal axes, both in the unit in which forces up to `largest` read easily.
+}  // namespace
+
+Plot angle_plot(const std::string& title, const std::string& quantity) {
+  return {.title = title, .x = {"crank angle", "°"}, .y = {quantity, ""}};
+}
+
 Plot in_forces(Plot plot, double largest) {
   const double factor = readable_unit(largest, "N").factor;
   plot = in_readable_unit(std::move(plot), "N", largest);
@@ -66,38 +44,15 @@ Plot in_forces(Plot plot, double largest) {
   return plot;
 }
 
-// Locus of a force's tip over the cycle.
-Plot locus(const Forces& f, const std::string& title, const std::string& x, const std::string& y,
-           const std::function<Force2(const CyclePosition&)>& force) {
-  Plot plot{.title = title, .x = {x, ""}, .y = {y, ""}};
-  double largest = 0;
-  for (const auto& c : force_curves_of(f)) {
-    Series& s = plot.series.emplace_back(Series{.name = c.name, .role = c.role});
-    for (const CyclePosition& p : c.cycle->curve) {
-      const Force2 v = force(p);
-      s.add(v.x, v.y);
-      largest = std::max(largest, v.magnitude());
-    }
-  }
-  return in_forces(std::move(plot), largest);
-}
-
-}  // namespace
-
-Plot torque_plot(const Forces& f) {
-  return both(f, "Torque that the shaft must give the crank", "balancing torque M", "N*m",
-              [](const CyclePosition& p) { return p.forces.torque; });
-}
-
 std::vector<Plot> reaction_plots(const Forces& f) {
   const auto reaction = [&](const char* title, Force2 SliderCrankForces::*force) {
-    return both(f, title, "reaction", "N", [=](const CyclePosition& p) { return (p.forces.*force).magnitude(); });
+    return over_angle(f, title, "reaction", "N", [=](const CyclePosition& p) { return (p.forces.*force).magnitude(); });
   };
   return {reaction("Load of the main bearing", &SliderCrankForces::main_bearing),
           reaction("Load of the crank pin", &SliderCrankForces::crank_pin),
           reaction("Load of the slider pin", &SliderCrankForces::slider_pin),
-          both(f, "Reaction of the guide, positive 90° ahead of the stroke", "normal reaction N", "N",
-               [](const CyclePosition& p) { return p.forces.guide; }),
+          over_angle(f, "Reaction of the guide, positive 90° ahead of the stroke", "normal reaction N", "N",
+                     [](const CyclePosition& p) { return p.forces.guide; }),
           guide_point_plot(f)};
 }
 
@@ -117,15 +72,6 @@ std::vector<Plot> polar_plots(const Forces& f) {
                 [](P p) { return (-1.0 * p.forces.slider_pin).seen_from(p.rod_angle); }),
           locus(f, "Slider pin: rod on slider, in the frame", "along the stroke", "across",
                 [](P p) { return p.forces.slider_pin; })};
-}
-
-std::vector<Plot> shaking_plots(const Forces& f) {
-  return {both(f, "Shaking force on the frame along the stroke", "force", "N",
-               [](const CyclePosition& p) { return p.forces.shaking_force.x; }),
-          both(f, "Shaking force on the frame across the stroke", "force", "N",
-               [](const CyclePosition& p) { return p.forces.shaking_force.y; }),
-          both(f, "Shaking moment on the frame about the crank's axis", "moment", "N*m",
-               [](const CyclePosition& p) { return p.forces.shaking_moment; })};
 }
 
 Plot harmonic_plot(const ForceCycle& c) {
@@ -162,8 +108,8 @@ std::vector<Plot> friction_plots(const Forces& f) {
     power.series.push_back(over_angle(name_of(static_cast<Joint>(k)), further_role(k), front_of(f),
                                       [k](const CyclePosition& p) { return p.forces.friction_power[k]; }));
   return {in_readable_unit(std::move(power), "W"),
-          both(f, "Efficiency of the mechanism at each position", "η", "",
-               [](const CyclePosition& p) { return p.power.efficiency().value_or(std::nan("")); })};
+          over_angle(f, "Efficiency of the mechanism at each position", "η", "",
+                     [](const CyclePosition& p) { return p.power.efficiency().value_or(std::nan("")); })};
 }
 
 }  // namespace kurbel

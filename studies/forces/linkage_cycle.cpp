@@ -15,7 +15,6 @@
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/machine_motion.h"
-#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -354,11 +353,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   const Deadline deadline(scene.run.budget);
   const AskedMechanism asked(scene, options.mechanism);
   LinkageStudy out;
-  out.title = scene.heading();
-  out.speed_unit = scene.speed_unit;
-  out.scene_file = scene.file;
-  out.scene_text = scene.text;
-  out.mechanism = asked.name;
+  describe(asked, out);
   out.kind = asked.kind;
   const Effects effects = options.effects.value_or(scene.effects);
   const MachineMotion machine(asked, effects, options);
@@ -366,16 +361,12 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   out.rocks = data.rocks();
   OutputLoads loads(asked, effects);
   const CrankSpeed speed = prescribed_speed(machine, options);
-  const std::string at = out.speed_unit.text(speed.value);
-  options.watch.say(fmt::format("first problem: {} at {} ({})", asked.name, at, speed.source));
+  options.watch.say(
+      fmt::format("first problem: {} at {} ({})", asked.name, out.speed_unit.text(speed.value), speed.source));
   out.prescribed = linkage_cycle(data, loads, steady_motion(loads, speed.value, options.positions));
-  out.prescribed->label = "prescribed";
   out.unbounded = unbounded_reactions(data, loads, speed.value);
-  if (out.unbounded.any()) out.notes.push_back(out.unbounded.words);
-  if (const std::string words = loads.words_of_sequence(); !words.empty()) out.notes.push_back(words);
-  for (const std::string& note : substitutes(machine.model())) out.notes.push_back(note);
+  describe_first(speed, loads, machine, out, *out.prescribed);
   mark_unbounded(out.unbounded, *out.prescribed);
-  out.prescribed->description = fmt::format("crank turning at {} throughout, {}", at, speed.source);
   if (options.also)
     for (const double phi : options.also(prescribed_cycle(loads, speed.value)))
       out.also.push_back(linkage_position(data, loads, phi, {speed.value, 0, loads.left()}));

@@ -23,6 +23,10 @@ struct PositionForces {
   ActingLoads loads = all_loads;
 };
 
+// Of the crank at a position.
+inline const CrankState& state_of(const CyclePosition& p) { return p.state; }
+inline const LinkageState& state_of(const PositionForces& p) { return p.forces.state; }
+
 // One link over the cycle.
 struct LinkOfCycle {
   std::string name;
@@ -59,18 +63,9 @@ void mark_unbounded(const UnboundedReactions& unbounded, LinkageCycle& cycle);
 std::string begin_unbounded(const std::string& mechanism, const UnboundedReactions& unbounded);
 
 // A scene's mechanism.
-struct LinkageStudy {
-  std::string title, scene_file, scene_text, mechanism, kind;
-  SpeedUnit speed_unit;
+struct LinkageStudy : StudyOfForces<LinkageCycle, PositionForces> {
+  std::string kind;
   bool rocks = false;  // the output is an angle
-  std::optional<LinkageCycle> prescribed, simulated;
-  std::optional<LinkageCycle> rigid;  // the second problem of an elastic machine without elasticity, for plots
-  bool elastic = false;               // the second problem's machine is
-  std::vector<PositionForces> also;   // of the first problem, at the further angles that were asked for
-  UnboundedReactions unbounded;
-  std::vector<std::string> notes;
-  bool complete = true;
-  std::string diagnosis;
 };
 LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& options);
 

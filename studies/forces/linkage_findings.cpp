@@ -9,7 +9,7 @@
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/forces/forces_findings.h"
-#include "studies/forces/linkage_plots.h"
+#include "studies/forces/forces_plots.h"
 
 namespace kurbel {
 
@@ -26,6 +26,33 @@ std::string in_words(const Peak& p, const std::string& si_unit) {
   return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
 }
 std::string peak_text(const Peak& p, double factor) { return p.unbounded ? "no bound" : with_error(factor * p, ""); }
+double or_zero(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
+
+Findings begin_findings(const AboutForces& f, const CycleOfForces& front, const std::string& conclusion) {
+  Findings to{.title = f.title,
+              .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front.description),
+              .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
+              .scene_file = f.scene_file,
+              .speed_unit = f.speed_unit.name,
+              .complete = f.complete,
+              .diagnosis = f.diagnosis,
+              .footer = report_footer()};
+  to.answer(f.complete ? Question::figures : Question::runs, conclusion, f.complete ? 0 : 100);
+  to.tell("mechanism", f.mechanism);
+  return to;
+}
+
+std::string begin_conclusion(const AboutForces& f, const CycleOfForces& front, const Peak& main_bearing) {
+  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4));
+  if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
+  return fmt::format("{}: the main bearing carries up to {} (at {})", moving, in_words(main_bearing, "N"),
+                     at_angle(main_bearing));
+}
+
+std::string torque_in_words(const CycleOfForces& c) {
+  if (is_nothing(c.torque)) return "no balancing torque is needed";
+  return fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque));
+}
 
 std::vector<NamedPeak> with_torque_and_shaking(std::vector<NamedPeak> reactions, const CycleOfForces& c) {
   reactions.push_back({"balancing torque", "N*m", "balancing_torque", c.torque});
@@ -133,16 +160,11 @@ const NamedPeak& heaviest(const LinkageCycle& c) {
 std::string conclusion_of(const LinkageStudy& f) {
   const LinkageCycle& c = front_of(f);
   const NamedPeak &bearing = c.reactions.front(), &most = heaviest(c);
-  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(c.mean_speed.value, 4));
-  std::string text = f.unbounded.any() ? begin_unbounded(moving, f.unbounded)
-                                       : fmt::format("{}: the main bearing carries up to {} (at {})", moving,
-                                                     in_words(bearing.peak, "N"), at_angle(bearing.peak));
+  std::string text = begin_conclusion(f, c, bearing.peak);
   if (&most != &bearing && !f.unbounded.any())
     text += fmt::format(", the heaviest load of a joint is {} ({}, at {})", in_words(most.peak, "N"), most.name,
                         at_angle(most.peak));
-  text += is_nothing(c.torque) ? std::string(", no balancing torque is needed")
-                               : fmt::format(", the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"),
-                                             at_angle(c.torque));
+  text += ", " + torque_in_words(c);
   if (!is_nothing(c.shaking_force))
     return text + fmt::format(", the shaking force peaks at {}.", in_words(c.shaking_force, "N"));
   return text + (is_nothing(c.shaking_moment) ? std::string(", nothing shakes the frame.")
@@ -174,17 +196,15 @@ std::string joints_of(const LinkageStudy& f) {
 Rows position_table(const LinkageCycle& c) {
   auto table = table_of("", fmt::format("{}: {}", c.label, c.description), c.rows);
   table.headed(fmt::format("{}: {}", c.label, c.description)).text_in(0).always();
-  const auto clean = [](double value, double largest) {
-    return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value;
-  };
   table.only_for_people("φ [°]", [](P p) { return degrees(p.forces.state.phi); }, {.digits = 5})
       .only_for_people("ω [rad/s]", [](P p) { return p.forces.state.omega; })
-      .only_for_people("M [N·m]", [&](P p) { return clean(p.forces.torque, c.torque.value); });
+      .only_for_people("M [N·m]", [&](P p) { return or_zero(p.forces.torque, c.torque.value); });
   const double largest = heaviest(c).peak.value;
   for (std::size_t k = 0; k < c.rows.front().forces.joints.size(); ++k)
     table.only_for_people(fmt::format("{} [N]", c.rows.front().forces.joints[k].name),
-                          [k, clean, largest](P p) { return clean(force_of(p.forces.joints[k]), largest); });
-  return table.only_for_people("shaking [N]", [&](P p) { return clean(p.forces.shaking_force.magnitude(), largest); });
+                          [k, largest](P p) { return or_zero(force_of(p.forces.joints[k]), largest); });
+  return table.only_for_people("shaking [N]",
+                               [&](P p) { return or_zero(p.forces.shaking_force.magnitude(), largest); });
 }
 
 // --- for programs and files ---
@@ -334,15 +354,7 @@ std::string csv_of_links(const LinkageCycle& c) {
 
 Findings findings_of(const LinkageStudy& f) {
   const LinkageCycle& front = front_of(f);
-  Findings to{.title = f.title,
-              .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front.description),
-              .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
-              .scene_file = f.scene_file,
-              .speed_unit = f.speed_unit.name,
-              .complete = f.complete,
-              .diagnosis = f.diagnosis,
-              .footer = report_footer()};
-  to.answer(f.complete ? Question::figures : Question::runs, conclusion_of(f), f.complete ? 0 : 100);
+  Findings to = begin_findings(f, front, conclusion_of(f));
   for (const NamedPeak& p : peaks_of(front))
     if (p.means != "reaction_moment" || !is_nothing(p.peak)) to.figures.push_back(key_figure(p));  // a ram carries none
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
@@ -350,7 +362,6 @@ Findings findings_of(const LinkageStudy& f) {
                 links = to.chapter("Links: motion, inertia forces, shares"),
                 shaking = to.chapter("Shaking force and moment"), works = to.chapter("Work"),
                 positions = to.chapter("Position by position"), notes = to.chapter("Notes");
-  to.tell("mechanism", f.mechanism);
   to.tell("kind", f.kind);
   to.tell("signs", signs_of(f));
   to.draw(torque, [&f] { return torque_plot(f); });
@@ -368,7 +379,7 @@ Findings findings_of(const LinkageStudy& f) {
   say_links(to, links, front);
   const auto problems = problems_of(f);
   to.say(works, work_table({problems.begin(), problems.end()}));
-  to.draw(shaking, [&f] { return shaking_plots(f); });
+  to.draw(shaking, [&f] { return shaking_plots(f, "along +x", "along +y"); });
   for (const LinkageCycle* c : problems) to.say(shaking, harmonic_table(*c, c == &front));
   to.say(notes, Sentences{.lines = {fmt::format("powers balance to {:.1e} of the largest at every position, the links' "
                                                 "equilibrium to {:.1e}",

@@ -13,6 +13,7 @@
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -455,6 +456,23 @@ CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& o
   if (options.speed) return {*options.speed, "as asked for"};
   if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
   return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
+}
+
+void describe(const AskedMechanism& asked, AboutForces& out) {
+  out.title = asked.scene.heading();
+  out.speed_unit = asked.scene.speed_unit;
+  out.scene_file = asked.scene.file;
+  out.scene_text = asked.scene.text;
+  out.mechanism = asked.name;
+}
+
+void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, AboutForces& out,
+                    CycleOfForces& cycle) {
+  cycle.label = "prescribed";
+  cycle.description = fmt::format("crank turning at {} throughout, {}", out.speed_unit.text(speed.value), speed.source);
+  for (const std::string& words : {out.unbounded.any() ? out.unbounded.words : "", loads.words_of_sequence()})
+    if (!words.empty()) out.notes.push_back(words);
+  for (const std::string& note : substitutes(machine.model())) out.notes.push_back(note);
 }
 
 }  // namespace kurbel

@@ -269,50 +269,37 @@ std::string outline_csv(const GearWheel& w) {
   return text;
 }
 
-std::vector<FormulaCard> formulas_of(const GearStage& s) {
-  std::vector<FormulaCard> list;
+Formulas formulas_of(const GearStage& s) {
+  Formulas list;
   const GearPair& p = s.pair;
   const double alpha_n = p.data.rack.pressure_angle;
   const MeshedWheel& one = p.wheel[0];
-  list.push_back(FormulaCard{
-      .title = "Working pressure angle (theory 6.5)",
-      .symbols = "inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂)",
-      .numbers = fmt::format("inv α_wt = {:.8f} + 2 tan {:.4g}° · {:.6g}/({}) = {:.8f},   α_wt = {:.5f}°",
-                             involute(one.transverse_angle), alpha_n / degree, p.mating_shift_sum,
-                             p.data.teeth[0] + p.data.teeth[1], involute(p.working_angle), p.working_angle / degree)});
-  list.push_back(FormulaCard{.title = "Centre distance (theory 6.6)",
-                             .symbols = "a_w = ½ m_t (z₁ + z₂) cos α_t/cos α_wt",
-                             .numbers = fmt::format("a_w = ½ · {:.5f} · ({}) · {:.6f}/{:.6f} = {:.4f} mm",
-                                                    in_millimetres * one.transverse_module,
-                                                    p.data.teeth[0] + p.data.teeth[1], std::cos(one.transverse_angle),
-                                                    std::cos(p.working_angle), in_millimetres * p.centre_distance)});
-  list.push_back(
-      FormulaCard{.title = "Contact ratio (theory 6.9)",
-                  .symbols = "ε_α = (g_E − g_A)/(π m_t cos α_t)",
-                  .numbers = fmt::format("ε_α = ({:.4f} − ({:.4f}))/{:.4f} = {:.4f}", in_millimetres * p.end,
-                                         in_millimetres * p.start, in_millimetres * p.base_pitch, p.contact_ratio)});
-  list.push_back(FormulaCard{.title = "Specific sliding at both ends (theory 6.11)",
-                             .symbols = "ζ₁ = 1 − ρ₂/(u ρ₁),   ζ₂ = 1 − u ρ₁/ρ₂",
-                             .numbers = fmt::format("A: ζ₁ = {}, ζ₂ = {};   E: ζ₁ = {}, ζ₂ = {}",
-                                                    read_as(p.specific_sliding(p.start)[0], {.digits = 5}),
-                                                    read_as(p.specific_sliding(p.start)[1], {.digits = 5}),
-                                                    read_as(p.specific_sliding(p.end)[0], {.digits = 5}),
-                                                    read_as(p.specific_sliding(p.end)[1], {.digits = 5}))});
-  list.push_back(FormulaCard{
-      .title = "Undercut of wheel 1 (theory 6.4)",
-      .symbols = "x_min = h_Ff* − z sin² α_t/(2 cos β),   h_Ff* = h_f* − ρ_f* (1 − sin α_n)",
-      .numbers = fmt::format("x_min = {:.5f} − {} · {:.6f}/(2 · {:.6f}) = {:.4f};   x_E = {:.4f}",
-                             p.data.rack.straight_depth(), one.teeth, std::pow(std::sin(one.transverse_angle), 2),
-                             std::cos(p.data.helix), one.least_shift_generated(), one.generating_shift)});
-  list.push_back(FormulaCard{
-      .title = "Mesh stiffness, ISO 6336-1 method B (theory 6.13)",
-      .symbols = "c_γα = c′ (0.75 ε_α + 0.25),   k = c_γα b r_b1²",
-      .numbers = fmt::format(
-          "c_γα = {:.4g} · (0.75 · {:.4f} + 0.25) = {:.4g} N/(mm·µm){}", 1e-9 * s.stiffness.single, p.contact_ratio,
-          1e-9 * s.stiffness.mean,
-          s.stiffness.torsional > 0 ? fmt::format(",   k = {:.5g} N·m/rad about wheel 1", s.stiffness.torsional) : ""),
-      .note = fmt::format("An estimate: solid wheels, a load of at least 100 N per mm of width.{}",
-                          s.stiffness.within ? "" : " Outside the range that the method was fitted for.")});
+  list.add("Working pressure angle (theory 6.5)", "inv α_wt = inv α_t + 2 tan α_n Σx/(z₁ + z₂)",
+           "inv α_wt = {:.8f} + 2 tan {:.4g}° · {:.6g}/({}) = {:.8f},   α_wt = {:.5f}°", involute(one.transverse_angle),
+           alpha_n / degree, p.mating_shift_sum, p.data.teeth[0] + p.data.teeth[1], involute(p.working_angle),
+           p.working_angle / degree);
+  list.add("Centre distance (theory 6.6)", "a_w = ½ m_t (z₁ + z₂) cos α_t/cos α_wt",
+           "a_w = ½ · {:.5f} · ({}) · {:.6f}/{:.6f} = {:.4f} mm", in_millimetres * one.transverse_module,
+           p.data.teeth[0] + p.data.teeth[1], std::cos(one.transverse_angle), std::cos(p.working_angle),
+           in_millimetres * p.centre_distance);
+  list.add("Contact ratio (theory 6.9)", "ε_α = (g_E − g_A)/(π m_t cos α_t)",
+           "ε_α = ({:.4f} − ({:.4f}))/{:.4f} = {:.4f}", in_millimetres * p.end, in_millimetres * p.start,
+           in_millimetres * p.base_pitch, p.contact_ratio);
+  list.add("Specific sliding at both ends (theory 6.11)", "ζ₁ = 1 − ρ₂/(u ρ₁),   ζ₂ = 1 − u ρ₁/ρ₂",
+           "A: ζ₁ = {}, ζ₂ = {};   E: ζ₁ = {}, ζ₂ = {}", read_as(p.specific_sliding(p.start)[0], {.digits = 5}),
+           read_as(p.specific_sliding(p.start)[1], {.digits = 5}), read_as(p.specific_sliding(p.end)[0], {.digits = 5}),
+           read_as(p.specific_sliding(p.end)[1], {.digits = 5}));
+  list.add("Undercut of wheel 1 (theory 6.4)",
+           "x_min = h_Ff* − z sin² α_t/(2 cos β),   h_Ff* = h_f* − ρ_f* (1 − sin α_n)",
+           "x_min = {:.5f} − {} · {:.6f}/(2 · {:.6f}) = {:.4f};   x_E = {:.4f}", p.data.rack.straight_depth(),
+           one.teeth, std::pow(std::sin(one.transverse_angle), 2), std::cos(p.data.helix), one.least_shift_generated(),
+           one.generating_shift);
+  list.add("Mesh stiffness, ISO 6336-1 method B (theory 6.13)", "c_γα = c′ (0.75 ε_α + 0.25),   k = c_γα b r_b1²",
+           "c_γα = {:.4g} · (0.75 · {:.4f} + 0.25) = {:.4g} N/(mm·µm){}", 1e-9 * s.stiffness.single, p.contact_ratio,
+           1e-9 * s.stiffness.mean,
+           s.stiffness.torsional > 0 ? fmt::format(",   k = {:.5g} N·m/rad about wheel 1", s.stiffness.torsional) : "")
+      .note(fmt::format("An estimate: solid wheels, a load of at least 100 N per mm of width.{}",
+                        s.stiffness.within ? "" : " Outside the range that the method was fitted for."));
   return list;
 }
 
@@ -351,7 +338,7 @@ void say_stage(Findings& f, const GearStage& s) {
   f.draw(in, [&s] { return Cards{drawing_of(s)}; });
   f.say(in, Sentences{.lines = verdicts, .title = "Verdict", .terminal = false});
   f.draw(in, [&s] { return plots_of(s); });
-  for (const FormulaCard& formula : formulas_of(s)) f.show(in, formula);
+  f.show(in, formulas_of(s));
   Rows wheels = wheels_of(s).rows();
   wheels.heading = fmt::format("{}: {}", s.name, shape_of(s.pair));
   f.say(in, std::move(wheels));

@@ -284,25 +284,23 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
           {said.joints[j].peak, swing_error(m, j)}, "largest_swing", m.joint_names[j], 5);
 }
 
-FormulaCard rayleigh(const ModesStudy& m) {
+Formulas rayleigh(const ModesStudy& m) {
   const Mode& first = m.modes.front();
   const double potential = m.drive.spring_work(m.drive.twists * first.shape).sum();
   const double kinetic = m.drive.inertia.dot(first.shape.cwiseAbs2());
-  return {.title = "First mode by its energies (Rayleigh, theory 12.4)",
-          .symbols = "ω² = Σ k θ² / Σ J φ²",
-          .numbers = fmt::format("ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s, f = {:.7g} Hz", potential, kinetic,
-                                 first.omega, hertz(first.omega)),
-          .note = point_text(m) + "."};
+  return Formulas()
+      .add("First mode by its energies (Rayleigh, theory 12.4)", "ω² = Σ k θ² / Σ J φ²",
+           "ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s, f = {:.7g} Hz", potential, kinetic, first.omega, hertz(first.omega))
+      .note(point_text(m) + ".");
 }
 
 // Of one coordinate, by the weights' stiffness.
-FormulaCard about_rest(const ModesStudy& m) {
+Formulas about_rest(const ModesStudy& m) {
   const double stiffness = m.drive.stiffness.coeff(0, 0) + m.drive.other_stiffness.coeff(0, 0);
-  return {.title = "The swing about its rest (theory 9)",
-          .symbols = "ω² = K / I_r, K = −∂M/∂φ",
-          .numbers = fmt::format("ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s", stiffness, m.drive.inertia[0],
-                                 std::sqrt(stiffness / m.drive.inertia[0])),
-          .note = point_text(m) + "."};
+  return Formulas()
+      .add("The swing about its rest (theory 9)", "ω² = K / I_r, K = −∂M/∂φ", "ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s",
+           stiffness, m.drive.inertia[0], std::sqrt(stiffness / m.drive.inertia[0]))
+      .note(point_text(m) + ".");
 }
 
 FormulaCard half_width(const ModesStudy& m) {

@@ -211,8 +211,8 @@ std::string harmonics_csv(const MachineReduction& r) {
 
 // --- formulas ---
 
-std::vector<FormulaCard> formulas_of(const MachineReduction& r) {
-  std::vector<FormulaCard> list;
+Formulas formulas_of(const MachineReduction& r) {
+  Formulas list;
   const ReducedPosition* p = nullptr;
   for (const ReducedPosition& one : r.positions)
     if (one.singular.empty() && (!p || std::abs(one.load) > std::abs(p->load))) p = &one;
@@ -221,30 +221,23 @@ std::vector<FormulaCard> formulas_of(const MachineReduction& r) {
   if (r.to_output) {
     const ReducedNames n = names_of(r);
     const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit), x = r.to_rocker ? "" : " m";
-    list.push_back(FormulaCard{.title = fmt::format("Reduced {} (theory 2.1)", r.to_rocker ? "inertia" : "mass"),
-                               .symbols = fmt::format("{}_r = I_r / x′²", n.inertia),
-                               .numbers = fmt::format("{}_r = {:.6g} kg·m² / ({:.6g}{})² = {:.6g} {}", n.inertia,
-                                                      p->inertia * *p->ratio * *p->ratio, *p->ratio, x, p->inertia, i),
-                               .note = where});
-    list.push_back(FormulaCard{.title = "Resistance reduced to it (theory 2.2)",
-                               .symbols = fmt::format("{}_r = M_c / x′", n.torque),
-                               .numbers = fmt::format("{}_r = {:.6g} N·m / {:.6g}{} = {:.6g} {}", n.torque,
-                                                      p->load * *p->ratio, *p->ratio, x, p->load, t),
-                               .note = where});
+    list.add(fmt::format("Reduced {} (theory 2.1)", r.to_rocker ? "inertia" : "mass"),
+             fmt::format("{}_r = I_r / x′²", n.inertia), "{}_r = {:.6g} kg·m² / ({:.6g}{})² = {:.6g} {}", n.inertia,
+             p->inertia * *p->ratio * *p->ratio, *p->ratio, x, p->inertia, i)
+        .note(where);
+    list.add("Resistance reduced to it (theory 2.2)", fmt::format("{}_r = M_c / x′", n.torque),
+             "{}_r = {:.6g} N·m / {:.6g}{} = {:.6g} {}", n.torque, p->load * *p->ratio, *p->ratio, x, p->load, t)
+        .note(where);
     return list;
   }
-  list.push_back(FormulaCard{.title = "Reduced inertia (theory 2.1)",
-                             .symbols = "I_r(φ) = I_drive + I_em(φ)",
-                             .numbers = fmt::format("I_r = {:.6g} + {:.6g} = {:.6g} kg·m²", p->drive_inertia,
-                                                    p->mechanism_inertia, p->inertia),
-                             .note = where});
+  list.add("Reduced inertia (theory 2.1)", "I_r(φ) = I_drive + I_em(φ)", "I_r = {:.6g} + {:.6g} = {:.6g} kg·m²",
+           p->drive_inertia, p->mechanism_inertia, p->inertia)
+      .note(where);
   std::string sum;
   for (const std::size_t k : acting(r)) sum += fmt::format("{}{:.6g}", sum.empty() ? "" : " + ", p->share[k]);
-  list.push_back(
-      FormulaCard{.title = "Reduced torque (theory 2.2)",
-                  .symbols = "M_r = Σ [F·v + M·ω]/ω = M_d − M_c",
-                  .numbers = fmt::format("M_r = {} = {:.6g} N·m", sum.empty() ? "0" : sum, p->drive - p->load),
-                  .note = where});
+  list.add("Reduced torque (theory 2.2)", "M_r = Σ [F·v + M·ω]/ω = M_d − M_c", "M_r = {} = {:.6g} N·m",
+           sum.empty() ? "0" : sum, p->drive - p->load)
+      .note(where);
   return list;
 }
 
@@ -290,7 +283,7 @@ Findings findings_of(const MachineReduction& r) {
   f.say(cycle, Sentences{.lines = {speed_text(r), errors_text(r)}, .page = false});
   f.draw(cycle, [&r] { return motion_plots(r); });
   f.say(cycle, positions_table(r));
-  for (const FormulaCard& formula : formulas_of(r)) f.show(cycle, formula);
+  f.show(cycle, formulas_of(r));
   if (!r.chain.springs.empty()) f.draw(drive, [&r] { return chain_plot(r); });
   f.say(drive, chain_table(r));
   f.say(drive, Sentences{.lines = {""}, .page = false});

@@ -324,14 +324,14 @@ void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
     const SpeedUnit speed = speed_unit_of(*r);
     const bool repeats = delta->what == quantity::delta;
     const std::string symbol = repeats ? "δ" : "Δω/ω_mid";
-    f.show(in,
-           FormulaCard{.title = fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),
-                       .symbols = symbol + " = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
-                       .numbers = fmt::format("{} = ({:.5g} − {:.5g}) {} / {} = {}", symbol, speed.of(cycle->omega_max),
-                                              speed.of(cycle->omega_min), pretty_unit(speed.name),
-                                              speed.text(cycle->mid_speed(), 5), sure(*delta)),
-                       .note = fmt::format("Cycle from {:.5g} to {:.5g} s{}.", cycle->begin, cycle->end,
-                                           repeats ? "" : "; the motion does not repeat, so this is no δ")});
+    f.show(in, Formulas()
+                   .add(fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),
+                        symbol + " = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
+                        "{} = ({:.5g} − {:.5g}) {} / {} = {}", symbol, speed.of(cycle->omega_max),
+                        speed.of(cycle->omega_min), pretty_unit(speed.name), speed.text(cycle->mid_speed(), 5),
+                        sure(*delta))
+                   .note(fmt::format("Cycle from {:.5g} to {:.5g} s{}.", cycle->begin, cycle->end,
+                                     repeats ? "" : "; the motion does not repeat, so this is no δ")));
   }
 }
 

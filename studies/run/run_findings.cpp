@@ -99,11 +99,11 @@ void show_amplification(Findings& f, Chapter in, const Comparison& c) {
     const std::string& joint = row.of;
     const Figure *a = c.a.find(quantity::peak_torque, joint), *b = c.b.find(quantity::peak_torque, joint);
     if (!a || !b || !row.b) continue;
-    f.show(in, FormulaCard{.title = fmt::format("Torque amplification in {} (theory 14.2)", joint),
-                           .symbols = fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label),
-                           .numbers = fmt::format("K = |{}| / |{}| = {}", figure_text(*b).value, figure_text(*a).value,
-                                                  with_error(*row.b, "")),
-                           .note = "Largest transmitted torques, each at its own time."});
+    f.show(in, Formulas()
+                   .add(fmt::format("Torque amplification in {} (theory 14.2)", joint),
+                        fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label), "K = |{}| / |{}| = {}",
+                        figure_text(*b).value, figure_text(*a).value, with_error(*row.b, ""))
+                   .note("Largest transmitted torques, each at its own time."));
   }
 }
 

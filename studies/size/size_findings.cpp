@@ -320,10 +320,6 @@ void add_key_figures(Findings& f, const Sizing& s) {
   if (s.dimensions) f.key("mass", {s.dimensions->mass, s.mass_error}, "flywheel_mass", s.dimensions->material.name);
 }
 
-void show_all(Findings& f, Chapter in, const std::vector<FormulaCard>& formulas) {
-  for (const FormulaCard& formula : formulas) f.show(in, formula);
-}
-
 void say_notes(Findings& f, Chapter in, const Sizing& s) {
   std::vector<std::string> notes;
   for (const std::string& why : {s.soft_why, s.dimensions_why, s.meeting ? std::string() : s.meeting_words})
@@ -366,17 +362,17 @@ Findings findings_of(const Sizing& s) {
   add_key_figures(f, s);
   tell_basis(f, s);
   f.draw(cycle, [&s] { return cycle_diagrams(s); });
-  show_all(f, cycle, cycle_formulas(s));
+  f.show(cycle, cycle_formulas(s));
   f.say(cycle, positions_table(s));
   f.say(cycle, basis_words(s));
   f.say(cycle, Sentences{.lines = {""}, .page = false});
   f.draw(synthesis, [&s] { return energy_mass_plots(s); });
-  show_all(f, synthesis, method_formulas(s));
-  show_all(f, synthesis, flywheel_formulas(s));
+  f.show(synthesis, method_formulas(s));
+  f.show(synthesis, flywheel_formulas(s));
   say_titled(f, synthesis, methods_table(s));
   f.say(synthesis, inertias_table(s));
   f.show(synthesis, Text{.title = "Against the scene", .body = comparison_with_scene(s)});
-  show_all(f, motor, motor_formulas(s));
+  f.show(motor, motor_formulas(s));
   if (s.operating || !s.reached.empty()) f.draw(motor, [&s] { return speed_plot(s); });
   if (s.reached.empty())
     f.tell("reached", List{});
@@ -384,7 +380,7 @@ Findings findings_of(const Sizing& s) {
     say_titled(f, motor, reached_table(s));
   if (s.dimensions) {
     say_titled(f, body, dimensions_table(*s.dimensions));
-    show_all(f, body, dimension_formulas(*s.dimensions));
+    f.show(body, dimension_formulas(*s.dimensions));
     f.tell("dimensions", dimensions_record(*s.dimensions));
   }
   if (s.punch) {

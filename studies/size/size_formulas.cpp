@@ -15,149 +15,113 @@ std::string basis_of(const Sizing& s) {
   return s.engine ? "at torques of the angle alone" : "at constant driving torque";
 }
 
-std::vector<FormulaCard> cycle_formulas(const Sizing& s) {
-  std::vector<FormulaCard> list;
+Formulas cycle_formulas(const Sizing& s) {
+  Formulas list;
   const WorkDiagram& d = s.diagram;
   const double cycle = d.excess.length();
-  list.push_back(
-      FormulaCard{.title = "Driving torque from the balance of work (theory 2.3)",
-                  .symbols = s.engine ? "∫ M_d dφ = ∫ M_c dφ" : "M_d = (1/Φ) ∫ M_c dφ",
-                  .numbers = fmt::format("M_d = {:.6g} J / {:.6g} rad = {:.6g} N·m", d.work, cycle, d.mean_torque())});
-  list.push_back(FormulaCard{
-      .title = "Greatest fluctuation of energy (theory 3.4)",
-      .symbols = "ΔA_max = max ΔT − min ΔT",
-      .numbers = fmt::format("ΔA_max = {:.6g} J − ({:.6g} J) = {:.6g} J", d.most.value, d.least.value, d.fluctuation()),
-      .note = fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * in_degrees, d.least.x * in_degrees)});
+  list.add("Driving torque from the balance of work (theory 2.3)",
+           s.engine ? "∫ M_d dφ = ∫ M_c dφ" : "M_d = (1/Φ) ∫ M_c dφ", "M_d = {:.6g} J / {:.6g} rad = {:.6g} N·m",
+           d.work, cycle, d.mean_torque());
+  list.add("Greatest fluctuation of energy (theory 3.4)", "ΔA_max = max ΔT − min ΔT",
+           "ΔA_max = {:.6g} J − ({:.6g} J) = {:.6g} J", d.most.value, d.least.value, d.fluctuation())
+      .note(fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * in_degrees, d.least.x * in_degrees));
   const double fastest = s.mid_speed * (1 + s.delta / 2), slowest = s.mid_speed * (1 - s.delta / 2);
-  list.push_back(FormulaCard{.title = "Limits of the speed (theory 2.6)",
-                             .symbols = "ω_max, ω_min = ω_mid (1 ± δ/2)",
-                             .numbers = fmt::format("{:.6g} rad/s · (1 ± {:g}/2) = {:.6g} and {:.6g} rad/s",
-                                                    s.mid_speed, s.delta, fastest, slowest)});
+  list.add("Limits of the speed (theory 2.6)", "ω_max, ω_min = ω_mid (1 ± δ/2)",
+           "{:.6g} rad/s · (1 ± {:g}/2) = {:.6g} and {:.6g} rad/s", s.mid_speed, s.delta, fastest, slowest);
   return list;
 }
 
-std::vector<FormulaCard> method_formulas(const Sizing& s) {
-  std::vector<FormulaCard> list;
+Formulas method_formulas(const Sizing& s) {
+  Formulas list;
   const Tangent &u = s.exact.upper, &l = s.exact.lower;
-  list.push_back(
-      FormulaCard{.title = "Wittenbauer (theory 3.2)",
-                  .symbols = "I₀ = [max(ΔT − a I_em) − min(ΔT − b I_em)] / (a − b),   a = ½ ω_max²,  b = ½ ω_min²",
-                  .numbers = fmt::format("I₀ = [{:.7g} − ({:.7g})] J / ({:.7g} − {:.7g}) s⁻² = {:.7g} kg·m²",
-                                         u.intercept(), l.intercept(), u.slope, l.slope, s.exact.inertia),
-                  .note = "Exact for torques of the angle alone."});
-  list.push_back(FormulaCard{
-      .title = "Mertsalov (theory 3.3)",
-      .symbols = "I₀ = (max ΔT₁ − min ΔT₁)/(ω_mid² δ),   ΔT₁ = ΔT − ½ ω_mid² I_em",
-      .numbers =
-          fmt::format("I₀ = [{:.7g} − ({:.7g})] J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.approximate.most.value,
-                      s.approximate.least.value, s.mid_speed, s.delta, s.approximate.inertia),
-      .note = fmt::format("{:+.3g} % against the exact value.", 100 * (s.approximate.inertia / s.exact.inertia - 1))});
+  list.add("Wittenbauer (theory 3.2)",
+           "I₀ = [max(ΔT − a I_em) − min(ΔT − b I_em)] / (a − b),   a = ½ ω_max²,  b = ½ ω_min²",
+           "I₀ = [{:.7g} − ({:.7g})] J / ({:.7g} − {:.7g}) s⁻² = {:.7g} kg·m²", u.intercept(), l.intercept(), u.slope,
+           l.slope, s.exact.inertia)
+      .note("Exact for torques of the angle alone.");
+  list.add("Mertsalov (theory 3.3)", "I₀ = (max ΔT₁ − min ΔT₁)/(ω_mid² δ),   ΔT₁ = ΔT − ½ ω_mid² I_em",
+           "I₀ = [{:.7g} − ({:.7g})] J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.approximate.most.value,
+           s.approximate.least.value, s.mid_speed, s.delta, s.approximate.inertia)
+      .note(fmt::format("{:+.3g} % against the exact value.", 100 * (s.approximate.inertia / s.exact.inertia - 1)));
   const SizeMethod& neglecting = s.methods[2];
-  list.push_back(FormulaCard{
-      .title = "Neglecting I_em (theory 3.4)",
-      .symbols = "I₀ = ΔA_max/(ω_mid² δ)",
-      .numbers = fmt::format("I₀ = {:.6g} J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.diagram.fluctuation(),
-                             s.mid_speed, s.delta, neglecting.drive_inertia),
-      .note =
-          fmt::format("{:+.3g} % against the exact value.", 100 * (neglecting.drive_inertia / s.exact.inertia - 1))});
+  list.add("Neglecting I_em (theory 3.4)", "I₀ = ΔA_max/(ω_mid² δ)",
+           "I₀ = {:.6g} J / ({:.6g}² · {:g}) s⁻² = {:.7g} kg·m²", s.diagram.fluctuation(), s.mid_speed, s.delta,
+           neglecting.drive_inertia)
+      .note(fmt::format("{:+.3g} % against the exact value.", 100 * (neglecting.drive_inertia / s.exact.inertia - 1)));
   return list;
 }
 
-std::vector<FormulaCard> flywheel_formulas(const Sizing& s) {
-  std::vector<FormulaCard> list;
+Formulas flywheel_formulas(const Sizing& s) {
+  Formulas list;
   const SizeMethod& exact = s.methods.front();
   const double on_shaft = exact.drive_inertia / (s.flywheel_ratio * s.flywheel_ratio);
   if (s.flywheel_ratio != 1)
-    list.push_back(FormulaCard{.title = fmt::format("On the shaft of {}", s.flywheel),
-                               .symbols = "I_drive = I₀ / i²",
-                               .numbers = fmt::format("I_drive = {:.7g} / {:.6g}² = {:.7g} kg·m²", exact.drive_inertia,
-                                                      s.flywheel_ratio, on_shaft)});
-  list.push_back(
-      FormulaCard{.title = "Flywheel with the scene's own inertias",
-                  .symbols = "I_fly = I_drive − I_motor − I_gearbox − I_others",
-                  .numbers = fmt::format("I_fly = {:.7g} − {:.6g} − {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft,
-                                         s.motor_inertia, s.gearbox_inertia, s.other_inertia, exact.flywheel)});
-  list.push_back(FormulaCard{.title = "The same by the customary allowance for couplings (theory 3.1)",
-                             .symbols = "I_fly = I_drive − 1.1 I_motor − I_gearbox",
-                             .numbers = fmt::format("I_fly = {:.7g} − 1.1 · {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft,
-                                                    s.motor_inertia, s.gearbox_inertia, exact.flywheel_by_parts)});
+    list.add(fmt::format("On the shaft of {}", s.flywheel), "I_drive = I₀ / i²",
+             "I_drive = {:.7g} / {:.6g}² = {:.7g} kg·m²", exact.drive_inertia, s.flywheel_ratio, on_shaft);
+  list.add("Flywheel with the scene's own inertias", "I_fly = I_drive − I_motor − I_gearbox − I_others",
+           "I_fly = {:.7g} − {:.6g} − {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft, s.motor_inertia, s.gearbox_inertia,
+           s.other_inertia, exact.flywheel);
+  list.add("The same by the customary allowance for couplings (theory 3.1)",
+           "I_fly = I_drive − 1.1 I_motor − I_gearbox", "I_fly = {:.7g} − 1.1 · {:.6g} − {:.6g} = {:.7g} kg·m²",
+           on_shaft, s.motor_inertia, s.gearbox_inertia, exact.flywheel_by_parts);
   if (s.punch)
-    list.push_back(FormulaCard{
-        .title = "Punch-press form (theory 3.5)",
-        .symbols = "ΔE = E (1 − t_w/t_c),   I₀ = ΔE/(ω_mid² δ),   P = A_d/t_c",
-        .numbers = fmt::format("ΔE = {:.6g} J · (1 − {:.4g}/{:.4g}) = {:.6g} J,   I₀ = {:.7g} kg·m²,   P = {:.6g} W",
-                               s.punch->energy, s.punch->working_time, s.punch->cycle_time, s.punch->from_flywheel(),
-                               s.methods.back().drive_inertia, s.punch->power()),
-        .note = "Useful work and the time in which it is done, at the mid speed; A_d is the drive's work of a cycle."});
+    list.add("Punch-press form (theory 3.5)", "ΔE = E (1 − t_w/t_c),   I₀ = ΔE/(ω_mid² δ),   P = A_d/t_c",
+             "ΔE = {:.6g} J · (1 − {:.4g}/{:.4g}) = {:.6g} J,   I₀ = {:.7g} kg·m²,   P = {:.6g} W", s.punch->energy,
+             s.punch->working_time, s.punch->cycle_time, s.punch->from_flywheel(), s.methods.back().drive_inertia,
+             s.punch->power())
+        .note("Useful work and the time in which it is done, at the mid speed; A_d is the drive's work of a cycle.");
   return list;
 }
 
-std::vector<FormulaCard> dimension_formulas(const FlywheelDimensions& d) {
-  std::vector<FormulaCard> list;
+Formulas dimension_formulas(const FlywheelDimensions& d) {
+  Formulas list;
   const double fastest = 2 * d.rim_speed / d.diameter;
-  list.push_back(FormulaCard{
-      .title = "Rim speed",
-      .symbols = "v = ω_max D/2",
-      .numbers = fmt::format("v = {:.5g} rad/s · {:.5g} m / 2 = {:.5g} m/s", fastest, d.diameter, d.rim_speed),
-      .note = fmt::format("Limit {:.4g} m/s{}.", d.rim_speed_limit, d.within_limit ? "" : ": exceeded")});
+  list.add("Rim speed", "v = ω_max D/2", "v = {:.5g} rad/s · {:.5g} m / 2 = {:.5g} m/s", fastest, d.diameter,
+           d.rim_speed)
+      .note(fmt::format("Limit {:.4g} m/s{}.", d.rim_speed_limit, d.within_limit ? "" : ": exceeded"));
   if (d.form == FlywheelForm::disc) {
-    list.push_back(
-        FormulaCard{.title = "Mass of the disc",
-                    .symbols = "m = 8 I/D²",
-                    .numbers = fmt::format("m = 8 · {:.6g} / {:.5g}² = {:.6g} kg", d.inertia, d.diameter, d.mass)});
-    list.push_back(
-        FormulaCard{.title = "Stress at the centre (theory 3.7)",
-                    .symbols = "σ = (3 + ν)/8 · ρ v²",
-                    .numbers = fmt::format("σ = (3 + {:g})/8 · {:g} kg/m³ · ({:.5g} m/s)² = {:.4g} MPa",
-                                           d.material.poisson, d.material.density, d.rim_speed, d.stress / 1e6)});
+    list.add("Mass of the disc", "m = 8 I/D²", "m = 8 · {:.6g} / {:.5g}² = {:.6g} kg", d.inertia, d.diameter, d.mass);
+    list.add("Stress at the centre (theory 3.7)", "σ = (3 + ν)/8 · ρ v²",
+             "σ = (3 + {:g})/8 · {:g} kg/m³ · ({:.5g} m/s)² = {:.4g} MPa", d.material.poisson, d.material.density,
+             d.rim_speed, d.stress / 1e6);
   } else {
     const double radius = 0.5 * (d.diameter - d.thickness);
-    list.push_back(FormulaCard{
-        .title = "Inertia of the rim",
-        .symbols = "I_rim = (π/32) ρ b (D⁴ − (D − 2h)⁴)",
-        .numbers =
-            fmt::format("I_rim = (π/32) · {:g} · {:.5g} · ({:.5g}⁴ − {:.5g}⁴) = {:.6g} kg·m²", d.material.density,
-                        d.breadth, d.diameter, d.diameter - 2 * d.thickness, d.rim_share * d.inertia),
-        .note = fmt::format("{:.3g} % of the whole; spokes and hub bring the rest.", 100 * d.rim_share)});
-    list.push_back(
-        FormulaCard{.title = "Stress of the rim, with bending between the spokes (theory 3.7)",
-                    .symbols = "σ = ρ v_m² (0.75 + 4.935 R_m/(n² h))",
-                    .numbers = fmt::format("σ = {:.4g} MPa · (0.75 + 4.935 · {:.5g}/({}² · {:.5g})) = {:.4g} MPa",
-                                           d.stress / 1e6, radius, flywheel_spokes, d.thickness, d.spoked_stress / 1e6),
-                    .note = "Khurmi and Gupta, A Textbook of Machine Design (22.3): ¾ of a free ring's tension, ¼ of "
-                            "clamped bending."});
+    list.add("Inertia of the rim", "I_rim = (π/32) ρ b (D⁴ − (D − 2h)⁴)",
+             "I_rim = (π/32) · {:g} · {:.5g} · ({:.5g}⁴ − {:.5g}⁴) = {:.6g} kg·m²", d.material.density, d.breadth,
+             d.diameter, d.diameter - 2 * d.thickness, d.rim_share * d.inertia)
+        .note(fmt::format("{:.3g} % of the whole; spokes and hub bring the rest.", 100 * d.rim_share));
+    list.add("Stress of the rim, with bending between the spokes (theory 3.7)", "σ = ρ v_m² (0.75 + 4.935 R_m/(n² h))",
+             "σ = {:.4g} MPa · (0.75 + 4.935 · {:.5g}/({}² · {:.5g})) = {:.4g} MPa", d.stress / 1e6, radius,
+             flywheel_spokes, d.thickness, d.spoked_stress / 1e6)
+        .note(
+            "Khurmi and Gupta, A Textbook of Machine Design (22.3): ¾ of a free ring's tension, ¼ of "
+            "clamped bending.");
   }
-  list.push_back(FormulaCard{
-      .title = "Energy stored",
-      .symbols = "T = ½ I ω_max²",
-      .numbers = fmt::format("T = ½ · {:.6g} · {:.5g}² = {}", d.inertia, fastest, with_unit(d.energy, "J", 5))});
+  list.add("Energy stored", "T = ½ I ω_max²", "T = ½ · {:.6g} · {:.5g}² = {}", d.inertia, fastest,
+           with_unit(d.energy, "J", 5));
   return list;
 }
 
-std::vector<FormulaCard> motor_formulas(const Sizing& s) {
-  std::vector<FormulaCard> list;
+Formulas motor_formulas(const Sizing& s) {
+  Formulas list;
   if (s.with_motor && s.with_motor->found)
-    list.push_back(FormulaCard{
-        .title = s.operating->drive_slope < 0 ? "The drive gives way: its torque rises as the speed falls"
-                                              : "The drive does not give way: what holds the speed is the load",
-        .symbols = "d(½ I ω²)/dφ = M_d(ω) − M_c(φ, ω),   ω(Φ) = ω(0)",
-        .numbers = fmt::format("δ = ({:.6g} − {:.6g})/{:.6g} = {:.6g} instead of {:g}", s.with_motor->fastest.value,
-                               s.with_motor->slowest.value, s.with_motor->mid_speed(), s.with_motor->delta(), s.delta),
-        .note = fmt::format(
+    list.add(s.operating->drive_slope < 0 ? "The drive gives way: its torque rises as the speed falls"
+                                          : "The drive does not give way: what holds the speed is the load",
+             "d(½ I ω²)/dφ = M_d(ω) − M_c(φ, ω),   ω(Φ) = ω(0)",
+             "δ = ({:.6g} − {:.6g})/{:.6g} = {:.6g} instead of {:g}", s.with_motor->fastest.value,
+             s.with_motor->slowest.value, s.with_motor->mid_speed(), s.with_motor->delta(), s.delta)
+        .note(fmt::format(
             "Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance of the energy {} to "
             "{:.3g} of itself within a cycle.",
-            s.operating->slope, s.with_motor->multiplier < 1 ? "shrinks" : "grows", s.with_motor->multiplier)});
+            s.operating->slope, s.with_motor->multiplier < 1 ? "shrinks" : "grows", s.with_motor->multiplier));
   if (s.soft)
-    list.push_back(FormulaCard{
-        .title = "Inertia that gives δ with these torques",
-        .symbols = "δ(I₀) = δ",
-        .numbers = fmt::format("I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope",
-                               s.soft->drive_inertia, s.soft->flywheel,
-                               std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
-                               s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more"),
-        .note = s.soft_cycle && s.soft_cycle->found ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.",
-                                                                  s.speed_unit.text(s.soft_cycle->mid_speed()))
-                                                    : ""});
+    list.add("Inertia that gives δ with these torques", "δ(I₀) = δ",
+             "I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope", s.soft->drive_inertia,
+             s.soft->flywheel, std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
+             s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more")
+        .note(s.soft_cycle && s.soft_cycle->found ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.",
+                                                                s.speed_unit.text(s.soft_cycle->mid_speed()))
+                                                  : "");
   return list;
 }
 

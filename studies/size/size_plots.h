@@ -17,10 +17,10 @@ std::vector<Plot> cycle_diagrams(const Sizing& sizing);
 std::vector<Plot> energy_mass_plots(const Sizing& sizing);
 std::optional<Plot> speed_plot(const Sizing& sizing);
 
-std::vector<FormulaCard> cycle_formulas(const Sizing& sizing);
-std::vector<FormulaCard> method_formulas(const Sizing& sizing);
-std::vector<FormulaCard> flywheel_formulas(const Sizing& sizing);
-std::vector<FormulaCard> motor_formulas(const Sizing& sizing);
-std::vector<FormulaCard> dimension_formulas(const FlywheelDimensions& dimensions);
+Formulas cycle_formulas(const Sizing& sizing);
+Formulas method_formulas(const Sizing& sizing);
+Formulas flywheel_formulas(const Sizing& sizing);
+Formulas motor_formulas(const Sizing& sizing);
+Formulas dimension_formulas(const FlywheelDimensions& dimensions);
 
 }  // namespace kurbel

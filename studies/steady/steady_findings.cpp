@@ -353,12 +353,11 @@ void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
     const Figure *delta = c.find("delta." + s.link), *max = c.find("cycle_max_speed." + s.link),
                  *min = c.find("cycle_min_speed." + s.link);
     if (!delta || !max || !min) continue;
-    f.show(in, FormulaCard{.title = fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
-                           .symbols = "δ = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
-                           .numbers = fmt::format("δ = ({:.6g} − {:.6g}) {} / {} = {}", unit.of(max->value),
-                                                  unit.of(min->value), pretty_unit(unit.name),
-                                                  unit.text(0.5 * (max->value + min->value)), with_error(*delta, "")),
-                           .note = ""});
+    f.show(in,
+           Formulas().add(fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
+                          "δ = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",
+                          "δ = ({:.6g} − {:.6g}) {} / {} = {}", unit.of(max->value), unit.of(min->value),
+                          pretty_unit(unit.name), unit.text(0.5 * (max->value + min->value)), with_error(*delta, "")));
   }
 }
 

@@ -1,0 +1,33 @@
+// formulas.h — formulas with numbers put in, one after the other.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "studies/findings/report.h"
+
+namespace kurbel {
+
+class Formulas {
+ public:
+  // "δ = (ω_max − ω_min)/ω_m"; the same with numbers put in, and the result.
+  template <class... Values>
+  Formulas& add(std::string title, std::string symbols, fmt::format_string<Values...> numbers, Values&&... values) {
+    cards_.push_back({.title = std::move(title),
+                      .symbols = std::move(symbols),
+                      .numbers = fmt::format(numbers, std::forward<Values>(values)...)});
+    return *this;
+  }
+  // Below the last one.
+  Formulas& note(std::string words) { return cards_.back().note = std::move(words), *this; }
+
+  const std::vector<FormulaCard>& cards() const { return cards_; }
+
+ private:
+  std::vector<FormulaCard> cards_;
+};
+
+}  // namespace kurbel
