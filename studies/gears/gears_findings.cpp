@@ -16,17 +16,8 @@ std::string length(double v) { return std::isfinite(v) ? fmt::format("{:.4f}", i
 std::string angle(double v) { return fmt::format("{:.4f}", v / degree); }
 
 const char* word_of(Finding finding) {
-  switch (finding) {
-    case Finding::good:
-      return "good";
-    case Finding::note:
-      return "note";
-    case Finding::warning:
-      return "warning";
-    case Finding::fault:
-      return "fault";
-  }
-  return "";
+  constexpr const char* words[] = {"good", "note", "warning", "fault"};
+  return words[static_cast<std::size_t>(finding)];
 }
 
 std::string shape_of(const GearPair& p) {

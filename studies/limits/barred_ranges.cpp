@@ -145,15 +145,7 @@ void bar_by_class(const LimitedJoint& joint, std::size_t j, const std::vector<Sp
 }  // namespace
 
 const char* name_of(BarredRange::By by) {
-  switch (by) {
-    case BarredRange::By::limit:
-      return "limit";
-    case BarredRange::By::rule:
-      return "rule";
-    case BarredRange::By::sign:
-      break;
-  }
-  return "sign";
+  return by == BarredRange::By::limit ? "limit" : by == BarredRange::By::rule ? "rule" : "sign";
 }
 
 std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, const std::vector<SpeedLoads>& sweep,

@@ -13,27 +13,12 @@ namespace {
 
 std::string use_of(const Verdict& v) {
   const std::string share = std::isfinite(v.value) ? fmt::format("{:.0f} %", 100 * v.value / v.limit) : "unbounded";
-  switch (v.state()) {
-    case Compliance::holds:
-      return share + " holds";
-    case Compliance::exceeded:
-      return share + " EXCEEDED";
-    case Compliance::undecided:
-      break;
-  }
-  return share + " UNDECIDED";
+  const Compliance state = v.state();
+  return share + (state == Compliance::holds ? " holds" : state == Compliance::exceeded ? " EXCEEDED" : " UNDECIDED");
 }
 
 Tone tone_of(Compliance state) {
-  switch (state) {
-    case Compliance::holds:
-      return Tone::good;
-    case Compliance::exceeded:
-      return Tone::bad;
-    case Compliance::undecided:
-      break;
-  }
-  return Tone::fair;
+  return state == Compliance::holds ? Tone::good : state == Compliance::exceeded ? Tone::bad : Tone::fair;
 }
 
 // With its error where that shows.

@@ -155,16 +155,8 @@ Fatigue fatigue_of(const ShaftRating& shaft, const Estimate& amplitude, const Es
                   1e-6 * mean.value, 1e-6 * shaft.strength_in_shear(), shaft.notch, shaft.safety)};
 }
 
-const char* name_of(Compliance compliance) {
-  switch (compliance) {
-    case Compliance::holds:
-      return "holds";
-    case Compliance::exceeded:
-      return "exceeded";
-    case Compliance::undecided:
-      break;
-  }
-  return "undecided";
+const char* name_of(Compliance c) {
+  return c == Compliance::holds ? "holds" : c == Compliance::exceeded ? "exceeded" : "undecided";
 }
 
 Compliance Verdict::state() const {

@@ -17,26 +17,11 @@
 namespace kurbel {
 namespace {
 
+// In the order of the roles.
 const char* colour_of(Role role) {
-  switch (role) {
-    case Role::rigid:
-      return "#7f7f7f";
-    case Role::elastic:
-      return "#0072b2";
-    case Role::reference:
-      return "#404040";
-    case Role::orange:
-      return "#e69f00";
-    case Role::green:
-      return "#009e73";
-    case Role::vermillion:
-      return "#d55e00";
-    case Role::purple:
-      return "#cc79a7";
-    case Role::sky:
-      return "#56b4e9";
-  }
-  return "#000000";
+  constexpr const char* colours[] = {"#7f7f7f", "#0072b2", "#404040", "#e69f00",
+                                     "#009e73", "#d55e00", "#cc79a7", "#56b4e9"};
+  return colours[static_cast<std::size_t>(role)];
 }
 
 // A title as a file's name: ASCII letters and digits, the rest joined by "_".
@@ -135,14 +120,6 @@ std::string frame_of(const Plot& plot) {
   return text;
 }
 
-// Some hundreds of marks at the most; more run into each other.
-std::vector<EventMark> marks_of(const Plot& plot) {
-  std::vector<EventMark> marks;
-  const std::size_t stride = 1 + plot.marks.size() / 400;
-  for (std::size_t i = 0; i < plot.marks.size(); i += stride) marks.push_back(plot.marks[i]);
-  return marks;
-}
-
 // Drawn twice, as SVG and as PNG.
 std::string script_of(const Plot& plot, const std::string& name) {
   std::string text = fmt::format(
@@ -156,7 +133,7 @@ std::string script_of(const Plot& plot, const std::string& name) {
   if (plot.equal_axes) text += "set size ratio -1\n";
   if (plot.map) text += "set autoscale fix\n";  // as far as its cells reach
   if (plot.bars) text += "set style fill solid 0.7\nset boxwidth 0.8 relative\nset xtics 1\n";
-  for (const EventMark& mark : marks_of(plot))
+  for (const EventMark& mark : marks_drawn(plot))
     text += fmt::format(
         "set arrow from first {0:.9g},graph 0 to first {0:.9g},graph 0.04 nohead lc rgb '#d55e00' lw 1.4\n", mark.x);
   text += frame_of(plot);

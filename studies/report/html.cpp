@@ -20,26 +20,10 @@
 namespace kurbel {
 namespace {
 
+// In the order of the roles.
 const char* name_of(Role role) {
-  switch (role) {
-    case Role::rigid:
-      return "rigid";
-    case Role::elastic:
-      return "elastic";
-    case Role::reference:
-      return "reference";
-    case Role::orange:
-      return "orange";
-    case Role::green:
-      return "green";
-    case Role::vermillion:
-      return "vermillion";
-    case Role::purple:
-      return "purple";
-    case Role::sky:
-      return "sky";
-  }
-  return "elastic";
+  constexpr const char* names[] = {"rigid", "elastic", "reference", "orange", "green", "vermillion", "purple", "sky"};
+  return names[static_cast<std::size_t>(role)];
 }
 
 void write(Writer& w, const Axis& axis) {
@@ -71,46 +55,33 @@ void write(Writer& w, const Plot& plot) {
   w.field("bars", plot.bars);
   w.key("x"), write(w, plot.x);
   w.key("y"), write(w, plot.y);
-  w.key("series");
-  w.list(order_of_drawing(plot), [&](std::size_t i) {
+  w.objects("series", order_of_drawing(plot), [&](std::size_t i) {
     const Series& series = plot.series[i];
     const Series points = drawn(series);
-    w.object([&] {
-      w.field("name", series.name);
-      w.field("role", name_of(series.role));
-      w.field("dashed", series.dashed);
-      w.field("points", series.points || !series.line);
-      w.field("line", series.line);
-      if (stands_behind(plot, series)) w.field("behind", true);
-      w.field("x", points.x, 8);
-      w.field("y", points.y, 7);
-      if (!points.labels.empty()) w.field("labels", points.labels);
-      if (!points.sizes.empty()) w.field("sizes", points.sizes, 3);
-      if (!series.text_at_start.empty()) w.field("textAtStart", series.text_at_start);
-      if (!series.text_at_end.empty()) w.field("textAtEnd", series.text_at_end);
-    });
+    w.field("name", series.name);
+    w.field("role", name_of(series.role));
+    w.field("dashed", series.dashed);
+    w.field("points", series.points || !series.line);
+    w.field("line", series.line);
+    if (stands_behind(plot, series)) w.field("behind", true);
+    w.field("x", points.x, 8);
+    w.field("y", points.y, 7);
+    if (!points.labels.empty()) w.field("labels", points.labels);
+    if (!points.sizes.empty()) w.field("sizes", points.sizes, 3);
+    if (!series.text_at_start.empty()) w.field("textAtStart", series.text_at_start);
+    if (!series.text_at_end.empty()) w.field("textAtEnd", series.text_at_end);
   });
   if (plot.wide) w.field("wide", true);
   if (plot.map) w.key("map"), write(w, *plot.map);
-  w.key("bands");
-  w.list(plot.bands, [&](const Band& band) {
-    w.object([&] {
-      w.field("from", band.from, 8);
-      w.field("to", band.to, 8);
-      w.field("text", band.text);
-      w.field("role", name_of(band.role));
-    });
+  w.objects("bands", plot.bands, [&](const Band& band) {
+    w.field("from", band.from, 8);
+    w.field("to", band.to, 8);
+    w.field("text", band.text);
+    w.field("role", name_of(band.role));
   });
-  // Marks beyond some hundreds run into each other.
-  std::vector<EventMark> marks;
-  const std::size_t stride = 1 + plot.marks.size() / 400;
-  for (std::size_t i = 0; i < plot.marks.size(); i += stride) marks.push_back(plot.marks[i]);
-  w.key("marks");
-  w.list(marks, [&](const EventMark& mark) {
-    w.object([&] {
-      w.field("x", mark.x, 8);
-      w.field("text", mark.text);
-    });
+  w.objects("marks", marks_drawn(plot), [&](const EventMark& mark) {
+    w.field("x", mark.x, 8);
+    w.field("text", mark.text);
   });
 }
 
@@ -127,16 +98,12 @@ void write(Writer& w, const Table& table) {
   w.field("folded", table.folded);
   w.field("textColumns", static_cast<double>(table.text_columns));
   w.field("columns", table.columns);
-  w.key("rows");
-  w.list(table.rows, [&](const std::vector<std::string>& row) { w.value(row); });
+  w.field("rows", table.rows);
   if (!table.tones.empty()) {
     w.key("tones");
     w.list(table.tones, [&](const std::vector<Tone>& row) { w.value(classes_of(row)); });
   }
-  if (!table.hints.empty()) {
-    w.key("hints");
-    w.list(table.hints, [&](const std::vector<std::string>& row) { w.value(row); });
-  }
+  if (!table.hints.empty()) w.field("hints", table.hints);
   if (!table.means.empty()) w.field("means", table.means);
 }
 
@@ -163,23 +130,15 @@ void write(Writer& w, const MachineView::Linkage& linkage) {
   w.field("direction", linkage.direction);
   w.field("x", linkage.x, 5);
   w.field("y", linkage.y, 5);
-  w.key("links");
-  w.list(linkage.links, [&](const MachineView::Linkage::Link& link) {
-    w.object([&] {
-      w.field("shape", link.shape);
-      w.key("joints");
-      w.list(link.joints, [&](int joint) { w.value(static_cast<double>(joint)); });
-    });
+  w.objects("links", linkage.links, [&](const MachineView::Linkage::Link& link) {
+    w.field("shape", link.shape);
+    w.field("joints", link.joints);
   });
-  w.key("fixed");
-  w.list(linkage.fixed, [&](int joint) { w.value(static_cast<double>(joint)); });
+  w.field("fixed", linkage.fixed);
   w.field("output", static_cast<double>(linkage.output));
-  w.key("gaps");
-  w.list(linkage.gaps, [&](const MachineView::Linkage::Gap& gap) {
-    w.object([&] {
-      w.field("joint", gap.joint);
-      w.field("size", gap.size);
-    });
+  w.objects("gaps", linkage.gaps, [&](const MachineView::Linkage::Gap& gap) {
+    w.field("joint", gap.joint);
+    w.field("size", gap.size);
   });
   w.field("bendEnlargement", linkage.bend_enlargement);
 }
@@ -190,48 +149,38 @@ void write(Writer& w, const MachineView& machine) {
   w.field("link", machine.link);
   w.field("enlargement", machine.enlargement);
   w.field("cycle", machine.cycle > 0 ? machine.cycle : 2 * std::numbers::pi, 12);
-  w.key("parts");
-  w.list(machine.parts, [&](const MachineView::Part& part) {
-    w.object([&] {
-      w.field("name", part.name);
-      w.field("kind", part.kind);
-      w.field("ratioIn", part.ratio_in);
-      w.field("ratioOut", part.ratio_out);
-      w.field("elastic", part.elastic);
-      if (part.slips) w.field("slips", true);
-      w.field("crank", part.crank);
-      w.field("row", static_cast<double>(part.row));
-    });
+  w.objects("parts", machine.parts, [&](const MachineView::Part& part) {
+    w.field("name", part.name);
+    w.field("kind", part.kind);
+    w.field("ratioIn", part.ratio_in);
+    w.field("ratioOut", part.ratio_out);
+    w.field("elastic", part.elastic);
+    if (part.slips) w.field("slips", true);
+    w.field("crank", part.crank);
+    w.field("row", static_cast<double>(part.row));
   });
-  w.key("ties");
-  w.list(machine.ties, [&](const MachineView::Tie& tie) {
-    w.object([&] {
-      w.field("row", static_cast<double>(tie.row));
-      w.field("atEnd", tie.at_end);
-      w.field("part", static_cast<double>(tie.part));
-      w.field("out", tie.out);
-    });
+  w.objects("ties", machine.ties, [&](const MachineView::Tie& tie) {
+    w.field("row", static_cast<double>(tie.row));
+    w.field("atEnd", tie.at_end);
+    w.field("part", static_cast<double>(tie.part));
+    w.field("out", tie.out);
   });
-  w.key("linkages");
-  w.list(machine.linkages, [&](const MachineView::Linkage& linkage) { w.object([&] { write(w, linkage); }); });
+  w.objects("linkages", machine.linkages, [&](const MachineView::Linkage& linkage) { write(w, linkage); });
   w.field("time", machine.time, 7);
-  w.key("motions");
-  w.list(machine.motions, [&](const MachineView::Motion& motion) {
-    w.object([&] {
-      w.field("label", motion.label);
-      w.field("role", name_of(motion.role));
-      w.field("angle", motion.angle, 7);
-      w.field("twistIn", motion.twist_in, 4);
-      w.field("twistOut", motion.twist_out, 4);
-      if (!motion.slip_in.empty()) {
-        w.field("slipIn", motion.slip_in, 5);
-        w.field("slipOut", motion.slip_out, 5);
-      }
-      w.field("torque", motion.torque, 4);
-      w.field("force", motion.force, 4);
-      w.field("bend", motion.bend, 4);
-      w.field("shift", motion.shift, 4);
-    });
+  w.objects("motions", machine.motions, [&](const MachineView::Motion& motion) {
+    w.field("label", motion.label);
+    w.field("role", name_of(motion.role));
+    w.field("angle", motion.angle, 7);
+    w.field("twistIn", motion.twist_in, 4);
+    w.field("twistOut", motion.twist_out, 4);
+    if (!motion.slip_in.empty()) {
+      w.field("slipIn", motion.slip_in, 5);
+      w.field("slipOut", motion.slip_out, 5);
+    }
+    w.field("torque", motion.torque, 4);
+    w.field("force", motion.force, 4);
+    w.field("bend", motion.bend, 4);
+    w.field("shift", motion.shift, 4);
   });
 }
 
@@ -245,12 +194,9 @@ void write(Writer& w, const GearView::Wheel& wheel) {
   w.field("angle", wheel.angle, 12);
   w.field("speed", wheel.speed, 12);
   w.field("edge", wheel.edge);
-  w.key("circles");
-  w.list(wheel.circles, [&](const GearView::Circle& circle) {
-    w.object([&] {
-      w.field("name", circle.name);
-      w.field("radius", circle.radius, 9);
-    });
+  w.objects("circles", wheel.circles, [&](const GearView::Circle& circle) {
+    w.field("name", circle.name);
+    w.field("radius", circle.radius, 9);
   });
 }
 
@@ -258,14 +204,10 @@ void write(Writer& w, const GearView& view) {
   w.field("kind", "gears");
   w.field("title", view.title);
   w.field("note", view.note);
-  w.key("wheels");
-  w.list(view.wheels, [&](const GearView::Wheel& wheel) { w.object([&] { write(w, wheel); }); });
-  w.key("points");
-  w.list(view.points, [&](const GearView::Point& point) {
-    w.object([&] {
-      w.field("name", point.name);
-      w.field("place", point.place, 9);
-    });
+  w.objects("wheels", view.wheels, [&](const GearView::Wheel& wheel) { write(w, wheel); });
+  w.objects("points", view.points, [&](const GearView::Point& point) {
+    w.field("name", point.name);
+    w.field("place", point.place, 9);
   });
   w.field("pitchPoint", view.pitch_point, 9);
   w.field("direction", view.direction, 9);
@@ -287,36 +229,27 @@ std::string json_of(const Report& report, const Letterhead& head) {
     w.field("conclusion", report.conclusion);
     w.field("complete", report.complete);
     w.field("footer", report.footer);
-    w.key("figures");
-    w.list(report.figures, [&](const KeyFigure& figure) {
-      w.object([&] {
-        w.field("name", figure.name);
-        const TileText text = tile_text({figure.value, figure.error}, figure.digits);
-        w.field("value", text.value);
-        if (!text.known.empty()) w.field("known", text.known);
-        w.field("unit", pretty_unit(figure.unit));
-        w.field("error", text.error);
-        w.field("note", figure.note);
-        if (!figure.means.empty()) w.field("means", figure.means);
-      });
+    w.objects("figures", report.figures, [&](const KeyFigure& figure) {
+      w.field("name", figure.name);
+      const TileText text = tile_text({figure.value, figure.error}, figure.digits);
+      w.field("value", text.value);
+      if (!text.known.empty()) w.field("known", text.known);
+      w.field("unit", pretty_unit(figure.unit));
+      w.field("error", text.error);
+      w.field("note", figure.note);
+      if (!figure.means.empty()) w.field("means", figure.means);
     });
-    w.key("sections");
-    w.list(report.sections, [&](const ReportSection& section) {
-      w.object([&] {
-        w.field("title", section.title);
-        w.key("cards");
-        w.list(section.cards,
-               [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
-      });
+    w.objects("sections", report.sections, [&](const ReportSection& section) {
+      w.field("title", section.title);
+      w.key("cards");
+      w.list(section.cards,
+             [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
     });
     if (!report.meanings.empty()) {
-      w.key("meanings");
-      w.list(report.meanings, [&](const Meaning& meaning) {
-        w.object([&] {
-          w.field("id", meaning.id);
-          w.field("title", meaning.title);
-          w.field("text", meaning.text);
-        });
+      w.objects("meanings", report.meanings, [&](const Meaning& meaning) {
+        w.field("id", meaning.id);
+        w.field("title", meaning.title);
+        w.field("text", meaning.text);
       });
     }
     const std::vector<std::string> notes = theory_notes(w.text);  // of all that was said above
@@ -362,6 +295,13 @@ std::vector<std::size_t> order_of_drawing(const Plot& plot) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return stands_behind(plot, plot.series[i]); });
   return order;
+}
+
+std::vector<EventMark> marks_drawn(const Plot& plot) {
+  std::vector<EventMark> marks;
+  const std::size_t stride = 1 + plot.marks.size() / 400;
+  for (std::size_t i = 0; i < plot.marks.size(); i += stride) marks.push_back(plot.marks[i]);
+  return marks;
 }
 
 Series drawn(const Series& series) {

@@ -14,6 +14,8 @@ inline constexpr std::size_t points_per_series = 2400;
 // The rigid machine's curve, thick and grey, where there are others before it; a plot's series in the order of drawing.
 bool stands_behind(const Plot& plot, const Series& series);
 std::vector<std::size_t> order_of_drawing(const Plot& plot);
+// Some hundreds of marks at the most; more run into each other.
+std::vector<EventMark> marks_drawn(const Plot& plot);
 
 // A series as it is drawn: of a longer curve what keeps its peaks, of a longer cloud of markers some, drawn by
 // chance, with what is said of them. What is left of a thinned curve has neither labels nor sizes.

@@ -41,6 +41,9 @@ class Writer {
   void value(const std::vector<std::string>& strings) {
     list(strings, [&](const std::string& s) { value(s); });
   }
+  void value(const std::vector<std::vector<std::string>>& rows) {
+    list(rows, [&](const std::vector<std::string>& row) { value(row); });
+  }
   template <class T, class... More>
   void field(std::string_view name, const T& v, More... more) {
     key(name);
@@ -54,6 +57,15 @@ class Writer {
     body();
     text += '}';
     fresh_ = false;
+  }
+  void value(const std::vector<int>& numbers) {
+    list(numbers, [&](int number) { value(static_cast<double>(number)); });
+  }
+  // A list of objects under a name.
+  template <class List, class Each>
+  void objects(std::string_view name, const List& items, Each each) {
+    key(name);
+    list(items, [&](const auto& item) { object([&] { each(item); }); });
   }
   template <class List, class Each>
   void list(const List& items, Each each) {

@@ -206,15 +206,9 @@ void add_kind(Kind kind) {
 namespace {
 
 const char* unsaid_text(const EffectFlag& effect) {
-  switch (effect.unsaid) {
-    case EffectFlag::Unsaid::off:
-      return "off";
-    case EffectFlag::Unsaid::where_given:
-      return "on where the scene gives that";
-    case EffectFlag::Unsaid::part_of_machine:
-      break;
-  }
-  return "on, even in the rigid machine; off by name alone";
+  return effect.unsaid == EffectFlag::Unsaid::off           ? "off"
+         : effect.unsaid == EffectFlag::Unsaid::where_given ? "on where the scene gives that"
+                                                            : "on, even in the rigid machine; off by name alone";
 }
 
 }  // namespace
