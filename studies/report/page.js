@@ -487,6 +487,38 @@
   const widths = {motor: 110, coupling: 92, gearbox: 130, belt: 118, 'gear mesh': 120, 'worm gear': 120, flywheel: 90, shaft: 92, engine: 118, screw: 100, clutch: 78, brake: 78};
   const partWidth = part => part.crank ? 110 : widths[part.kind] || (/motor|turbine/.test(part.kind) ? 110 : 84);
 
+  // A button that plays, showing the next picture after the milliseconds that have passed, and stops; sliders beside it.
+  function addControls(card, showNext) {
+    const controls = make('div', 'controls', null, card), play = make('button', 'play', 'Play', controls);
+    play.type = 'button';
+    let frame = 0, before = 0;
+    function step(moment) {
+      showNext(moment - before);
+      before = moment;
+      frame = requestAnimationFrame(step);
+    }
+    function stop() {
+      cancelAnimationFrame(frame);
+      frame = 0;
+      play.textContent = 'Play';
+    }
+    play.onclick = () => {
+      if (frame) return stop();
+      play.textContent = 'Pause';
+      before = performance.now();
+      frame = requestAnimationFrame(step);
+    };
+    const slide = (text, high, name = text) => {
+      const label = make('label', 'slide', null, controls);
+      make('span', '', text, label);
+      const input = make('input', '', null, label);
+      input.type = 'range'; input.min = 0; input.max = high; input.step = 'any'; input.value = 0;
+      input.setAttribute('aria-label', name);
+      return [input, make('output', '', '', label)];
+    };
+    return {controls, slide, stop};
+  }
+
   function addMachine(m, card) {
     card.classList.add('machine');
     const front = m.motions[m.motions.length - 1], ghosts = m.motions.slice(0, -1);
@@ -500,19 +532,11 @@
     const mechanisms = m.linkages.map((g, k) => drawLinkage(m, g, k, front, ghosts, drawings));
     arrange(stage, shaftLine, mechanisms.map(mechanism => mechanism.svg));
 
-    // Controls.
-    const controls = make('div', 'controls', null, card);
-    const play = make('button', 'play', 'Play', controls);
-    play.type = 'button';
     const last = m.time.length - 1, span = m.time[last] - m.time[0];
-    const slide = (text, high) => {
-      const label = make('label', 'slide', null, controls);
-      make('span', '', text, label);
-      const input = make('input', '', null, label);
-      input.type = 'range'; input.min = 0; input.max = high; input.step = 'any'; input.value = 0;
-      input.setAttribute('aria-label', text);
-      return [input, make('output', '', '', label)];
-    };
+    const {controls, slide, stop} = addControls(card, passed => {
+      const next = now + passed / 1000 * pace.value;
+      show(next > m.time[last] ? m.time[0] : next);
+    });
     const [timeSlider, timeShown] = slide('time', 1);
     const degrees = m.cycle * 180 / Math.PI;
     const [angleSlider, angleShown] = slide('angle', degrees);
@@ -554,25 +578,6 @@
       angleShown.textContent = (within * 180 / Math.PI).toFixed(1) + '°';
       card.dataset.time = now;
     }
-    let frame = 0, before = 0;
-    function step(moment) {
-      let next = now + (moment - before) / 1000 * pace.value;
-      before = moment;
-      if (next > m.time[last]) next = m.time[0];
-      show(next);
-      frame = requestAnimationFrame(step);
-    }
-    function stop() {
-      cancelAnimationFrame(frame);
-      frame = 0;
-      play.textContent = 'Play';
-    }
-    play.onclick = () => {
-      if (frame) return stop();
-      play.textContent = 'Pause';
-      before = performance.now();
-      frame = requestAnimationFrame(step);
-    };
     timeSlider.oninput = () => { stop(); show(m.time[0] + timeSlider.value * span); };
     // The angle is sought in the last whole cycle.
     angleSlider.oninput = () => {
@@ -1103,19 +1108,14 @@
       drawMesh(g, stage, `${left - margin} ${-high - margin} ${right - left + 2 * margin} ${2 * (high + margin)}`, Math.max(right - left, 2 * high) + 2 * margin, false),
       drawMesh(g, stage, `${C - close} ${-close} ${2 * close} ${2 * close}`, 2 * close, true),
     ];
-    const controls = make('div', 'controls', null, card), play = make('button', 'play', 'Play', controls);
-    play.type = 'button';
-    const label = make('label', 'slide', null, controls);
-    make('span', '', `angle of ${g.wheels[0].name}`, label);
-    const slider = make('input', '', null, label);
-    slider.type = 'range'; slider.min = 0; slider.max = 360; slider.step = 'any'; slider.value = 0;
-    slider.setAttribute('aria-label', 'angle');
-    const shown = make('output', '', '', label);
+    // A tooth passes in a second and a half.
+    const {slide, stop} = addControls(card, passed => show(angle + passed / 1500 * 2 * Math.PI / g.wheels[0].teeth));
+    const [slider, shown] = slide(`angle of ${g.wheels[0].name}`, 360, 'angle');
     const legend = make('div', 'legend', null, card);
     for (const [name, text] of [['elastic', 'line of action, path of contact A … E'], ['vermillion', 'contacts'], ['reference', 'base circles'], ['green', 'working circles']])
       make('span', `plain-line is-${name}`, text, legend);
     if (g.note) make('p', 'note', g.note, card);
-    let angle = 0, frame = 0, before = 0;
+    let angle = 0;
     function show(value) {
       const turn = 2 * Math.PI;
       angle = (value % turn + turn) % turn;
@@ -1124,23 +1124,6 @@
       shown.textContent = (angle * 180 / Math.PI).toFixed(1) + '°';
       card.dataset.angle = angle;
     }
-    function stop() {
-      cancelAnimationFrame(frame);
-      frame = 0;
-      play.textContent = 'Play';
-    }
-    // A tooth passes in a second and a half.
-    function step(moment) {
-      show(angle + (moment - before) / 1500 * 2 * Math.PI / g.wheels[0].teeth);
-      before = moment;
-      frame = requestAnimationFrame(step);
-    }
-    play.onclick = () => {
-      if (frame) return stop();
-      play.textContent = 'Pause';
-      before = performance.now();
-      frame = requestAnimationFrame(step);
-    };
     slider.oninput = () => { stop(); show(slider.value * Math.PI / 180); };
     show(0);
   }
