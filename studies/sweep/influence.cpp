@@ -57,25 +57,34 @@ Index with_interval(std::size_t items, const Estimate& estimate) {
 
 // --- given data ---
 
+// A parameter's values, from the least on, or bins of them.
+struct Levels {
+  std::vector<std::size_t> of;  // of each row
+  std::size_t count = 0;
+};
+Levels levels_of(const std::vector<double>& x) {
+  const std::vector<double> values = distinct(x);
+  Levels levels{.of = {}, .count = values.size()};
+  for (const double value : x) levels.of.push_back(place_in(values, value));
+  return levels;
+}
+
+std::vector<double> column_of(const std::vector<const SweepRow*>& rows, std::size_t parameter) {
+  std::vector<double> x;
+  for (const SweepRow* r : rows) x.push_back(r->parameters[parameter]);
+  return x;
+}
+
 // Bins of x: its values, where there are few; else equally many rows in each.
-std::vector<std::size_t> bins_of(const std::vector<double>& x, std::size_t& count) {
-  std::vector<double> values = x;
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  std::vector<std::size_t> bins(x.size());
+Levels bins_of(const std::vector<double>& x, const Levels& values) {
   const auto wanted =
       std::clamp<std::size_t>(static_cast<std::size_t>(std::cbrt(static_cast<double>(x.size())) * 1.5), 2, most_bins);
-  if (values.size() <= wanted || values.size() * 2 <= x.size()) {
-    count = values.size();
-    for (std::size_t i = 0; i < x.size(); ++i)
-      bins[i] = static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), x[i]) - values.begin());
-    return bins;
-  }
-  count = wanted;
+  if (values.count <= wanted || values.count * 2 <= x.size()) return values;
+  Levels bins{.of = std::vector<std::size_t>(x.size()), .count = wanted};
   std::vector<std::size_t> order(x.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
-  for (std::size_t r = 0; r < order.size(); ++r) bins[order[r]] = r * count / order.size();
+  for (std::size_t r = 0; r < order.size(); ++r) bins.of[order[r]] = r * bins.count / order.size();
   return bins;
 }
 
@@ -97,23 +106,6 @@ double first_order(const std::vector<std::size_t>& bins, std::size_t count, cons
 }
 
 // --- a complete table: each combination of values once ---
-
-struct Levels {
-  std::vector<std::size_t> of;  // of each row
-  std::size_t count = 0;
-};
-Levels levels_of(const std::vector<const SweepRow*>& rows, std::size_t parameter) {
-  std::vector<double> values;
-  for (const SweepRow* r : rows) values.push_back(r->parameters[parameter]);
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  Levels levels;
-  levels.count = values.size();
-  for (const SweepRow* r : rows)
-    levels.of.push_back(static_cast<std::size_t>(
-        std::lower_bound(values.begin(), values.end(), r->parameters[parameter]) - values.begin()));
-  return levels;
-}
 
 // Row i's place in the table without one parameter (which = none: in the whole table).
 std::vector<std::size_t> places(const std::vector<Levels>& levels, std::size_t rows, std::size_t without) {
@@ -168,16 +160,13 @@ void by_given_data(FigureInfluence& found, const SweepIdentity& identity, const 
   found.rows = y.size(), found.mean = m.mean, found.deviation = std::sqrt(m.variance);
   if (y.size() < 2 || !(m.variance > 1e-24 * m.mean * m.mean)) return;
   std::vector<Levels> levels;
-  for (std::size_t k = 0; k < identity.parameters.size(); ++k) levels.push_back(levels_of(used, k));
+  for (std::size_t k = 0; k < identity.parameters.size(); ++k) levels.push_back(levels_of(column_of(used, k)));
   if (used.size() == rows.size() && is_complete(levels, used.size())) return by_complete_table(found, levels, y, m);
   if (y.size() < fewest_rows) return;
   for (std::size_t k = 0; k < identity.parameters.size(); ++k) {
-    std::vector<double> x;
-    for (const SweepRow* r : used) x.push_back(r->parameters[k]);
-    std::size_t count = 0;
-    const std::vector<std::size_t> bins = bins_of(x, count);
-    if (count < 2) continue;
-    const auto estimate = [&](const std::vector<std::size_t>& of) { return first_order(bins, count, y, of); };
+    const Levels bins = bins_of(column_of(used, k), levels[k]);
+    if (bins.count < 2) continue;
+    const auto estimate = [&](const std::vector<std::size_t>& of) { return first_order(bins.of, bins.count, y, of); };
     found.ranked.push_back({.parameter = k, .first = with_interval(y.size(), estimate)});
   }
 }
@@ -239,6 +228,15 @@ void by_saltelli(FigureInfluence& found, const SweepIdentity& identity, const st
 }
 
 }  // namespace
+
+std::vector<double> distinct(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+std::size_t place_in(const std::vector<double>& sorted, double value) {
+  return static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+}
 
 double value_in(const SweepRow& row, std::size_t figure) {
   for (const RowFigure& f : row.figures)

@@ -24,6 +24,13 @@ Side side_of(const FigureLimit& limit, const SweepRow& row) {
   return beyond <= 0 ? Side::holds : Side::beyond;
 }
 
+void LimitCount::take_up(Side side) {
+  ++(side == Side::holds ? holds : side == Side::undecided ? undecided : side == Side::beyond ? beyond : unknown);
+}
+void LimitCount::end(std::size_t trials) {
+  interval = {clopper_pearson(holds, trials).low, clopper_pearson(holds + undecided, trials).high};
+}
+
 FigureLimit parse_limit(const std::string& text, const std::vector<SweptFigure>& figures) {
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument(fmt::format(

@@ -29,4 +29,15 @@ struct Interval {
 };
 Interval clopper_pearson(std::size_t successes, std::size_t trials, double confidence = 0.95);
 
+// Of rows: how many lie on each side.
+struct LimitCount {
+  std::string limit;
+  std::size_t holds = 0, undecided = 0, beyond = 0, unknown = 0;
+  Interval interval = {};  // of the chance that it holds: 95 %
+  std::size_t decided() const { return holds + beyond + undecided; }
+  void take_up(Side side);
+  // The interval of so many trials. Who is undecided may hold or not: it covers both.
+  void end(std::size_t trials);
+};
+
 }  // namespace kurbel

@@ -35,6 +35,12 @@ struct SweepIdentity {
   std::vector<SweptParameter> parameters;
   std::vector<SweptFigure> figures;
   std::size_t rows = 0;  // of all shards
+
+  // What stands in meta; empty: nothing does.
+  std::string told(const std::string& key) const {
+    const auto found = meta.find(key);
+    return found == meta.end() ? "" : found->second;
+  }
 };
 
 struct RowFigure {

@@ -17,11 +17,6 @@ namespace {
 
 constexpr std::size_t most_influences = 12, most_worst = 10;
 
-std::string meta_of(const SweepIdentity& identity, const std::string& key) {
-  const auto found = identity.meta.find(key);
-  return found == identity.meta.end() ? "" : found->second;
-}
-
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 std::string in_words(const Index& i) {
@@ -40,24 +35,12 @@ std::string counted(std::size_t count) {
 
 // What the interval of a share is where points lie more evenly than random ones.
 std::vector<std::string> notes_on_limits(const SweepStudyResult& s) {
-  const std::string design = meta_of(s.identity, "design");
+  const std::string design = s.identity.told("design");
   if (s.limits.empty() || !(is_shifted_sobol(s.identity) || design.starts_with("lhs"))) return {};
   return {
       fmt::format("The share that holds is given the interval of {} random points (Clopper and Pearson, 95 %). The "
                   "points of {} lie more evenly, so that as a rule the share is known better than that",
                   s.tally.rows, design)};
-}
-
-Rows limit_table(const SweepStudyResult& s) {
-  return table_of("limits", "How many hold each limit", s.tally.limits)
-      .column("limit", "limit", &LimitCount::limit)
-      .column("holds", "hold", &LimitCount::holds)
-      .column("undecided", "within their error", &LimitCount::undecided)
-      .column("beyond", "beyond", &LimitCount::beyond)
-      .column("unknown", "without the figure", &LimitCount::unknown)
-      .column("low", "share that holds: from [%]", [](const LimitCount& c) { return c.interval.low; },
-              {.factor = 100, .digits = 4})
-      .column("high", "to [%]", [](const LimitCount& c) { return c.interval.high; }, {.factor = 100, .digits = 4});
 }
 
 // --- influence ---
@@ -262,7 +245,7 @@ SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string
   for (const std::string& limit : limits) s.limits.push_back(parse_limit(limit, s.identity.figures));
   s.tally = tally_of(store, s.limits);
   s.wanted = s.tally.rows;
-  const bool saltelli = meta_of(s.identity, "design").starts_with("saltelli");
+  const bool saltelli = s.identity.told("design").starts_with("saltelli");
   // Of Saltelli's design whole groups are drawn.
   const std::size_t group = saltelli ? s.identity.parameters.size() + 2 : 1;
   const std::size_t groups = (saltelli ? s.identity.rows : s.tally.rows) / group;
@@ -280,20 +263,32 @@ SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string
 }
 
 std::string line_of(const SweepIdentity& identity, const SweepRow& row) {
-  const std::string of = meta_of(identity, "of");
-  std::string line = fmt::format("kurbel {} {}", of, meta_of(identity, "scene file"));
-  if (of == "size" && !meta_of(identity, "delta").empty()) line += " --delta " + meta_of(identity, "delta");
-  std::istringstream settings(meta_of(identity, "settings"));
+  const std::string of = identity.told("of");
+  std::string line = fmt::format("kurbel {} {}", of, identity.told("scene file"));
+  if (of == "size" && !identity.told("delta").empty()) line += " --delta " + identity.told("delta");
+  std::istringstream settings(identity.told("settings"));
   for (std::string setting; std::getline(settings, setting);) line += fmt::format(" --set '{}'", setting);
   for (std::size_t k = 0; k < identity.parameters.size(); ++k)
     line += fmt::format(" --set '{}'", identity.parameters[k].setting(row.parameters[k]));
   return line;
 }
 
+Rows limit_table(const std::string& title, const std::vector<LimitCount>& limits, const std::string& unknown,
+                 const std::string& from) {
+  return table_of("limits", title, limits)
+      .column("limit", "limit", &LimitCount::limit)
+      .column("holds", "hold", &LimitCount::holds)
+      .column("undecided", "within their error", &LimitCount::undecided)
+      .column("beyond", "beyond", &LimitCount::beyond)
+      .column(unknown, "without the figure", &LimitCount::unknown)
+      .column("low", from, [](const LimitCount& c) { return c.interval.low; }, {.factor = 100, .digits = 4})
+      .column("high", "to [%]", [](const LimitCount& c) { return c.interval.high; }, {.factor = 100, .digits = 4});
+}
+
 Findings findings_of(const SweepStudyResult& s) {
-  Findings f{.title = meta_of(s.identity, "title"),
-             .subtitle = fmt::format("Sweep of {} by {}", meta_of(s.identity, "of"), meta_of(s.identity, "design")),
-             .scene_file = meta_of(s.identity, "scene file"),
+  Findings f{.title = s.identity.told("title"),
+             .subtitle = fmt::format("Sweep of {} by {}", s.identity.told("of"), s.identity.told("design")),
+             .scene_file = s.identity.told("scene file"),
              .complete = !s.interrupted && s.tally.rows >= s.wanted,
              .diagnosis = s.interrupted ? "interrupted; the same command goes on where it ended"
                                         : "rows are missing; the same command goes on"};
@@ -305,7 +300,8 @@ Findings findings_of(const SweepStudyResult& s) {
   const Chapter limits = f.chapter(s.limits.empty() ? "Over two parameters" : "Limits"),
                 influence = f.chapter("What moves the figures"), curves = f.chapter("Response"),
                 worst = f.chapter("Machines"), all = f.chapter("The sweep");
-  if (!s.limits.empty()) f.say(limits, limit_table(s));
+  if (!s.limits.empty())
+    f.say(limits, limit_table("How many hold each limit", s.tally.limits, "unknown", "share that holds: from [%]"));
   f.note(limits, notes_on_limits(s));
   f.draw(limits, [&s] { return limit_maps(s); });
   f.say(influence, influence_table(s));
@@ -319,11 +315,11 @@ Findings findings_of(const SweepStudyResult& s) {
   f.tell("rows", s.tally.rows);
   f.tell("failed", s.tally.failed);
   f.tell("unconfirmed", s.tally.unconfirmed);
-  f.tell("design", meta_of(s.identity, "design"));
-  f.tell("seed", meta_of(s.identity, "seed"));
+  f.tell("design", s.identity.told("design"));
+  f.tell("seed", s.identity.told("seed"));
   f.tell("shard", s.identity.shard);
   f.tell("database", s.into);
-  f.show_scene(meta_of(s.identity, "scene file"), meta_of(s.identity, "scene text"));
+  f.show_scene(s.identity.told("scene file"), s.identity.told("scene text"));
   f.csv = csv_tables(s);
   return f;
 }

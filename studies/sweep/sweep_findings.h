@@ -22,13 +22,6 @@ struct Spread {
   std::optional<double> error = {};  // the largest; none was measured
 };
 
-struct LimitCount {
-  std::string limit;
-  std::size_t holds = 0, undecided = 0, beyond = 0, unknown = 0;
-  Interval interval = {};
-  std::size_t decided() const { return holds + beyond + undecided; }
-};
-
 // Rows that failed, or were not confirmed, for one reason.
 struct Failures {
   std::size_t count = 0;
@@ -76,6 +69,9 @@ bool is_shifted_sobol(const SweepIdentity& identity);
 std::string line_of(const SweepIdentity& identity, const SweepRow& row);
 
 Findings findings_of(const SweepStudyResult& study);
+// The counts must outlive the table. `unknown`: the key of rows without the figure; `from`: heading of the interval.
+Rows limit_table(const std::string& title, const std::vector<LimitCount>& limits, const std::string& unknown,
+                 const std::string& from);
 
 // Throws std::invalid_argument where a sheet cannot hold so many variants (1 048 575), or no file can be written there.
 void check_xlsx(const std::string& file, std::size_t rows);

@@ -115,9 +115,7 @@ std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure,
   const auto values_of = [&](std::size_t parameter) {
     std::vector<double> values;
     for (const SweepRow& r : s.rows) values.push_back(r.parameters[parameter]);
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    return values;
+    return distinct(std::move(values));
   };
   const SweptFigure& f = s.identity.figures[figure];
   ColourMap map{.name = f.name, .unit = unit.unit, .x = values_of(a), .y = values_of(b), .z = {}};
@@ -126,10 +124,7 @@ std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure,
   for (const SweepRow& r : s.rows) {
     const double v = value_in(r, figure);
     if (!std::isfinite(v)) continue;
-    const auto place = [](const std::vector<double>& in, double value) {
-      return static_cast<std::size_t>(std::lower_bound(in.begin(), in.end(), value) - in.begin());
-    };
-    const std::size_t i = place(map.y, r.parameters[b]), k = place(map.x, r.parameters[a]);
+    const std::size_t i = place_in(map.y, r.parameters[b]), k = place_in(map.x, r.parameters[a]);
     sums[i][k] += v, ++counts[i][k];
   }
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -250,7 +245,7 @@ std::vector<Plot> influence_plots(const SweepStudyResult& s) {
       const Influence& i = found.ranked[k];
       first.add(static_cast<double>(k + 1), i.first.value);
       names.push_back(s.identity.parameters[i.parameter].path);
-      if (i.total) total.x.push_back(static_cast<double>(k + 1)), total.y.push_back(i.total->value);
+      if (i.total) total.add(static_cast<double>(k + 1), i.total->value);
     }
     Plot plot{.title = fmt::format("What moves {}: Sobol's indices", s.identity.figures[figure].name),
               .x = {.label = "parameter", .names = std::move(names)},

@@ -1,5 +1,4 @@
 // tally.cpp — what is counted over all rows of a sweep, in one pass that holds none of them.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -41,21 +40,11 @@ void end(Spread& spread) {
   if (spread.rows == 0) spread.least = spread.mean = spread.greatest = std::nan("");
 }
 
-void take_up(LimitCount& count, Side side) {
-  ++(side == Side::holds       ? count.holds
-     : side == Side::undecided ? count.undecided
-     : side == Side::beyond    ? count.beyond
-                               : count.unknown);
-}
-
-// Who is undecided may hold or not: the interval covers both. Of points that were chosen, none is told.
+// Of points that were chosen, no interval is told.
 void end(LimitCount& c, const SweepIdentity& identity) {
-  const auto found = identity.meta.find("design");
-  const std::string design = found == identity.meta.end() ? "" : found->second;
-  const bool drawn = design.starts_with("random") || design.starts_with("lhs") || is_shifted_sobol(identity);
+  const std::string design = identity.told("design");
   c.interval = {std::nan(""), std::nan("")};
-  if (drawn)
-    c.interval = {clopper_pearson(c.holds, c.decided()).low, clopper_pearson(c.holds + c.undecided, c.decided()).high};
+  if (design.starts_with("random") || design.starts_with("lhs") || is_shifted_sobol(identity)) c.end(c.decided());
 }
 
 // The few worst rows of a figure: by its limit; without one the greatest.
@@ -91,11 +80,7 @@ class WorstRows {
 }  // namespace
 
 bool is_shifted_sobol(const SweepIdentity& identity) {
-  const auto is = [&](const char* key) {
-    const auto found = identity.meta.find(key);
-    return found == identity.meta.end() ? std::string() : found->second;
-  };
-  return is("design").starts_with("sobol") && is("seed") != "0";
+  return identity.told("design").starts_with("sobol") && identity.told("seed") != "0";
 }
 
 SweepTally tally_of(const SweepStore& store, const std::vector<FigureLimit>& limits) {
@@ -110,7 +95,7 @@ SweepTally tally_of(const SweepStore& store, const std::vector<FigureLimit>& lim
     if (t.rows++ % rows_in_table == 0) t.pieces.push_back(row.row);
     ++(row.state == RowState::done ? t.done : row.state == RowState::failed ? t.failed : t.unconfirmed);
     for (std::size_t k = 0; k < t.spreads.size(); ++k) take_up(t.spreads[k], row, k), worst[k].take_up(row);
-    for (std::size_t k = 0; k < limits.size(); ++k) take_up(t.limits[k], side_of(limits[k], row));
+    for (std::size_t k = 0; k < limits.size(); ++k) t.limits[k].take_up(side_of(limits[k], row));
     if (row.state == RowState::done) return;
     Failures& f = by_reason[name_of(row.state) + reason_of(row.diagnosis)];
     if (f.count++ == 0) f.first = std::move(row);

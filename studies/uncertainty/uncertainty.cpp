@@ -204,7 +204,11 @@ class UncertaintyWork {
       study_.notes.push_back(
           fmt::format("{} samples do not tell where 95 % of the machines lie: that takes {} and more", rows.size(),
                       enough_for_ends));
-    for (const FigureLimit& limit : limits_) study_.limits.push_back(chance_of(limit, rows));
+    for (const FigureLimit& limit : limits_) {
+      LimitCount& count = study_.limits.emplace_back(LimitCount{.limit = limit.given});
+      for (const SweepRow& r : rows) count.take_up(side_of(limit, r));
+      count.end(rows.size());
+    }
   }
 
   static void spread(FigureUncertainty& figure, std::vector<double> y) {
@@ -222,21 +226,6 @@ class UncertaintyWork {
       return i + 1 < y.size() ? std::lerp(y[i], y[i + 1], place - static_cast<double>(i)) : y.back();
     };
     if (y.size() >= enough_for_ends) figure.low = at(0.025), figure.high = at(0.975);
-  }
-
-  // A machine that does not run holds no limit.
-  static LimitChance chance_of(const FigureLimit& limit, const std::vector<SweepRow>& rows) {
-    LimitChance c;
-    c.limit = limit.given;
-    for (const SweepRow& r : rows) {
-      const Side side = side_of(limit, r);
-      ++(side == Side::holds       ? c.holds
-         : side == Side::undecided ? c.undecided
-         : side == Side::beyond    ? c.beyond
-                                   : c.failed);
-    }
-    c.chance = {clopper_pearson(c.holds, rows.size()).low, clopper_pearson(c.holds + c.undecided, rows.size()).high};
-    return c;
   }
 
   // Each effect that is off and has data, tried by itself.
@@ -280,9 +269,9 @@ class UncertaintyWork {
 
   void conclude() {
     std::string& text = study_.conclusion;
-    for (const LimitChance& c : study_.limits)
+    for (const LimitCount& c : study_.limits)
       text += fmt::format("{}{} holds in {:.3g} … {:.3g} % of such machines ({} of {} drawn{})",
-                          text.empty() ? "" : "; ", c.limit, 100 * c.chance.low, 100 * c.chance.high, c.holds,
+                          text.empty() ? "" : "; ", c.limit, 100 * c.interval.low, 100 * c.interval.high, c.holds,
                           study_.drawn, c.undecided ? fmt::format(", {} undecided", c.undecided) : "");
     const auto figure = std::find_if(study_.figures.begin(), study_.figures.end(), [&](const FigureUncertainty& f) {
       return f.by_gradients > 0 && (limits_.empty() || f.figure.name == figures_[limits_.front().figure].name);

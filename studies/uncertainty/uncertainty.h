@@ -65,17 +65,11 @@ struct FigureUncertainty {
   double deviation() const { return is_linear() ? by_gradients : by_samples; }
 };
 
-struct LimitChance {
-  std::string limit;
-  std::size_t holds = 0, undecided = 0, beyond = 0, failed = 0;
-  Interval chance;  // that it holds: 95 %, the undecided on either side
-};
-
 struct UncertaintyStudy {
   std::string title, scene_file, scene_text;
   std::vector<Tolerated> parameters;
   std::vector<FigureUncertainty> figures;
-  std::vector<LimitChance> limits;
+  std::vector<LimitCount> limits;  // a machine that does not run holds none
   std::vector<std::string> notes;
   std::size_t drawn = 0, failed = 0;
   std::string conclusion;

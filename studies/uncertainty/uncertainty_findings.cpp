@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/units.h"
+#include "studies/sweep/sweep_findings.h"
 #include "studies/uncertainty/uncertainty.h"
 
 namespace kurbel {
@@ -25,18 +26,6 @@ Rows figure_table(const UncertaintyStudy& s) {
       .column(
           "unit", "unit", [](const FigureUncertainty& f) { return f.figure.unit; }, as_unit)
       .column("samples", "samples", &FigureUncertainty::samples);
-}
-
-Rows limit_table(const UncertaintyStudy& s) {
-  return table_of("limits", "How sure each limit holds", s.limits)
-      .column("limit", "limit", &LimitChance::limit)
-      .column("holds", "hold", &LimitChance::holds)
-      .column("undecided", "within their error", &LimitChance::undecided)
-      .column("beyond", "beyond", &LimitChance::beyond)
-      .column("failed", "without the figure", &LimitChance::failed)
-      .column("low", "probability from [%]", [](const LimitChance& c) { return c.chance.low; },
-              {.factor = 100, .digits = 4})
-      .column("high", "to [%]", [](const LimitChance& c) { return c.chance.high; }, {.factor = 100, .digits = 4});
 }
 
 struct ShareRow {
@@ -163,7 +152,8 @@ Findings findings_of(const UncertaintyStudy& s) {
   const Chapter limits = f.chapter("Limits"), figures = f.chapter("Figures"),
                 shares = f.chapter("Which tolerance matters"), biases = f.chapter("Known biases"),
                 given = f.chapter("Tolerances");
-  if (!s.limits.empty()) f.say(limits, limit_table(s));
+  if (!s.limits.empty())
+    f.say(limits, limit_table("How sure each limit holds", s.limits, "failed", "probability from [%]"));
   f.say(figures, figure_table(s));
   f.draw(figures, [&s] { return pictures(s); });
   f.say(shares, share_table(s));

@@ -63,9 +63,9 @@ TEST(Uncertainty, OfATwoMassResonanceIsItsClosedFormDistribution) {
   EXPECT_NEAR(f.high.value(), resonance(boost::math::quantile(k, 0.975), j2), 3.5 * 0.042 * f.by_gradients);
   const double chance = boost::math::cdf(k, at_limit);
   ASSERT_EQ(s.limits.size(), 1u);
-  EXPECT_LT(s.limits[0].chance.low, chance);
-  EXPECT_GT(s.limits[0].chance.high, chance);
-  EXPECT_LT(s.limits[0].chance.high - s.limits[0].chance.low, 0.04);
+  EXPECT_LT(s.limits[0].interval.low, chance);
+  EXPECT_GT(s.limits[0].interval.high, chance);
+  EXPECT_LT(s.limits[0].interval.high - s.limits[0].interval.low, 0.04);
   EXPECT_EQ(s.limits[0].holds + s.limits[0].beyond + s.limits[0].undecided, 4000u);
 }
 
