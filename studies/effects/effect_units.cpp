@@ -19,13 +19,6 @@ const std::string elasticity = "elasticity:";
 // The component of "gearbox.support".
 std::string base_name(const std::string& joint) { return joint.substr(0, joint.find('.')); }
 
-std::string joined_words(const std::vector<std::string>& words) {
-  if (words.empty()) return "none";
-  std::string text = words.front();
-  for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " and " : ", ") + words[i];
-  return text;
-}
-
 bool on_in(const Scene& scene, const EffectUnit& unit) {
   if (unit.name.starts_with(elasticity)) return scene.effects.is_elastic(unit.name.substr(elasticity.size()));
   const auto flags = effect_flags();
@@ -38,15 +31,6 @@ bool part_of_machine(const EffectUnit& unit) {
   return std::any_of(flags.begin(), flags.end(), [&](const EffectFlag& flag) {
     return unit.name == flag.name && flag.unsaid == EffectFlag::Unsaid::part_of_machine;
   });
-}
-
-bool makes_machine(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on) {
-  try {
-    compile(scene, effects_of(scene, units, on));
-    return true;
-  } catch (const SceneError&) {
-    return false;
-  }
 }
 
 // What to do with a setting: which of its values are multiplied.
@@ -123,7 +107,7 @@ Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const Eff
 
 EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, std::optional<std::size_t> keep) {
   const EffectSet all(units.size(), true);
-  if (makes_machine(scene, units, all)) return all;
+  if (makes_machine(scene, effects_of(scene, units, all))) return all;
   // What is part of the machine comes first: without it a mechanism may be too simple to exclude anything.
   const auto rank = [&](std::size_t k) {
     return part_of_machine(units[k]) ? 0 : k == keep ? 1 : on_in(scene, units[k]) ? 2 : 3;
@@ -134,7 +118,7 @@ EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, 
   EffectSet on(units.size(), false);
   for (const std::size_t k : order) {
     on[k] = true;
-    on[k] = makes_machine(scene, units, on);
+    on[k] = makes_machine(scene, effects_of(scene, units, on));
     if (k == keep && !on[k]) return on;
   }
   return on;
@@ -155,7 +139,23 @@ std::string describe(const std::vector<EffectUnit>& units, const EffectSet& on) 
   std::vector<std::string> words;
   for (std::size_t k = 0; k < units.size(); ++k)
     if (on[k]) words.push_back(units[k].words);
-  return joined_words(words);
+  return words.empty() ? "none" : joined_words(words);
+}
+
+std::string joined_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+bool makes_machine(const Scene& scene, const Effects& effects) {
+  try {
+    compile(scene, effects);
+    return true;
+  } catch (const SceneError&) {
+    return false;
+  }
 }
 
 ModelSize size_of(const Model& model) {
@@ -209,7 +209,7 @@ std::string scale_loads(Scene& scene, double factor) {
         if (setting.key == "load" || setting.key == "loads")
           for (const std::string& key : scale(nested, forces, factor)) changed.push_back(section.name + ".load." + key);
   }
-  return changed.empty() ? "" : joined_words(changed);
+  return joined_words(changed);
 }
 
 std::string scale_speeds(Scene& scene, double factor) {
@@ -230,7 +230,7 @@ std::string scale_speeds(Scene& scene, double factor) {
   for (SequenceStep& step : scene.sequence.steps)
     if (step.when == SequenceStep::When::speed_above || step.when == SequenceStep::When::speed_below)
       step.value *= factor, changed.push_back("speed that a step of the sequence waits for");
-  return changed.empty() ? "" : joined_words(changed);
+  return joined_words(changed);
 }
 
 }  // namespace kurbel

@@ -25,8 +25,7 @@ using EffectSet = std::vector<bool>;
 Effects effects_of(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on);
 // As many of the units as one machine can have at once: what is part of the machine, then the scene's own effects,
 // then what else goes with them (ideal joints with friction do not go with clearance in the same mechanism). `keep`
-// comes before all but what is part of the machine. Where
-// not even one unit makes a machine, nothing is on.
+// comes before all but what is part of the machine. Where not even one unit makes a machine, nothing is on.
 EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, std::optional<std::size_t> keep = {});
 
 // How an effect is judged that does not go with the fullest set: by the fullest set that it goes with, with and without
@@ -39,6 +38,8 @@ InPlaceOf in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& 
                              std::size_t unit);
 
 std::string describe(const std::vector<EffectUnit>& units, const EffectSet& on);  // "backlash and …", "none"
+std::string joined_words(const std::vector<std::string>& words);                  // "a, b and c"
+bool makes_machine(const Scene& scene, const Effects& effects);                   // the scene with these
 
 // What a set of effects makes of the machine.
 struct ModelSize {

@@ -7,6 +7,7 @@
 //   f.tell("operating_point", Record{{"speed", 31.4}});
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -108,6 +109,11 @@ struct Findings {
   Chapter chapter(std::string with_title) {
     chapters.push_back(std::move(with_title));
     return static_cast<Chapter>(chapters.size() - 1);
+  }
+  // The one with this title, begun where there is none yet.
+  Chapter chapter_named(const std::string& title) {
+    const auto found = std::find(chapters.begin(), chapters.end(), title);
+    return found == chapters.end() ? chapter(title) : static_cast<Chapter>(found - chapters.begin());
   }
   void say(Chapter in, Rows rows) { statements.push_back({in, std::move(rows)}); }
   void say(Chapter in, Sentences words) { statements.push_back({in, std::move(words)}); }

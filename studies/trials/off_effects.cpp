@@ -2,6 +2,7 @@
 #include "studies/trials/off_effects.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -13,26 +14,10 @@ namespace {
 
 const std::string prefix = "elasticity:";
 
-std::string joined(const std::vector<std::string>& words, const char* between, const char* last) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? last : between) + words[i];
-  return text;
-}
-
 // Those made elastic besides.
 Effects with_elastic(Effects effects, const std::vector<std::string>& components) {
   effects.elastic.insert(effects.elastic.end(), components.begin(), components.end());
   return effects;
-}
-
-bool makes_machine(const Scene& scene, const Effects& effects) {
-  try {
-    compile(scene, effects);
-    return true;
-  } catch (const SceneError&) {
-    return false;
-  }
 }
 
 // Components that could be elastic, of which this effect has data.
@@ -47,8 +32,8 @@ std::vector<std::string> carriers(const Scene& scene, const EffectFlag& effect,
 }
 
 OffEffect elasticity_of(const std::vector<std::string>& components, const Effects& on) {
-  return {.name = prefix + joined(components, ",", ","),
-          .words = "elasticity of " + joined(components, ", ", " and "),
+  return {.name = fmt::format("{}{}", prefix, fmt::join(components, ",")),
+          .words = "elasticity of " + joined_words(components),
           .effects = with_elastic(on, components)};
 }
 
@@ -123,7 +108,7 @@ std::shared_ptr<const Model> machine_with(const Scene& scene, const Effects& on,
     gone.emplace_back(flag->words);
   }
   effect.effects = fits;
-  effect.gives_way = joined(gone, ", ", " and ");
+  effect.gives_way = joined_words(gone);
   return compile(scene, fits);
 }
 

@@ -2,10 +2,10 @@
 #include "studies/trials/trials_findings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "studies/conclusions/headline.h"
 #include "studies/findings/figure_text.h"
@@ -82,12 +82,6 @@ std::string one_line(const MovedFigure& moved) {
                      moved.change);
 }
 
-std::string listed_words(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : "; ") + word;
-  return text;
-}
-
 // What moves no key figure worth a line, what failed, what was not tried: by the reason.
 std::vector<std::string> other_words(const Trials& trials) {
   std::vector<std::string> lines, slight, none;
@@ -97,8 +91,8 @@ std::vector<std::string> other_words(const Trials& trials) {
   }
   if (!slight.empty())
     lines.push_back(
-        fmt::format("less than {:g} % in every key figure: {}", 100 * least_worth_a_line, listed_words(slight)));
-  if (!none.empty()) lines.push_back("no effect on the key figures: " + listed_words(none));
+        fmt::format("less than {:g} % in every key figure: {}", 100 * least_worth_a_line, fmt::join(slight, "; ")));
+  if (!none.empty()) lines.push_back(fmt::format("no effect on the key figures: {}", fmt::join(none, "; ")));
   for (const Trial& trial : trials.tried)
     if (!trial.failed.empty())
       lines.push_back(fmt::format("{}: the trial failed: {}", words_of(trial.effect), trial.failed));
@@ -108,7 +102,7 @@ std::vector<std::string> other_words(const Trials& trials) {
     reasons.back().second.push_back(n.words);
   }
   for (const auto& [because, words] : reasons)
-    lines.push_back(fmt::format("not tried: {} ({})", listed_words(words), because));
+    lines.push_back(fmt::format("not tried: {} ({})", fmt::join(words, "; "), because));
   return lines;
 }
 
@@ -124,9 +118,28 @@ std::vector<const Trial*> moving_most_first(const Trials& trials) {
   return moving;
 }
 
-Chapter chapter_named(Findings& f, const char* title) {
-  const auto found = std::find(f.chapters.begin(), f.chapters.end(), title);
-  return found == f.chapters.end() ? f.chapter(title) : static_cast<Chapter>(found - f.chapters.begin());
+// The same for people; of more than one effect with its name.
+Rows moved_table(const std::string& title, std::vector<MovedFigure> moved, const char* before, const char* after,
+                 bool names_effect) {
+  auto table = table_of("", title, std::move(moved)).text_in(names_effect ? 2 : 1);
+  table.explained_by(&MovedFigure::name).not_on_terminal();
+  if (names_effect) table.only_for_people("effect", &MovedFigure::effect);
+  return table.only_for_people("key figure", &MovedFigure::figure)
+      .only_for_people(before, &MovedFigure::off)
+      .only_for_people(after, &MovedFigure::on)
+      .only_for_people("change", &MovedFigure::change);
+}
+
+// For programs.
+Field changes_of(const Trial& trial, const char* before, const char* after) {
+  return {"changes", each(trial.changes, [&](const TrialChange& c) {
+            Record change = {{"figure", c.change.figure}, {"unit", c.change.unit}, {before, c.change.full}};
+            if (c.gone) return change;
+            change.push_back({after, c.change.without});
+            change.push_back({"change", c.relative});
+            change.push_back({"error", c.change.error});
+            return change;
+          })};
 }
 
 // --- the rigid machine ---
@@ -155,24 +168,10 @@ void show_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
     f.tell("rigid", Record{{"failed", rigid.failed}});
     return;
   }
-  Rows table = table_of("", "Key figures that the rigid machine (grey, behind) has otherwise", moved_by(rigid, speed))
-                   .text_in(1)
-                   .explained_by(&MovedFigure::name)
-                   .not_on_terminal()
-                   .only_for_people("key figure", &MovedFigure::figure)
-                   .only_for_people("elastic", &MovedFigure::off)
-                   .only_for_people("rigid", &MovedFigure::on)
-                   .only_for_people("change", &MovedFigure::change);
-  f.say(chapter_named(f, chapter_of_rigid), std::move(table));
-  f.tell("rigid",
-         Record{{"changes", each(rigid.changes, [](const TrialChange& c) {
-                   Record change = {{"figure", c.change.figure}, {"unit", c.change.unit}, {"elastic", c.change.full}};
-                   if (c.gone) return change;
-                   change.push_back({"rigid", c.change.without});
-                   change.push_back({"change", c.relative});
-                   change.push_back({"error", c.change.error});
-                   return change;
-                 })}});
+  f.say(f.chapter_named(chapter_of_rigid),
+        moved_table("Key figures that the rigid machine (grey, behind) has otherwise", moved_by(rigid, speed),
+                    "elastic", "rigid", false));
+  f.tell("rigid", Record{changes_of(rigid, "elastic", "rigid")});
 }
 
 // --- effects that are off ---
@@ -184,14 +183,7 @@ Record trial_record(const Trial& trial) {
     record.push_back({"failed", trial.failed});
     return record;
   }
-  record.push_back({"changes", each(trial.changes, [](const TrialChange& c) {
-                      Record change = {{"figure", c.change.figure}, {"unit", c.change.unit}, {"off", c.change.full}};
-                      if (c.gone) return change;
-                      change.push_back({"on", c.change.without});
-                      change.push_back({"change", c.relative});
-                      change.push_back({"error", c.change.error});
-                      return change;
-                    })});
+  record.push_back(changes_of(trial, "off", "on"));
   return record;
 }
 
@@ -218,7 +210,7 @@ void conclude(Findings& f, const Trials& trials, const SpeedUnit& speed) {
 void show(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   if (trials.tried.empty() && trials.not_tried.empty()) return;
   conclude(f, trials, speed);
-  const Chapter in = chapter_named(f, chapter_of_trials);
+  const Chapter in = f.chapter_named(chapter_of_trials);
   f.say(in, Sentences{.lines = words_of(trials, speed),
                       .heading = "effects that are off:",
                       .indent = "  ",
@@ -227,16 +219,8 @@ void show(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   std::vector<MovedFigure> moved;
   for (const Trial& trial : trials.tried)
     for (MovedFigure& figure : moved_by(trial, speed)) moved.push_back(std::move(figure));
-  Rows table = table_of("", "Key figures with one effect more, a trial each (theory 14.1)", std::move(moved))
-                   .text_in(2)
-                   .explained_by(&MovedFigure::name)
-                   .not_on_terminal()
-                   .only_for_people("effect", &MovedFigure::effect)
-                   .only_for_people("key figure", &MovedFigure::figure)
-                   .only_for_people("off", &MovedFigure::off)
-                   .only_for_people("on", &MovedFigure::on)
-                   .only_for_people("change", &MovedFigure::change);
-  f.say(in, std::move(table));
+  f.say(in, moved_table("Key figures with one effect more, a trial each (theory 14.1)", std::move(moved), "off", "on",
+                        true));
   f.say(in, Sentences{.lines = other_words(trials), .terminal = false});
   f.tell("trials", Record{{"tried", each(trials.tried, trial_record)},
                           {"not_tried", each(trials.not_tried, [](const NotTried& n) {
