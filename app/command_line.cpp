@@ -77,10 +77,10 @@ void add_scene(OptionList& command, std::string& scene, bool& allow_files, std::
   command.add_flag("--allow-files", allow_files,
                    "let the scene read data files outside of its own folder (default: only there and below)");
   command
-      .add_option("--set", set,
-                  "COMPONENT.KEY=VALUE instead of what the scene says, e.g. \"main_coupling.stiffness=1 MN*m/rad\", "
-                  "\"run.start.speed=58 rpm\", \"gearbox.stages[2].ratio=3.5\"; without a value: the key's default; "
-                  "repeatable")
+      .add_option(
+          "--set", set,
+          "COMPONENT.KEY=VALUE instead of what the scene says, e.g. \"main_coupling.stiffness=1 MN*m/rad\", "
+          "\"run.start.speed=58 rpm\", \"gearbox.stages[2].ratio=3.5\"; without a value: the key's default; repeatable")
       .repeatable();
 }
 
@@ -123,8 +123,7 @@ void add_study_options(OptionList& command, StudyOptions& options) {
   options.study = command.name();
   add_scene(command, options.scene, options.allow_files, options.set);
   command.add_option("--out", options.out,
-                     "folder for report.html, summary.json and tables, replaced as a whole (default: "
-                     "results/SCENE/" +
+                     "folder for report.html, summary.json and tables, replaced as a whole (default: results/SCENE/" +
                          options.study + ")");
   command
       .add_option("--format", options.format,
@@ -143,10 +142,9 @@ void add_study_options(OptionList& command, StudyOptions& options) {
 }
 
 void add_measured_options(OptionList& command, MeasurementRequest& request) {
-  command.add_option(
-      "--measured", request.file,
-      "a test's record (CSV: headings with units, a column \"time [s]\"), laid over the plots; what is left "
-      "between them is told as figures");
+  command.add_option("--measured", request.file,
+                     "a test's record (CSV: headings with units, a column \"time [s]\"), laid over the plots; what is "
+                     "left between them is told as figures");
   command
       .add_option(
           "--map", request.maps,
@@ -156,10 +154,9 @@ void add_measured_options(OptionList& command, MeasurementRequest& request) {
   command.add_option("--shift", request.shift,
                      "added to the record's times, e.g. \"0.2 s\"; fit: found by least squares (default: none)");
   command
-      .add_option(
-          "--offset", request.offsets,
-          "what a column reads too high, e.g. \"T1=5 N*m\"; \"T1=fit\", or fit for every column: found as the mean "
-          "(default: none); repeatable")
+      .add_option("--offset", request.offsets,
+                  "what a column reads too high, e.g. \"T1=5 N*m\"; \"T1=fit\", or fit for every column: found as the "
+                  "mean (default: none); repeatable")
       .repeatable();
 }
 
@@ -296,8 +293,7 @@ Paper paper_of(const SheetOptions& options, const StudyOptions& study) {
   return paper_named(options.paper.empty() ? "A4" : options.paper);
 }
 
-int present_with_sheet(StudyOutput output, std::string html, const StudyOptions& options) {
-  output.csv.push_back({"sheet.html", [html = std::move(html)] { return html; }});
+int present_with_sheet(const StudyOutput& output, const StudyOptions& options) {
   const int code = present(output, options);
   if (output.complete && !options.json && !options.quiet)
     say(fmt::format("sheet: {}\n", (results_of(options) / "sheet.html").string()));

@@ -90,7 +90,7 @@ Paper paper_of(const SheetOptions& options, const StudyOptions& study);
 // Prints, writes the files unless asked not to, and returns the exit code.
 // `all`: the long form where there is a short one, too.
 int present(const StudyOutput& output, const StudyOptions& options, bool all = false);
-// The same with a sheet among the files.
-int present_with_sheet(StudyOutput output, std::string html, const StudyOptions& options);
+// The same of a study with a sheet among its files, and where that is.
+int present_with_sheet(const StudyOutput& output, const StudyOptions& options);
 
 }  // namespace kurbel::app

@@ -12,10 +12,9 @@ namespace kurbel::app::effects_command {
 namespace {
 
 int list_effects() {
-  say(fmt::format(
-      "elasticity — couplings and shafts twist; needs: a stiffness; states: a twist and a speed each; matters: where "
-      "an excitation "
-      "meets a mode, and for starts and blows; unless mentioned: off\n"));
+  say(
+      fmt::format("elasticity — couplings and shafts twist; needs: a stiffness; states: a twist and a speed each; "
+                  "matters: where an excitation meets a mode, and for starts and blows; unless mentioned: off\n"));
   for (const EffectFlag& effect : effect_flags())
     say(fmt::format("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
                     effect.parameters, effect.states, effect.matters,

@@ -34,9 +34,8 @@ const Verb verb{{.place = 135,
                  .name = "explain",
                  .arguments = "delta",
                  .help = "what a figure means: definition, formula, unit, what it is not",
-                 .does =
-                     "what a figure means: definition, formula, unit, what it is not, which commands tell it; without "
-                     "a name all figures",
+                 .does = "what a figure means: definition, formula, unit, what it is not, which commands tell it; "
+                         "without a name all figures",
                  .set_up = set_up,
                  .of_scene = false}};
 

@@ -1,9 +1,6 @@
 // forces_command.cpp — kurbel forces: kinetostatics of a scene's mechanism.
-#include <fmt/format.h>
 
 #include <memory>
-#include <optional>
-#include <stdexcept>
 
 #include "app/command_line.h"
 #include "app/terminal.h"
@@ -22,15 +19,8 @@ struct ForcesArguments {
   SheetOptions sheet;
 };
 
-int forces_with_sheet(const Scene& scene, const ForcesOptions& options, const ForcesArguments& arguments) {
-  const Paper paper = paper_of(arguments.sheet, arguments.study);
-  const ForcesSheet sheet = sheet_of(scene, options, paper, arguments.study.author);
-  return present_with_sheet(sheet.linkage ? output_of(*sheet.linkage) : output_of(*sheet.slider_crank), sheet.html(),
-                            arguments.study);
-}
-
 int forces(const ForcesArguments& arguments) {
-  paper_of(arguments.sheet, arguments.study);  // refused before anything runs
+  const Paper paper = paper_of(arguments.sheet, arguments.study);
   const Scene scene = read(arguments.study);
   check_folder(arguments.study);
   ForcesOptions options;
@@ -43,10 +33,8 @@ int forces(const ForcesArguments& arguments) {
     options.speed = quantity_of("--speed", arguments.speed, "a speed", "300 rpm", any_number);
   Progress progress(arguments.study.quiet);
   options.watch = watch_of(arguments.study, progress);
-  if (arguments.sheet.wanted) return forces_with_sheet(scene, options, arguments);
-  if (chosen_mechanism(scene, options.mechanism).kind->name != "slider-crank")
-    return present(output_of(find_linkage_forces(scene, options)), arguments.study);
-  return present(output_of(find_forces(scene, options)), arguments.study);
+  if (!arguments.sheet.wanted) return present(output_of_forces(scene, options), arguments.study);
+  return present_with_sheet(output_of(sheet_of(scene, options, paper, arguments.study.author)), arguments.study);
 }
 
 void set_up(OptionList& command, int& code) {

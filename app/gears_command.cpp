@@ -88,9 +88,7 @@ int gears(GearsArguments a) {
   if (!a.alone()) {
     if (const std::string option = a.alone_option(); !option.empty())
       throw std::invalid_argument(
-          fmt::format("{} belongs to a pair alone (with --teeth); a scene's stages say it "
-                      "themselves",
-                      option));
+          fmt::format("{} belongs to a pair alone (with --teeth); a scene's stages say it themselves", option));
     const Scene scene = read(a.study);
     check_folder(a.study);
     return present(output_of(find_gears(scene, {.pair = a.pair, .speed = speed})), a.study);
@@ -127,15 +125,14 @@ void set_up(OptionList& command, int& code) {
   command.action([&code, a] { code = gears(*a); });
 }
 
-const Verb verb{{.place = 60,
-                 .name = "gears",
-                 .arguments = "scene.toml",
-                 .help = "gear pairs: diameters, contact, sliding, undercut, interference, a turning drawing",
-                 .does =
-                     "gear pairs of the stages given by module: diameters, contact ratio, sliding, undercut, "
-                     "interference, mesh stiffness, a turning drawing; or a pair alone (`--teeth 19 95 --module \"4 "
-                     "mm\" --shift 0.3 0`)",
-                 .set_up = set_up}};
+const Verb verb{
+    {.place = 60,
+     .name = "gears",
+     .arguments = "scene.toml",
+     .help = "gear pairs: diameters, contact, sliding, undercut, interference, a turning drawing",
+     .does = "gear pairs of the stages given by module: diameters, contact ratio, sliding, undercut, interference, "
+             "mesh stiffness, a turning drawing; or a pair alone (`--teeth 19 95 --module \"4 mm\" --shift 0.3 0`)",
+     .set_up = set_up}};
 
 }  // namespace
 }  // namespace kurbel::app::gears_command

@@ -1,8 +1,6 @@
 // modes_command.cpp — kurbel modes: natural frequencies, critical speeds, forced response.
-#include <fmt/format.h>
 
 #include <memory>
-#include <stdexcept>
 
 #include "app/command_line.h"
 #include "app/terminal.h"
@@ -46,10 +44,8 @@ int modes(const ModesArguments& arguments) {
   }
   Progress progress(arguments.study.quiet);
   options.watch = watch_of(arguments.study, progress);
-  Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
-  if (arguments.effects.empty() && effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
-  const ModesStudy found = find_modes(scene, effects, options);
-  return present(output_of(found), arguments.study);
+  const Effects effects = arguments.effects.empty() ? effects_of_modes(scene) : parse_effects(arguments.effects, scene);
+  return present(output_of(find_modes(scene, effects, options)), arguments.study);
 }
 
 void set_up(OptionList& command, int& code) {
@@ -70,10 +66,9 @@ void set_up(OptionList& command, int& code) {
       .add_option("--range", arguments->range, "two speeds that the forced response spans, e.g. \"0 rpm\" \"3000 rpm\"")
       .values(2);
   command.add_option("--orders", arguments->orders, "highest excitation order (default: 12 … 24)");
-  command.add_option(
-      "--barred", arguments->barred,
-      "bars speeds where a joint without limits swings by more than this times its mean or the rated torque "
-      "(default: 1)");
+  command.add_option("--barred", arguments->barred,
+                     "bars speeds where a joint without limits swings by more than this times its mean or the rated "
+                     "torque (default: 1)");
   command.add_option("--spot-checks", arguments->spot_checks,
                      "speeds of the range, where most is borne, at which the nonlinear cycle is held against the "
                      "response (default: 2; 0: none)");
@@ -91,10 +86,9 @@ const Verb verb{
      .name = "modes",
      .arguments = "scene.toml",
      .help = "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra",
-     .does = "natural frequencies, shapes, damping; Campbell diagram; forced response by orders, barred "
-             "speeds, parametric zones, limits after DIN 740-2, stresses of shafts after IACS UR M68; spectrum of a "
-             "simulated torque (`--count`, "
-             "`--speed`, `--range`, `--orders`, `--spot-checks`, `--torque`)",
+     .does = "natural frequencies, shapes, damping; Campbell diagram; forced response by orders, barred speeds, "
+             "parametric zones, limits after DIN 740-2, stresses of shafts after IACS UR M68; spectrum of a simulated "
+             "torque (`--count`, `--speed`, `--range`, `--orders`, `--spot-checks`, `--torque`)",
      .set_up = set_up}};
 
 }  // namespace

@@ -24,8 +24,7 @@ int reduce_with_sheet(const Scene& scene, ReduceArguments& arguments) {
   request.author = arguments.study.author;
   if (!arguments.delta.empty())
     request.delta = quantity_of("--delta", arguments.delta, "a plain number", "0.05", any_number);
-  const ReduceSheet sheet = sheet_of(scene, arguments.options, request);
-  return present_with_sheet(output_of(sheet.reduction), sheet.html(), arguments.study);
+  return present_with_sheet(output_of(sheet_of(scene, arguments.options, request)), arguments.study);
 }
 
 int reduce_scene(ReduceArguments arguments) {
@@ -56,10 +55,9 @@ void set_up(OptionList& command, int& code) {
                      "shaft or slider, e.g. gearbox.in, flywheel, press.slider (default: the crank)");
   command.add_option("--speed", arguments->speed,
                      "of the crank, for torques that depend on it (default: the operating speed)");
-  command.add_option(
-      "--basis", arguments->basis,
-      "classical (rigid machine at constant speed) or regime (the steady cycle with the scene's effects; "
-      "default where the classical one leaves something out)");
+  command.add_option("--basis", arguments->basis,
+                     "classical (rigid machine at constant speed) or regime (the steady cycle with the scene's "
+                     "effects; default where the classical one leaves something out)");
   command.add_option("--at", arguments->at,
                      "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a "
                      "speed such as \"60 rpm\"");

@@ -45,10 +45,9 @@ void add_run_options(OptionList& command, RunArguments& arguments) {
                      "auto, work, dopri5, verner6, dop853, fehlberg8, adams, esdirk3, esdirk, esdirk5, bdf; for "
                      "multibody one of Simbody's integrators");
   command.add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
-  command.add_flag(
-      "--no-trials", arguments.no_trials,
-      "skip the runs of the rigid machine and those that try, one by one, the effects that are off (made behind short "
-      "runs only)");
+  command.add_flag("--no-trials", arguments.no_trials,
+                   "skip the runs of the rigid machine and those that try, one by one, the effects that are off (made "
+                   "behind short runs only)");
 }
 
 SimulateOptions options_of(const RunArguments& arguments, Progress& progress) {
@@ -105,8 +104,7 @@ std::optional<Measurement> measurement_of(const RunArguments& arguments, const M
   const Scene& scene = model.scene;
   if (scene.run.model != "reduced")
     throw std::invalid_argument(
-        "--measured: belongs to the reduced model, which records its channels; set model = "
-        "\"reduced\"");
+        "--measured: belongs to the reduced model, which records its channels; set model = \"reduced\"");
   Measurement measurement = read_measurement(arguments.measured, channels_of_run(model));
   if (arguments.from_state.empty()) require_overlap(measurement, 0, options.until.value_or(scene.run.until));
   options.traces = true;
@@ -182,8 +180,8 @@ void set_up_run(OptionList& command, int& code) {
   command.add_flag("--explain", arguments->explain,
                    "print what is merged, the coordinates and their inertias, and stop");
   command.add_option("--setting", arguments->setting,
-                     "method and tolerance from this summary.json, which kurbel accuracy wrote for the same scene: "
-                     "the cheapest that was exact enough");
+                     "method and tolerance from this summary.json, which kurbel accuracy wrote for the same scene: the "
+                     "cheapest that was exact enough");
   command.add_option("--save-state", arguments->save_state,
                      "writes the state at the end into this file, for --from-state");
   add_measured_options(command, arguments->measured);
@@ -195,9 +193,9 @@ void set_up_run(OptionList& command, int& code) {
 void set_up_compare(OptionList& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
   add_run_options(command, *arguments);
-  command.add_option("--against", arguments->against,
-                     "effects of the first model; none for the bare machine (default: those of the second without "
-                     "elasticity)");
+  command.add_option(
+      "--against", arguments->against,
+      "effects of the first model; none for the bare machine (default: those of the second without elasticity)");
   command.action([&code, arguments] { code = compare(*arguments); });
 }
 
@@ -207,16 +205,14 @@ const Verb run_verb{
      .arguments = "scene.toml",
      .help = "simulate a scene",
      .does = "simulates; prints the conclusion and at most twelve key figures with units and measured errors (`--all`: "
-             "all of them), writes `report.html`, `summary.json` and "
-             "`trajectory.csv` into `results/SCENE/run`; short "
+             "all of them), writes `report.html`, `summary.json` and `trajectory.csv` into `results/SCENE/run`; short "
              "runs try the effects that are off, and tell which would move a key figure, and what the rigid machine "
              "would tell, which stands grey behind",
      .set_up = set_up_run,
      .more = {
          "scene.toml --explain | what was merged, the coordinates and their inertias, and why",
          "scene.toml --until \"2 s\" --save-state warm.json | keeps the state at the end; `--from-state warm.json` "
-         "goes on from there, in this scene or in one whose parameters differ, to the last bit the same each "
-         "time",
+         "goes on from there, in this scene or in one whose parameters differ, to the last bit the same each time",
          "scene.toml --measured test.csv --map \"T1=torque.main_coupling\" --shift fit | lays a test's record over the "
          "plots and tells what is left between them"}}};
 
@@ -224,8 +220,8 @@ const Verb compare_verb{{.place = 20,
                          .name = "compare",
                          .arguments = "scene.toml",
                          .help = "the rigid against the elastic model, or any two sets of effects",
-                         .does = "rigid against elastic with the same other effects on both sides, or any two sets "
-                                 "of effects (`--effects`, `--against`); `--against none`: the bare machine",
+                         .does = "rigid against elastic with the same other effects on both sides, or any two sets of "
+                                 "effects (`--effects`, `--against`); `--against none`: the bare machine",
                          .set_up = set_up_compare}};
 
 }  // namespace

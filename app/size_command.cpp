@@ -52,12 +52,11 @@ void set_up(OptionList& command, int& code) {
   add_former_name(command, "--mean-speed", arguments->mid_speed);
   command.add_option(
       "--basis", arguments->basis,
-      "classical (constant drive torque, loads of the rigid machine at constant speed) or regime (loads of "
-      "the steady cycle with the scene's effects; default where the classical one leaves something out)");
-  command.add_option(
-      "--at", arguments->at,
-      "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
-      "speed such as \"60 rpm\"");
+      "classical (constant drive torque, loads of the rigid machine at constant speed) or regime (loads of the steady "
+      "cycle with the scene's effects; default where the classical one leaves something out)");
+  command.add_option("--at", arguments->at,
+                     "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a "
+                     "mid speed such as \"60 rpm\"");
   command.add_option("--flywheel", o.flywheel,
                      "component to size (default: the scene's flywheel, else one on the crank)");
   command.add_option("--form", arguments->form, "rim (on spokes; default) or disc");

@@ -2,15 +2,12 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <numbers>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "app/command_line.h"
 #include "app/verb.h"
 #include "studies/measured/overlay.h"
-#include "studies/run/compare.h"
 #include "studies/steady/steady.h"
 
 namespace kurbel::app::steady_command {
@@ -43,32 +40,14 @@ SteadyOptions options_of(const SteadyArguments& arguments, Progress& progress) {
   return options;
 }
 
-// The scene's own effects, rigid and elastic: elasticity alone differs. A scene without any is shown with all of its
-// elasticity, too. The rigid cycle has ideal joints, which the study tells.
-std::vector<Effects> effects_of(const SteadyArguments& arguments, const Scene& scene) {
-  if (!arguments.effects.empty()) return {parse_effects(arguments.effects, scene)};
-  Effects full = scene.effects;
-  if (full.describe() == "none") full.all_elastic = true;
-  if (!is_elastic(*compile(scene, full))) return {scene.effects};
-  return {without_elasticity(full), full};
-}
-
 int steady(const SteadyArguments& arguments) {
   const Scene scene = read(arguments.study);
   check_folder(arguments.study);
   Progress progress(arguments.study.quiet);
-  const std::vector<Effects> effects = effects_of(arguments, scene);
-  SteadyOptions options = options_of(arguments, progress);
-  std::optional<Measurement> measurement;
-  if (arguments.measured.asked()) {
-    measurement = read_measurement(arguments.measured, channels_of_cycle(*compile(scene, effects.back())));
-    options.traces = true;
-  }
-  SteadyStudy study = kurbel::steady(scene, effects, options);
-  const std::optional<Overlay> overlay = measurement ? std::optional(lay_over(*measurement, study)) : std::nullopt;
-  Findings findings = findings_of(study);
-  if (overlay) show(findings, *overlay);
-  return present(rendered(std::move(findings)), arguments.study);
+  const std::vector<Effects> effects =
+      arguments.effects.empty() ? effects_side_by_side(scene) : std::vector{parse_effects(arguments.effects, scene)};
+  const SteadyOptions options = options_of(arguments, progress);
+  return present(cycles_under(arguments.measured, scene, effects, options), arguments.study);
 }
 
 void set_up(OptionList& command, int& code) {
@@ -79,10 +58,9 @@ void set_up(OptionList& command, int& code) {
   command.add_option("--mid-speed", arguments->mid_speed,
                      "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\": finds the drive torque that it needs");
   add_former_name(command, "--mean-speed", arguments->mid_speed);
-  command.add_option(
-      "--at", arguments->at,
-      "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
-      "speed (default: where its own start leads to)");
+  command.add_option("--at", arguments->at,
+                     "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a "
+                     "mid speed (default: where its own start leads to)");
   command.add_option("--periods", arguments->periods, "cycles after which the motion repeats (default: 1)");
   add_measured_options(command, arguments->measured);
   command.add_flag("--no-start", arguments->no_start,
@@ -90,16 +68,16 @@ void set_up(OptionList& command, int& code) {
   command.action([&code, arguments] { code = steady(*arguments); });
 }
 
-const Verb verb{{.place = 80,
-                 .name = "steady",
-                 .arguments = "scene.toml",
-                 .help = "the steady cycle directly: its figures, its stability, operating points",
-                 .does = "the steady cycle directly, rigid and elastic: δ at every shaft, torques, works, Floquet "
-                         "multipliers (is it stable?), operating points, motor use, start time; `--mid-speed \"60 "
-                         "rpm\"` finds the drive torque for a speed; `--measured test.csv --map "
-                         "\"T1=torque.main_coupling\"` lays a test's record over the cycle, its time taken modulo the "
-                         "period",
-                 .set_up = set_up}};
+const Verb verb{
+    {.place = 80,
+     .name = "steady",
+     .arguments = "scene.toml",
+     .help = "the steady cycle directly: its figures, its stability, operating points",
+     .does = "the steady cycle directly, rigid and elastic: δ at every shaft, torques, works, Floquet multipliers (is "
+             "it stable?), operating points, motor use, start time; `--mid-speed \"60 rpm\"` finds the drive torque "
+             "for a speed; `--measured test.csv --map \"T1=torque.main_coupling\"` lays a test's record over the "
+             "cycle, its time taken modulo the period",
+     .set_up = set_up}};
 
 }  // namespace
 }  // namespace kurbel::app::steady_command

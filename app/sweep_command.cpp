@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
-#include <thread>
 
 #include "app/command_line.h"
 #include "app/terminal.h"
@@ -16,7 +14,6 @@
 #include "engine/tables/table_text.h"
 #include "studies/difference/difference.h"
 #include "studies/sweep/machine.h"
-#include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/uncertainty/uncertainty.h"
 
@@ -51,16 +48,6 @@ std::size_t errors_every(const std::string& errors) {
     if (const auto read = std::from_chars(errors.data() + 6, end, every); read.ptr == end && every > 0) return every;
   throw std::invalid_argument(
       fmt::format("--errors {}: must be measure, none or every:N, e.g. every:20", in_quotes(errors)));
-}
-
-void read_shard(const std::string& text, SweepJob& job) {
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), text.data() + slash, job.shard);
-  const auto second = slash < text.size() ? std::from_chars(text.data() + slash + 1, end, job.shards) : first;
-  if (first.ec != std::errc{} || first.ptr != text.data() + slash || second.ptr != end || slash == text.size() ||
-      job.shard < 1 || job.shard > job.shards)
-    throw std::invalid_argument(fmt::format("--shard {}: must be I/N with 1 ≤ I ≤ N, e.g. 3/64", in_quotes(text)));
 }
 
 // What is varied: of --variants with its values, else of --vary.
@@ -104,44 +91,25 @@ MachineQuestion question_of(const SweepArguments& a) {
   return q;
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += text + "\n";
-  return all;
-}
-
 SweepIdentity identity_of(const SweepArguments& a, const Scene& scene, const Design& design,
-                          std::vector<SweptFigure> figures) {
-  SweepIdentity id{.meta = {},
-                   .shard = a.shard,
-                   .parameters = design.parameters(),
-                   .figures = std::move(figures),
-                   .rows = design.rows()};
-  std::vector<std::string> varied, names;
-  for (const SweptParameter& p : design.parameters()) varied.push_back(p.given);
-  for (const SweptFigure& f : id.figures) names.push_back(f.name);
-  id.meta = {{"version", program_version()},
-             {"title", scene.title},
-             {"scene file", a.study.scene},
-             {"scene text", scene.text},
-             {"settings", joined(a.study.set)},
-             {"of", a.of},
-             {"errors", a.errors},
-             {"design", design.text()},
-             {"seed", std::to_string(a.seed)},
-             {"varied", joined(varied)},
-             {"figures", joined(names)}};
-  if (!a.delta.empty()) id.meta["delta"] = a.delta;
-  if (!a.variants.empty()) id.meta["variants"] = read_table_text(a.variants).text;
-  return id;
+                          const std::vector<SweptFigure>& figures) {
+  std::map<std::string, std::string> meta{{"title", scene.title},
+                                          {"scene file", a.study.scene},
+                                          {"scene text", scene.text},
+                                          {"settings", joined_lines(a.study.set)},
+                                          {"of", a.of},
+                                          {"errors", a.errors},
+                                          {"seed", std::to_string(a.seed)}};
+  if (!a.delta.empty()) meta["delta"] = a.delta;
+  if (!a.variants.empty()) meta["variants"] = read_table_text(a.variants).text;
+  return identity_of(design, figures, a.shard, std::move(meta));
 }
 
 int sweep(const SweepArguments& a) {
   VariantTable table = table_asked(a);
   const MachineQuestion question = question_of(a);
-  SweepJob job{.jobs = a.jobs};
-  read_shard(a.shard, job);
-  if (job.jobs == 0) job.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  SweepJob job{.jobs = threads_of(a.jobs)};
+  read_shard("--shard", a.shard, job);
   // Whatever is wrong is told before anything is written.
   const Scene scene = read(a.study);
   const VariedScene varied(question, table.parameters);
@@ -174,12 +142,12 @@ void set_up_sweep(OptionList& command, int& code) {
                   "KEY=FROM..TO UNIT or KEY=A,B,C UNIT, e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\", "
                   "\"flywheel.inertia=200,400,800 kg*m2\"; repeatable")
       .repeatable();
-  command.add_option("--variants", a->variants,
-                     "a table instead: a CSV file whose header names the keys, \"flywheel.inertia [kg*m2]\"; a row a "
-                     "variant");
+  command.add_option(
+      "--variants", a->variants,
+      "a table instead: a CSV file whose header names the keys, \"flywheel.inertia [kg*m2]\"; a row a variant");
   command.add_option("--design", a->design,
-                     "grid:21x3, sobol:4096, lhs:500, random:500, or saltelli:1024 for Sobol indices, which makes "
-                     "1024 (k + 2) rows (default: grid, of lists)");
+                     "grid:21x3, sobol:4096, lhs:500, random:500, or saltelli:1024 for Sobol indices, which makes 1024 "
+                     "(k + 2) rows (default: grid, of lists)");
   command
       .add_option(
           "--figures", a->figures,
@@ -191,10 +159,9 @@ void set_up_sweep(OptionList& command, int& code) {
   command.add_option("--delta", a->delta, "demanded δ, of --of size");
   command.add_option("--errors", a->errors, "measure (default), none, or every:20 for those of every 20th row");
   command
-      .add_option(
-          "--into", a->into,
-          "the database (SQLite) that is filled, or gone on with, on a disk of this machine; what is committed (four "
-          "times a second) survives a kill and, where the disk flushes when told to, a power cut")
+      .add_option("--into", a->into,
+                  "the database (SQLite) that is filled, or gone on with, on a disk of this machine; what is committed "
+                  "(four times a second) survives a kill and, where the disk flushes when told to, a power cut")
       .required();
   command.add_option("--jobs", a->jobs, "threads (default: one for each core)").check(thread_count);
   command.add_option("--shard", a->shard, "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together");
@@ -258,7 +225,7 @@ int uncertainty(UncertaintyArguments a) {
   check_folder(a.study);
   Progress progress(a.study.quiet);
   a.options.watch = watch_of(a.study, progress);
-  if (a.options.jobs == 0) a.options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  a.options.jobs = threads_of(a.options.jobs);
   return present(output_of(study_uncertainty(question, a.options)), a.study);
 }
 
@@ -288,9 +255,9 @@ const Verb uncertainty_verb{
      .name = "uncertainty",
      .arguments = "scene.toml --limit \"delta.press <= 0.05\"",
      .help = "what the tolerances of a scene make of its figures, and which of them matters",
-     .does = "what tolerances that the scene gives (`stiffness = { value = \"900 kN*m/rad\", tolerance = \"10 "
-             "%\", distribution = \"normal\", k = 2 }`) make of the figures, by gradients and by samples; how "
-             "surely limits hold; which tolerance matters; numerical errors and known biases apart",
+     .does = "what tolerances that the scene gives (`stiffness = { value = \"900 kN*m/rad\", tolerance = \"10 %\", "
+             "distribution = \"normal\", k = 2 }`) make of the figures, by gradients and by samples; how surely limits "
+             "hold; which tolerance matters; numerical errors and known biases apart",
      .set_up = set_up_uncertainty}};
 
 struct DifferenceArguments {
@@ -338,9 +305,8 @@ const Verb difference_verb{
      .name = "diff",
      .arguments = "a.toml b.toml",
      .help = "two machines figure by figure, and what differs in their scenes",
-     .does =
-         "puts the same question (`--of`) to two scenes, or to one with other values (`--other-set`): every figure of "
-         "both with its error, whether they differ by more than that, and the keys that differ",
+     .does = "puts the same question (`--of`) to two scenes, or to one with other values (`--other-set`): every figure "
+             "of both with its error, whether they differ by more than that, and the keys that differ",
      .set_up = set_up_difference,
      .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | what one value does"}}};
 

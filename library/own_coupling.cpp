@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include <cmath>
 #include <map>
 #include <mutex>
 #include <stdexcept>

@@ -161,8 +161,7 @@ void refuse_forces_of_own(const Scene& scene, const std::string& wanted) {
   if (!own) return;
   throw std::invalid_argument(
       fmt::format("{}: {} is a {}, a kind of its user's own, of which the motion of the links is known and no joint, "
-                  "so that reactions "
-                  "have no place; ask run, steady or reduce, or describe it by one of {}",
+                  "so that reactions have no place; ask run, steady or reduce, or describe it by one of {}",
                   scene.file, in_quotes(own->name), in_quotes(own->kind->name), listed(known)));
 }
 

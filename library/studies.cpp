@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <thread>
 
 #include "library/machine_parts.h"
 #include "library/option_values.h"
@@ -72,25 +71,6 @@ StudyOutput compared(Asked& a) {
   return output_of(with_trials(std::move(comparison), simulation));
 }
 
-// Cycles and a test's record over them.
-struct MeasuredCycles {
-  SteadyStudy study;
-  std::optional<Overlay> overlay;
-};
-Findings findings_of(const MeasuredCycles& measured) {
-  Findings findings = findings_of(measured.study);
-  if (measured.overlay) show(findings, *measured.overlay);
-  return findings;
-}
-StudyOutput cycles_of(Asked& a, const std::vector<Effects>& effects, const SteadyOptions& options,
-                      const MeasurementRequest& request) {
-  std::optional<Measurement> measurement;
-  if (request.asked()) measurement = read_measurement(request, channels_of_cycle(*compile(a.scene(), effects.back())));
-  MeasuredCycles cycles{steady(a.scene(), effects, options), {}};
-  if (measurement) cycles.overlay = lay_over(*measurement, cycles.study);
-  return output_of(std::move(cycles));
-}
-
 StudyOutput steady_cycle(Asked& a) {
   SteadyOptions o{.traces = true, .watch = a.watch};
   const auto effects = a.options.effects("effects", a.scene());
@@ -103,11 +83,7 @@ StudyOutput steady_cycle(Asked& a) {
                                     .shift = a.options.text("shift"),
                                     .offsets = a.options.texts("offset")};
   if (!a.ready()) return {};
-  if (effects) return cycles_of(a, {*effects}, o, measured);
-  Effects full = a.scene().effects;
-  if (full.describe() == "none") full.all_elastic = true;
-  if (!is_elastic(*compile(a.scene(), full))) return cycles_of(a, {a.scene().effects}, o, measured);
-  return cycles_of(a, {without_elasticity(full), full}, o, measured);
+  return cycles_under(measured, a.scene(), effects ? std::vector{*effects} : effects_side_by_side(a.scene()), o);
 }
 
 StudyOutput natural_modes(Asked& a) {
@@ -128,9 +104,7 @@ StudyOutput natural_modes(Asked& a) {
   o.orders = a.options.quantity("orders", "a plain number > 0", "12", positive).value_or(o.orders);
   o.barred_factor = a.options.quantity("barred", "a plain number > 0", "1", positive).value_or(o.barred_factor);
   if (!a.ready()) return {};
-  Effects effects = asked.value_or(a.scene().effects);
-  if (!asked && effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
-  return output_of(find_modes(a.scene(), effects, o));
+  return output_of(find_modes(a.scene(), asked.value_or(effects_of_modes(a.scene())), o));
 }
 
 // A sheet of the positions to be printed, if it is asked for.
@@ -140,10 +114,6 @@ std::optional<Paper> paper_asked(Asked& a) {
   if (!wanted && !paper.empty()) throw std::invalid_argument("paper: is that of the sheet; ask for sheet, too");
   if (!wanted) return {};
   return paper_named(paper.empty() ? "A4" : paper);
-}
-StudyOutput with_sheet(StudyOutput output, std::string html) {
-  output.csv.push_back({"sheet.html", [html = std::move(html)] { return html; }});
-  return output;
 }
 
 StudyOutput forces_in_joints(Asked& a) {
@@ -158,15 +128,7 @@ StudyOutput forces_in_joints(Asked& a) {
   const std::optional<Paper> paper = paper_asked(a);
   if (!a.ready()) return {};
   refuse_forces_of_own(a.scene(), o.mechanism);
-  if (paper) {
-    ForcesSheet sheet = sheet_of(a.scene(), o, *paper, "");
-    std::string html = sheet.html();
-    return with_sheet(sheet.linkage ? output_of(std::move(*sheet.linkage)) : output_of(std::move(*sheet.slider_crank)),
-                      std::move(html));
-  }
-  if (chosen_mechanism(a.scene(), o.mechanism).kind->name != "slider-crank")
-    return output_of(find_linkage_forces(a.scene(), o));
-  return output_of(find_forces(a.scene(), o));
+  return paper ? output_of(sheet_of(a.scene(), o, *paper, "")) : output_of_forces(a.scene(), o);
 }
 
 StudyOutput sized(Asked& a) {
@@ -213,9 +175,7 @@ StudyOutput reduced(Asked& a) {
   if (!a.ready()) return {};
   if (!paper) return output_of(reduce(a.scene(), o));
   request.paper = *paper;
-  ReduceSheet sheet = sheet_of(a.scene(), o, request);
-  std::string html = sheet.html();
-  return with_sheet(output_of(std::move(sheet.reduction)), std::move(html));
+  return output_of(sheet_of(a.scene(), o, request));
 }
 
 StudyOutput gear_pairs(Asked& a) {
@@ -269,8 +229,7 @@ StudyOutput uncertain(Asked& a) {
   o.biases = !a.options.flag("no_trials");
   if (const auto samples = a.options.whole("samples", 10, 1'000'000)) o.samples = static_cast<std::size_t>(*samples);
   if (const auto seed = a.options.whole("seed", 0, 1 << 30)) o.seed = static_cast<std::uint64_t>(*seed);
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  o.jobs = a.options.whole("jobs", 1, 1024).value_or(cores);
+  o.jobs = threads_of(a.options.whole("jobs", 1, 1024).value_or(0));
   if (!a.ready()) return {};
   return output_of(study_uncertainty(question, o));
 }

@@ -4,16 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <stdexcept>
-#include <thread>
 
 #include "engine/numerics/deadline.h"
 #include "library/machine_parts.h"
 #include "studies/sweep/machine.h"
-#include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep.h"
 #include "studies/sweep/sweep_findings.h"
 
@@ -26,38 +22,6 @@ Design design_of(const Variation& variation) {
   if (parameters.empty())
     throw std::invalid_argument("nothing is varied; give e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\"");
   return Design(variation.design, std::move(parameters), variation.seed);
-}
-
-void read_shard(const std::string& text, SweepJob& job) {
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), text.data() + slash, job.shard);
-  const auto second = slash < text.size() ? std::from_chars(text.data() + slash + 1, end, job.shards) : first;
-  if (first.ec != std::errc{} || first.ptr != text.data() + slash || second.ptr != end || slash == text.size() ||
-      job.shard < 1 || job.shard > job.shards)
-    throw std::invalid_argument(fmt::format("shard {}: must be I/N with 1 ≤ I ≤ N, e.g. 3/64", in_quotes(text)));
-}
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += text + "\n";
-  return all;
-}
-
-SweepIdentity identity_of(const Variation& variation, const Design& design, std::vector<SweptFigure> figures,
-                          std::map<std::string, std::string> meta, const std::string& shard) {
-  std::vector<std::string> names;
-  for (const SweptFigure& figure : figures) names.push_back(figure.name);
-  meta.insert({{"version", program_version()},
-               {"design", design.text()},
-               {"seed", std::to_string(variation.seed)},
-               {"varied", joined(variation.vary)},
-               {"figures", joined(names)}});
-  return {.meta = std::move(meta),
-          .shard = shard,
-          .parameters = design.parameters(),
-          .figures = std::move(figures),
-          .rows = design.rows()};
 }
 
 SweepLine line_of(SweepRow&& row, std::size_t columns) {
@@ -95,9 +59,9 @@ struct KeptSweep {
 SweepRows computed(const Design& design, const SweepIdentity& identity, const SweepChoices& choices,
                    const std::function<Evaluator()>& evaluator) {
   if (choices.into.empty()) throw std::invalid_argument("a sweep needs a file that it fills: into");
-  SweepJob job{.design = &design, .jobs = choices.jobs, .evaluator = evaluator, .watch = watch_of(choices.watcher)};
-  if (job.jobs <= 0) job.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  read_shard(choices.shard, job);
+  SweepJob job{
+      .design = &design, .jobs = threads_of(choices.jobs), .evaluator = evaluator, .watch = watch_of(choices.watcher)};
+  read_shard("shard", choices.shard, job);
   SweepStore store(choices.into, identity);
   const SweepEnd end = run_sweep(job, store);
   SweepRows rows = choices.lines ? held_rows_of(store) : rows_of(store, {});
@@ -140,7 +104,8 @@ SweepRows sweep(const Variation& variation, const std::string& question, const s
   const Design design = design_of(variation);
   std::vector<SweptFigure> figures;
   for (const SweepColumn& column : columns) figures.push_back({column.name, column.unit});
-  const SweepIdentity identity = identity_of(variation, design, figures, {{"of", question}}, choices.shard);
+  const SweepIdentity identity =
+      identity_of(design, figures, choices.shard, {{"of", question}, {"seed", std::to_string(variation.seed)}});
   const Evaluator evaluator = [&](SweepRow& row) {
     try {
       const std::vector<double> values = function(row.parameters);
@@ -190,14 +155,14 @@ SweepRows sweep(const Machine& machine, const Variation& variation, const std::v
     const MachineQuestion question = question_of(parts, of, choices.watcher);
     const VariedScene varied(question, design.parameters());
     const std::vector<SweptFigure> wanted = chosen(figures_of(question), figures);
-    const SweepIdentity identity = identity_of(variation, design, wanted,
+    const SweepIdentity identity = identity_of(design, wanted, choices.shard,
                                                {{"title", parts.scene.title},
                                                 {"scene file", parts.file},
                                                 {"scene text", parts.scene.text},
-                                                {"settings", joined(parts.settings)},
+                                                {"settings", joined_lines(parts.settings)},
                                                 {"of", of},
-                                                {"errors", "measure"}},
-                                               choices.shard);
+                                                {"errors", "measure"},
+                                                {"seed", std::to_string(variation.seed)}});
     return computed(design, identity, choices, [&] { return machine_evaluator(question, varied, wanted); });
   });
 }

@@ -26,6 +26,10 @@ struct StudyOutput {
   std::string diagnosis = {};    // of a run that failed on its way
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
   std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
+
+  void add_file(const std::string& name, std::string text) {
+    csv.push_back({name, [text = std::move(text)] { return text; }});
+  }
 };
 
 // The renderings of findings, each in its own file: render_terminal.cpp, render_json.cpp, render_page.cpp.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
@@ -194,14 +193,13 @@ Formulas torque_formula(const Forces& f) {
   return Formulas()
       .add(fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(peak->state.phi)),
            "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
-           "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) "
-           "= {:.6g} N·m",
+           "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) = {:.6g} N·m",
            inertia.value, peak->state.alpha, inertia.slope, w, weight, peak->state.slider_force, slope, loss,
            peak->forces.torque)
       .note(
-          "I_r reduced inertia, M_g torque of the weights, F force on the slider, P_f power lost in the joints; "
-          "SI units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the "
-          "power balance below.");
+          "I_r reduced inertia, M_g torque of the weights, F force on the slider, P_f power lost in the joints; SI "
+          "units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the power "
+          "balance below.");
 }
 
 Formulas mass_formula(const Forces& f) {
@@ -209,8 +207,8 @@ Formulas mass_formula(const Forces& f) {
   return Formulas()
       .add("Masses that rotate and that reciprocate (theory 9.11)",
            "U_rot = m₁ s₁ + m₂ (1 − c/l) r,   m_rec = m₃ + m₂ c/l",
-           "U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + "
-           "{:.5g} · {:.4g} = {:.5g} kg",
+           "U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + {:.5g} · "
+           "{:.4g} = {:.5g} kg",
            f.data.crank_mass, f.data.crank_com, f.data.rod_mass, share, f.data.radius, f.rotating_moment,
            f.data.slider_mass, f.data.rod_mass, share, f.reciprocating_mass)
       .note(
@@ -244,8 +242,8 @@ constexpr const char* signs =
     "Axes of the mechanism: origin on the crank's axis, +x along the stroke towards the extended end, +y 90° ahead of "
     "it; angles, torques and moments counter-clockwise. Main bearing: frame on crank. Crank pin: crank on rod. Slider "
     "pin: rod on slider. Guide: frame on slider, along +y. Each body does the opposite to the first. The balancing "
-    "torque is the shaft's on the crank. Shaking force and moment are those of all inertia forces −m a and couples "
-    "−I ε on the frame, moments about the crank's axis; loads and weights are not in them.";
+    "torque is the shaft's on the crank. Shaking force and moment are those of all inertia forces −m a and couples −I "
+    "ε on the frame, moments about the crank's axis; loads and weights are not in them.";
 
 void say_positions(Findings& to, Chapter in, const Forces& f) {
   to.say(in, peak_table(f, peaks_of).text_in(1).not_on_page());
@@ -302,10 +300,10 @@ Findings findings_of(const Forces& f) {
   to.tell("signs", signs);
   to.draw(reactions, [&f] { return reaction_plots(f); });
   to.show(reactions, Text{.title = "Signs and axes", .body = signs});
-  to.show(polar, Text{.title = "",
-                      .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are "
-                              "pressed; turning with the pin, where the pin is: that is where an oil hole must not "
-                              "be."});
+  to.show(polar,
+          Text{.title = "",
+               .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; "
+                       "turning with the pin, where the pin is: that is where an oil hole must not be."});
   to.draw(polar, [&f] { return polar_plots(f); });
   say_positions(to, positions, f);
   say_friction(to, friction, f);
@@ -318,6 +316,12 @@ Findings findings_of(const Forces& f) {
     to.csv.push_back({fmt::format("forces_{}.csv", c->label), [c] { return csv_of(*c); }});
   to.csv.push_back({fmt::format("links_{}.csv", front_of(f).label), [&f] { return csv_of_links(*f.links); }});
   return to;
+}
+
+StudyOutput output_of_forces(const Scene& scene, const ForcesOptions& options) {
+  if (chosen_mechanism(scene, options.mechanism).kind->name == "slider-crank")
+    return output_of(find_forces(scene, options));
+  return output_of(find_linkage_forces(scene, options));
 }
 
 }  // namespace kurbel

@@ -10,6 +10,8 @@ namespace kurbel {
 // Files: forces_prescribed.csv, forces_simulated.csv, links_….csv. The forces must outlive the findings.
 Findings findings_of(const Forces& forces);
 Findings findings_of(const LinkageStudy& study);
+// Of the mechanism asked for, of either kind. Throws as find_forces and find_linkage_forces do.
+StudyOutput output_of_forces(const Scene& scene, const ForcesOptions& options);
 
 // Peaks in words: "90.0°", "10.45 kN"; for tables with the error, or "no bound".
 double degrees(double angle);

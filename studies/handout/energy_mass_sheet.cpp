@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "engine/numerics/angles.h"
 #include "studies/sheet/diagram.h"

@@ -40,15 +40,9 @@ template <class Position>
 void take(ForcesSheet& sheet, const std::vector<Position>& also, const std::vector<Position>& curve) {
   for (const Position& p : also) sheet.looks.push_back(forces_of(p));
   for (std::size_t k = 1; k < sheet.looks.size(); k += 3) sheet.at.push_back(sheet.looks[k]);
-  const SheetCycle& cycle = sheet.motion.cycle;
-  std::vector<std::pair<double, ForcesAt>> by_way;
-  for (const Position& p : curve) {
-    ForcesAt at = forces_of(p);
-    if (at.phi < cycle.length * (1 - 1e-12)) by_way.emplace_back(cycle.way_at(at.phi), std::move(at));
-  }
-  std::stable_sort(by_way.begin(), by_way.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  by_way.emplace_back(cycle.length, by_way.front().second);
-  for (auto& [way, at] : by_way) sheet.way.push_back(way), sheet.curve.push_back(std::move(at));
+  std::vector<ForcesAt> forces;
+  for (const Position& p : curve) forces.push_back(forces_of(p));
+  for (const auto& [way, at] : by_way(sheet.motion.cycle, forces)) sheet.way.push_back(way), sheet.curve.push_back(*at);
 }
 
 // "R_12": the reaction of link 1 on link 2; the frame is 0.
@@ -108,15 +102,7 @@ using Get = std::function<double(const ForcesAt&)>;
 class TableOfForces {
  public:
   TableOfForces(const ForcesSheet& sheet, const std::string& title)
-      : rows_(rows_of(sheet)), table_{.title = title, .labels = {}, .columns = {}} {
-    for (const ForcesRow& row : rows_) {
-      table_.labels.push_back(row.label);
-      table_.stressed.push_back(!row.position->numbered || row.position->greatest);
-    }
-    SheetColumn angle{"φ", "°", {}};
-    for (const ForcesRow& row : rows_) angle.values.push_back(row.position->phi * in_degrees);
-    table_.columns.push_back(std::move(angle));
-  }
+      : rows_(rows_of(sheet)), table_(table_of_positions(title, rows_)) {}
   // Values that are rounding dust beside `scale` are zeros.
   void add(const std::string& symbol, const std::string& unit, const Get& get, double scale = 0) {
     SheetColumn column{symbol, unit, {}};
@@ -181,8 +167,7 @@ SheetTable reaction_table(const ForcesSheet& sheet) {
   t.add("M_b", "N·m", [](const ForcesAt& at) { return at.torque; });
   t.table().note = fmt::format(
       "{}α: direction from +x, counter-clockwise; a guide's reaction along +y; M_b: balancing torque of the shaft on "
-      "the crank; "
-      "{}: load on the output, positive {}; {}.{}",
+      "the crank; {}: load on the output, positive {}; {}.{}",
       words, load_rocks(sheet) ? "M_load" : "F", load_rocks(sheet) ? "counter-clockwise" : "along +x", sheet.speed,
       notes_of(sheet));
   return t.table();
@@ -310,6 +295,13 @@ ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Pap
     take(sheet, sheet.linkage->also, sheet.linkage->prescribed->curve);
   }
   return sheet;
+}
+
+StudyOutput output_of(ForcesSheet sheet) {
+  std::string html = sheet.html();
+  StudyOutput output = sheet.linkage ? output_of(std::move(*sheet.linkage)) : output_of(std::move(*sheet.slider_crank));
+  output.add_file("sheet.html", std::move(html));
+  return output;
 }
 
 }  // namespace kurbel

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/forces/forces.h"
-#include "studies/forces/linkage_cycle.h"
+#include "studies/forces/forces_findings.h"
 #include "studies/sheet/mechanism_sheets.h"
 #include "studies/sheet/paper.h"
 
@@ -53,5 +52,7 @@ struct ForcesSheet {
 
 // Throws as the study does, and std::invalid_argument for a crank that rocks.
 ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Paper& paper, const std::string& author);
+// What is said of the forces, the sheet among the files: sheet.html.
+StudyOutput output_of(ForcesSheet sheet);
 
 }  // namespace kurbel

@@ -83,12 +83,8 @@ void look_along(ReduceSheet& sheet) {
     sheet.at.push_back(r.also[3 * k + 1]);
     sheet.motion.at.push_back(motion(sheet.at.back()));
   }
-  std::vector<std::pair<double, const ReducedPosition*>> by_way;
-  for (const ReducedPosition& p : r.curve)
-    if (p.phi < r.cycle * (1 - 1e-12)) by_way.emplace_back(sheet.motion.cycle.way_at(p.phi), &p);
-  std::stable_sort(by_way.begin(), by_way.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  by_way.emplace_back(r.cycle, by_way.front().second);
-  for (const auto& [way, p] : by_way) sheet.motion.way.push_back(way), sheet.motion.between.push_back(motion(*p));
+  for (const auto& [way, p] : by_way(sheet.motion.cycle, r.curve))
+    sheet.motion.way.push_back(way), sheet.motion.between.push_back(motion(*p));
 }
 
 // --- works ---
@@ -142,17 +138,12 @@ std::vector<ReducedRow> rows_of(const ReduceSheet& sheet) {
 SheetTable torque_table(const ReduceSheet& sheet) {
   const MachineReduction& r = sheet.reduction;
   const std::vector<ReducedRow> rows = rows_of(sheet);
-  SheetTable t{.title = fmt::format("Reduced to {}: torques, inertia, works", r.link), .labels = {}, .columns = {}};
-  for (const ReducedRow& row : rows) {
-    t.labels.push_back(row.label);
-    t.stressed.push_back(!row.position->numbered || row.position->greatest);
-  }
+  SheetTable t = table_of_positions(fmt::format("Reduced to {}: torques, inertia, works", r.link), rows);
   const auto add = [&](const std::string& symbol, const std::string& unit, const auto& get) {
     SheetColumn column{symbol, unit, {}};
     for (const ReducedRow& row : rows) column.values.push_back(get(row));
     t.columns.push_back(std::move(column));
   };
-  add("φ", "°", [](const ReducedRow& row) { return row.position->phi * in_degrees; });
   add("M_d", "N·m", [](const ReducedRow& row) { return row.values->drive; });
   add("M_c", "N·m", [](const ReducedRow& row) { return row.values->load; });
   add("I_em", "kg·m²", [](const ReducedRow& row) { return row.values->mechanism_inertia; });
@@ -160,8 +151,7 @@ SheetTable torque_table(const ReduceSheet& sheet) {
   add("I_r′", "kg·m²/rad", [](const ReducedRow& row) { return row.values->slope; });
   t.note = fmt::format(
       "M_d, M_c: driving and resisting torque reduced to {}, at {}; I_em: reduced inertia of the mechanisms, I_r: of "
-      "the "
-      "whole machine; letters: edges of the load and its greatest value, ⁻ just before, ⁺ just after.",
+      "the whole machine; letters: edges of the load and its greatest value, ⁻ just before, ⁺ just after.",
       r.link, speed_words(r));
   if (sheet.works) {
     const WorkDiagram& d = sheet.works->sizing.diagram;
@@ -177,14 +167,9 @@ SheetTable torque_table(const ReduceSheet& sheet) {
 }
 
 SheetCurve of_positions(const ReduceSheet& sheet, const std::string& symbol, Pen pen, double ReducedPosition::*value) {
-  const MachineReduction& r = sheet.reduction;
-  std::vector<std::pair<double, double>> points;
-  for (const ReducedPosition& p : r.curve)
-    if (p.phi < r.cycle * (1 - 1e-12)) points.emplace_back(sheet.motion.cycle.way_at(p.phi), p.*value);
-  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  points.emplace_back(r.cycle, points.front().second);
   SheetCurve curve{symbol, {}, {}, {}, pen};
-  for (const auto& [way, v] : points) curve.way.push_back(way), curve.value.push_back(v);
+  for (const auto& [way, p] : by_way(sheet.motion.cycle, sheet.reduction.curve))
+    curve.way.push_back(way), curve.value.push_back(p->*value);
   for (const ReducedPosition& p : sheet.at) curve.at_positions.push_back(p.*value);
   return curve;
 }
@@ -304,6 +289,13 @@ ReduceSheet sheet_of(const Scene& given, const ReduceOptions& options, const Red
   look_along(sheet);
   find_works(sheet, given, options);
   return sheet;
+}
+
+StudyOutput output_of(ReduceSheet sheet) {
+  std::string html = sheet.html();
+  StudyOutput output = output_of(std::move(sheet.reduction));
+  output.add_file("sheet.html", std::move(html));
+  return output;
 }
 
 }  // namespace kurbel

@@ -48,5 +48,7 @@ struct ReduceSheet {
 // Throws as reduce does; std::invalid_argument for a machine without a mechanism that goes round, for a target (`to`)
 // other than the link, and as size does where a δ is demanded that cannot be had.
 ReduceSheet sheet_of(const Scene& scene, const ReduceOptions& options, const ReduceSheetRequest& request);
+// What is said of the reduction, the sheet among the files: sheet.html.
+StudyOutput output_of(ReduceSheet sheet);
 
 }  // namespace kurbel

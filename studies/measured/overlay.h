@@ -39,5 +39,8 @@ Overlay lay_over(const Measurement& measurement, SteadyStudy& study);
 
 // The overlay must outlive the findings.
 void show(Findings& findings, const Overlay& overlay);
+// The steady cycles, with a test's record over them where one is asked for. Throws as steady and read_measurement do.
+StudyOutput cycles_under(const MeasurementRequest& request, const Scene& scene, const std::vector<Effects>& effects,
+                         SteadyOptions options);
 
 }  // namespace kurbel

@@ -177,16 +177,10 @@ Record model_record(const Overlay& o, const ModelOverlay& m) {
            each(numbers_below(o.measurement.signals.size()), [&](std::size_t k) { return signal_record(o, m, k); })}};
 }
 
-Chapter chapter_of(Findings& f) {
-  const auto found = std::find(f.chapters.begin(), f.chapters.end(), chapter_of_measurement);
-  return found == f.chapters.end() ? f.chapter(chapter_of_measurement)
-                                   : static_cast<Chapter>(found - f.chapters.begin());
-}
-
 }  // namespace
 
 void show(Findings& f, const Overlay& o) {
-  const Chapter in = chapter_of(f);
+  const Chapter in = f.chapter_named(chapter_of_measurement);
   f.tell("measured", Record{{"file", o.measurement.file},
                             {"models", each(o.models, [&](const ModelOverlay& m) { return model_record(o, m); })},
                             {"notes", o.notes}});
@@ -199,6 +193,33 @@ void show(Findings& f, const Overlay& o) {
   f.say(in, Sentences{.lines = words_of(o), .indent = "  "});
   if (!f.brief) return;
   for (std::string& line : short_words(o)) f.brief->words.push_back(std::move(line));
+}
+
+namespace {
+
+// Cycles and a test's record over them.
+struct MeasuredCycles {
+  SteadyStudy study;
+  std::optional<Overlay> overlay = {};
+};
+Findings findings_of(const MeasuredCycles& measured) {
+  Findings findings = findings_of(measured.study);
+  if (measured.overlay) show(findings, *measured.overlay);
+  return findings;
+}
+
+}  // namespace
+
+StudyOutput cycles_under(const MeasurementRequest& request, const Scene& scene, const std::vector<Effects>& effects,
+                         SteadyOptions options) {
+  std::optional<Measurement> measurement;
+  if (request.asked()) {
+    measurement = read_measurement(request, channels_of_cycle(*compile(scene, effects.back())));
+    options.traces = true;
+  }
+  MeasuredCycles cycles{steady(scene, effects, options)};
+  if (measurement) cycles.overlay = lay_over(*measurement, cycles.study);
+  return output_of(std::move(cycles));
 }
 
 }  // namespace kurbel

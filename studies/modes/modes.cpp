@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 #include "engine/linear/rest_place.h"
@@ -110,7 +109,8 @@ class Study {
     if (!options_.speed && regime_ && regime_->repeats() && regime_->map)
       found_.outside_data = outside_data(*regime_->map, regime_->point);
     else if (lies_beyond_a_table(*model_, point.speed))
-      found_.outside_data = {"this speed lies beyond the end of a table over the speed, whose slope there is not known"};
+      found_.outside_data = {
+          "this speed lies beyond the end of a table over the speed, whose slope there is not known"};
     note_unsteady_motion();
     if (!samples_ || options_.speed) return;
     found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);
@@ -396,8 +396,8 @@ class Study {
     watch.progress = [this](const std::string& what, double f) { options_.watch.at(what, 0.8 + 0.2 * f); };
     const std::string& link = model_->network.nodes[at(model_->reduction_node)].component;
     const double highest = found_.modes.empty() ? 0 : found_.modes.back().natural();
-    found_.history =
-        simulate_torque(scene_, effects_, {.torque = options_.torque, .link = link, .highest = highest, .watch = watch});
+    found_.history = simulate_torque(scene_, effects_,
+                                     {.torque = options_.torque, .link = link, .highest = highest, .watch = watch});
     if (found_.history->complete) return;
     found_.complete = false, found_.diagnosis = found_.history->diagnosis;
   }
@@ -420,6 +420,12 @@ Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode) { return 
 double parametric_half_width(double variation, double damping_ratio) {
   const double rest = variation * variation / 16 - damping_ratio * damping_ratio;
   return rest > 0 ? std::sqrt(rest) : 0;
+}
+
+Effects effects_of_modes(const Scene& scene) {
+  Effects effects = scene.effects;
+  if (effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
+  return effects;
 }
 
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options) {

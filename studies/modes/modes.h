@@ -155,6 +155,9 @@ struct ModesStudy {
   std::optional<double> rests_at;  // the link's angle about which it swings at rest [rad]
 };
 
+// Where none are asked for: the scene's, with all elasticity where it has none.
+Effects effects_of_modes(const Scene& scene);
+
 // Throws SceneError where the scene makes no machine; std::invalid_argument where nothing is elastic or options are
 // senseless; std::runtime_error where modes cannot be found.
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);

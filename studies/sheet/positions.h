@@ -2,8 +2,10 @@
 // begins, ends or is greatest, so that a blow between two numbers is not skipped.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace kurbel {
@@ -61,6 +63,17 @@ std::vector<SheetRow<Values>> sheet_rows(const std::vector<SheetPosition>& posit
     }
   }
   return rows;
+}
+
+// Points of a curve over the cycle by their way from position 0 on; at the end the first of them again.
+template <class Point>
+std::vector<std::pair<double, const Point*>> by_way(const SheetCycle& cycle, const std::vector<Point>& curve) {
+  std::vector<std::pair<double, const Point*>> points;
+  for (const Point& p : curve)
+    if (p.phi < cycle.length * (1 - 1e-12)) points.emplace_back(cycle.way_at(p.phi), &p);
+  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  points.emplace_back(cycle.length, points.front().second);
+  return points;
 }
 
 }  // namespace kurbel

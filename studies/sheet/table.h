@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/numerics/angles.h"
 #include "studies/sheet/paper.h"
 
 namespace kurbel {
@@ -22,6 +23,18 @@ struct SheetTable {
   std::vector<bool> stressed = {};  // rows of the load's edges; none, or one each
   std::string note = {};
 };
+
+// Of rows of positions, with their angles as yet.
+template <class Row>
+SheetTable table_of_positions(const std::string& title, const std::vector<Row>& rows) {
+  SheetTable table{.title = title, .labels = {}, .columns = {{"φ", "°", {}}}};
+  for (const Row& row : rows) {
+    table.labels.push_back(row.label);
+    table.stressed.push_back(!row.position->numbered || row.position->greatest);
+    table.columns.front().values.push_back(row.position->phi * in_degrees);
+  }
+  return table;
+}
 
 // Puts it on sheets of its own, as many as it takes.
 void add_table(Sheets& sheets, const SheetTable& table);

@@ -81,8 +81,7 @@ std::string family_text(const OperatingDiagram& d, double cycle, const std::stri
   const double net = d.curve.back().net();
   const std::string why = fmt::format(
       "no torque of this machine depends on the speed, so no speed is preferred: what a cycle gains or loses is the "
-      "same "
-      "at every speed of \"{}\"",
+      "same at every speed of \"{}\"",
       link);
   if (is_balanced(d))
     return fmt::format(
@@ -146,8 +145,7 @@ class Study {
     if (out_.diagram->estimate)
       out_.notes.push_back(
           "operating points are estimates, by the static torques of the rigid machine: losses that depend on the load, "
-          "or "
-          "states of its own, are left out of them; the steady cycle and the start from rest have them");
+          "or states of its own, are left out of them; the steady cycle and the start from rest have them");
   }
   std::string why_no_diagram(const Model& m) const {
     if (!scene_.sequence.steps.empty()) return "the operating sequence sets what drives and brakes";
@@ -195,8 +193,7 @@ class Study {
     SteadyCycle cycle = search_cycle(scene_, effects, options_);
     log(
         fmt::format("{}: {} unknowns; {} after a run of {} rounds and {} of Newton's, {} with derivative; cost {:.1f} "
-                    "cycles, {:.0f} "
-                    "aimed at; residual {:.1e}; {:.3g} ms",
+                    "cycles, {:.0f} aimed at; residual {:.1e}; {:.3g} ms",
                     cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.rounds,
                     cycle.point.rounds, cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual,
                     1e3 * cycle.cpu_seconds));
@@ -218,8 +215,8 @@ class Study {
     const bool stands = cycle.kind == Regime::Kind::at_rest || cycle.kind == Regime::Kind::equilibrium;
     if (stands && !scene_.sequence.steps.empty() && !options_.at.any())
       return fmt::format(
-          "{}. All steps of the sequence are done then; --at \"step N\" asks for the motion that the machine "
-          "would keep after the Nth of them ({} in all)",
+          "{}. All steps of the sequence are done then; --at \"step N\" asks for the motion that the machine would "
+          "keep after the Nth of them ({} in all)",
           cycle.why, scene_.sequence.steps.size());
     if (is_interrupted(cycle) || !out_.diagram || options_.mid_speed) return cycle.why;
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
@@ -297,6 +294,13 @@ class Study {
 };
 
 }  // namespace
+
+std::vector<Effects> effects_side_by_side(const Scene& scene) {
+  Effects full = scene.effects;
+  if (full.describe() == "none") full.all_elastic = true;
+  if (!is_elastic(*compile(scene, full))) return {scene.effects};
+  return {without_elasticity(full), full};
+}
 
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options) {
   const Deadline deadline(scene.run.budget);

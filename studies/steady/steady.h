@@ -101,6 +101,11 @@ struct SteadyStudy {
   std::string diagnosis;
 };
 
+// Of the cycles to show side by side where none are asked for: the scene's own effects, rigid and elastic, so that
+// elasticity alone differs. A scene without any is shown with all of its elasticity, too; one set where nothing is
+// elastic. The rigid cycle has ideal joints, which the study tells.
+std::vector<Effects> effects_side_by_side(const Scene& scene);
+
 // Finds the steady cycle of the scene with each set of effects. Throws SceneError where the scene makes no machine;
 // std::invalid_argument in words where the question is incomplete: a family of cycles without --mean-speed, periods
 // that never meet, a mean speed of a machine that time drives.

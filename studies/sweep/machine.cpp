@@ -206,9 +206,7 @@ RowAnswer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool me
 RowAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   ModesOptions options;
   options.watch.interrupted = q.interrupted;
-  Effects effects = scene.effects;
-  if (effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
-  const ModesStudy study = find_modes(scene, effects, options);
+  const ModesStudy study = find_modes(scene, effects_of_modes(scene), options);
   if (!study.complete) return {RowState::failed, study.diagnosis, {}};
   RowAnswer answer;
   for (const Mode& mode : study.modes) {

@@ -5,11 +5,16 @@
 #include <time.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
+
+#include "engine/scene/messages.h"
+#include "studies/sweep/program_version.h"
 
 namespace kurbel {
 namespace {
@@ -134,6 +139,42 @@ class Sweeping {
 };
 
 }  // namespace
+
+int threads_of(int asked) {
+  return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+void read_shard(const std::string& option, const std::string& text, SweepJob& job) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), text.data() + slash, job.shard);
+  const auto second = slash < text.size() ? std::from_chars(text.data() + slash + 1, end, job.shards) : first;
+  if (first.ec != std::errc{} || first.ptr != text.data() + slash || second.ptr != end || slash == text.size() ||
+      job.shard < 1 || job.shard > job.shards)
+    throw std::invalid_argument(fmt::format("{} {}: must be I/N with 1 ≤ I ≤ N, e.g. 3/64", option, in_quotes(text)));
+}
+
+std::string joined_lines(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += text + "\n";
+  return all;
+}
+
+SweepIdentity identity_of(const Design& design, std::vector<SweptFigure> figures, const std::string& shard,
+                          std::map<std::string, std::string> meta) {
+  std::vector<std::string> varied, names;
+  for (const SweptParameter& parameter : design.parameters()) varied.push_back(parameter.given);
+  for (const SweptFigure& figure : figures) names.push_back(figure.name);
+  meta.insert({{"version", program_version()},
+               {"design", design.text()},
+               {"varied", joined_lines(varied)},
+               {"figures", joined_lines(names)}});
+  return {.meta = std::move(meta),
+          .shard = shard,
+          .parameters = design.parameters(),
+          .figures = std::move(figures),
+          .rows = design.rows()};
+}
 
 SweepEnd run_sweep(const SweepJob& job, SweepStore& store) { return Sweeping(job, store).run(); }
 

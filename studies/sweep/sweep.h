@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,15 @@ struct SweepJob {
   std::function<Evaluator()> evaluator = {};  // one for each thread
   Watch watch = {};
 };
+
+// One for each core, unless 1 or more are asked for.
+int threads_of(int asked);
+// Which rows: "3/64". Throws std::invalid_argument, told under the option's name.
+void read_shard(const std::string& option, const std::string& text, SweepJob& job);
+// Of a design and what its rows yield; meta: what else makes two sweeps one.
+SweepIdentity identity_of(const Design& design, std::vector<SweptFigure> figures, const std::string& shard,
+                          std::map<std::string, std::string> meta);
+std::string joined_lines(const std::vector<std::string>& texts);
 
 struct SweepEnd {
   std::size_t rows = 0;      // of this shard

@@ -88,13 +88,6 @@ ToldTorques torques_told(const ModesStudy& study) {
   return told;
 }
 
-// What the command takes where nothing else is asked for.
-Effects effects_of_modes(const Scene& scene) {
-  Effects effects = scene.effects;
-  if (effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
-  return effects;
-}
-
 // ---------------------------------------------------------------------------------------------------------------------
 
 // Names of the model's elastic joints, as `modes` gives them: numbered where a component has several.
