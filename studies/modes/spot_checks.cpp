@@ -10,6 +10,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "studies/modes/drive_limits.h"
+#include "studies/modes/modes_plots.h"
 
 namespace kurbel {
 namespace {
@@ -66,16 +67,11 @@ std::vector<Candidate> choose(const ModesStudy& found, double factor, std::size_
   return chosen;
 }
 
-std::size_t largest_swing(const SpeedResponse& s) {
-  const auto less = [](const JointResponse& a, const JointResponse& b) { return a.peak < b.peak; };
-  return static_cast<std::size_t>(std::max_element(s.joints.begin(), s.joints.end(), less) - s.joints.begin());
-}
-
 void look_at(const HeldMachine& machine, const LinearDrive& drive, const HeldCycleOptions& options,
              const ModesStudy& found, SpotCheck& spot) {
   spot.linear = respond(drive, found.excitations);
   spot.linear.speed = spot.speed;
-  if (!spot.share) spot.joint = largest_swing(spot.linear);
+  if (!spot.share) spot.joint = joint_with_largest_swing(spot.linear);
   if (!(options.seconds > 0)) {
     spot.why = fmt::format("checks before it took the {:g} s that all may take", most_seconds);
     return;

@@ -56,49 +56,45 @@ double largest(const std::vector<const Trace*>& traces) {
   return value;
 }
 
-Series series_of(const Trace& trace, const std::string& name, Role role, double x_factor, double y_factor) {
-  Series s{.name = name, .role = role, .x = trace.x, .y = trace.y};
-  for (double& x : s.x) x *= x_factor;
-  for (double& y : s.y) y *= y_factor;
-  return s;
+Series series_of(const Trace& trace, const std::string& name, Role role) {
+  return {.name = name, .role = role, .x = trace.x, .y = trace.y};
 }
 
 // One quantity over time, the models over each other. Nothing if no model has it.
 std::optional<Plot> over_time(const Results& results, const std::string& channel, const std::string& title,
                               const std::string& label) {
-  std::vector<const Trace*> traces;
+  Plot plot{.title = title, .x = {"time", "s"}, .y = {label, ""}, .marks = marks_of(*results.back())};
+  std::string si_unit;
   for (const Result* r : results)
-    if (const Trace* trace = r->traces->find(channel)) traces.push_back(trace);
-  if (traces.empty()) return {};
-  const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit, speed_unit_of(*results.back()));
-  Plot plot{.title = title, .x = {"time", "s"}, .y = {label, unit.unit}, .marks = marks_of(*results.back())};
-  for (const Result* r : results)
-    if (const Trace* trace = r->traces->find(channel))
-      plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 1, unit.factor));
+    if (const Trace* trace = r->traces->find(channel)) {
+      if (plot.series.empty()) si_unit = trace->unit;
+      plot.series.push_back(series_of(*trace, r->label, role_of(*r, results)));
+    }
+  if (plot.series.empty()) return {};
+  const double most = largest_of(plot);
   if (const Trace* measured = results.back()->traces->find(measured_trace(channel)))
-    plot.series.push_back(dashed(series_of(*measured, "measured", Role::reference, 1, unit.factor)));
-  return plot;
+    plot.series.push_back(dashed(series_of(*measured, "measured", Role::reference)));
+  return in_readable_unit(std::move(plot), si_unit, most, speed_unit_of(*results.back()));
 }
 
 // One quantity over the crank angle in the last whole cycle of each model.
 std::optional<Plot> over_angle(const Results& results, const std::string& channel, const std::string& title,
                                const std::string& label) {
-  std::vector<std::pair<const Result*, const Trace*>> found;
+  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {label, ""}};
+  std::string si_unit;
   for (const Result* r : results) {
     if (r->traces->last_cycles.empty()) continue;
-    for (const Trace& trace : r->traces->last_cycles.back().traces)
-      if (trace.name == channel) found.emplace_back(r, &trace);
+    for (const Trace& trace : r->traces->last_cycles.back().traces) {
+      if (trace.name != channel) continue;
+      if (plot.series.empty()) si_unit = trace.unit;
+      Series& series = plot.series.emplace_back(series_of(trace, r->label, role_of(*r, results)));
+      for (double& x : series.x) x *= 180 / std::numbers::pi;
+    }
   }
-  if (found.empty()) return {};
-  std::vector<const Trace*> traces;
-  for (const auto& [r, trace] : found) traces.push_back(trace);
-  const ReadableUnit unit = readable_unit(largest(traces), traces.front()->unit, speed_unit_of(*results.back()));
-  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {label, unit.unit}};
-  for (const auto& [r, trace] : found)
-    plot.series.push_back(series_of(*trace, r->label, role_of(*r, results), 180 / std::numbers::pi, unit.factor));
+  if (plot.series.empty()) return {};
   const CycleTraces& last = results.back()->traces->last_cycles.back();
   plot.note = fmt::format("Last whole cycle ({}: {:.4g} … {:.4g} s).", results.back()->label, last.begin, last.end);
-  return plot;
+  return in_readable_unit(std::move(plot), si_unit, speed_unit_of(*results.back()));
 }
 
 std::string link_of(const Result& r) {
@@ -114,21 +110,15 @@ Plot energy_plot(const Result& r) {
       {"kinetic_energy", "kinetic energy", Role::elastic}, {"stored_energy", "stored in springs", Role::sky},
       {"work.driving", "driving work", Role::green},       {"work.useful", "useful work", Role::orange},
       {"work.harmful", "harmful work", Role::vermillion},  {"work.weight", "work of weight", Role::purple}};
-  std::vector<const Trace*> traces;
-  std::vector<Line> found;
-  for (const Line& line : lines)
-    if (const Trace* trace = r.traces->find(line.channel)) {
-      traces.push_back(trace);
-      found.push_back(line);
-    }
-  const ReadableUnit unit = readable_unit(largest(traces), "J");
   Plot plot{.title = fmt::format("Where the energy goes, {} model", r.label),
             .x = {"time", "s"},
-            .y = {"energy, work since the start", unit.unit},
+            .y = {"energy, work since the start", ""},
             .marks = marks_of(r)};
-  for (std::size_t i = 0; i < traces.size(); ++i)
-    if (largest({traces[i]}) > 0)
-      plot.series.push_back(series_of(*traces[i], found[i].name, found[i].role, 1, unit.factor));
+  for (const Line& line : lines) {
+    const Trace* const trace = r.traces->find(line.channel);
+    if (trace && largest({trace}) > 0) plot.series.push_back(series_of(*trace, line.name, line.role));
+  }
+  plot = in_readable_unit(std::move(plot), "J");
   if (r.energy.checks == 0 || nothing_turned_over(r.energy)) return plot;
   plot.note =
       fmt::format("Kinetic and spring energy less all work since the start stays the same{}.",

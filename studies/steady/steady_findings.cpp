@@ -192,24 +192,32 @@ void add_files(Findings& f, const SteadyStudy& s) {
 
 // --- plots ---
 
+const Trace* trace_of(const SteadyCycle& c, const std::string& name) {
+  const CycleTraces* const cycle = whole_cycle(c);
+  if (!cycle) return nullptr;
+  const auto found =
+      std::find_if(cycle->traces.begin(), cycle->traces.end(), [&](const Trace& t) { return t.name == name; });
+  return found == cycle->traces.end() ? nullptr : &*found;
+}
+
+Series over_degrees(const std::string& name, Role role, const Trace& t) {
+  Series series{.name = name, .role = role, .x = t.x, .y = t.y};
+  for (double& x : series.x) x *= in_degrees;
+  return series;
+}
+
 std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel, const std::string& title,
                                const std::string& label) {
   Plot plot{.title = title, .x = {s.link + " angle", "°"}, .y = {label, ""}};
   std::string si_unit;
   for (const SteadyCycle& c : s.cycles)
-    if (const CycleTraces* cycle = whole_cycle(c))
-      for (const Trace& t : cycle->traces)
-        if (t.name == channel) {
-          if (plot.series.empty()) si_unit = t.unit;
-          plot.series.push_back({.name = c.label, .role = role_of(c), .x = t.x, .y = t.y});
-          for (double& x : plot.series.back().x) x *= in_degrees;
-        }
+    if (const Trace* t = trace_of(c, channel)) {
+      if (plot.series.empty()) si_unit = t->unit;
+      plot.series.push_back(over_degrees(c.label, role_of(c), *t));
+    }
   if (const CycleTraces* last = whole_cycle(s.cycles.back()))
     for (const Trace& t : last->traces)
-      if (t.name == measured_trace(channel)) {
-        plot.series.push_back(marks({.name = "measured", .role = Role::reference, .x = t.x, .y = t.y}));
-        for (double& x : plot.series.back().x) x *= in_degrees;
-      }
+      if (t.name == measured_trace(channel)) plot.series.push_back(marks(over_degrees("measured", Role::reference, t)));
   if (plot.series.empty()) return {};
   return in_readable_unit(std::move(plot), si_unit, speed_unit_of(s));
 }
@@ -220,19 +228,10 @@ std::optional<Plot> power_over_angle(const SteadyStudy& s, const std::string& mo
             .x = {s.link + " angle", "°"},
             .y = {"power", ""}};
   for (const SteadyCycle& c : s.cycles) {
-    const Trace *torque = nullptr, *speed = nullptr;
-    if (const CycleTraces* cycle = whole_cycle(c))
-      for (const Trace& t : cycle->traces) {
-        if (t.name == "torque." + motor) torque = &t;
-        if (t.name == "speed." + motor) speed = &t;
-      }
+    const Trace *torque = trace_of(c, "torque." + motor), *speed = trace_of(c, "speed." + motor);
     if (!torque || !speed) continue;
-    Series& power =
-        plot.series.emplace_back(Series{.name = c.label, .role = role_of(c), .x = torque->x, .y = torque->y});
-    for (std::size_t i = 0; i < power.x.size(); ++i) {
-      power.y[i] *= at_angle(*speed, power.x[i]);
-      power.x[i] *= in_degrees;
-    }
+    Series& power = plot.series.emplace_back(over_degrees(c.label, role_of(c), *torque));
+    for (std::size_t i = 0; i < power.y.size(); ++i) power.y[i] *= at_angle(*speed, torque->x[i]);
   }
   if (plot.series.empty()) return {};
   return in_readable_unit(std::move(plot), "W");
