@@ -1,5 +1,6 @@
 // render_terminal.cpp — findings as text: columns by display width, statements in the order in which they are said.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -125,9 +126,7 @@ std::string headline_text(const Findings& findings) {
     lines.resize(Brief::most_of_conclusion);
     lines.back() = shortened(lines.back() + std::string(Brief::width, '.'), Brief::width);
   }
-  std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
-  return text;
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 std::string brief_text(const Findings& f) {

@@ -2,6 +2,7 @@
 #include "studies/reduce/reduce.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -67,8 +68,7 @@ class Reducer {
       r_.cycle = machine_->cycle();
       choose_speed(*machine_, options_, r_);
       if (!beyond_.empty() && !options_.speed && machine_->uses_speed())
-        r_.speed_source +=
-            fmt::format("; an estimate: {} left out", all_of(beyond_) + (beyond_.size() == 1 ? " is" : " are"));
+        r_.speed_source += "; an estimate: " + left_out();
     } else {
       find_cycle();
     }
@@ -112,9 +112,8 @@ class Reducer {
     if (options_.speed)
       throw std::invalid_argument(
           fmt::format("--speed: the torques hang on more than angle and speed ({}), so they are those along the steady "
-                      "cycle, which "
-                      "has its own speed; leave the option out, or take --basis classical",
-                      all_of(beyond_)));
+                      "cycle, which has its own speed; leave the option out, or take --basis classical",
+                      fmt::join(beyond_, ", ")));
     const Regime regime = regime_of(model_, RegimeOptions{}.most_rounds);
     if (!regime.repeats()) return without_a_cycle(regime.words);
     const bool other = target_node_ != model().reduction_node;
@@ -139,7 +138,7 @@ class Reducer {
       machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
     } catch (const std::invalid_argument&) {
       throw std::invalid_argument(
-          fmt::format("the torques hang on more than angle and speed ({}), and {}", all_of(beyond_), text));
+          fmt::format("the torques hang on more than angle and speed ({}), and {}", fmt::join(beyond_, ", "), text));
     }
     r_.basis = ReduceBasis::classical;
     has_cycle_ = false;
@@ -147,10 +146,8 @@ class Reducer {
     r_.cycle = machine_->cycle();
     choose_speed(*machine_, options_, r_);
   }
-  static std::string all_of(const std::vector<std::string>& list) {
-    std::string text;
-    for (const std::string& one : list) text += (text.empty() ? "" : ", ") + one;
-    return text;
+  std::string left_out() const {
+    return fmt::format("{} {} left out", fmt::join(beyond_, ", "), beyond_.size() == 1 ? "is" : "are");
   }
 
   void choose_target() {
@@ -175,11 +172,11 @@ class Reducer {
   }
 
   void note_dead_centres() {
-    r_.notes.push_back(fmt::format(
-        "{} goes to and fro: beside its dead centres what is reduced to it grows as 1/x′² and 1/x′, and figures hold "
-        "between them; its mean velocity over a cycle is zero, so that it has no δ: that of \"{}\" is told by kurbel "
-        "steady",
-        r_.to, r_.link));
+    r_.notes.push_back(
+        fmt::format("{} goes to and fro: beside its dead centres what is reduced to it grows as 1/x′² and 1/x′, and "
+                    "figures hold between them; its mean velocity over a cycle is zero, so that it has no δ: that of "
+                    "\"{}\" is told by kurbel steady",
+                    r_.to, r_.link));
   }
 
   // On the link first; then all inertias over the square of the ratio, all torques over the ratio.
@@ -352,15 +349,13 @@ class Reducer {
   // Along a cycle, what moves is in it; at constant speed, how far that is from the steady cycle.
   void add_note_on_basis() {
     if (along_) {
-      r_.notes.push_back(fmt::format(
-          "torques and reduced inertia are those along the steady cycle with the scene's effects, for {} {} not of one "
-          "angle and its speed; I_r = 2T/ω², I_drive = I_r − I_em",
-          all_of(beyond_), beyond_.size() == 1 ? "is" : "are"));
+      r_.notes.push_back(
+          fmt::format("torques and reduced inertia are those along the steady cycle with the scene's effects, for {} "
+                      "{} not of one angle and its speed; I_r = 2T/ω², I_drive = I_r − I_em",
+                      fmt::join(beyond_, ", "), beyond_.size() == 1 ? "is" : "are"));
       return;
     }
-    if (!beyond_.empty())
-      r_.notes.push_back(
-          fmt::format("classical: {} left out", all_of(beyond_) + (beyond_.size() == 1 ? " is" : " are")));
+    if (!beyond_.empty()) r_.notes.push_back("classical: " + left_out());
     if (!machine_->uses_speed() || !machine_->periodic() || !has_cycle_ || options_.speed) return;
     constexpr int enough_rounds = 40;
     try {
@@ -374,8 +369,8 @@ class Reducer {
         off = std::max(off, std::abs(c.inertia.value(s) / rigid - 1));
       }
       r_.notes.push_back(fmt::format(
-          "classical: at constant speed, rigid; left out is that the speed swings{}: in the steady cycle (mid "
-          "speed {}) the mean driving torque is {}, the mean resisting torque {}, and 2T/ω² {}",
+          "classical: at constant speed, rigid; left out is that the speed swings{}: in the steady cycle (mid speed "
+          "{}) the mean driving torque is {}, the mean resisting torque {}, and 2T/ω² {}",
           and_effects(), r_.speed_unit.text(c.mid_speed()), in_place_of(c.cycle.drive.mean(), r_.mean_drive.value),
           in_place_of(c.cycle.load.mean(), r_.mean_load.value),
           off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));

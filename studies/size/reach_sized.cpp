@@ -2,6 +2,7 @@
 #include "studies/size/reach_sized.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,8 +137,7 @@ class Reach {
     if (!found.regime) {
       s_.meeting_words = fmt::format(
           "no flywheel was found with which the {} machine has δ = {:g}: the least of {} regimes is {:.5g}, with "
-          "{:.6g} "
-          "kg·m²",
+          "{:.6g} kg·m²",
           which, s_.delta, found.regimes, found.least, found.least_at);
       return;
     }
@@ -169,8 +169,7 @@ void reach_sized(Sizing& sizing, const Scene& scene, const SizeOptions& options,
 
 // What the work equation cannot carry, and how much of δ that is.
 void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
-  std::string what;
-  for (const std::string& one : beyond) what += (what.empty() ? "" : ", ") + one;
+  const std::string what = fmt::format("{}", fmt::join(beyond, ", "));
   const DeltaReached *rigid = nullptr, *elastic = nullptr;
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive) (r.model == SizedModel::elastic ? elastic : rigid) = &r;
@@ -181,8 +180,7 @@ void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
     const double least = *s.delta_of_regime, by_work = s.delta_now;
     s.notes.push_back(
         fmt::format("the work equation of the rigid machine leaves out {}: at the scene's own inertia it gives {}, the "
-                    "steady cycle "
-                    "has δ = {:.5g}",
+                    "steady cycle has δ = {:.5g}",
                     what.empty() ? "what the scene's effects change" : what,
                     std::isnan(by_work) ? "no cycle (the machine would stop)"
                                         : fmt::format("δ = {:.5g} ({:+.3g} %)", by_work, 100 * (by_work / least - 1)),

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "engine/numerics/deadline.h"
@@ -83,8 +82,8 @@ class Sizer {
                             : fmt::format("customary for {}: {:g} … {:g} ({})", c.doc, c.low, c.high, c.source);
     } else {
       throw std::invalid_argument(
-          "which speed fluctuation is demanded? Give --delta, e.g. --delta 0.05, or --machine "
-          "press for a customary value");
+          "which speed fluctuation is demanded? Give --delta, e.g. --delta 0.05, or --machine press for a customary "
+          "value");
     }
     check_delta(s_.delta);
   }
@@ -105,10 +104,10 @@ class Sizer {
     const int node = m.network.ports.at(s_.flywheel).in;
     s_.flywheel_ratio = m.node_ratio[at(node)];
     if (s_.flywheel_ratio == 0)
-      throw std::invalid_argument(fmt::format(
-          "\"{}\" stands in the machine's usual motion, so that its inertia evens out nothing; name another "
-          "one: --flywheel NAME",
-          s_.flywheel));
+      throw std::invalid_argument(
+          fmt::format("\"{}\" stands in the machine's usual motion, so that its inertia evens out nothing; name "
+                      "another one: --flywheel NAME",
+                      s_.flywheel));
     constant_inertia_ = machine_ ? machine_->constant_inertia() : constant_inertia(m);
     std::vector<std::string> motors;
     for (const Network::ShaftElement& e : m.network.elements)
@@ -163,8 +162,8 @@ class Sizer {
         s_.notes.push_back(fmt::format("the machine can also run steadily at {}", s_.speed_unit.text(other, 5)));
     } else {
       throw std::invalid_argument(
-          "with torques that do not depend on speed every speed is a steady one, so it must be given: "
-          "--mid-speed \"60 rpm\"");
+          "with torques that do not depend on speed every speed is a steady one, so it must be given: --mid-speed \"60 "
+          "rpm\"");
     }
   }
 
@@ -272,15 +271,14 @@ class Sizer {
 
   // What the sizing puts beside the scene's torques, which alone would change the machine's speed from cycle to cycle.
   static std::string unbalanced(double drive, double load, double rest) {
-    const std::string text =
-        load == 0 ? fmt::format(
-                        "the driving torque varies with the angle and the scene has no load on the cycle: its "
-                        "mean of {:.5g} N·m is not balanced",
-                        drive)
-                  : fmt::format(
-                        "the driving torque varies with the angle; of its mean of {:.5g} N·m the load of the "
-                        "scene takes {:.5g} N·m{}",
-                        drive, load, rest < 0 ? ", more than there is" : "");
+    const std::string text = load == 0 ? fmt::format(
+                                             "the driving torque varies with the angle and the scene has no load on "
+                                             "the cycle: its mean of {:.5g} N·m is not balanced",
+                                             drive)
+                                       : fmt::format(
+                                             "the driving torque varies with the angle; of its mean of {:.5g} N·m the "
+                                             "load of the scene takes {:.5g} N·m{}",
+                                             drive, load, rest < 0 ? ", more than there is" : "");
     return text + fmt::format("; sized as if a constant {} of {:.5g} N·m, which the scene does not have, balanced them",
                               rest > 0 ? "load" : "drive", std::abs(rest));
   }
@@ -354,10 +352,10 @@ class Sizer {
       s_.notes.push_back("with its torques as they are no steady cycle of the sized machine was found: " +
                          s_.with_motor->why);
     else if (s_.with_motor->multiplier > 1)
-      s_.notes.push_back(fmt::format(
-          "with its torques as they are the sized machine's cycle is unstable: a disturbance of its energy grows to "
-          "{:.3g} of itself within a cycle, and the machine leaves it",
-          s_.with_motor->multiplier));
+      s_.notes.push_back(
+          fmt::format("with its torques as they are the sized machine's cycle is unstable: a disturbance of its energy "
+                      "grows to {:.3g} of itself within a cycle, and the machine leaves it",
+                      s_.with_motor->multiplier));
     const auto excess = [&](double log_inertia) {
       const SteadyRigidCycle c = steady(std::exp(log_inertia));
       return (c.found ? c.delta() : 2.0) - s_.delta;

@@ -38,8 +38,8 @@ std::string conclusion_of(const Sizing& s) {
             ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
             : std::string("its torques would not swing the speed as far with any inertia"));
   std::string text = s.estimate ? fmt::format(
-                                      "{}: an estimate, by the rigid machine without its losses: a flywheel of "
-                                      "about {:.3g} kg·m² on {} for δ = {:g} {}",
+                                      "{}: an estimate, by the rigid machine without its losses: a flywheel of about "
+                                      "{:.3g} kg·m² on {} for δ = {:g} {}",
                                       s.title, exact.flywheel, s.flywheel, s.delta, basis_of(s))
                                 : fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", s.title,
                                               exact.flywheel, s.flywheel, s.delta, basis_of(s));
@@ -336,13 +336,12 @@ void add_answers(Findings& f, const Sizing& s) {
   if (!real) real = reached(s, SizedModel::rigid);
   constexpr double visible = 1.02;
   if (s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta)
-    f.answer(
-        Question::bears,
-        fmt::format("{}{:.6g} kg·m², by the work equation, do not keep δ = {:g}: simulated it is {:.4g} at the crank, "
-                    "{:.3g} times that",
-                    s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",
-                    exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),
-        real->crank.value / s.delta);
+    f.answer(Question::bears,
+             fmt::format("{}{:.6g} kg·m², by the work equation, do not keep δ = {:g}: simulated it is {:.4g} at the "
+                         "crank, {:.3g} times that",
+                         s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",
+                         exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),
+             real->crank.value / s.delta);
 }
 
 }  // namespace

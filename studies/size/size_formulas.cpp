@@ -94,8 +94,7 @@ Formulas dimension_formulas(const FlywheelDimensions& d) {
              "σ = {:.4g} MPa · (0.75 + 4.935 · {:.5g}/({}² · {:.5g})) = {:.4g} MPa", d.stress / 1e6, radius,
              flywheel_spokes, d.thickness, d.spoked_stress / 1e6)
         .note(
-            "Khurmi and Gupta, A Textbook of Machine Design (22.3): ¾ of a free ring's tension, ¼ of "
-            "clamped bending.");
+            "Khurmi and Gupta, A Textbook of Machine Design (22.3): ¾ of a free ring's tension, ¼ of clamped bending.");
   }
   list.add("Energy stored", "T = ½ I ω_max²", "T = ½ · {:.6g} · {:.5g}² = {}", d.inertia, fastest,
            with_unit(d.energy, "J", 5));
@@ -110,10 +109,10 @@ Formulas motor_formulas(const Sizing& s) {
              "d(½ I ω²)/dφ = M_d(ω) − M_c(φ, ω),   ω(Φ) = ω(0)",
              "δ = ({:.6g} − {:.6g})/{:.6g} = {:.6g} instead of {:g}", s.with_motor->fastest.value,
              s.with_motor->slowest.value, s.with_motor->mid_speed(), s.with_motor->delta(), s.delta)
-        .note(fmt::format(
-            "Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance of the energy {} to "
-            "{:.3g} of itself within a cycle.",
-            s.operating->slope, s.with_motor->multiplier < 1 ? "shrinks" : "grows", s.with_motor->multiplier));
+        .note(fmt::format("Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance of the energy "
+                          "{} to {:.3g} of itself within a cycle.",
+                          s.operating->slope, s.with_motor->multiplier < 1 ? "shrinks" : "grows",
+                          s.with_motor->multiplier));
   if (s.soft)
     list.add("Inertia that gives δ with these torques", "δ(I₀) = δ",
              "I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope", s.soft->drive_inertia,
