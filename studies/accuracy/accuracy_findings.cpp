@@ -208,13 +208,12 @@ Text how_measured(const AccuracyStudy& study) {
   return {
       .title = "How it was measured",
       .body = fmt::format(
-          "Time is processor time of the integration with its peaks and cycles found, without samples for plots "
-          "and without the energy audit: median of up to nine runs in one process. Tables of the work equation are "
-          "made beforehand. Numerical errors are against the model's own reference, by two methods at a tolerance "
-          "of {:.0e}; total errors against the reference of the {}. A model's time is that of its cheapest "
-          "setting whose numbers are within {:g} % of its own {}. Models between the rigid one, those elastic, and "
-          "the scene's own are run by the methods of their references alone, unless methods are named. The whole "
-          "study took {:.3g} s.",
+          "Time is processor time of the integration with its peaks and cycles found, without samples for plots and "
+          "without the energy audit: median of up to nine runs in one process. Tables of the work equation are made "
+          "beforehand. Numerical errors are against the model's own reference, by two methods at a tolerance of "
+          "{:.0e}; total errors against the reference of the {}. A model's time is that of its cheapest setting whose "
+          "numbers are within {:g} % of its own {}. Models between the rigid one, those elastic, and the scene's own "
+          "are run by the methods of their references alone, unless methods are named. The whole study took {:.3g} s.",
           full.tolerance, model_called(full.name), 100 * close_enough, study.figures[study.key].name, study.seconds)};
 }
 

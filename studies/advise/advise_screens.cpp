@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 
 #include "engine/numerics/deadline.h"
 #include "mechanisms/reduced/deforming_mechanism.h"

@@ -1,7 +1,6 @@
 // holding.cpp — torques of joints that are locked at full command, over what they hold.
 #include "studies/duty/holding.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/numerics/index.h"

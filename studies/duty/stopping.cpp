@@ -1,7 +1,6 @@
 // stopping.cpp — events of a run, one after the other, until the link stands.
 #include "studies/duty/stopping.h"
 
-#include <algorithm>
 #include <map>
 
 #include "engine/numerics/index.h"

@@ -1,8 +1,6 @@
 // work_periods.cpp — cycles sorted into periods, works summed up between them.
 #include "studies/duty/work_periods.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "engine/numerics/index.h"

@@ -70,15 +70,14 @@ std::string why_not_moved(const fs::path& path) {
   const fs::path here = fs::current_path(error);
   if (!error && std::mismatch(path.begin(), path.end(), here.begin(), here.end()).first == path.end())
     return fmt::format(
-        "{} is the folder that you are in, or holds it, and results replace their folder as a whole; "
-        "give one within, e.g. {}",
+        "{} is the folder that you are in, or holds it, and results replace their folder as a whole; give one within, "
+        "e.g. {}",
         path.string(), (path / "results").string());
   struct statx found {};
   if (statx(AT_FDCWD, path.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &found) == 0 &&
       (found.stx_attributes_mask & found.stx_attributes & STATX_ATTR_MOUNT_ROOT))
     return fmt::format(
-        "{} is where a file system is mounted, and results replace their folder as a whole; give one "
-        "within, e.g. {}",
+        "{} is where a file system is mounted, and results replace their folder as a whole; give one within, e.g. {}",
         path.string(), (path / "results").string());
   return "";
 }

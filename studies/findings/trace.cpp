@@ -2,7 +2,6 @@
 #include "studies/findings/trace.h"
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "engine/numerics/roots.h"

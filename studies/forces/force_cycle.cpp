@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <stdexcept>
 #include <tuple>
 
 #include "engine/model/model.h"

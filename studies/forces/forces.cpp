@@ -77,8 +77,7 @@ void add_missed(const Missed& missed, const SliderCrankData& d, ForceCycle& cycl
 std::string words_of(const Missed& missed, const ForceCycle& cycle) {
   std::string text = fmt::format(
       "the mechanism counts as rigid links in ideal joints; in the same motion the machine's own equations have a "
-      "crank "
-      "torque of up to {} for {}",
+      "crank torque of up to {} for {}",
       with_unit(missed.greatest_torque, "N*m", 5), with_unit(std::abs(cycle.torque.value), "N*m", 5));
   for (std::size_t k = 0; k < joint_count && missed.greatest[0] > 0; ++k)
     text += fmt::format(", at the {} {} for {}", name_of(static_cast<Joint>(k)), with_unit(missed.greatest[k], "N", 5),
@@ -184,12 +183,12 @@ class Study {
   void tell_friction_left_out(const SliderCrankJoints& given) {
     const SliderCrankStatics rough(out_.data, given);
     const ForceCycle cycle = cycle_along(rough, *loads_, prescribed_);
-    out_.notes.push_back(fmt::format(
-        "friction in the joints is left out{}: in the first problem it would take {} a cycle, and the crank's torque "
-        "would peak at {} instead of {}",
-        machine_->deforms() ? ", for clearance and a rod that bends cannot be had with it" : "",
-        with_unit(cycle.harmful.value, "J", 4), with_unit(std::abs(cycle.torque.value), "N*m", 5),
-        with_unit(std::abs(out_.prescribed->torque.value), "N*m", 5)));
+    out_.notes.push_back(
+        fmt::format("friction in the joints is left out{}: in the first problem it would take {} a cycle, and the "
+                    "crank's torque would peak at {} instead of {}",
+                    machine_->deforms() ? ", for clearance and a rod that bends cannot be had with it" : "",
+                    with_unit(cycle.harmful.value, "J", 4), with_unit(std::abs(cycle.torque.value), "N*m", 5),
+                    with_unit(std::abs(out_.prescribed->torque.value), "N*m", 5)));
   }
 
   void solve_second(const SimulatedMotion& simulated) {

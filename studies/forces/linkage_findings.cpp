@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"

@@ -54,8 +54,7 @@ Gears find_gears(const Scene& scene, const GearsOptions& options) {
   if (names.empty())
     throw std::invalid_argument(
         fmt::format("{}: no gearbox stage has its module given; write e.g. {{ teeth = [19, 95], module = \"4 mm\", "
-                    "width = \"40 mm\" "
-                    "}}{}",
+                    "width = \"40 mm\" }}{}",
                     scene.file, without_module.empty() ? "" : fmt::format(" for {}", listed(without_module, "and"))));
   std::erase_if(gears.stages, [&](const GearStage& stage) { return !wanted(stage.name, options.pair); });
   if (gears.stages.empty()) {

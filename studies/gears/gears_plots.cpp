@@ -104,8 +104,7 @@ GearView drawing_of(const GearStage& s) {
       .title = fmt::format("{}: both wheels in mesh, transverse section", s.name), .wheels = {}, .points = {}};
   view.note =
       "Wheel 1 turns counterclockwise and drives. Flanks are involutes, external fillets the trochoids that the "
-      "rounded "
-      "rack cuts; fillets of an internal wheel are drawn as circles.";
+      "rounded rack cuts; fillets of an internal wheel are drawn as circles.";
   view.wheels = {view_of(p, 0), view_of(p, 1)};
   view.pitch_point = 0.5 * p.wheel[0].working_diameter;
   view.direction = std::numbers::pi / 2 - p.working_angle;

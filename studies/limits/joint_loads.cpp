@@ -1,14 +1,10 @@
 // joint_loads.cpp — a round of the steady motion is run once more; integrals by Gauss's rule within every step.
 #include "studies/limits/joint_loads.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <complex>
 #include <numbers>
-#include <optional>
-#include <stdexcept>
 
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"

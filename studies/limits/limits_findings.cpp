@@ -138,14 +138,13 @@ std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, cons
     if (!b.everywhere) continue;
     const std::string& name = joints[b.joint].name;
     if (b.by == BarredRange::By::limit)
-      notes.push_back(
-          fmt::format("\"{}\" is beyond its {} at every speed looked at, by up to {:.3g} times: no range "
-                      "of speed is free of it",
-                      name, reason_in_words(b), b.peak / b.limit));
+      notes.push_back(fmt::format(
+          "\"{}\" is beyond its {} at every speed looked at, by up to {:.3g} times: no range of speed is free of it",
+          name, reason_in_words(b), b.peak / b.limit));
     else if (b.by == BarredRange::By::rule)
       notes.push_back(
-          fmt::format("\"{}\" swings by more than {} at every speed looked at, by up to {:.3g} times: that "
-                      "rule tells no range to keep away from; give the limits of \"{}\"",
+          fmt::format("\"{}\" swings by more than {} at every speed looked at, by up to {:.3g} times: that rule tells "
+                      "no range to keep away from; give the limits of \"{}\"",
                       name, b.reason, b.peak / b.limit, name));
     else
       notes.push_back(

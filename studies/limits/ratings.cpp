@@ -69,8 +69,7 @@ class Rater {
     if (rating.engagement && hottest)
       add("heat of an engagement: W ≤ W_allowable", *hottest, *rating.engagement, "J", [](double times) {
         return fmt::format(
-            "as W goes with the square of the difference of speed: it holds where that is {:.0f} % of "
-            "what it is",
+            "as W goes with the square of the difference of speed: it holds where that is {:.0f} % of what it is",
             std::floor(100 / std::sqrt(times)));
       });
     if (rating.power && power)

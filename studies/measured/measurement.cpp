@@ -103,8 +103,7 @@ class Reader {
     if (!in_heading && !in_option) {
       if (si_unit.empty()) return Source{heading.column, 1};
       messages_.add(heading.at,
-                    fmt::format("column {} has no unit; write \"{} [{}]\" in the heading, or --map \"{}={} "
-                                "[{}]\"",
+                    fmt::format("column {} has no unit; write \"{} [{}]\" in the heading, or --map \"{}={} [{}]\"",
                                 in_quotes(heading.text), heading.text, example, heading.text, channel, example));
       return {};
     }
@@ -266,11 +265,11 @@ void require_overlap(const Measurement& m, double begin, double end) {
   if (m.shift.fit) return;
   const double from = m.time.front() + m.shift.value, to = m.time.back() + m.shift.value;
   if (from < end && to > begin) return;
-  throw std::invalid_argument(fmt::format(
-      "--measured {}: measured from {:.6g} to {:.6g} s{}, simulated from {:.6g} to {:.6g} s: no time in common; give "
-      "--shift \"{:.6g} s\", which lets both begin together, or --shift fit",
-      m.file, from, to, m.shift.value != 0 ? fmt::format(" (shifted by {:.6g} s)", m.shift.value) : "", begin, end,
-      begin - m.time.front()));
+  throw std::invalid_argument(
+      fmt::format("--measured {}: measured from {:.6g} to {:.6g} s{}, simulated from {:.6g} to {:.6g} s: no time in "
+                  "common; give --shift \"{:.6g} s\", which lets both begin together, or --shift fit",
+                  m.file, from, to, m.shift.value != 0 ? fmt::format(" (shifted by {:.6g} s)", m.shift.value) : "",
+                  begin, end, begin - m.time.front()));
 }
 
 }  // namespace kurbel

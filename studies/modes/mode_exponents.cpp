@@ -142,10 +142,10 @@ class Exponents {
       found_.notes.push_back(
           !mode.only_of_mean ? "no exponent of the periodic system lies near " + which +
                                    ": its figures are those of the mean alone, with an error that is not known"
-          : gone ? "nothing of " + which + " is left after a round: contacts that hold within it take the swing away"
-                 : which +
-                       " does not swing in the periodic system: what changes within the round makes a slow decay "
-                       "of it");
+          : gone
+              ? "nothing of " + which + " is left after a round: contacts that hold within it take the swing away"
+              : which +
+                    " does not swing in the periodic system: what changes within the round makes a slow decay of it");
     }
   }
   // One that swings and grows out of no other mode of the round's mean.
@@ -163,12 +163,11 @@ class Exponents {
       if (mode.periodic.empty() || mode.greatest - mode.least < varies_much * mode.omega) continue;
       mode.fades_within_round = -mode.periodic.front().exponent.real() * spectrum_.time > fades;
       if (mode.fades_within_round)
-        found_.notes.push_back(
-            fmt::format("mode {} has faded long before a round is over: a swing that is started at one angle has the "
-                        "frequency of the drive held there, between {:.4g} and {:.4g} Hz (undamped); {:.4g} Hz is the "
-                        "mean over the round",
-                        mode.number, mode.least / (2 * pi), mode.greatest / (2 * pi),
-                        mode.periodic.front().exponent.imag() / (2 * pi)));
+        found_.notes.push_back(fmt::format(
+            "mode {} has faded long before a round is over: a swing that is started at one angle has the frequency of "
+            "the drive held there, between {:.4g} and {:.4g} Hz (undamped); {:.4g} Hz is the mean over the round",
+            mode.number, mode.least / (2 * pi), mode.greatest / (2 * pi),
+            mode.periodic.front().exponent.imag() / (2 * pi)));
     }
   }
 

@@ -124,8 +124,8 @@ void add_wave_errors(ModesStudy& found) {
   const int really = continuous_modes_below(found.drive, above) - found.undamped.rigid;
   if (really > static_cast<int>(found.modes.size()))
     found.notes.push_back(fmt::format(
-        "up to {:.5g} Hz continuous shafts have {} modes by their exact dynamic stiffness, and {} are listed: "
-        "the others swing within shafts whose elements follow no such waves; give those shafts segments",
+        "up to {:.5g} Hz continuous shafts have {} modes by their exact dynamic stiffness, and {} are listed: the "
+        "others swing within shafts whose elements follow no such waves; give those shafts segments",
         above / (2 * pi), really, found.modes.size()));
 }
 
@@ -152,11 +152,10 @@ void list_modes(int count, ModesStudy& found) {
   for (const DampedMode& d : found.damped)
     if (d.lambda.real() > 1e-9 * std::abs(d.lambda) && d.lambda.real() > 0) {
       found.notes.push_back(
-          fmt::format("{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable: the "
-                      "torques there feed it more than they damp it (as those of a motor below its breakdown speed)",
+          fmt::format("{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable: the torques "
+                      "there feed it more than they damp it (as those of a motor below its breakdown speed)",
                       d.lambda.imag() > 0 ? fmt::format("the swing at {:.5g} Hz", d.lambda.imag() / (2 * pi))
-                                          : "the motion as a "
-                                            "whole",
+                                          : "the motion as a whole",
                       d.lambda.real()));
       break;
     }
@@ -211,8 +210,7 @@ void note_changes(const CycleSamples& samples, ModesStudy& found) {
     list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", component, count);
   found.notes.push_back(
       fmt::format("within a round of the steady motion contacts change: {}. Modes and forced response have them as "
-                  "they are at {:.4g}° "
-                  "of {}; what the joints do in the steady motion is that of the full equations",
+                  "they are at {:.4g}° of {}; what the joints do in the steady motion is that of the full equations",
                   list, samples.link_angle * 180 / pi, found.link));
 }
 
@@ -248,10 +246,8 @@ void find_rattles(const CycleSamples& samples, int count, ModesStudy& found) {
     for (Eigen::Index i = modes.rigid; i < modes.omega.size(); ++i) rattle.omega.push_back(modes.omega[i]);
     found.notes.push_back(
         fmt::format("\"{}\" rattles: its law changes piece {} times in a round of the steady motion, so that its "
-                    "stiffness hangs on "
-                    "the amplitude. At the mean twist it is {:.5g} N·m/rad, over the round as it is {:.5g} N·m/rad; "
-                    "with that the "
-                    "first mode lies at {:.5g} Hz",
+                    "stiffness hangs on the amplitude. At the mean twist it is {:.5g} N·m/rad, over the round as it is "
+                    "{:.5g} N·m/rad; with that the first mode lies at {:.5g} Hz",
                     found.joint_names[rattle.joint], rattle.changes, rattle.linear, rattle.stiffness,
                     rattle.omega.empty() ? 0.0 : rattle.omega.front() / (2 * pi)));
   }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "engine/numerics/index.h"
 #include "studies/findings/figure_text.h"

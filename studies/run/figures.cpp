@@ -1,8 +1,6 @@
 // figures.cpp — the figures of one run.
 #include "studies/run/figures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

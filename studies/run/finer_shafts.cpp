@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "studies/run/measured_errors.h"
 
 namespace kurbel {

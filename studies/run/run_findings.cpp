@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/scene/units.h"
 #include "studies/answers/key_figures.h"

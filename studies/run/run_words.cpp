@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "engine/scene/units.h"
 #include "studies/dictionary/dictionary.h"

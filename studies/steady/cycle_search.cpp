@@ -294,8 +294,7 @@ class Search {
     out_.cycle_time = out_.point.time;
     out_.stability =
         !out_.uncertain     ? stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error)
-        : out_.point.grazed ? "of uncertain stability, for an event is only just touched; the run comes here "
-                              "and stays"
+        : out_.point.grazed ? "of uncertain stability, for an event is only just touched; the run comes here and stays"
                             : "the run comes here and stays";
     out_.neutral = out_.point.neutral();
     Round fine = go_round(*map_, out_.point, map_tolerance);

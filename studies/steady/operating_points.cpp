@@ -127,8 +127,7 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
   if (std::abs(least->net()) <= balance_error)
     return fmt::format(
         "the drive's mean torque on \"{}\" just balances the loads' at {} and falls behind at every other speed: "
-        "whether "
-        "the machine keeps that speed is not told by mean torques",
+        "whether the machine keeps that speed is not told by mean torques",
         link, speed_text(speed_unit, least->omega));
   if (least->net() < 0)
     return fmt::format(
@@ -146,8 +145,8 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
         speed_text(speed_unit, last.omega), link, with_unit(last.net(), "N*m", 4), with_unit(last.drive, "N*m", 5),
         with_unit(last.load, "N*m", 5));
   return fmt::format(
-      "no stable operating point: where the mean torques on \"{}\" meet, the drive's rises faster with "
-      "speed than the loads'",
+      "no stable operating point: where the mean torques on \"{}\" meet, the drive's rises faster with speed than the "
+      "loads'",
       link);
 }
 

@@ -35,8 +35,7 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   if (!c.regime.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.regime));
   words.push_back(fmt::format(
       "{} unknown{} on the section at {:.4g}°; {}{} round{} of Newton's method ({} with derivative), {:.3g} cycles' "
-      "worth "
-      "({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
+      "worth ({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
       c.unknowns, c.unknowns == 1 ? "" : "s", c.section * in_degrees,
       c.rounds > 0 ? fmt::format("a run of {} round{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
       c.point.rounds, c.point.rounds == 1 ? "" : "s", c.point.derivatives, c.cost, c.cost_limit,

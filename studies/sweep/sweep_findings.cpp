@@ -212,10 +212,9 @@ std::vector<CsvFile> csv_tables(const SweepStudyResult& s) {
 // What is said of all rows, and what of those that are held.
 std::vector<std::string> notes_on_rows(const SweepStudyResult& s) {
   if (s.holds_all()) return {};
-  std::vector<std::string> notes = {
-      fmt::format("Indices and pictures are of {} of the {} rows, drawn by chance; counts, ends and worst machines of "
-                  "all",
-                  counted(s.rows.size()), counted(s.tally.rows))};
+  std::vector<std::string> notes = {fmt::format(
+      "Indices and pictures are of {} of the {} rows, drawn by chance; counts, ends and worst machines of all",
+      counted(s.rows.size()), counted(s.tally.rows))};
   if (s.tally.pieces.size() > 1)
     notes.push_back(fmt::format("The variants stand in {} tables of {} rows, variants.csv, variants_2.csv …",
                                 s.tally.pieces.size(), counted(rows_in_table)));

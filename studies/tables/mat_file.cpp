@@ -1,7 +1,6 @@
 // mat_file.cpp — by libmatio, into memory.
 #include "studies/tables/mat_file.h"
 
-#include <fmt/format.h>
 #include <matio.h>
 
 #include <algorithm>

@@ -104,8 +104,7 @@ std::vector<Tolerated> tolerated_parameters(const Scene& scene) {
   if (list.empty())
     throw std::invalid_argument(
         fmt::format("{}: gives no tolerances; write e.g. stiffness = {{ value = \"900 kN*m/rad\", tolerance = \"10 "
-                    "%\", distribution "
-                    "= \"normal\", k = 2 }}",
+                    "%\", distribution = \"normal\", k = 2 }}",
                     scene.file));
   return list;
 }

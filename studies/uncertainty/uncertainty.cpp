@@ -258,9 +258,8 @@ class UncertaintyWork {
       const std::string unit = f.figure.unit.empty() ? "" : " " + pretty_unit(f.figure.unit);
       study_.notes.push_back(fmt::format(
           "{} does not follow its gradients over these tolerances: the samples have a deviation of {:.3g}{} about "
-          "{:.5g}{}, "
-          "gradients say {:.3g}{} about {:.5g}{}; the samples are right, and shares by gradients are of small "
-          "tolerances only (kurbel sweep --design saltelli:N shares out what is not linear)",
+          "{:.5g}{}, gradients say {:.3g}{} about {:.5g}{}; the samples are right, and shares by gradients are of "
+          "small tolerances only (kurbel sweep --design saltelli:N shares out what is not linear)",
           f.figure.name, f.by_samples, unit, f.mean, unit, f.by_gradients, unit, f.value, unit));
     }
     if (found > most_told)

@@ -21,8 +21,7 @@ std::vector<std::string> idle_effects(const Model& model) {
     if (idle.empty()) continue;
     notes.push_back(
         fmt::format("variable inertia is off: \"{}\" is a crank of constant inertia then, without rod and joints, and "
-                    "{} {} with it, "
-                    "although on",
+                    "{} {} with it, although on",
                     e.component, fmt::join(idle, " and "), idle.size() > 1 ? "go" : "goes"));
   }
   return notes;
