@@ -133,8 +133,7 @@ class Search {
 
   std::vector<RunUp::Peak> peaks(double tolerance_of_steps, bool elsewhere) {
     std::vector<ExtremeOf> wanted;
-    for (const LimitedJoint& joint : joints_)
-      wanted.push_back(torque_extreme(*machine_, joint, Functional::peak));
+    for (const LimitedJoint& joint : joints_) wanted.push_back(torque_extreme(*machine_, joint, Functional::peak));
     ExtremeRecorder recorder(std::move(wanted));
     Equations equations(machine_, false);
     RunOptions run = run_options(out_.until);
