@@ -49,14 +49,14 @@ class SlideChannels final : public ElementPool {
       const auto& [slide, shaft, gain, forces, travelled] = told;
       const double k = slide.per_radian, rate = k * gain, start = slide.start;
       channels.push_back(
-          {Name::make(quantity::position, slide.name), "m", [=, node = slide.node, own = travelled](const Snapshot& s) {
+          {Name::make(quantities::position, slide.name), "m", [=, node = slide.node, own = travelled](const Snapshot& s) {
              return start + (own < 0 ? k * s.node_angle[node] : s.now.own[own]);
            }});
-      channels.push_back({Name::make(quantity::velocity, slide.name), "m/s",
+      channels.push_back({Name::make(quantities::velocity, slide.name), "m/s",
                           [rate, i = shaft](const Snapshot& s) { return rate * s.now.speed[i]; }});
-      channels.push_back({Name::make(quantity::acceleration, slide.name), "m/s2",
+      channels.push_back({Name::make(quantities::acceleration, slide.name), "m/s2",
                           [rate, i = shaft](const Snapshot& s) { return rate * s.alpha[i]; }});
-      channels.push_back({Name::make(quantity::force, slide.name), "N", [k, all = forces](const Snapshot& s) {
+      channels.push_back({Name::make(quantities::force, slide.name), "N", [k, all = forces](const Snapshot& s) {
                             double sum = 0;
                             for (const int id : all) sum += s.sums.element_torque[id];
                             return sum / k;

@@ -26,7 +26,7 @@ enum class Functional {
 };
 
 // What a name begins with for it.
-inline const char* prefix(Functional functional) {
+inline const char* prefix_of(Functional functional) {
   constexpr const char* prefixes[] = {"", "peak_", "max_", "min_", "mid_", "mean_", "rms_", "final_"};
   return prefixes[static_cast<std::size_t>(functional)];
 }
@@ -46,7 +46,7 @@ struct QuantityKind {
 };
 
 // All of them that programs look for, each once; all others are told under words of their own.
-namespace quantity {
+namespace quantities {
 using enum Functional;
 using enum QuantityKind::Window;
 inline constexpr QuantityKind other{};  // an element's own state or output
@@ -104,13 +104,13 @@ inline constexpr QuantityKind useful_work_per_cycle{"useful_work_per_cycle", non
 inline constexpr QuantityKind harmful_work_per_cycle{"harmful_work_per_cycle", none, cycle};
 inline constexpr QuantityKind weight_work_per_cycle{"weight_work_per_cycle", none, cycle};
 inline constexpr QuantityKind work_per_cycle{"work_per_cycle", none, cycle};  // of one account
-}  // namespace quantity
+}  // namespace quantities
 
 // "cycle_peak_torque"; empty: of an element's own.
 inline std::string word(const QuantityKind& what) {
   if (what.channel.empty()) return {};
   std::string text = what.window == QuantityKind::Window::steady_cycle ? "cycle_" : "";
-  return text.append(prefix(what.functional)).append(what.channel);
+  return text.append(prefix_of(what.functional)).append(what.channel);
 }
 
 inline bool is_one_of(const QuantityKind& what, std::initializer_list<QuantityKind> kinds) {
@@ -138,13 +138,13 @@ struct Name {
   }
   // An element's own: "current", "motor".
   static Name own(std::string_view words, const std::string& of) {
-    return {quantity::other, of, std::string(words).append(".").append(of)};
+    return {quantities::other, of, std::string(words).append(".").append(of)};
   }
   friend bool operator==(const Name& a, const Name& b) { return a.text == b.text; }
   friend bool operator==(const Name& a, std::string_view text) { return a.text == text; }
   // Of a channel, the figure that tells its peak over a whole run.
   Name peak() const {
-    return {{what.channel, Functional::peak, QuantityKind::Window::run}, of, prefix(Functional::peak) + text};
+    return {{what.channel, Functional::peak, QuantityKind::Window::run}, of, prefix_of(Functional::peak) + text};
   }
   // Of an extreme or an RMS value of a whole run, the like of one steady cycle; others are what they were.
   Name of_cycle() const {

@@ -35,8 +35,8 @@ class Output {
     bare.file = file;
     model_ = compile_network(std::move(net), bare, Effects{});
     for (const Channel& channel : model_->pool_channels) {
-      if (channel.name.what == quantity::position) position_ = &channel;
-      if (channel.name.what == quantity::velocity) velocity_ = &channel;
+      if (channel.name.what == quantities::position) position_ = &channel;
+      if (channel.name.what == quantities::velocity) velocity_ = &channel;
     }
   }
   // What a shaft moves along, as a screw does, is no output: its place hangs on turns and travel as well.

@@ -36,15 +36,15 @@ void refuse_too_many(const Scene& scene, std::size_t channels) {
 // --- channels, and their peaks over a run ---
 
 Channel torque_of(const TorqueJoint& joint) {
-  return {Name::make(quantity::torque, joint.component), "N*m",
+  return {Name::make(quantities::torque, joint.component), "N*m",
           [j = joint.joint](const Snapshot& s) { return s.joint_torque[j]; }};
 }
 Channel spring_torque_of(const TorqueJoint& joint) {
-  return {Name::make(quantity::spring_torque, joint.component), "N*m",
+  return {Name::make(quantities::spring_torque, joint.component), "N*m",
           [e = joint.elastic](const Snapshot& s) { return s.sums.spring_torque[e]; }};
 }
 Channel torque_of(const GearTorque& torque) {
-  return {Name::make(quantity::torque, torque.name), "N*m",
+  return {Name::make(quantities::torque, torque.name), "N*m",
           [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); }};
 }
 Channel own_state(const Model& model, std::size_t k) {
@@ -91,8 +91,8 @@ class ChannelList {
   void add_motion(const std::string& name, int node) {
     const int shaft = model_.shaft_of_node[at(node)];
     const double gain = model_.gain_of_node[at(node)];
-    add(Name::make(quantity::angle, name), "rad", [node](const Snapshot& s) { return s.node_angle[node]; });
-    add(Name::make(quantity::speed, name), "rad/s",
+    add(Name::make(quantities::angle, name), "rad", [node](const Snapshot& s) { return s.node_angle[node]; });
+    add(Name::make(quantities::speed, name), "rad/s",
         [shaft, gain](const Snapshot& s) { return gain * s.now.speed[shaft]; });
   }
   void add_motions(const std::string& component) {
@@ -111,7 +111,7 @@ class ChannelList {
       if (model_.network.elements[e].component == component && model_.network.elements[e].element->cycle == 0)
         own.push_back(e);
     if (own.empty()) return;
-    add(Name::make(quantity::torque, component), "N*m", [own](const Snapshot& s) {
+    add(Name::make(quantities::torque, component), "N*m", [own](const Snapshot& s) {
       double sum = 0;
       for (const std::size_t e : own) sum += s.sums.element_torque[e];
       return sum;
@@ -122,7 +122,7 @@ class ChannelList {
   void add_drive(const std::string& component) {
     for (const MotorTorque& drive : model_.motors) {
       if (!drive.prescribed || drive.component != component) continue;
-      add(Name::make(quantity::torque, component), "N*m", [drive](const Snapshot& s) { return drive.torque(s); });
+      add(Name::make(quantities::torque, component), "N*m", [drive](const Snapshot& s) { return drive.torque(s); });
       channels_.push_back(power_of(model_, drive));
     }
   }
@@ -135,13 +135,13 @@ class ChannelList {
     if (elastic.slips || elastic.springless) {
       const int a = elastic.shaft_a, b = elastic.shaft_b;
       const double ga = elastic.gain_a, gb = elastic.gain_b;
-      add(Name::make(quantity::slip, joint.component), "rad/s",
+      add(Name::make(quantities::slip, joint.component), "rad/s",
           [=](const Snapshot& s) { return ga * s.now.speed[a] - gb * s.now.speed[b]; });
       return;
     }
     channels_.push_back(spring_torque_of(joint));
     const int first = joint.first, last = joint.last;
-    add(Name::make(quantity::twist, joint.component), "rad", [first, last](const Snapshot& s) {
+    add(Name::make(quantities::twist, joint.component), "rad", [first, last](const Snapshot& s) {
       double twist = 0;
       for (int k = first; k <= last; ++k) twist += s.now.twist[k];
       return twist;
@@ -181,7 +181,7 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
   }
   if (!model.network.joints[at(j)].element) return wanted.push_back(std::move(transmitted));  // no spring at all
   ExtremeOf spring = transmitted;
-  spring.name = Name::make(quantity::peak_spring_torque, joint.component);
+  spring.name = Name::make(quantities::peak_spring_torque, joint.component);
   if (e >= 0) {
     const ElasticJoint elastic = model.elastic[at(e)];
     const AnyConnection* element = model.network.joints[at(j)].element.get();
@@ -212,7 +212,7 @@ void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
   const int node = model.reduction_node, shaft = model.shaft_of_node[at(node)];
   const double gain = model.gain_of_node[at(node)];
   const std::string link = model.network.nodes[at(node)].component;
-  ExtremeOf speed{.name = Name::make(quantity::max_speed, link),
+  ExtremeOf speed{.name = Name::make(quantities::max_speed, link),
                   .unit = "rad/s",
                   .scale = model.speed_scale,
                   .functional = Functional::greatest,
@@ -220,7 +220,7 @@ void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
                   .rate = [=](const Snapshot& s) { return gain * s.alpha[shaft]; }};
   speed.slope = speed.rate;
   wanted.push_back(speed);
-  speed.name = Name::make(quantity::min_speed, link);
+  speed.name = Name::make(quantities::min_speed, link);
   speed.functional = Functional::least;
   wanted.push_back(std::move(speed));
 }
@@ -252,7 +252,7 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
       wanted.back().rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; };
     }
   for (const Channel& channel : model.pool_channels)
-    if (channel.name.what != quantity::position) wanted.push_back(peak_of(channel));
+    if (channel.name.what != quantities::position) wanted.push_back(peak_of(channel));
   return wanted;
 }
 

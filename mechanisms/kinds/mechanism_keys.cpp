@@ -92,7 +92,7 @@ void limit_loads(const Mechanism& mechanism, int node, Network& net) {
                          .of = "load",
                          .over = Network::DataRange::Over::channel,
                          .node = node,
-                         .channel = Name::make(quantity::position, mechanism.name).text,
+                         .channel = Name::make(quantities::position, mechanism.name).text,
                          .sign = -static_cast<double>(law.end.side),
                          .offset = law.end.side * law.end.position,
                          .unit = mechanism.rocks() ? "rad" : "m"},

@@ -308,13 +308,13 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
       channels.push_back({Name::own(words, name), unit, std::move(value)});
     };
     const auto here = [this, i](const Snapshot& s) { return motion(placed_[i], s.now); };
-    add(quantity::position, "m", [here](const Snapshot& s) { return here(s).x; });
-    add(quantity::velocity, "m/s", [here](const Snapshot& s) { return here(s).x_rate; });
-    add(quantity::acceleration, "m/s2", [this, i, here](const Snapshot& s) {
+    add(quantities::position, "m", [here](const Snapshot& s) { return here(s).x; });
+    add(quantities::velocity, "m/s", [here](const Snapshot& s) { return here(s).x_rate; });
+    add(quantities::acceleration, "m/s2", [this, i, here](const Snapshot& s) {
       return placed_[i].dynamics->acceleration_x(here(s), acceleration(placed_[i], s));
     });
     if (!placed.mechanism.loads.empty())
-      add(quantity::force, "N", [this, i, here](const Snapshot& s) { return load_force(placed_[i], s.now, here(s)); });
+      add(quantities::force, "N", [this, i, here](const Snapshot& s) { return load_force(placed_[i], s.now, here(s)); });
     const auto& free = placed.dynamics->free();
     if (std::find(free.begin(), free.end(), std::size_t{C::y}) == free.end())
       add_own("guide_reaction", "N", [this, i](const Snapshot& s) { return reactions(placed_[i], s)[C::y]; });

@@ -76,7 +76,7 @@ std::map<std::string, double> peaks(const AccuracyWork& work, const Effects& eff
   const Result r = simulate(work.scene, effects, "", work.simulate_options("auto", 1e-6));
   if (!r.complete) return found;
   for (const Figure& f : r.figures)
-    if (f.what == quantity::peak_torque || f.what == quantity::delta || f.what == quantity::cycle_fluctuation)
+    if (f.what == quantities::peak_torque || f.what == quantities::delta || f.what == quantities::cycle_fluctuation)
       found[f.name] = f.value;
   return found;
 }
@@ -175,8 +175,8 @@ bool make_reference(AccuracyWork& work, LevelAtWork& level) {
   }
   level.reference = std::move(found[0]);
   const std::string link = link_of(*level.model);
-  if (const Figure* f = level.reference.find(quantity::final_angle, link)) level.end_angle = f->value;
-  if (const Figure* f = level.reference.find(quantity::final_speed, link)) level.end_speed = f->value;
+  if (const Figure* f = level.reference.find(quantities::final_angle, link)) level.end_angle = f->value;
+  if (const Figure* f = level.reference.find(quantities::final_speed, link)) level.end_speed = f->value;
   work.log(fmt::format("{}: {} and {} agree to {:.1e}", told.name, told.first, told.second, told.agreement));
   return true;
 }

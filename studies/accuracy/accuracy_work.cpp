@@ -42,7 +42,7 @@ namespace {
 // Angles count in rad, whatever was turned; speeds and twists over the largest that they reach.
 bool is_state(const Channel& channel) {
   const QuantityKind& what = channel.name.what;
-  return what == quantity::angle || what == quantity::speed || what == quantity::twist;
+  return what == quantities::angle || what == quantities::speed || what == quantities::twist;
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ double trajectory_difference(const TrajectoryRecorder& a, const TrajectoryRecord
       scale = std::max(scale, std::abs(reference.value(row, k)));
       difference = std::max(difference, std::abs(a.value(row, k) - reference.value(row, k)));
     }
-    if (a.channels()[k].name.what == quantity::angle) scale = 1;
+    if (a.channels()[k].name.what == quantities::angle) scale = 1;
     if (scale > 0) largest = std::max(largest, difference / scale);
   }
   return largest;

@@ -20,10 +20,10 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
     return std::abs(f.value) > 1e-9 * std::max(f.scale, 1e-300) && f.error && std::isfinite(*f.error);
   };
   for (const Figure& f : full.figures)
-    if (sound(f) && f.what == quantity::peak_torque) peaks.push_back(&f);
+    if (sound(f) && f.what == quantities::peak_torque) peaks.push_back(&f);
   for (const QuantityKind& what :
-       {quantity::delta, quantity::cycle_fluctuation, quantity::run_up_time, quantity::final_angle,
-        quantity::final_speed, quantity::max_speed, quantity::peak_force})
+       {quantities::delta, quantities::cycle_fluctuation, quantities::run_up_time, quantities::final_angle,
+        quantities::final_speed, quantities::max_speed, quantities::peak_force})
     for (const Figure& f : full.figures)
       if (sound(f) && f.what == what && (what.functional != Functional::last || f.of == link_of(model)))
         others.push_back(&f);

@@ -82,8 +82,8 @@ class Screening {
  private:
   std::vector<Screen> of_elasticity(const std::string& component) const {
     std::vector<Screen> screens;
-    const auto twist = channel_of(full_, Name::make(quantity::twist, component)),
-               torque = channel_of(full_, Name::make(quantity::torque, component));
+    const auto twist = channel_of(full_, Name::make(quantities::twist, component)),
+               torque = channel_of(full_, Name::make(quantities::torque, component));
     if (twist && torque) {
       const auto [share, swing] = activity_and_swing(*twist, *torque);
       const bool about_zero = !std::isfinite(swing);
@@ -180,7 +180,7 @@ class Screening {
     std::string where;
     for (std::size_t k = 0; full_.trajectory && k < full_.trajectory->channels().size(); ++k) {
       const Channel& channel = full_.trajectory->channels()[k];
-      if (channel.name.what != quantity::spring_torque) continue;
+      if (channel.name.what != quantities::spring_torque) continue;
       int own = 0;
       double last = 0;
       for (std::size_t i = 0; i < full_.trajectory->time().size(); ++i) {
@@ -205,7 +205,7 @@ class Screening {
   Screen impacts() const {
     double count = 0;
     for (const Figure& f : full_.figures)
-      if (f.what == quantity::impacts) count += f.value;
+      if (f.what == quantities::impacts) count += f.value;
     return {"impacts", count,
             count > 0 ? fmt::format("the joints are hit {:.0f} times after flight", count)
                       : std::string("no joint is hit after flight: they stay in touch"),
@@ -215,7 +215,7 @@ class Screening {
   std::vector<Screen> rods() const {
     double fastest = 0;  // of the link
     for (const Figure& f : full_.figures)
-      if (f.what == quantity::max_speed || f.what == quantity::min_speed)
+      if (f.what == quantities::max_speed || f.what == quantities::min_speed)
         fastest = std::max(fastest, std::abs(f.value));
     std::vector<Screen> screens;
     for (const Network::ShaftElement& e : full_.model->network.elements) {

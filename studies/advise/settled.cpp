@@ -11,9 +11,9 @@ namespace {
 
 bool is_compared(const Figure& figure) {
   return figure.scale > 0 &&
-         is_one_of(figure.what, {quantity::delta, quantity::mean_speed, quantity::mid_speed, quantity::cycle_max_speed,
-                                 quantity::cycle_min_speed, quantity::cycle_peak_torque, quantity::cycle_rms_torque,
-                                 quantity::peak_drive_torque, quantity::mean_drive_torque, quantity::rms_drive_torque});
+         is_one_of(figure.what, {quantities::delta, quantities::mean_speed, quantities::mid_speed, quantities::cycle_max_speed,
+                                 quantities::cycle_min_speed, quantities::cycle_peak_torque, quantities::cycle_rms_torque,
+                                 quantities::peak_drive_torque, quantities::mean_drive_torque, quantities::rms_drive_torque});
 }
 
 bool is_asked(const Figure& figure, const std::vector<std::string>& figures) {

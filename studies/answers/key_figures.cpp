@@ -67,8 +67,8 @@ constexpr Ranked ranks[] = {
 int rank_of(const Figure& f, const std::string& link, const std::set<std::string>& judged) {
   if (judged.contains(f.name)) return 1;
   if (f.words().starts_with("motor_peak_")) return 9;  // behind what heats it
-  if (f.what == quantity::peak_other) return 8;
-  if (f.what == quantity::cycle_fluctuation && !(f.value < stands_within_the_cycle)) return never;
+  if (f.what == quantities::peak_other) return 8;
+  if (f.what == quantities::cycle_fluctuation && !(f.value < stands_within_the_cycle)) return never;
   for (const Ranked& known : ranks)
     if (f.words() == known.words) return f.of == link ? known.of_link : known.of_others;
   return never;

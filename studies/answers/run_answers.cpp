@@ -24,7 +24,7 @@ class RunWords {
   // What a sound run comes to.
   std::string all() const {
     if (p_.steady) return steady();
-    const Figure* last = figure(quantity::final_speed);
+    const Figure* last = figure(quantities::final_speed);
     const std::string end = !last                  ? std::string()
                             : last->value == 0     ? "at rest"
                             : all_but_rests(*last) ? fmt::format("all but at rest ({})", speed(last->value))
@@ -42,7 +42,7 @@ class RunWords {
     return r_.model && std::abs(last.value) < 0.01 * r_.model->speed_scale;
   }
   std::string steady() const {
-    const Figure* mean = figure(quantity::mean_speed);
+    const Figure* mean = figure(quantities::mean_speed);
     std::string text = fmt::format("\"{}\" runs steadily at {}", link(), speed(mean ? mean->value : p_.steady_speed));
     if (p_.run_up_end) text += fmt::format(" from {} on", seconds(*p_.run_up_end));
     if (p_.run_down_begin) text += fmt::format(", runs down from {}", seconds(*p_.run_down_begin));

@@ -129,7 +129,7 @@ std::string told_instead(std::string_view asked, const std::vector<std::string>&
   const std::string owner(asked.substr(what.size()));
   std::vector<std::string> others = {"cycle_" + std::string(what)};
   if (what.starts_with("cycle_")) others.emplace_back(what.substr(std::string_view("cycle_").size()));
-  const std::string delta = word(quantity::delta), fluctuation = word(quantity::cycle_fluctuation);
+  const std::string delta = word(quantities::delta), fluctuation = word(quantities::cycle_fluctuation);
   if (what == delta) others.push_back(fluctuation);
   if (what == fluctuation) others.push_back(delta);
   for (const std::string& other : others)

@@ -1,6 +1,6 @@
 // dictionary.h — what a figure means: one definition in all commands, asked for by its quantity or by its name.
 //
-//     const Definition* d = definition_of(quantity::delta);   // of a typed quantity
+//     const Definition* d = definition_of(quantities::delta);   // of a typed quantity
 //     const Definition* d = definition_of("delta.press");         // as it is printed
 #pragma once
 
@@ -33,7 +33,7 @@ struct Definition {
 // All of them: of channels, of runs, of steady cycles, of the other studies.
 const std::vector<Definition>& dictionary();
 
-// Null for quantity::other and its peaks, whose words are the element's own.
+// Null for quantities::other and its peaks, whose words are the element's own.
 const Definition* definition_of(const QuantityKind& what);
 // Of a figure, a channel or what a study calls its own: "delta.press", "delta", "peak_current.motor"; null: none.
 const Definition* definition_of(std::string_view name);

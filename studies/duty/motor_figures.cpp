@@ -203,7 +203,7 @@ std::vector<ExtremeOf> motor_extremes_of(const Model& m) {
   std::vector<ExtremeOf> wanted;
   const auto want = [&](const std::string& words, const MotorTorque& motor, const char* unit, double scale,
                         auto value) {
-    const Name name{quantity::peak_other, motor.component, words + "." + motor.component};  // by magnitude
+    const Name name{quantities::peak_other, motor.component, words + "." + motor.component};  // by magnitude
     wanted.push_back({.name = name, .unit = unit, .scale = scale, .value = value, .rate = {}});
   };
   for (const MotorTorque& motor : m.motors) {

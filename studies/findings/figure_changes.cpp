@@ -13,8 +13,8 @@ constexpr double rounding = 1e-9;  // of a rated quantity
 // What matters of a speed or a work is how it compares with the machine's own: a shaft that trembles at the end at a
 // hundredth of its speed, or a loss of a thousandth of what is driven, tells little however much it changes of itself.
 bool is_judged_by_the_machine(const QuantityKind& what) {
-  return is_one_of(what, {quantity::max_speed, quantity::min_speed, quantity::steady_speed, quantity::mid_speed,
-                          quantity::mean_speed, quantity::final_speed, quantity::work});
+  return is_one_of(what, {quantities::max_speed, quantities::min_speed, quantities::steady_speed, quantities::mid_speed,
+                          quantities::mean_speed, quantities::final_speed, quantities::work});
 }
 
 }  // namespace
@@ -23,14 +23,14 @@ bool is_telling(const Figure& figure) {
   return figure.scale > 0 &&
          (is_judged_by_the_machine(figure.what) ||
           is_one_of(figure.what,
-                    {quantity::peak_torque, quantity::delta, quantity::cycle_fluctuation, quantity::run_up_time,
-                     quantity::run_down_time, quantity::rms_torque, quantity::slip_heat, quantity::stopping_time,
-                     quantity::stopping_angle, quantity::cycle_time}));
+                    {quantities::peak_torque, quantities::delta, quantities::cycle_fluctuation, quantities::run_up_time,
+                     quantities::run_down_time, quantities::rms_torque, quantities::slip_heat, quantities::stopping_time,
+                     quantities::stopping_angle, quantities::cycle_time}));
 }
 
 bool measure_the_same(const Figure& a, const Figure& b) {
   const auto fluctuates = [](const Figure& f) {
-    return is_one_of(f.what, {quantity::delta, quantity::cycle_fluctuation});
+    return is_one_of(f.what, {quantities::delta, quantities::cycle_fluctuation});
   };
   return a.name == b.name || (fluctuates(a) && fluctuates(b) && a.of == b.of);
 }

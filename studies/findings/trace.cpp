@@ -24,11 +24,11 @@ void push(Trace& trace, double x, double y) {
 TraceRecorder::TraceRecorder(const Model& model) : model_(&model), sources_(model) {
   for (Channel& channel : channels_of(
            model, model.network.components.size() > 60 ? std::vector<std::string>{} : model.network.components)) {
-    if (channel.name.what == quantity::spring_torque || channel.name.what == quantity::angle) continue;
+    if (channel.name.what == quantities::spring_torque || channel.name.what == quantities::angle) continue;
     channels_.push_back(std::move(channel));
   }
   const int link = model.reduction_node;
-  channels_.push_back({Name::make(quantity::angle), "rad", [link](const Snapshot& s) { return s.node_angle[link]; }});
+  channels_.push_back({Name::make(quantities::angle), "rad", [link](const Snapshot& s) { return s.node_angle[link]; }});
   if (model.network.components.size() <= 60)
     for (const std::string& component : model.network.components) {
       const Network::Ports& ports = model.network.ports.at(component);
@@ -38,14 +38,14 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model), sources_(mode
         bool known = false;
         for (const Channel& c : channels_) known = known || c.name.text == Traces::node_key(node);
         if (!known)
-          channels_.push_back({Name{quantity::other, "", Traces::node_key(node)}, "rad",
+          channels_.push_back({Name{quantities::other, "", Traces::node_key(node)}, "rad",
                                [=](const Snapshot& s) { return s.node_angle[node] / ratio - s.node_angle[link]; }});
       }
     }
   for (const Channel& channel : channels_) {
     const QuantityKind& what = channel.name.what;
-    if (what == quantity::torque || what == quantity::force || what == quantity::load_torque ||
-        what == quantity::speed || what == quantity::slip || what == quantity::position)
+    if (what == quantities::torque || what == quantities::force || what == quantities::load_torque ||
+        what == quantities::speed || what == quantities::slip || what == quantities::position)
       over_angle_.push_back(traces_->over_time.size());
     traces_->over_time.push_back({channel.name.text, channel.unit, {}, {}, what, channel.name.of});
   }

@@ -17,7 +17,7 @@ DeformedMechanism::DeformedMechanism(std::shared_ptr<const Model> model, const s
   element_ = static_cast<std::size_t>(&element - m.network.elements.data());
   dynamics_ = mechanism_of(element)->dynamics();
   for (std::size_t k = 0; k < m.pool_channels.size(); ++k)
-    if (m.pool_channels[k].name.what == quantity::force && m.pool_channels[k].name.of == component)
+    if (m.pool_channels[k].name.what == quantities::force && m.pool_channels[k].name.of == component)
       force_channel_ = static_cast<int>(k);
   while (own_ < m.own_states.size() && m.own_states[own_].component != component) ++own_;
 }

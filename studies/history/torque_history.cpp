@@ -131,15 +131,15 @@ TorqueHistory simulate_torque(const Scene& scene, const Effects& effects, const 
   };
   TorqueHistory history;
   history.component = wanted.torque;
-  history.channel = Name::make(quantity::torque, wanted.torque).text;
+  history.channel = Name::make(quantities::torque, wanted.torque).text;
   history.time = result.trajectory->time();
-  history.value = samples(quantity::torque, wanted.torque, ".1");
-  history.speed = samples(quantity::speed, wanted.link, ".in");
-  history.angle = samples(quantity::angle, wanted.link, ".in");
+  history.value = samples(quantities::torque, wanted.torque, ".1");
+  history.speed = samples(quantities::speed, wanted.link, ".in");
+  history.angle = samples(quantities::angle, wanted.link, ".in");
   history.complete = result.complete;
   history.diagnosis = result.diagnosis;
-  const Figure* peak = result.find(quantity::peak_torque, wanted.torque);
-  if (!peak) peak = result.find(quantity::peak_torque, wanted.torque + ".1");
+  const Figure* peak = result.find(quantities::peak_torque, wanted.torque);
+  if (!peak) peak = result.find(quantities::peak_torque, wanted.torque + ".1");
   double largest = 0;
   for (const double v : history.value) largest = std::max(largest, std::abs(v));
   if (peak)

@@ -181,7 +181,7 @@ SteadyLoads constant_loads(const Regime& regime, const std::shared_ptr<const Mod
 
 ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, Functional functional) {
   const int j = joint.joint;
-  ExtremeOf extreme{.name = Name::make(quantity::peak_torque, joint.name),
+  ExtremeOf extreme{.name = Name::make(quantities::peak_torque, joint.name),
                     .unit = "N*m",
                     .scale = joint.rated,
                     .value = [j](const Snapshot& s) { return s.joint_torque[j]; },
@@ -189,7 +189,7 @@ ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, Functi
   for (const TorqueJoint& known : machine.torque_joints)
     if (known.joint == j)
       for (ExtremeOf& e : extremes_of(machine))
-        if (e.name == Name::make(quantity::peak_torque, known.component)) extreme = std::move(e);
+        if (e.name == Name::make(quantities::peak_torque, known.component)) extreme = std::move(e);
   extreme.functional = functional;
   return extreme;
 }

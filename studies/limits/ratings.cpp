@@ -100,7 +100,7 @@ class Rater {
   std::optional<Estimate> largest_torque() const {
     std::optional<Estimate> largest;
     for (const Figure& f : result_.figures)
-      if (f.what == quantity::peak_torque && is_of(f.of))
+      if (f.what == quantities::peak_torque && is_of(f.of))
         if (!largest || std::abs(f.value) > largest->value) largest = abs(f);
     return largest;
   }
@@ -183,7 +183,7 @@ class Rater {
       return fmt::format("it holds from a rated torque of {:.4g} N·m on", rated * times);
     };
     // Continuous duty is that of the steady motion, where the run comes to one: a start is soon forgotten.
-    const bool continuous = !rating.duty.time && !rating.duty.share && result_.find(quantity::run_up_time, "");
+    const bool continuous = !rating.duty.time && !rating.duty.share && result_.find(quantities::run_up_time, "");
     if (const auto use = continuous ? found("thermal_use." + component_) : std::nullopt) {
       const bool changes = result_.model && !result_.model->commands.empty();
       add(changes ? "RMS torque of the heaviest cycle: √(∫ M² dt/T) ≤ M_N"
@@ -241,7 +241,7 @@ std::vector<ExtremeOf> shaft_torques_of(const Model& model) {
     if (rates_cycle(shaft.rating)) rated.push_back(component);
   if (rated.empty()) return wanted;
   for (const ExtremeOf& peak : extremes_of(model)) {
-    if (peak.name.what != quantity::peak_torque) continue;
+    if (peak.name.what != quantities::peak_torque) continue;
     if (std::none_of(rated.begin(), rated.end(),
                      [&](const std::string& shaft) { return is_joint_of(peak.name.of, shaft); }))
       continue;
@@ -265,7 +265,7 @@ std::vector<Figure> rating_figures(const Model& model, const HeatRecorder* heat,
     }
   for (const auto& [component, belt] : model.network.data.all<BeltRating>())
     for (const Figure& f : known)
-      if (f.what == quantity::peak_torque && f.of == component) {
+      if (f.what == quantities::peak_torque && f.of == component) {
         const double tight = belt.tight_strand(f.value), usual = belt.tight_strand(belt.limit);
         figures.push_back(figure_of("strand_force", component, tight, "N", usual));
         figures.push_back(figure_of("slack_force", component, 2 * belt.pretension - tight, "N", usual));

@@ -73,7 +73,7 @@ std::optional<Signal> signal_of(const SteadyCycle& c, const std::string& channel
 void add_figures(std::vector<Figure>& figures, const Measurement& m, const Alignment& a) {
   const auto add = [&](const std::string& name, double value, const std::string& unit, std::optional<double> error = {},
                        std::optional<double> at = {}) {
-    Figure figure = Figure::of_name(Name{quantity::other, "", name}, value, unit);
+    Figure figure = Figure::of_name(Name{quantities::other, "", name}, value, unit);
     figure.error = error, figure.at = at;
     figures.push_back(std::move(figure));
   };
@@ -129,7 +129,7 @@ std::vector<KnownChannel> channels_of_run(const Model& model) {
 std::vector<KnownChannel> channels_of_cycle(const Model& model) {
   return known(
       model, model.network.components.size() > 60 ? std::vector<std::string>{} : model.network.components,
-      [](const Channel& c) { return c.name.what != quantity::angle && c.name.what != quantity::spring_torque; });
+      [](const Channel& c) { return c.name.what != quantities::angle && c.name.what != quantities::spring_torque; });
 }
 
 Overlay lay_over(const Measurement& measurement, Result& run) {

@@ -16,7 +16,7 @@ namespace {
 std::vector<std::string> sliders_of(const Model& model) {
   std::vector<std::string> names;
   for (const Channel& channel : model.pool_channels)
-    if (channel.name.what == quantity::velocity)
+    if (channel.name.what == quantities::velocity)
       names.push_back(channel.name.of + (channel.unit == "rad/s" ? ".rocker" : ".slider"));
   return names;
 }
@@ -41,11 +41,11 @@ SliderRatio::SliderRatio(std::shared_ptr<const Model> model, const std::string& 
     : model_(std::move(model)), equations_(model_, false) {
   for (const Channel& channel : model_->pool_channels) {
     if (channel.name.of != mechanism) continue;
-    if (channel.name.what == quantity::velocity) {
+    if (channel.name.what == quantities::velocity) {
       velocity_ = channel.value;
       rocks_ = channel.unit == "rad/s";
     }
-    if (channel.name.what == quantity::acceleration) acceleration_ = channel.value;
+    if (channel.name.what == quantities::acceleration) acceleration_ = channel.value;
   }
 }
 

@@ -32,8 +32,8 @@ void add_rows(Comparison& c) {
     c.rows.push_back(std::move(row));
   }
   for (const ComparisonRow& row : c.rows) {
-    if (row.what != quantity::peak_torque || !row.ratio) continue;
-    const Name name = Name::make(quantity::amplification, row.of);
+    if (row.what != quantities::peak_torque || !row.ratio) continue;
+    const Name name = Name::make(quantities::amplification, row.of);
     c.amplification.push_back({name.text, "", {}, abs(*row.b / *row.a), 0, {}, name.what, name.of});
   }
 }
@@ -57,7 +57,7 @@ void note_sudden_loads(Comparison& c) {
   for (const ComparisonRow& row : c.amplification) {
     const std::string& joint = row.of;
     const auto rigid = rigid_torques.find(joint), elastic = elastic_torques.find(joint);
-    const Figure* peak = c.a.find(quantity::peak_torque, joint);
+    const Figure* peak = c.a.find(quantities::peak_torque, joint);
     if (rigid == rigid_torques.end() || elastic == elastic_torques.end() || !peak) continue;
     if (std::abs(rigid->second - elastic->second) > 0.05 * std::abs(peak->value))
       sudden.push_back(fmt::format("at the start {} jumps from {} to {}", joint, with_unit(elastic->second, "N*m", 4),
@@ -102,14 +102,14 @@ void conclude(Comparison& c) {
                                       });
   if (worst != c.amplification.end() && worst->b->value > 0) {
     const std::string& joint = worst->of;
-    const Figure* peak = c.b.find(quantity::peak_torque, joint);
+    const Figure* peak = c.b.find(quantities::peak_torque, joint);
     c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
                                with_unit(std::abs(peak->value), "N*m", 4), worst->b->value, c.a.label);
   }
   for (const ComparisonRow& row : c.rows) {
-    const bool repeats = row.what == quantity::delta;
-    if (row.what == quantity::cycle_fluctuation && row.b->value >= stands_within_the_cycle) continue;
-    if (!row.ratio || !(repeats || row.what == quantity::cycle_fluctuation)) continue;
+    const bool repeats = row.what == quantities::delta;
+    if (row.what == quantities::cycle_fluctuation && row.b->value >= stands_within_the_cycle) continue;
+    if (!row.ratio || !(repeats || row.what == quantities::cycle_fluctuation)) continue;
     const char* what = repeats ? "δ" : "the fluctuation in the last cycle, which is not steady,";
     c.conclusion += (c.conclusion.empty() ? "" : "; ") +
                     (*row.ratio > 2 ? fmt::format("{} is {:.3g} × as great", what, *row.ratio)

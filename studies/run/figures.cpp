@@ -161,7 +161,7 @@ class RunFigures {
       for (const bool spring : {false, true}) {
         const TorqueJoint& joint = model_.torque_joints[i];
         if (spring && !model_.network.joints[at(joint.joint)].element) continue;
-        tell_(spring ? quantity::rms_spring_torque : quantity::rms_torque, joint.component,
+        tell_(spring ? quantities::rms_spring_torque : quantities::rms_torque, joint.component,
               [&]() -> std::optional<Found> {
                 const bool slips = joint.elastic >= 0 && model_.elastic[at(joint.elastic)].slips;
                 if (run_->outcome.t <= 0 || (spring && slips)) return {};
@@ -179,15 +179,15 @@ class RunFigures {
     for (const std::string& component : model_.network.components) {
       if (model_.network.components.size() > 60 && component != link()) continue;
       const int node = model_.network.ports.at(component).out;
-      tell_(quantity::final_angle, component, [&] { return at_end(angle_of(model_, *s, node)); });
-      tell_(quantity::final_speed, component, [&] { return at_end(speed_of(*equations_, *s, node)); });
+      tell_(quantities::final_angle, component, [&] { return at_end(angle_of(model_, *s, node)); });
+      tell_(quantities::final_speed, component, [&] { return at_end(speed_of(*equations_, *s, node)); });
     }
   }
   // Heat of what slips.
   void add_heat() {
     for (const ElasticJoint& e : model_.elastic)
       if (e.slips)
-        tell_(quantity::slip_heat, model_.network.joints[at(e.joint)].component, [&]() -> std::optional<Found> {
+        tell_(quantities::slip_heat, model_.network.joints[at(e.joint)].component, [&]() -> std::optional<Found> {
           if (run_->energy->work.empty()) return {};  // failed before its first step
           return Found{-run_->energy->work[at(e.loss_account)], energy_scale(), run_->outcome.t};
         });
@@ -195,7 +195,7 @@ class RunFigures {
   // Joints with clearance: how often one is hit after flight.
   void add_impacts() {
     for (const std::string& component : components_with_impacts(model_))
-      tell_(quantity::impacts, component, [&] {
+      tell_(quantities::impacts, component, [&] {
         int count = 0;
         for (const Event& e : run_->outcome.events) count += e.component == component && e.kind == EventKind::impact;
         return Found{static_cast<double>(count), static_cast<double>(std::max(1, count)), run_->outcome.t, true};
@@ -205,8 +205,8 @@ class RunFigures {
     const std::optional<Stopping> stopping =
         tell_.listing() ? Stopping{} : first_stopping(model_, run_->outcome.events);
     if (!stopping) return;
-    tell_(quantity::stopping_time, link(), [&] { return Found{stopping->time, model_.scene.run.until, stopping->at}; });
-    tell_(quantity::stopping_angle, link(), [&] { return Found{stopping->angle, 1, stopping->at}; });
+    tell_(quantities::stopping_time, link(), [&] { return Found{stopping->time, model_.scene.run.until, stopping->at}; });
+    tell_(quantities::stopping_angle, link(), [&] { return Found{stopping->angle, 1, stopping->at}; });
   }
   // A machine that nothing drives repeats its cycles, too, unless it loses something: like the two before it.
   bool comes_again(const CycleRecord& last) const {
@@ -234,16 +234,16 @@ class RunFigures {
 
   void add_cycle() {
     if (!has_cycle()) return;
-    for (const QuantityKind& what : {quantity::delta, quantity::cycle_fluctuation})
+    for (const QuantityKind& what : {quantities::delta, quantities::cycle_fluctuation})
       tell_(what, link(), [&]() -> std::optional<Found> {
-        if ((what == quantity::delta) != (repeating_ != nullptr)) return {};
+        if ((what == quantities::delta) != (repeating_ != nullptr)) return {};
         return Found{last_->fluctuation(), 1, last_->end};
       });
-    tell_(quantity::mid_speed, link(), [&] { return Found{last_->mid_speed(), model_.speed_scale, last_->end}; });
-    tell_(quantity::mean_speed, link(), [&] {
+    tell_(quantities::mid_speed, link(), [&] { return Found{last_->mid_speed(), model_.speed_scale, last_->end}; });
+    tell_(quantities::mean_speed, link(), [&] {
       return Found{last_->mean_speed(model_.cycle), model_.speed_scale, last_->end};
     });
-    tell_(quantity::cycle_time, link(), [&] {
+    tell_(quantities::cycle_time, link(), [&] {
       return Found{last_->end - last_->begin, 2 * M_PI / model_.speed_scale, last_->end};
     });
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
@@ -275,7 +275,7 @@ class RunFigures {
   }
   void add_efficiency() {
     if (!has_cycle()) return;
-    tell_({quantity::other, "", "machine_efficiency"}, [&]() -> std::optional<Found> {
+    tell_({quantities::other, "", "machine_efficiency"}, [&]() -> std::optional<Found> {
       if (!repeating_) return {};
       const std::array<double, 4> work = works_by_kind(model_, repeating_->work);
       if (!(work[0] > 0)) return {};
@@ -291,16 +291,16 @@ class RunFigures {
     const auto lasting = [&](std::optional<double> begin, std::optional<double> end, double resolution) {
       return begin && end ? std::optional(Found{*end - *begin, run_->outcome.t, end, false, resolution}) : std::nullopt;
     };
-    tell_(quantity::run_up_time, "", [&] { return lasting(0.0, p.run_up_end, p.run_up_resolution); });
-    tell_(quantity::steady_speed, link(), [&] {
+    tell_(quantities::run_up_time, "", [&] { return lasting(0.0, p.run_up_end, p.run_up_resolution); });
+    tell_(quantities::steady_speed, link(), [&] {
       return p.steady ? std::optional(Found{p.steady_speed, model_.speed_scale}) : std::nullopt;
     });
-    tell_(quantity::run_down_time, "",
+    tell_(quantities::run_down_time, "",
           [&] { return lasting(p.run_down_begin, p.standstill, p.standstill_resolution); });
   }
   void add_work() {
     for (const Account kind : all_accounts)
-      tell_(quantity::work, name_of(kind), [&] {
+      tell_(quantities::work, name_of(kind), [&] {
         return Found{works_by_kind(model_, run_->energy->work)[static_cast<std::size_t>(kind)], energy_scale()};
       });
   }
@@ -376,8 +376,8 @@ std::vector<Figure> last_state(const Model& m, Equations& equations, const RunOu
 }  // namespace
 
 QuantityKind work_per_cycle_of(Account account) {
-  constexpr QuantityKind works[] = {quantity::driving_work_per_cycle, quantity::useful_work_per_cycle,
-                                    quantity::harmful_work_per_cycle, quantity::weight_work_per_cycle};
+  constexpr QuantityKind works[] = {quantities::driving_work_per_cycle, quantities::useful_work_per_cycle,
+                                    quantities::harmful_work_per_cycle, quantities::weight_work_per_cycle};
   return works[static_cast<std::size_t>(account)];
 }
 

@@ -214,8 +214,8 @@ class MultibodySimulation {
     result_.statistics.stepper.rejected = fine_.rejected;
     result_.statistics.stepper.flow_calls = fine_.evaluations;
     const MultibodySample &a = coarse_.samples.back(), &b = fine_.samples.back();
-    add(quantity::final_angle, b.phi - crank_.phase, a.phi - crank_.phase, 1);
-    add(quantity::final_speed, b.omega, a.omega, model_->speed_scale);
+    add(quantities::final_angle, b.phi - crank_.phase, a.phi - crank_.phase, 1);
+    add(quantities::final_speed, b.omega, a.omega, model_->speed_scale);
     result_.errors_measured = result_.confirmation_asked = options_.measure_error;
     result_.accuracy_confirmed = options_.measure_error && result_.measured_accuracy <= result_.accuracy;
     result_.final_state[crank_.name] = {{b.phi - crank_.phase}, {b.omega}};

@@ -314,14 +314,14 @@ void show_works_of_periods(Findings& f, Chapter in, const Result& r) {
 void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
   for (const Result* r : results) {
     if (r->cycles.empty()) continue;
-    const Figure* delta = first_of(*r, quantity::delta);
-    if (!delta) delta = first_of(*r, quantity::cycle_fluctuation);
+    const Figure* delta = first_of(*r, quantities::delta);
+    if (!delta) delta = first_of(*r, quantities::cycle_fluctuation);
     const CycleRecord* cycle = nullptr;
     for (const CycleRecord& c : r->cycles)
       if (delta && delta->at && c.end == *delta->at) cycle = &c;
     if (!cycle) continue;
     const SpeedUnit speed = speed_unit_of(*r);
-    const bool repeats = delta->what == quantity::delta;
+    const bool repeats = delta->what == quantities::delta;
     const std::string symbol = repeats ? "δ" : "Δω/ω_mid";
     f.show(in, Formulas()
                    .add(fmt::format("Speed fluctuation, {} model (theory 2.6)", r->label),

@@ -96,7 +96,7 @@ Rows with_amplification(const Comparison& c, const Rows& figures) {
 void show_amplification(Findings& f, Chapter in, const Comparison& c) {
   for (const ComparisonRow& row : c.amplification) {
     const std::string& joint = row.of;
-    const Figure *a = c.a.find(quantity::peak_torque, joint), *b = c.b.find(quantity::peak_torque, joint);
+    const Figure *a = c.a.find(quantities::peak_torque, joint), *b = c.b.find(quantities::peak_torque, joint);
     if (!a || !b || !row.b) continue;
     f.show(in, Formulas()
                    .add(fmt::format("Torque amplification in {} (theory 14.2)", joint),
@@ -167,7 +167,7 @@ std::vector<KeyFigure> key_figures_of(const Result& r) {
   std::vector<KeyFigure> figures;
   for (const std::size_t i : chosen_figures(r, most)) {
     const Figure& f = r.figures[i];
-    figures.push_back(key_of(f, f.what == quantity::peak_torque ? at_time(f) : "", speed_unit_of(r)));
+    figures.push_back(key_of(f, f.what == quantities::peak_torque ? at_time(f) : "", speed_unit_of(r)));
   }
   figures.push_back(key_figure("coordinates", {static_cast<double>(r.coordinates)}, "coordinates",
                                processor_time_in_words(r) + " of processor time a run"));
@@ -190,9 +190,9 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
   };
   for (const std::string& joint : drawable({&c.a, &c.b}) ? couplings(c.b) : std::vector<std::string>{})
     if (figures.size() < 3) add(c.b.find("peak_torque." + joint));
-  add(first_of(c.b, quantity::delta));
-  add(first_of(c.b, quantity::cycle_fluctuation));
-  add(first_of(c.b, quantity::mid_speed));
+  add(first_of(c.b, quantities::delta));
+  add(first_of(c.b, quantities::cycle_fluctuation));
+  add(first_of(c.b, quantities::mid_speed));
   const bool short_run = c.b.statistics.cpu_seconds < 1;
   figures.push_back({"processor time of a run",
                      (short_run ? 1e3 : 1) * c.b.statistics.cpu_seconds,

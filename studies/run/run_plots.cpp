@@ -149,7 +149,7 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
                             .x = {from, to},
                             .y = {speed.of(p.steady_speed), speed.of(p.steady_speed)},
                             .dashed = true});
-    const Figure* mean = r.find(quantity::mean_speed, link);
+    const Figure* mean = r.find(quantities::mean_speed, link);
     plot->title = fmt::format("Tachogram: {} runs steadily at {}{}", link,
                               told_shortly(mean ? mean->value : p.steady_speed, "rad/s", speed),
                               p.run_up_end ? " from " + told_shortly(*p.run_up_end, "s") + " on" : "");
@@ -193,8 +193,8 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
     if (r->traces->last_cycles.empty()) continue;
     const Trace *travel = nullptr, *force = nullptr;
     for (const Trace& t : r->traces->last_cycles.back().traces) {
-      if (t.of == mechanism && t.what == quantity::position) travel = &t;
-      if (t.of == mechanism && (t.what == quantity::force || t.what == quantity::load_torque)) force = &t;
+      if (t.of == mechanism && t.what == quantities::position) travel = &t;
+      if (t.of == mechanism && (t.what == quantities::force || t.what == quantities::load_torque)) force = &t;
     }
     if (!travel || !force) continue;
     plot.series.push_back(
@@ -279,7 +279,7 @@ bool drawable(const Results& results) {
 std::vector<std::string> couplings(const Result& r) {
   std::vector<std::pair<double, std::string>> sorted;
   for (const TorqueJoint& joint : r.model->torque_joints) {
-    const Figure* peak = r.find(quantity::peak_torque, joint.component);
+    const Figure* peak = r.find(quantities::peak_torque, joint.component);
     if (r.traces->find("torque." + joint.component))
       sorted.emplace_back(peak ? -std::abs(peak->value) : 0, joint.component);
   }
@@ -312,21 +312,21 @@ std::vector<Plot> motion_plots(const Results& results) {
                    "torque"));
   }
   for (const Trace& trace : front.traces->over_time) {
-    if (trace.what == quantity::position)
+    if (trace.what == quantities::position)
       add(over_time(
           results, trace.name,
           fmt::format("{} of {}", trace.unit == "m" ? "Position of the slider" : "Angle of the rocker", trace.of),
           trace.unit == "m" ? "position" : "angle"));
-    if (trace.what == quantity::velocity)
+    if (trace.what == quantities::velocity)
       add(over_time(results, trace.name,
                     fmt::format("Speed of the {} of {}", trace.unit == "m/s" ? "slider" : "rocker", trace.of),
                     trace.unit == "m/s" ? "slider speed" : "rocker speed"));
-    if (trace.what == quantity::load_torque) {
+    if (trace.what == quantities::load_torque) {
       add(over_time(results, trace.name, fmt::format("Load torque on the rocker of {}", trace.of), "torque"));
       add(over_angle(results, trace.name,
                      fmt::format("Load torque on the rocker of {} over the crank's angle", trace.of), "torque"));
     }
-    if (trace.what == quantity::force) {
+    if (trace.what == quantities::force) {
       add(over_time(results, trace.name, fmt::format("Force on the slider of {}", trace.of), "force"));
       add(over_angle(results, trace.name, fmt::format("Force on the slider of {} over the crank's angle", trace.of),
                      "force"));
@@ -335,7 +335,7 @@ std::vector<Plot> motion_plots(const Results& results) {
       add(over_time(results, trace.name, title, label));
   }
   for (const Trace& trace : front.traces->over_time)
-    if (trace.what == quantity::position) add(indicator_diagram(results, trace.of, trace.unit != "m"));
+    if (trace.what == quantities::position) add(indicator_diagram(results, trace.of, trace.unit != "m"));
   for (const Result* r : results) plots.push_back(energy_plot(*r));
   return plots;
 }
@@ -361,18 +361,18 @@ std::vector<Plot> drive_plots(const Results& results) {
   }
   std::vector<const Trace*> speeds;
   for (const Trace& trace : front.traces->over_time)
-    if (trace.what == quantity::speed) speeds.push_back(&trace);
+    if (trace.what == quantities::speed) speeds.push_back(&trace);
   constexpr double no_slip = 1e-9;  // of the fastest shaft: rounding is left of what sticks
   const double fastest = largest(speeds);
   for (const Trace& trace : front.traces->over_time) {
     if (trace.unit == "A")
       add(over_time(results, trace.name, fmt::format("Current of {}", trace.of), "current"),
           told_figure(front, "motor_rms_current." + trace.of, "RMS over the run:"));
-    if (trace.what != quantity::slip || !(largest({&trace}) > no_slip * fastest)) continue;
+    if (trace.what != quantities::slip || !(largest({&trace}) > no_slip * fastest)) continue;
     add(over_time(results, trace.name, fmt::format("Slip of {}", trace.of), "speed of one side against the other"));
     add(product_over_time(results, "torque." + trace.of, trace.name,
                           fmt::format("What slip turns into heat in {}", trace.of), "power"),
-        told_figure(front, Name::make(quantity::slip_heat, trace.of).text, "Heat over the run:"));
+        told_figure(front, Name::make(quantities::slip_heat, trace.of).text, "Heat over the run:"));
   }
   return plots;
 }

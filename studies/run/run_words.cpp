@@ -23,7 +23,7 @@ std::string time_text(const Result& r, double t) {
 
 // What the figures of a cycle belong to, where there are any.
 std::string of_last_cycle(const Result& r) {
-  return first_of(r, quantity::cycle_fluctuation) ? " (figures of a cycle are those of the last whole one)" : "";
+  return first_of(r, quantities::cycle_fluctuation) ? " (figures of a cycle are those of the last whole one)" : "";
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ std::string told(const EnergyBalance& e) {
 std::string in_words(const Figure& f) {
   std::string words(f.words());
   std::replace(words.begin(), words.end(), '_', ' ');
-  if (is_one_of(f.what, {quantity::delta, quantity::cycle_fluctuation})) words = definition_of(f.what)->words;
+  if (is_one_of(f.what, {quantities::delta, quantities::cycle_fluctuation})) words = definition_of(f.what)->words;
   return f.of.empty() ? words : words + ", " + f.of;
 }
 
@@ -68,7 +68,7 @@ std::string at_time(const Figure& f) { return f.at ? "at " + with_error({*f.at, 
 const Figure* largest_peak(const Result& r) {
   const Figure* peak = nullptr;
   for (const Figure& f : r.figures)
-    if (f.what == quantity::peak_torque && is_told(f, r) && (!peak || std::abs(f.value) > std::abs(peak->value)))
+    if (f.what == quantities::peak_torque && is_told(f, r) && (!peak || std::abs(f.value) > std::abs(peak->value)))
       peak = &f;
   return peak;
 }
@@ -88,10 +88,10 @@ std::string figures_in_words(const Result& r) {
     text = fmt::format("the torque in \"{}\" reaches {}{}", peak->of, told(*peak),
                        peak->at ? " at " + told_shortly(*peak->at, "s") : "");
   const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
-  if (const Figure* delta = first_of(r, quantity::delta))
+  if (const Figure* delta = first_of(r, quantities::delta))
     more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
   constexpr double stands_within_the_cycle = 2;
-  if (const Figure* cycle = first_of(r, quantity::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)
+  if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" changes by {} of its middle in the last cycle, which is not steady",
                      cycle->of, told(*cycle)));
   for (const Figure& f : r.figures)

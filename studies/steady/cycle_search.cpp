@@ -54,7 +54,7 @@ class LinkSpeed {
   static std::vector<ExtremeOf> wanted(const Model& m) {
     std::vector<ExtremeOf> both;
     for (ExtremeOf& e : extremes_of(m))
-      if (e.name.what == quantity::max_speed || e.name.what == quantity::min_speed) both.push_back(std::move(e));
+      if (e.name.what == quantities::max_speed || e.name.what == quantities::min_speed) both.push_back(std::move(e));
     return both;
   }
   ExtremeRecorder recorder_;

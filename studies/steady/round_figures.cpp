@@ -120,25 +120,25 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
   for (const NamedShaft& shaft : shafts_of(m)) {
     const int s = m.shaft_of_node[at(shaft.node)];
     const double gain = m.gain_of_node[at(shaft.node)];
-    ExtremeOf speed{.name = Name::make(quantity::max_speed, shaft.name),
+    ExtremeOf speed{.name = Name::make(quantities::max_speed, shaft.name),
                     .unit = "rad/s",
                     .scale = m.speed_scale * m.scale_ratio[at(shaft.node)],
                     .functional = Functional::greatest,
                     .value = [=](const Snapshot& x) { return gain * x.now.speed[s]; },
                     .rate = [=](const Snapshot& x) { return gain * x.alpha[s]; }};
     wanted.push_back(speed);
-    speed.name = Name::make(quantity::min_speed, shaft.name);
+    speed.name = Name::make(quantities::min_speed, shaft.name);
     speed.functional = Functional::least;
     wanted.push_back(std::move(speed));
   }
   for (ExtremeOf& e : extremes_of(m))
-    if (e.name.what != quantity::max_speed && e.name.what != quantity::min_speed) {
+    if (e.name.what != quantities::max_speed && e.name.what != quantities::min_speed) {
       e.name = e.name.of_cycle();
       wanted.push_back(std::move(e));
     }
   for (ExtremeOf& torque : shaft_torques_of(m)) wanted.push_back(std::move(torque));
   for (Drive& drive : drives_of(m))
-    wanted.push_back({.name = Name::make(quantity::peak_drive_torque, drive.component),
+    wanted.push_back({.name = Name::make(quantities::peak_drive_torque, drive.component),
                       .unit = "N*m",
                       .scale = m.torque_scale,
                       .value = [drive = std::move(drive)](const Snapshot& s) { return drive.torque(s); },
@@ -193,9 +193,9 @@ class RoundFigures {
   double energy_scale() const { return m_.torque_scale * 2 * std::numbers::pi; }
   // Of the link: its cycle, and the period after which all repeats.
   void add_times(const std::string& link) {
-    add(quantity::period, "", time(), time());
-    if (m_.cycle > 0 && turned_ != 0) add(quantity::cycle_time, link, time() * m_.cycle / std::abs(turned_), time());
-    add(quantity::mean_speed, link, turned_ / time(), m_.speed_scale);
+    add(quantities::period, "", time(), time());
+    if (m_.cycle > 0 && turned_ != 0) add(quantities::cycle_time, link, time() * m_.cycle / std::abs(turned_), time());
+    add(quantities::mean_speed, link, turned_ / time(), m_.speed_scale);
   }
   void add_speeds() {
     const std::vector<NamedShaft> shafts = shafts_of(m_);
@@ -204,11 +204,11 @@ class RoundFigures {
                          extremes_.found()[2 * i + 1].value};
       if (shafts[i].node == m_.reduction_node) {
         add_times(f.shaft);
-        add(quantity::mid_speed, f.shaft, f.mid(), m_.speed_scale);
-        add(quantity::cycle_max_speed, f.shaft, f.max, m_.speed_scale);
-        add(quantity::cycle_min_speed, f.shaft, f.min, m_.speed_scale);
+        add(quantities::mid_speed, f.shaft, f.mid(), m_.speed_scale);
+        add(quantities::cycle_max_speed, f.shaft, f.max, m_.speed_scale);
+        add(quantities::cycle_min_speed, f.shaft, f.min, m_.speed_scale);
       }
-      if (const auto delta = f.delta()) add(quantity::delta, f.shaft, *delta, 1);
+      if (const auto delta = f.delta()) add(quantities::delta, f.shaft, *delta, 1);
       // What a flywheel gives from its largest to its least speed.
       if (const auto* flywheel = m_.network.data.find<Flywheel>(f.shaft))
         add(Name::own("flywheel_energy", f.shaft), 0.5 * flywheel->inertia * std::abs(f.max * f.max - f.min * f.min),
@@ -225,7 +225,7 @@ class RoundFigures {
             Figure::of_name(wanted.name, value, wanted.unit, wanted.scale > 0 ? wanted.scale : std::abs(value)));
       }
     for (std::size_t i = 0; i < m_.torque_joints.size(); ++i)
-      add(quantity::cycle_rms_torque, m_.torque_joints[i].component,
+      add(quantities::cycle_rms_torque, m_.torque_joints[i].component,
           root_mean_square(outcome_.state[equations_.square_index(i, false)], time()),
           m_.torque_joints[i].torque_scale);
   }
@@ -244,8 +244,8 @@ class RoundFigures {
         if (rating->breakdown && *rating->breakdown > 0)
           add(Name::own("breakdown_use", use.component), std::abs(use.peak) / *rating->breakdown, 1);
       }
-      add(quantity::mean_drive_torque, use.component, use.mean, m_.torque_scale);
-      add(quantity::rms_drive_torque, use.component, use.rms, m_.torque_scale);
+      add(quantities::mean_drive_torque, use.component, use.mean, m_.torque_scale);
+      add(quantities::rms_drive_torque, use.component, use.rms, m_.torque_scale);
       round_.motors.push_back(std::move(use));
     }
   }
@@ -261,13 +261,13 @@ class RoundFigures {
       add(work_per_cycle_of(kind), "", of_kind, energy_scale());
     }
     const auto [driving, useful, harmful, weight] = by_kind;
-    if (driving > 0 && useful < 0) add(Name{quantity::other, "", "machine_efficiency"}, -useful / driving, 1);
+    if (driving > 0 && useful < 0) add(Name{quantities::other, "", "machine_efficiency"}, -useful / driving, 1);
     for (const MotorTorque& motor : m_.motors)
       add(Name::own("cycle_motor_power", motor.component), driving_work(m_, motor.component, work) / time(),
           std::abs(motor.rated_torque * motor.rated_speed));
     for (std::size_t a = 0; a < m_.accounts.size(); ++a)
       if (work[a] != 0)
-        add(quantity::work_per_cycle, fmt::format("{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind)),
+        add(quantities::work_per_cycle, fmt::format("{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind)),
             work[a], energy_scale());
     round_.work_residual = std::abs(sum) / std::max(turnover, 1e-6 * m_.torque_scale * map_.periodicity().angle);
   }

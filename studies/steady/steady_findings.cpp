@@ -315,10 +315,10 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
   const CycleTraces* shown = whole_cycle(last);
   for (const Trace& t : shown ? shown->traces : std::vector<Trace>{}) {
     constexpr double least_slip = 1e-9;  // of the machine's speed: less is rounding of what holds
-    const double least = t.what == quantity::slip ? least_slip * last.model->speed_scale : 0;
+    const double least = t.what == quantities::slip ? least_slip * last.model->speed_scale : 0;
     const bool moves = std::any_of(t.y.begin(), t.y.end(), [least](double y) { return std::abs(y) > least; });
-    if (t.what == quantity::slip && moves) add(t.name, "Slip of " + t.of, "speed of one side against the other");
-    if (t.what == quantity::force && moves) add(t.name, "Force on the slider of " + t.of, "force");
+    if (t.what == quantities::slip && moves) add(t.name, "Slip of " + t.of, "speed of one side against the other");
+    if (t.what == quantities::force && moves) add(t.name, "Force on the slider of " + t.of, "force");
   }
   return plots;
 }

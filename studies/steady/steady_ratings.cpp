@@ -21,7 +21,7 @@ Figure renamed(const Figure& f, Name name) {
 void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
   const Figure* fastest = nullptr;
   for (const Figure& f : c.figures)
-    if (f.what == quantity::cycle_max_speed) fastest = &f;
+    if (f.what == quantities::cycle_max_speed) fastest = &f;
   for (const auto& [component, rating] : c.model->network.data.all<RimRating>()) {
     for (const ShaftFluctuation& shaft : c.shafts) {
       if (shaft.shaft != component) continue;
@@ -64,15 +64,15 @@ std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
   as_run.errors_measured =
       std::any_of(c.figures.begin(), c.figures.end(), [](const Figure& f) { return f.error.has_value(); });
   for (const Figure& f : c.figures) {
-    if (f.what == quantity::cycle_peak_torque)
-      as_run.figures.push_back(renamed(f, Name::make(quantity::peak_torque, f.of)));
+    if (f.what == quantities::cycle_peak_torque)
+      as_run.figures.push_back(renamed(f, Name::make(quantities::peak_torque, f.of)));
     if (f.words() == "greatest_torque" || f.words() == "least_torque") as_run.figures.push_back(f);
-    if (f.what == quantity::rms_drive_torque) as_run.figures.push_back(renamed(f, Name::own("motor_rms_torque", f.of)));
+    if (f.what == quantities::rms_drive_torque) as_run.figures.push_back(renamed(f, Name::own("motor_rms_torque", f.of)));
   }
   add_rim_speeds(c, as_run);
   std::vector<Figure> strands = rating_figures(*c.model, nullptr, as_run.figures, 0, 0);
   for (Figure& strand : strands) {
-    const Figure* peak = as_run.find(quantity::peak_torque, strand.of);
+    const Figure* peak = as_run.find(quantities::peak_torque, strand.of);
     // F = F₀ + |τ|/(2 r₁): its error is that of the torque, by the same slope.
     if (peak && peak->error && peak->value != 0) {
       std::vector<Figure> moved = {*peak};

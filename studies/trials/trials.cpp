@@ -129,7 +129,7 @@ std::vector<std::string> names_of(const std::vector<KeyFigure>& figures, const R
   for (const KeyFigure& figure : figures)
     if (run.find(figure.means)) names.push_back(figure.means);
   if (names.empty())
-    if (const Figure* speed = first_of(run, quantity::final_speed)) names.push_back(speed->name);
+    if (const Figure* speed = first_of(run, quantities::final_speed)) names.push_back(speed->name);
   return names;
 }
 

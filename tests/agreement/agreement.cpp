@@ -51,12 +51,12 @@ std::optional<Told> summed_by_name(const SteadyCycle& cycle, const Measured& m) 
   return sum;
 }
 std::optional<Told> mid_speed(const SteadyCycle& cycle, const Measured& m) {
-  const Figure* f = figure_of(cycle, Name::make(quantity::mid_speed, m.name.of));
+  const Figure* f = figure_of(cycle, Name::make(quantities::mid_speed, m.name.of));
   return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
 }
 // All that repeats, whatever the link's own cycle is.
 std::optional<Told> period(const SteadyCycle& cycle, const Measured&) {
-  const Figure* f = figure_of(cycle, Name::make(quantity::period));
+  const Figure* f = figure_of(cycle, Name::make(quantities::period));
   return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
 }
 
@@ -67,17 +67,17 @@ struct Counterpart {
   bool per_cycle = false;  // of a study's cycle of r periods of the run: r times as much
 };
 constexpr Counterpart counterparts[] = {
-    {quantity::mean_speed, Topic::mean_speed, by_name},
-    {quantity::other, Topic::mid_speed, mid_speed},  // the only one of the run without a kind
-    {quantity::delta, Topic::delta, by_name},
-    {quantity::cycle_time, Topic::period, period, true},
-    {quantity::peak_torque, Topic::peaks, by_name},
-    {quantity::rms_torque, Topic::rms, by_name},
-    {quantity::driving_work_per_cycle, Topic::works, by_name, true},
-    {quantity::useful_work_per_cycle, Topic::works, by_name, true},
-    {quantity::harmful_work_per_cycle, Topic::works, by_name, true},
-    {quantity::weight_work_per_cycle, Topic::works, by_name, true},
-    {quantity::work_per_cycle, Topic::works, summed_by_name, true},
+    {quantities::mean_speed, Topic::mean_speed, by_name},
+    {quantities::other, Topic::mid_speed, mid_speed},  // the only one of the run without a kind
+    {quantities::delta, Topic::delta, by_name},
+    {quantities::cycle_time, Topic::period, period, true},
+    {quantities::peak_torque, Topic::peaks, by_name},
+    {quantities::rms_torque, Topic::rms, by_name},
+    {quantities::driving_work_per_cycle, Topic::works, by_name, true},
+    {quantities::useful_work_per_cycle, Topic::works, by_name, true},
+    {quantities::harmful_work_per_cycle, Topic::works, by_name, true},
+    {quantities::weight_work_per_cycle, Topic::works, by_name, true},
+    {quantities::work_per_cycle, Topic::works, summed_by_name, true},
 };
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -155,7 +155,7 @@ class Comparison {
   void judge_rest(const SteadyStudy& study, bool found, const std::string& why) {
     Compared c{Topic::mean_speed, "at rest", 0, 0, 0, Verdict::agrees, why};
     if (found) {
-      const Figure* mean = figure_of(study.cycles.front(), Name::make(quantity::mean_speed, run_.link));
+      const Figure* mean = figure_of(study.cycles.front(), Name::make(quantities::mean_speed, run_.link));
       c.study = mean ? mean->value : NAN;
       c.verdict = worse_of(mean && std::abs(mean->value) <= mean->error.value_or(0), study.notes);
     }
@@ -163,7 +163,7 @@ class Comparison {
   }
   void judge(const Measured& m, const SteadyCycle& cycle, const std::vector<std::string>& notes) {
     for (const Counterpart& c : counterparts) {
-      if (c.what != m.name.what || (c.what == quantity::other && !m.needed)) continue;
+      if (c.what != m.name.what || (c.what == quantities::other && !m.needed)) continue;
       if (c.per_cycle && run_.base == Base::none) return;  // any time is a period
       const std::optional<Told> told = c.find(cycle, m);
       if (!told) {
@@ -214,9 +214,9 @@ class Comparison {
     if (std::abs(run_.angle) < 1e-9) return;  // the link stands
     double driving = 0, resisting = 0, error = 0;
     for (const Measured& m : run_.figures) {
-      const bool drives = m.name.what == quantity::driving_work_per_cycle;
-      if (!drives && m.name.what != quantity::useful_work_per_cycle &&
-          m.name.what != quantity::harmful_work_per_cycle && m.name.what != quantity::weight_work_per_cycle)
+      const bool drives = m.name.what == quantities::driving_work_per_cycle;
+      if (!drives && m.name.what != quantities::useful_work_per_cycle &&
+          m.name.what != quantities::harmful_work_per_cycle && m.name.what != quantities::weight_work_per_cycle)
         continue;
       (drives ? driving : resisting) += m.value;
       error += m.error + left_by_runs * m.scale;
@@ -256,7 +256,7 @@ class Comparison {
 
   // A flywheel for three fifths of the fluctuation that is there; what is told to be reached, put into the scene.
   void ask_size() {
-    const Measured* delta = run_.find(quantity::delta, run_.link);
+    const Measured* delta = run_.find(quantities::delta, run_.link);
     SizeOptions options;
     options.delta = 0.6 * delta->value;
     if (*options.delta < 1e-4) return;
@@ -268,7 +268,7 @@ class Comparison {
       return refuse({Topic::sized_delta}, sizing.diagnosis.empty() ? "no δ is told as reached" : sizing.diagnosis);
     const Scene sized = with_flywheel(scene_, sizing.flywheel, told->flywheel, sizing.link);
     const SettledRun run = settle(sized, scene_.effects, settings_);
-    const Measured* reached = run.find(quantity::delta, run_.link);
+    const Measured* reached = run.find(quantities::delta, run_.link);
     std::vector<std::string> notes = sizing.notes;
     if (!reached) return refuse({Topic::sized_delta}, "the sized machine is not settled: " + run.words);
     compare(Topic::sized_delta, fmt::format("{}, {:.4g} kg*m2", sizing.flywheel, told->flywheel), reached->value,

@@ -19,9 +19,9 @@ constexpr double load_steps[] = {1, 1.2, 0.8};
 
 // What an engineer reads off a settled machine; both models must have it.
 bool is_judged(const Measured& m) {
-  return m.name.what == quantity::mean_speed || m.name.what == quantity::delta ||
-         m.name.what == quantity::peak_torque || m.name.what == quantity::max_speed ||
-         m.name.what == quantity::min_speed || m.name.what == quantity::rms_torque;
+  return m.name.what == quantities::mean_speed || m.name.what == quantities::delta ||
+         m.name.what == quantities::peak_torque || m.name.what == quantities::max_speed ||
+         m.name.what == quantities::min_speed || m.name.what == quantities::rms_torque;
 }
 
 bool is_asked(const Advice& advice, const Measured& m) {

@@ -223,16 +223,16 @@ class Settling {
     const double scale = run_.model->speed_scale;
     double most = 0, least = 0;
     for (std::size_t i = 0; i < extremes.wanted().size(); ++i) {
-      if (extremes.wanted()[i].name.what == quantity::max_speed) most = extremes.found()[i].value;
-      if (extremes.wanted()[i].name.what == quantity::min_speed) least = extremes.found()[i].value;
+      if (extremes.wanted()[i].name.what == quantities::max_speed) most = extremes.found()[i].value;
+      if (extremes.wanted()[i].name.what == quantities::min_speed) least = extremes.found()[i].value;
     }
     const double mid = 0.5 * (most + least);
-    add(w, Name::make(quantity::cycle_time), run_.period, run_.period, run_.base != Base::none);
-    add(w, Name::make(quantity::mean_speed, run_.link), w.angle / run_.period, scale, true);
+    add(w, Name::make(quantities::cycle_time), run_.period, run_.period, run_.base != Base::none);
+    add(w, Name::make(quantities::mean_speed, run_.link), w.angle / run_.period, scale, true);
     add(w, Name::own("mid_speed", run_.link), mid, scale, true);
-    add(w, Name::make(quantity::max_speed, run_.link), most, scale, false);
-    add(w, Name::make(quantity::min_speed, run_.link), least, scale, false);
-    add(w, Name::make(quantity::delta, run_.link), mid == 0 ? 0 : (most - least) / std::abs(mid), 1, true);
+    add(w, Name::make(quantities::max_speed, run_.link), most, scale, false);
+    add(w, Name::make(quantities::min_speed, run_.link), least, scale, false);
+    add(w, Name::make(quantities::delta, run_.link), mid == 0 ? 0 : (most - least) / std::abs(mid), 1, true);
   }
   void add_torques(Window& w, const ExtremeRecorder& extremes, std::span<const double> state,
                    const Equations& equations) const {
@@ -242,10 +242,10 @@ class Settling {
       if (!is_peak(wanted.name.what) || !extremes.found()[i].any) continue;
       const double value = extremes.found()[i].value;
       add(w, wanted.name, value, wanted.scale > 0 ? wanted.scale : std::abs(value),
-          wanted.name.what == quantity::peak_torque);
+          wanted.name.what == quantities::peak_torque);
     }
     for (std::size_t i = 0; i < m.torque_joints.size(); ++i)
-      add(w, Name::make(quantity::rms_torque, m.torque_joints[i].component),
+      add(w, Name::make(quantities::rms_torque, m.torque_joints[i].component),
           std::sqrt(std::max(0.0, state[equations.square_index(i, false)]) / run_.period),
           m.torque_joints[i].torque_scale, true);
   }
@@ -262,7 +262,7 @@ class Settling {
       of_account[name] += work;
     }
     for (const auto& [name, work] : of_account)
-      add(w, Name::make(quantity::work_per_cycle, name), work, scale,
+      add(w, Name::make(quantities::work_per_cycle, name), work, scale,
           run_.base != Base::none && std::abs(work) > 1e-6 * scale);
     for (const auto& [kind, work] : of_kind)
       add(w, Name::make(work_per_cycle_of(kind)), work, scale, run_.base != Base::none && kind != Account::weight);
@@ -304,7 +304,7 @@ class Settling {
 }  // namespace
 
 bool SettledRun::equilibrium() const {
-  const Measured* delta = find(quantity::delta, link);
+  const Measured* delta = find(quantities::delta, link);
   return delta && std::abs(delta->value) <= 1e-7;
 }
 

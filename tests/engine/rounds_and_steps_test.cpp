@@ -216,7 +216,7 @@ TEST(ExtremeRecorder, FindsAPeakThatThreeSamplesOnALineHide) {
   const std::vector<double> y = equations.start(0);
   for (const double sign : {1.0, -1.0}) {
     const auto value = [sign](const Snapshot& s) { return sign * (std::pow(s.now.t, 3) - 0.9 * s.now.t); };
-    ExtremeRecorder recorder({{.name = {quantity::other, "", "cubic"},
+    ExtremeRecorder recorder({{.name = {quantities::other, "", "cubic"},
                                .unit = "1",
                                .functional = Functional::greatest,
                                .value = value,

@@ -308,7 +308,7 @@ load = )";
       EXPECT_EQ(find_mechanism(model->network, "wheel"), nullptr);
       Equations equations(model, false);
       for (const Channel& channel : model->pool_channels) {
-        if (channel.name.what != quantity::force || channel.name.of != "m") continue;
+        if (channel.name.what != quantities::force || channel.name.of != "m") continue;
         for (const double omega : {30.0, -30.0})
           for (int k = 0; k < 400; ++k) {
             const double phi = pi * k / 100;

@@ -33,8 +33,8 @@ TEST(SettledRun, SlippingClutchLeavesMotorAndDrumAtTheirOwnSpeeds) {
   const SettledRun run = settled("clutch_slips_always");
   ASSERT_EQ(run.kind, Motion::repeats) << run.words;
   EXPECT_TRUE(run.equilibrium());
-  EXPECT_NEAR(figure(run, quantity::mean_speed), 32, 1e-6);
-  const Measured* useful = run.find(quantity::useful_work_per_cycle, "");
+  EXPECT_NEAR(figure(run, quantities::mean_speed), 32, 1e-6);
+  const Measured* useful = run.find(quantities::useful_work_per_cycle, "");
   ASSERT_NE(useful, nullptr);
   EXPECT_NEAR(useful->value / run.period, -12 * 9.6, 1e-5);
 }
@@ -43,7 +43,7 @@ TEST(SettledRun, CranksOfRatio17To30RepeatAfterThirtyTurnsOfTheFirst) {
   const SettledRun run = settled("two_cranks_17_30");
   ASSERT_EQ(run.kind, Motion::repeats) << run.words;
   EXPECT_NEAR(run.angle, 30 * 2 * pi, 1e-5);
-  EXPECT_NEAR(figure(run, quantity::mean_speed), run.angle / run.period, 1e-9);
+  EXPECT_NEAR(figure(run, quantities::mean_speed), run.angle / run.period, 1e-9);
 }
 
 // 0.7 s, whatever the angle.
@@ -67,7 +67,7 @@ TEST(SettledRun, TooWeakAMotorIsAtRest) { EXPECT_EQ(settled("at_rest").kind, Mot
 TEST(SettledRun, ReleasedBrakeLeavesThePressItsOwnWork) {
   const SettledRun run = settled("brake_released");
   ASSERT_EQ(run.kind, Motion::repeats) << run.words;
-  const Measured* useful = run.find(quantity::useful_work_per_cycle, "");
+  const Measured* useful = run.find(quantities::useful_work_per_cycle, "");
   ASSERT_NE(useful, nullptr);
   EXPECT_NEAR(useful->value, -78, 1e-6);
   EXPECT_LT(useful->error, 1e-5);
@@ -78,7 +78,7 @@ TEST(SettledRun, ReleasedBrakeLeavesThePressItsOwnWork) {
 TEST(SettledRun, DeviationOfADrivenDrumDecaysByItsTimeConstant) {
   const SettledRun run = settled("load_window");
   ASSERT_EQ(run.kind, Motion::repeats) << run.words;
-  EXPECT_NEAR(figure(run, quantity::mean_speed), 60 / 1.9, 1e-5);
+  EXPECT_NEAR(figure(run, quantities::mean_speed), 60 / 1.9, 1e-5);
   const Decay decay = decay_of(run);
   ASSERT_TRUE(decay.measured);
   EXPECT_NEAR(decay.factor, std::exp(-1.9 / 1.1 * run.period), 2e-3);

@@ -43,52 +43,52 @@ const std::map<std::string, Told>& told_by_scenes() {
 Name name_of(const Figure& f) { return {f.what, f.of, f.name}; }
 
 TEST(Dictionary, EveryQuantityHasItsDefinition) {
-  for (const QuantityKind& what : {quantity::angle,
-                                   quantity::speed,
-                                   quantity::twist,
-                                   quantity::slip,
-                                   quantity::torque,
-                                   quantity::spring_torque,
-                                   quantity::position,
-                                   quantity::velocity,
-                                   quantity::acceleration,
-                                   quantity::force,
-                                   quantity::load_torque,
-                                   quantity::peak_torque,
-                                   quantity::peak_spring_torque,
-                                   quantity::peak_velocity,
-                                   quantity::peak_acceleration,
-                                   quantity::peak_force,
-                                   quantity::peak_load_torque,
-                                   quantity::max_speed,
-                                   quantity::min_speed,
-                                   quantity::rms_torque,
-                                   quantity::rms_spring_torque,
-                                   quantity::final_angle,
-                                   quantity::final_speed,
-                                   quantity::steady_speed,
-                                   quantity::run_up_time,
-                                   quantity::run_down_time,
-                                   quantity::stopping_time,
-                                   quantity::stopping_angle,
-                                   quantity::slip_heat,
-                                   quantity::impacts,
-                                   quantity::amplification,
-                                   quantity::work,
-                                   quantity::peak_drive_torque,
-                                   quantity::mean_drive_torque,
-                                   quantity::rms_drive_torque,
-                                   quantity::mid_speed,
-                                   quantity::mean_speed,
-                                   quantity::delta,
-                                   quantity::cycle_fluctuation,
-                                   quantity::cycle_time,
-                                   quantity::period,
-                                   quantity::driving_work_per_cycle,
-                                   quantity::useful_work_per_cycle,
-                                   quantity::harmful_work_per_cycle,
-                                   quantity::weight_work_per_cycle,
-                                   quantity::work_per_cycle}) {
+  for (const QuantityKind& what : {quantities::angle,
+                                   quantities::speed,
+                                   quantities::twist,
+                                   quantities::slip,
+                                   quantities::torque,
+                                   quantities::spring_torque,
+                                   quantities::position,
+                                   quantities::velocity,
+                                   quantities::acceleration,
+                                   quantities::force,
+                                   quantities::load_torque,
+                                   quantities::peak_torque,
+                                   quantities::peak_spring_torque,
+                                   quantities::peak_velocity,
+                                   quantities::peak_acceleration,
+                                   quantities::peak_force,
+                                   quantities::peak_load_torque,
+                                   quantities::max_speed,
+                                   quantities::min_speed,
+                                   quantities::rms_torque,
+                                   quantities::rms_spring_torque,
+                                   quantities::final_angle,
+                                   quantities::final_speed,
+                                   quantities::steady_speed,
+                                   quantities::run_up_time,
+                                   quantities::run_down_time,
+                                   quantities::stopping_time,
+                                   quantities::stopping_angle,
+                                   quantities::slip_heat,
+                                   quantities::impacts,
+                                   quantities::amplification,
+                                   quantities::work,
+                                   quantities::peak_drive_torque,
+                                   quantities::mean_drive_torque,
+                                   quantities::rms_drive_torque,
+                                   quantities::mid_speed,
+                                   quantities::mean_speed,
+                                   quantities::delta,
+                                   quantities::cycle_fluctuation,
+                                   quantities::cycle_time,
+                                   quantities::period,
+                                   quantities::driving_work_per_cycle,
+                                   quantities::useful_work_per_cycle,
+                                   quantities::harmful_work_per_cycle,
+                                   quantities::weight_work_per_cycle,
+                                   quantities::work_per_cycle}) {
     const Definition* d = definition_of(what);
     ASSERT_NE(d, nullptr) << word(what);
     EXPECT_EQ(d->name, word(what));
@@ -144,7 +144,7 @@ TEST(Dictionary, UnitsAreThoseOfTheFigures) {
   for (const auto& [scene, told] : told_by_scenes())
     for (const Figure& f : told.figures) {
       const Definition* d = definition_of(name_of(f));
-      if (!d || is_one_of(f.what, {quantity::peak_velocity, quantity::peak_acceleration})) continue;
+      if (!d || is_one_of(f.what, {quantities::peak_velocity, quantities::peak_acceleration})) continue;
       EXPECT_EQ(d->unit, f.unit) << scene << ": " << f.name;
     }
 }
@@ -207,9 +207,9 @@ TEST(Dictionary, AFigureUnderAnotherNameIsNamed) {
 
 // The peaks of a cycle have names of their own: none is that of a whole run.
 TEST(Dictionary, FiguresOfACycleAreNotCalledAsThoseOfARun) {
-  for (const QuantityKind& what : {quantity::peak_torque, quantity::peak_spring_torque, quantity::peak_velocity,
-                                   quantity::peak_acceleration, quantity::peak_force, quantity::peak_load_torque,
-                                   quantity::max_speed, quantity::min_speed, quantity::rms_torque}) {
+  for (const QuantityKind& what : {quantities::peak_torque, quantities::peak_spring_torque, quantities::peak_velocity,
+                                   quantities::peak_acceleration, quantities::peak_force, quantities::peak_load_torque,
+                                   quantities::max_speed, quantities::min_speed, quantities::rms_torque}) {
     const Name whole = Name::make(what, "a"), cycle = whole.of_cycle();
     EXPECT_EQ(cycle.text, "cycle_" + whole.text);
     EXPECT_EQ(cycle.of, "a");
@@ -218,7 +218,7 @@ TEST(Dictionary, FiguresOfACycleAreNotCalledAsThoseOfARun) {
     EXPECT_EQ(is_peak(cycle.what), is_peak(what));
   }
   EXPECT_EQ(Name::own("current", "motor").peak().of_cycle().text, "cycle_peak_current.motor");
-  EXPECT_EQ(Name::make(quantity::delta, "a").of_cycle(), Name::make(quantity::delta, "a"));
+  EXPECT_EQ(Name::make(quantities::delta, "a").of_cycle(), Name::make(quantities::delta, "a"));
 }
 
 TEST(Dictionary, AFigureIsAskedForByItsNameOrItsQuantity) {
@@ -233,7 +233,7 @@ TEST(Dictionary, AListHasEveryFigureAndARunWhatItFound) {
   const auto told = [](bool listing) {
     std::vector<Figure> figures;
     FigureTeller tell(figures, listing);
-    tell(quantity::mid_speed, "press", [] { return Found{6.2, 6, 1.5, true, 1e-9}; });
+    tell(quantities::mid_speed, "press", [] { return Found{6.2, 6, 1.5, true, 1e-9}; });
     tell("thermal_use", "motor", []() -> std::optional<Found> { return {}; });
     return figures;
   };

@@ -128,7 +128,7 @@ TEST(MotorFigures, ThermalUseIsThatOfTheHeaviestCycleThatComesAgain) {
     const auto judged =
         std::find_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.component == "motor"; });
     ASSERT_NE(judged, verdicts.end());
-    if (r.find(quantity::run_up_time, "")) {
+    if (r.find(quantities::run_up_time, "")) {
       EXPECT_NE(judged->requirement.find("heaviest cycle"), std::string::npos);
       EXPECT_NEAR(judged->value, figure(r, "thermal_use.motor") * *motor.rated, 1e-9 * judged->value);
       EXPECT_EQ(judged->state(), use > 1 ? Compliance::exceeded : Compliance::holds);

@@ -52,7 +52,7 @@ TEST(MeasuredErrors, WhatIsExactByConstructionHasNoErrorAndRoundingIsNotNone) {
 TEST(MeasuredErrors, PeaksOfOppositeSignAreComparedByMagnitudeAndTimesHaveErrors) {
   std::vector<Figure> fine = figures({-100}), coarse = figures({100 + 1e-4});
   fine[0].name = coarse[0].name = "peak_torque.shaft";
-  fine[0].what = coarse[0].what = quantity::peak_torque;
+  fine[0].what = coarse[0].what = quantities::peak_torque;
   fine[0].at = 1.5;
   coarse[0].at = 1.25;
   measure_errors(fine, {{&coarse, 1}});

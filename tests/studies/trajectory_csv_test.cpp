@@ -60,7 +60,7 @@ TEST(TrajectoryCsv, HoldsThePeakBetweenItsRows) {
   const Result r = run_with(4);
   const Csv csv = read_csv(trajectory_csv(r));
   const double omega = std::sqrt(400 * (1 + 1 / 3.0)), peak = 2 * 10 * 3 / 4.0;
-  const Figure* figure = r.find(quantity::peak_torque, "shaft");
+  const Figure* figure = r.find(quantities::peak_torque, "shaft");
   ASSERT_TRUE(figure && figure->at);
   EXPECT_NEAR(std::abs(figure->value), peak, 1e-6);
   const std::size_t torque = csv.column("torque.shaft");

@@ -256,9 +256,9 @@ Result with_figures(std::vector<Figure> figures) {
 // δ of 0.004 that becomes 0.005 is a quarter off, not 2 % of 0.05. A work is judged by the energy turned over: a loss of
 // 2 J of 10 kJ is none that an effect is ranked by.
 TEST(Effects, ChangeIsOfTheFigureItselfHoweverSmallBesideTheRatedOne) {
-  const std::vector<Figure> full = {figure(quantity::delta, "crank", 0.004, "", 1e-7, 1),
-                                    figure(quantity::peak_torque, "pump", 3, "N*m", 1e-5, 4000),
-                                    figure(quantity::work, "harmful", -2, "J", 1e-6, 1e4)};
+  const std::vector<Figure> full = {figure(quantities::delta, "crank", 0.004, "", 1e-7, 1),
+                                    figure(quantities::peak_torque, "pump", 3, "N*m", 1e-5, 4000),
+                                    figure(quantities::work, "harmful", -2, "J", 1e-6, 1e4)};
   std::vector<Figure> other = full;
   other[0].value = 0.005, other[1].value = -2.4, other[2].value = -2.02;
   const std::vector<FigureChange> changes = changes_between(with_figures(full), with_figures(other));
@@ -271,7 +271,7 @@ TEST(Effects, ChangeIsOfTheFigureItselfHoweverSmallBesideTheRatedOne) {
 
 TEST(Effects, FiguresThatAreZeroButForRoundingAreNotCompared) {
   const auto torque = [](double value) {
-    return with_figures({figure(quantity::peak_torque, "pump", value, "N*m", 1e-9, 4000)});
+    return with_figures({figure(quantities::peak_torque, "pump", value, "N*m", 1e-9, 4000)});
   };
   EXPECT_TRUE(changes_between(torque(1e-7), torque(-3e-6)).empty());
   const std::vector<FigureChange> appeared = changes_between(torque(1e-7), torque(5));
@@ -283,10 +283,10 @@ TEST(Effects, FiguresThatAreZeroButForRoundingAreNotCompared) {
 // A figure below its own error may be ten times its size in the other run: that is no change, and it does not come
 // first.
 TEST(Effects, ATinyFigureWithinItsErrorDoesNotDominate) {
-  const auto full = with_figures({figure(quantity::peak_torque, "idler", 1e-5, "N*m", 1e-6, 4000),
-                                  figure(quantity::peak_torque, "pump", 3, "N*m", 1e-5, 4000)});
-  const auto other = with_figures({figure(quantity::peak_torque, "idler", 1e-4, "N*m", 5e-4, 4000),
-                                   figure(quantity::peak_torque, "pump", 3.3, "N*m", 1e-5, 4000)});
+  const auto full = with_figures({figure(quantities::peak_torque, "idler", 1e-5, "N*m", 1e-6, 4000),
+                                  figure(quantities::peak_torque, "pump", 3, "N*m", 1e-5, 4000)});
+  const auto other = with_figures({figure(quantities::peak_torque, "idler", 1e-4, "N*m", 5e-4, 4000),
+                                   figure(quantities::peak_torque, "pump", 3.3, "N*m", 1e-5, 4000)});
   const std::vector<FigureChange> changes = changes_between(full, other);
   ASSERT_FALSE(changes.empty());
   EXPECT_EQ(changes.front().figure, "peak_torque.pump");
@@ -296,10 +296,10 @@ TEST(Effects, ATinyFigureWithinItsErrorDoesNotDominate) {
 
 // The measured error is the floor: a looser run's tolerance hides no figure that was measured well.
 TEST(Effects, AFigureAThousandTimesSmallerIsJudgedByItsOwnSize) {
-  auto full = with_figures({figure(quantity::peak_torque, "main", 4000, "N*m", 1e-4, 4000),
-                            figure(quantity::peak_torque, "pump", 4, "N*m", 1e-4, 4000)});
-  auto other = with_figures({figure(quantity::peak_torque, "main", 4040, "N*m", 1e-4, 4000),
-                             figure(quantity::peak_torque, "pump", 6, "N*m", 1e-4, 4000)});
+  auto full = with_figures({figure(quantities::peak_torque, "main", 4000, "N*m", 1e-4, 4000),
+                            figure(quantities::peak_torque, "pump", 4, "N*m", 1e-4, 4000)});
+  auto other = with_figures({figure(quantities::peak_torque, "main", 4040, "N*m", 1e-4, 4000),
+                             figure(quantities::peak_torque, "pump", 6, "N*m", 1e-4, 4000)});
   full.tolerance = other.tolerance = 1e-2;
   const std::vector<FigureChange> changes = changes_between(full, other);
   ASSERT_EQ(changes.size(), 2u);
@@ -312,8 +312,8 @@ TEST(Effects, AFigureAThousandTimesSmallerIsJudgedByItsOwnSize) {
 TEST(Effects, ErrorAndDeviationAreApart) {
   for (const double error : {0.0, 1e-3, 0.2}) {
     const std::vector<FigureChange> changes =
-        changes_between(with_figures({figure(quantity::delta, "crank", 2, "", error, 1)}),
-                        with_figures({figure(quantity::delta, "crank", 2.1, "", 2 * error, 1)}));
+        changes_between(with_figures({figure(quantities::delta, "crank", 2, "", error, 1)}),
+                        with_figures({figure(quantities::delta, "crank", 2.1, "", 2 * error, 1)}));
     ASSERT_EQ(changes.size(), 1u);
     EXPECT_NEAR(changes[0].relative, 0.05, 1e-12);
     EXPECT_NEAR(changes[0].error, 3 * error / 2, 1e-12);
@@ -323,8 +323,8 @@ TEST(Effects, ErrorAndDeviationAreApart) {
 // Scaling a figure and its counterpart changes no verdict, down to the floor.
 TEST(Effects, VerdictsDoNotDependOnTheScaleOfAFigure) {
   for (double size = 1e-5; size < 1e3; size *= 10) {
-    const auto one = with_figures({figure(quantity::delta, "crank", size, "", 0, 1)});
-    const auto other = with_figures({figure(quantity::delta, "crank", size * 1.26, "", 0, 1)});
+    const auto one = with_figures({figure(quantities::delta, "crank", size, "", 0, 1)});
+    const auto other = with_figures({figure(quantities::delta, "crank", size * 1.26, "", 0, 1)});
     const std::vector<FigureChange> changes = changes_between(one, other);
     ASSERT_EQ(changes.size(), 1u);
     EXPECT_NEAR(changes.front().relative, 0.26, 1e-9) << size;
