@@ -26,19 +26,6 @@ constexpr double most_derivatives = 25;                     // rounds with deriv
 constexpr double first_part = 0.25, least_part = 1.0 / 32;  // of the way between two speeds
 constexpr std::size_t samples = 4096;                       // of a round
 
-// A constant torque; it sets no scale, so that all members of a search are measured alike.
-struct HoldingTorque {
-  static constexpr ShaftTraits is{.account = Account::driving};
-  double value = 0;  // [N·m]
-  template <class T>
-  T torque(const ShaftState<T>&) const {
-    return T(value);
-  }
-  bool uses_time() const { return false; }
-  bool uses_speed() const { return false; }
-  Rated rated() const { return {}; }
-};
-
 // Mean speeds of shafts over a round, integrated along its steps.
 class MeanSpeeds final : public Observer {
  public:

@@ -14,6 +14,7 @@
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
+#include "studies/response/held_cycle.h"
 #include "studies/run/compare.h"
 #include "studies/run/measured_errors.h"
 #include "studies/steady/round_figures.h"
@@ -29,19 +30,6 @@ constexpr double enough = 1e-11;  // residual of the map, over the rated values
 constexpr double rounding_of_multipliers = 1e-12;
 constexpr double rounding_of_works = 1e-13;  // a quadrature adds up that of all its steps, which both searches share
 constexpr double regime_cost_limit = 40;     // cycles
-
-// A constant torque beside the drive; it sets no scale, so that all members of a search are measured alike.
-struct AddedTorque {
-  static constexpr ShaftTraits is{.account = Account::driving};
-  double value = 0;  // [N·m]
-  template <class T>
-  T torque(const ShaftState<T>&) const {
-    return T(value);
-  }
-  bool uses_time() const { return false; }
-  bool uses_speed() const { return false; }
-  Rated rated() const { return {}; }
-};
 
 // (ω_max + ω_min)/2 of the link over a round, as an observer.
 class LinkSpeed {
@@ -162,7 +150,7 @@ class Search {
   }
   std::shared_ptr<const Model> model_with(double torque) const {
     Network net = network_;
-    net.put(added_node_, added_to_, AddedTorque{torque});
+    net.put(added_node_, added_to_, HoldingTorque{torque});
     return compile_network(std::move(net), scene_, effects_);
   }
 
@@ -332,7 +320,7 @@ class Search {
   std::shared_ptr<const Model> model_elsewhere() const {
     if (!has_tables(network_)) return out_.model;
     Network other = extracted_from(network_, Extraction::second);
-    if (options_.mid_speed) other.put(added_node_, added_to_, AddedTorque{out_.added_torque});
+    if (options_.mid_speed) other.put(added_node_, added_to_, HoldingTorque{out_.added_torque});
     return compile_network(std::move(other), scene_, effects_);
   }
 
