@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include "engine/numerics/index.h"
-
 namespace kurbel {
 namespace {
 

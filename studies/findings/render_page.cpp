@@ -41,7 +41,6 @@ void show(Cards& cards, const Rows& rows) {
                           .folded = rows.folded,
                           .text_columns = rows.text_columns,
                           .tones = rows.tones,
-                          .hints = rows.hints,
                           .means = definition_ids(rows)});
 }
 void show(Cards& cards, const Sentences& words) {

@@ -93,12 +93,10 @@ struct Table {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  bool folded = false;           // shown on demand; always in print
-  std::size_t text_columns = 1;  // leading ones; the others are numbers, on the right
-  // Per cell as the rows, or none at all; words for those who point at a cell.
-  std::vector<std::vector<Tone>> tones = {};
-  std::vector<std::vector<std::string>> hints = {};
-  std::vector<std::string> means = {};  // per row, the definition of what it tells; none, or one each
+  bool folded = false;                        // shown on demand; always in print
+  std::size_t text_columns = 1;               // leading ones; the others are numbers, on the right
+  std::vector<std::vector<Tone>> tones = {};  // per cell as the rows, or none at all
+  std::vector<std::string> means = {};        // per row, the definition of what it tells; none, or one each
 };
 
 struct FormulaCard {

@@ -160,8 +160,7 @@ struct Rows {
   bool folded = false;                        // on the page
   bool apart = true;                          // on the terminal, by a blank line before it
   std::vector<std::vector<Tone>> tones = {};  // report.h
-  std::vector<std::vector<std::string>> hints = {};
-  std::vector<std::string> means = {};  // per row, the name of its figure in the dictionary; none, or one each
+  std::vector<std::string> means = {};        // per row, the name of its figure in the dictionary; none, or one each
 
   List list() const;                                    // as programs get it
   std::vector<std::string> headings() const;            // as people read it
@@ -248,9 +247,6 @@ class RowsOf : public Rows {
   }
   RowsOf& people_see_it_if(bool so) { return so ? *this : people_see({}); }
   RowsOf& programs_see_first(std::size_t most) { return for_programs = most, *this; }
-  RowsOf& toned(std::vector<std::vector<Tone>> with, std::vector<std::vector<std::string>> hinted = {}) {
-    return tones = std::move(with), hints = std::move(hinted), *this;
-  }
 
  private:
   std::span<const T> rows_;

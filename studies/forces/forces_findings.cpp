@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/forces/forces_plots.h"

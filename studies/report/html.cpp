@@ -102,7 +102,6 @@ void write(Writer& w, const Table& table) {
     w.key("tones");
     w.list(table.tones, [&](const std::vector<Tone>& row) { w.value(classes_of(row)); });
   }
-  if (!table.hints.empty()) w.field("hints", table.hints);
   if (!table.means.empty()) w.field("means", table.means);
 }
 

@@ -465,7 +465,6 @@
       row.forEach((text, i) => {
         const tone = table.tones ? table.tones[r][i] : '';
         const cell = make('td', [kind(i), text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
-        if (table.hints && table.hints[r][i]) cell.title = table.hints[r][i];
         const place = i === 0 && table.means && table.means[r] ? meaningOf(table.means[r], cell) : cell;
         write(text, place, kind(i));
       });
