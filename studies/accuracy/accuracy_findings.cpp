@@ -246,7 +246,7 @@ Findings findings_of(const AccuracyStudy& study) {
              .diagnosis = study.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
              .footer = machine_info() + " · " + report_footer()};
-  f.answer(study.complete ? Question::figures : Question::runs, study.answers.empty() ? first : study.answers.front(),
+  f.answer(study.complete ? Topic::figures : Topic::runs, study.answers.empty() ? first : study.answers.front(),
            study.complete ? 0 : 100);
   const bool measured = !study.settings.empty() && !study.figures.empty();
   const Chapter terminal = f.chapter("");  // nothing of it on the page

@@ -51,7 +51,7 @@ class ContactJudge {
     if (!(std::abs(slip) > slipping_from * std::abs(usual)) || !(std::abs(torque) > transmits_from * m_.torque_scale))
       return;
     slipping_.insert(owner_of(joint));
-    answers_.push_back({Question::runs,
+    answers_.push_back({Topic::runs,
                         fmt::format("\"{}\" slips to the end, by {} under the {} N·m that it can transmit",
                                     owner_of(joint), text(slip), std::abs(torque)),
                         50});
@@ -98,13 +98,13 @@ class ContactJudge {
   void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque) {
     const double braked = outcome_.t - put_on, more = speed * change < 0 ? std::abs(speed / change) : HUGE_VAL;
     if (more > outcome_.t)
-      answers_.push_back({Question::runs,
+      answers_.push_back({Topic::runs,
                           fmt::format("\"{}\" does not stop it: it slips at {} after {:.3g} s; its {:.4g} N·m are too "
                                       "weak for what drives",
                                       brake, text(speed), braked, torque),
                           85});
     else if (is_done())  // while a sequence goes on it is a matter of time
-      answers_.push_back({Question::runs,
+      answers_.push_back({Topic::runs,
                           fmt::format("\"{}\" has not stopped it by the end: {} are left after {:.3g} s, and {:.3g} s "
                                       "more are needed at this rate",
                                       brake, text(speed), braked, more),
@@ -144,7 +144,7 @@ class ContactJudge {
     }
     if (count == 0) return;
     answers_.push_back(
-        {Question::bears,
+        {Topic::bears,
          fmt::format("\"{}\" lets go {} although it is closed, first at {:.4g} s: the torque reaches the "
                      "{:.4g} N·m that it holds",
                      component, so_often(count), first, capacity_of(component))});
@@ -162,7 +162,7 @@ class ContactJudge {
       if (event.component == belt && event.what.starts_with("slips") && event.from != event.what && ++count == 1)
         first = event.t;
     if (count == 0) return;
-    answers_.push_back({Question::bears, fmt::format("\"{}\" slips {}, first at {:.4g} s, and grips again", belt,
+    answers_.push_back({Topic::bears, fmt::format("\"{}\" slips {}, first at {:.4g} s, and grips again", belt,
                                                      so_often(count), first)});
   }
 

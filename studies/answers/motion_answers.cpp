@@ -92,7 +92,7 @@ class Judge {
     const double before = first.snapshot(0, y).node_angle[m_.reduction_node];
     if (m_.scene.run.start.speed < 0 || before - angle() < std::numbers::pi) return {};
     if (!(drive() > drives * m_.torque_scale)) return {};
-    return Answer{Question::runs,
+    return Answer{Topic::runs,
                   fmt::format("\"{}\" turns backwards, at {} at the end: its loads are stronger than the {} N·m that "
                               "drive it forwards",
                               link(), m_.scene.speed_unit.text(speed()), drive()),
@@ -102,7 +102,7 @@ class Judge {
   std::optional<Answer> runs_away(const Periods& p) const {
     if (is_commanded() || p.steady || p.run_down_begin) return {};
     if (!(std::abs(speed()) > far_away * m_.speed_scale) || !p.without_limit) return {};
-    return Answer{Question::runs,
+    return Answer{Topic::runs,
                   fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed that its data tell of, and {}",
                               link(), m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
                   70};
@@ -112,7 +112,7 @@ class Judge {
   std::optional<Answer> never_starts(double fastest) const {
     if (is_commanded() || !is_held() || rest() || fastest > stands * m_.speed_scale) return {};
     if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
-    return Answer{Question::runs,
+    return Answer{Topic::runs,
                   fmt::format("\"{}\" does not start: its loads hold the {} N·m that drive it", link(), drive()), 90};
   }
 
@@ -120,7 +120,7 @@ class Judge {
   std::optional<Answer> never_gets_round(const Periods& p, bool any_cycle, double fastest) const {
     if (is_commanded() || any_cycle || m_.cycle == 0 || p.run_down_begin) return {};
     if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
-    return Answer{Question::runs,
+    return Answer{Topic::runs,
                   fmt::format("\"{}\" does not get round: it is at {:.1f}° at the end, with {}, where {} N·m drive it",
                               link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive()),
                   60};
@@ -136,7 +136,7 @@ class Judge {
       const double mean = p.steady_speed * m_.node_ratio[at(motor.node)];
       if (!(std::max(now, mean) < breakdown) || !(now > stands * motor.rated_speed)) continue;
       return Answer{
-          Question::runs,
+          Topic::runs,
           fmt::format("\"{}\" does not come up to speed: it hangs at {}, below the {} at which it gives most; "
                       "its loads take all that it gives there",
                       motor.component, m_.scene.speed_unit.text(mean), m_.scene.speed_unit.text(breakdown)),
@@ -171,7 +171,7 @@ std::vector<Answer> motion_answers(Equations& equations, const RunOutcome& outco
   if (!outcome.complete || outcome.state.empty()) return answers;
   const Judge judge(equations, outcome);
   if (const std::optional<Stall> stall = judge.stall()) {
-    answers.push_back({Question::runs, judge.words_of(*stall), 90});
+    answers.push_back({Topic::runs, judge.words_of(*stall), 90});
     return answers;
   }
   double fastest = 0;

@@ -78,7 +78,7 @@ std::optional<Answer> overload_answer(const Model& model, const std::string& mot
   const auto* rating = model.network.data.find<MotorRating>(motor);
   if (!rating || rating->states_duty() || !(use > 1)) return {};
   const std::optional<double> rated = by_torque ? rating->torque : std::nullopt;
-  return Answer{Question::bears,
+  return Answer{Topic::bears,
                 fmt::format("\"{}\" gets too hot: the {} of {} is {:.0f} % of the rated one{}", motor,
                             by_torque ? "RMS torque" : "RMS current", of, 100 * use,
                             rated ? fmt::format("; it holds from a rated torque of {:.4g} N·m on", *rated * use) : ""),
@@ -86,19 +86,19 @@ std::optional<Answer> overload_answer(const Model& model, const std::string& mot
 }
 
 std::vector<Answer> run_answers(const Result& r, const std::string& whose) {
-  if (!r.complete) return {{Question::runs, capitalised(whose) + "INCOMPLETE: " + first_line(r.diagnosis), 100}};
+  if (!r.complete) return {{Topic::runs, capitalised(whose) + "INCOMPLETE: " + first_line(r.diagnosis), 100}};
   std::vector<Answer> answers = r.answers;
-  if (std::none_of(answers.begin(), answers.end(), [](const Answer& a) { return a.question == Question::runs; }))
-    if (std::string words = RunWords(r).all(); !words.empty()) answers.push_back({Question::runs, std::move(words)});
+  if (std::none_of(answers.begin(), answers.end(), [](const Answer& a) { return a.topic == Topic::runs; }))
+    if (std::string words = RunWords(r).all(); !words.empty()) answers.push_back({Topic::runs, std::move(words)});
   overloaded_motors(r, answers);
-  if (r.unconfirmed()) answers.push_back({Question::sure, "NOT confirmed: " + r.accuracy_in_words(), 1});
+  if (r.unconfirmed()) answers.push_back({Topic::sure, "NOT confirmed: " + r.accuracy_in_words(), 1});
   for (Answer& a : answers) a.sentence = capitalised(whose + a.sentence);
   return answers;
 }
 
 std::vector<Answer> rating_answers(const std::vector<Verdict>& verdicts) {
   if (verdicts.empty()) return {};
-  return {{Question::bears, capitalised(sentence_of(verdicts, "rating")), worst_excess(verdicts)}};
+  return {{Topic::bears, capitalised(sentence_of(verdicts, "rating")), worst_excess(verdicts)}};
 }
 
 }  // namespace kurbel

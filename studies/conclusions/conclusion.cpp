@@ -23,12 +23,12 @@ std::string as_sentence(std::string sentence) {
 
 std::vector<std::string> concluded(std::vector<Answer> answers) {
   std::stable_sort(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) {
-    return std::tuple(!is_bad(a), a.question, -a.severity) < std::tuple(!is_bad(b), b.question, -b.severity);
+    return std::tuple(!is_bad(a), a.topic, -a.severity) < std::tuple(!is_bad(b), b.topic, -b.severity);
   });
   std::vector<std::string> sentences;
-  std::map<Question, int> told;
+  std::map<Topic, int> told;
   for (const Answer& a : answers) {
-    if (is_bad(a) && ++told[a.question] > most_bad_news) continue;
+    if (is_bad(a) && ++told[a.topic] > most_bad_news) continue;
     if (std::string sentence = as_sentence(headline(a.sentence)); !sentence.empty())
       sentences.push_back(std::move(sentence));
   }

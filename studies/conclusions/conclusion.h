@@ -1,6 +1,6 @@
 // conclusion.h — answers of a study, and the conclusion that they make.
 //
-//     concluded({{Question::figures, "δ is 0.1043819"}, {Question::bears, "\"clutch\" gets too hot", 1.3}})
+//     concluded({{Topic::figures, "δ is 0.1043819"}, {Topic::bears, "\"clutch\" gets too hot", 1.3}})
 //         → "\"clutch\" gets too hot.", "δ is 0.1044."
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace kurbel {
 
 // In the order in which an engineer asks.
-enum class Question {
+enum class Topic {
   runs,     // does it do its work at all?
   sure,     // are its figures confirmed?
   bears,    // does it bear what it brings? By how much not, where, and what value would mend it?
@@ -19,7 +19,7 @@ enum class Question {
 };
 
 struct Answer {
-  Question question = Question::figures;
+  Topic topic = Topic::figures;
   std::string sentence;  // without a full stop, as it is to be read
   double severity = 0;   // > 0: bad news, the worse the larger
 };

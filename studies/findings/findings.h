@@ -97,7 +97,7 @@ struct Findings {
 
   // The same in terminal, page and JSON, in one line.
   std::string conclusion() const { return in_one_line(concluded(answers)); }
-  void answer(Question question, std::string sentence, double severity = 0) {
+  void answer(Topic topic, std::string sentence, double severity = 0) {
     answers.push_back({question, std::move(sentence), severity});
   }
 

@@ -36,7 +36,7 @@ Findings begin_findings(const AboutForces& f, const CycleOfForces& front, const 
               .complete = f.complete,
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
-  to.answer(f.complete ? Question::figures : Question::runs, conclusion, f.complete ? 0 : 100);
+  to.answer(f.complete ? Topic::figures : Topic::runs, conclusion, f.complete ? 0 : 100);
   to.tell("mechanism", f.mechanism);
   return to;
 }

@@ -20,7 +20,7 @@ Findings made(std::string title, std::string conclusion, const Lines& lines, con
              .page_title = title,
              .tells_complete = false,
              .footer = report_footer()};
-  f.answer(Question::figures, std::move(conclusion));
+  f.answer(Topic::figures, std::move(conclusion));
   const Chapter in = f.chapter("Geometry");
   Rows table = words_table(title, lines.front(), {lines.begin() + 1, lines.end()});
   table.text_columns = table.text_columns_on_terminal = 2;

@@ -216,7 +216,7 @@ Findings findings_of(const Result& r, const Result* rigid) {
       .opening = Findings::Opening::title_and_conclusion,
       .footer = report_footer()};
   f.answers = run_answers(r);
-  f.answer(Question::figures, capitalised(figures_in_words(r)));
+  f.answer(Topic::figures, capitalised(figures_in_words(r)));
   f.brief = brief_of(r);
   f.figures = key_figures_of(r);
   show_motion(f, rigid && drawable({rigid}) ? Results{rigid, &r} : Results{&r});
@@ -257,7 +257,7 @@ Findings findings_of(const Comparison& c) {
   for (const Result* r : results)
     for (Answer& answer : run_answers(*r, r->label + " model: "))
       if (answer.severity > 0 || r == &c.b) f.answers.push_back(std::move(answer));
-  if (c.a.complete && c.b.complete) f.answer(Question::figures, c.conclusion);
+  if (c.a.complete && c.b.complete) f.answer(Topic::figures, c.conclusion);
   f.figures = key_figures_of(c);
   show_motion(f, results);
   const Chapter figures = f.chapter("Figures");

@@ -331,12 +331,12 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
 
 // Simulated as it really is, it may not keep what it was sized for.
 void add_answers(Findings& f, const Sizing& s) {
-  f.answer(s.complete ? Question::figures : Question::runs, conclusion_of(s), s.complete ? 0 : 100);
+  f.answer(s.complete ? Topic::figures : Topic::runs, conclusion_of(s), s.complete ? 0 : 100);
   const DeltaReached* real = reached(s, SizedModel::elastic);
   if (!real) real = reached(s, SizedModel::rigid);
   constexpr double visible = 1.02;
   if (s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta)
-    f.answer(Question::bears,
+    f.answer(Topic::bears,
              fmt::format("{}{:.6g} kg·m², by the work equation, do not keep δ = {:g}: simulated it is {:.4g} at the "
                          "crank, {:.3g} times that",
                          s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",

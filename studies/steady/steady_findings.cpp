@@ -386,12 +386,12 @@ Findings findings_of(const SteadyStudy& s) {
              .complete = s.complete,
              .diagnosis = s.diagnosis,
              .opening = Findings::Opening::title_and_conclusion};
-  f.answer(Question::runs, s.conclusion, s.complete ? 0 : 100);
+  f.answer(Topic::runs, s.conclusion, s.complete ? 0 : 100);
   for (const SteadyCycle& c : s.cycles)
     if (c.found && !c.uncertain && !c.neutral && c.point.largest() > 1)
-      f.answer(Question::runs,
+      f.answer(Topic::runs,
                fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), 50);
-  for (const std::string& sentence : s.cycles.back().outside_data) f.answer(Question::sure, capitalised(sentence), 0.5);
+  for (const std::string& sentence : s.cycles.back().outside_data) f.answer(Topic::sure, capitalised(sentence), 0.5);
   for (const MotorUse& use : s.cycles.back().motors)
     if (use.rated)
       if (std::optional<Answer> answer = overload_answer(*s.cycles.back().model, use.component, *use.thermal(), true))

@@ -291,7 +291,7 @@ Findings findings_of(const SweepStudyResult& s) {
              .complete = !s.interrupted && s.tally.rows >= s.wanted,
              .diagnosis = s.interrupted ? "interrupted; the same command goes on where it ended"
                                         : "rows are missing; the same command goes on"};
-  f.answer(Question::figures, conclusion_of(s));
+  f.answer(Topic::figures, conclusion_of(s));
   for (const Spread& spread : spreads_of(s))
     if (f.figures.size() < 4)
       f.figures.push_back(

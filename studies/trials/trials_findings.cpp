@@ -155,7 +155,7 @@ void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
                                            100 * least_that_changes_the_answer));
   } else {
     const MovedFigure moved = moved_by(rigid, speed).front();
-    f.answer(Question::depends, moved.on == "—"
+    f.answer(Topic::depends, moved.on == "—"
                                     ? fmt::format("The rigid model would tell no {}", moved.figure)
                                     : fmt::format("The rigid model would tell {} in place of {} for {} ({})", moved.on,
                                                   moved.off, moved.figure, moved.change));
@@ -194,7 +194,7 @@ void conclude(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   for (const Trial* trial : moving) count += any(*trial, changes_the_answer);
   if (count > 0) {
     const MovedFigure moved = moved_by(*moving.front(), speed).front();
-    f.answer(Question::depends,
+    f.answer(Topic::depends,
              moved.on == "—"
                  ? capitalised(fmt::format("{}, which is off, would leave no {}", moved.effect, moved.figure))
                  : capitalised(fmt::format("{}, which is off, would move {} from {} to {} ({})", moved.effect,

@@ -23,7 +23,7 @@ constexpr double rpm = std::numbers::pi / 30;
 
 bool tells(const Result& r) {
   return std::any_of(r.answers.begin(), r.answers.end(), [](const Answer& a) {
-    return a.question == Question::sure && a.sentence.find("outside its table") != std::string::npos;
+    return a.topic == Topic::sure && a.sentence.find("outside its table") != std::string::npos;
   });
 }
 

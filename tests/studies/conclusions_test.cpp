@@ -52,13 +52,13 @@ TEST(Headline, CountsSignificantDigitsAsTheyAreWritten) {
 
 // Does it run, is it sure, does it bear it, what would change it, the figures: bad news before good.
 TEST(Conclusion, BadNewsComesFirstThenTheQuestionsInTheirOrder) {
-  const std::vector<std::string> said = concluded({{Question::figures, "figures"},
-                                                   {Question::depends, "friction would change it"},
-                                                   {Question::bears, "the clutch gets too hot", 1.2},
-                                                   {Question::bears, "the shaft is overloaded", 1.9},
-                                                   {Question::bears, "a third excess", 1.1},
-                                                   {Question::runs, "it runs"},
-                                                   {Question::sure, "NOT confirmed", 1}});
+  const std::vector<std::string> said = concluded({{Topic::figures, "figures"},
+                                                   {Topic::depends, "friction would change it"},
+                                                   {Topic::bears, "the clutch gets too hot", 1.2},
+                                                   {Topic::bears, "the shaft is overloaded", 1.9},
+                                                   {Topic::bears, "a third excess", 1.1},
+                                                   {Topic::runs, "it runs"},
+                                                   {Topic::sure, "NOT confirmed", 1}});
   EXPECT_EQ(said, (std::vector<std::string>{"NOT confirmed.", "The shaft is overloaded.", "The clutch gets too hot.",
                                             "It runs.", "Friction would change it.", "Figures."}));
 }
