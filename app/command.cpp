@@ -79,11 +79,11 @@ Option OptionList::add_flag(const std::string& name, std::function<void()> act, 
 Option OptionList::option(const std::string& name) { return Option(app_.get_option(name)); }
 void OptionList::action(std::function<void()> act) { app_.callback(std::move(act)); }
 
-std::vector<OptionText> options_of(const std::function<void(OptionList&)>& set_up, const std::string& name) {
+std::vector<OptionHelp> options_of(const std::function<void(OptionList&)>& set_up, const std::string& name) {
   CLI::App program;
   OptionList command(*program.add_subcommand(name));
   set_up(command);
-  std::vector<OptionText> texts;
+  std::vector<OptionHelp> texts;
   for (const CLI::Option* option : program.get_subcommand(name)->get_options())
     texts.push_back({option->get_name(), option->get_description(), option->get_lnames(), option->get_positional(),
                      option->get_group().empty()});

@@ -62,13 +62,13 @@ class OptionList {
 };
 
 // An option as help, manual page and completion tell it.
-struct OptionText {
+struct OptionHelp {
   std::string name, help;               // "--until"
   std::vector<std::string> long_names;  // "until"
   bool by_place = false, hidden = false;
 };
 // What a command declares.
-std::vector<OptionText> options_of(const std::function<void(OptionList&)>& set_up, const std::string& name);
+std::vector<OptionHelp> options_of(const std::function<void(OptionList&)>& set_up, const std::string& name);
 
 struct Subcommand {
   std::string name, help;

@@ -141,25 +141,6 @@ void add_study_options(OptionList& command, StudyOptions& options) {
   command.add_flag("--verbose", options.verbose, "say on stderr what is read, compiled, chosen and run");
 }
 
-void add_measured_options(OptionList& command, MeasurementRequest& request) {
-  command.add_option("--measured", request.file,
-                     "a test's record (CSV: headings with units, a column \"time [s]\"), laid over the plots; what is "
-                     "left between them is told as figures");
-  command
-      .add_option(
-          "--map", request.maps,
-          "which column of the record is which channel, e.g. \"T1=torque.main_coupling\"; with a unit where the "
-          "heading has none, \"T1=torque.main_coupling [kN*m]\"; \"COLUMN=time [ms]\" for the time; repeatable")
-      .repeatable();
-  command.add_option("--shift", request.shift,
-                     "added to the record's times, e.g. \"0.2 s\"; fit: found by least squares (default: none)");
-  command
-      .add_option("--offset", request.offsets,
-                  "what a column reads too high, e.g. \"T1=5 N*m\"; \"T1=fit\", or fit for every column: found as the "
-                  "mean (default: none); repeatable")
-      .repeatable();
-}
-
 Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)), begin_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
@@ -226,13 +207,6 @@ void add_former_name(OptionList& command, const std::string& name, std::string& 
   command.add_option(name, value).hidden();
 }
 
-SimulateOptions simulate_options(const StudyOptions& options, Progress& progress) {
-  SimulateOptions simulation;
-  simulation.traces = !options.no_files;
-  simulation.watch = watch_of(options, progress);
-  return simulation;
-}
-
 namespace {
 
 // Where the files are, said.
@@ -244,10 +218,13 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
       .head = {.brand_svg = options.brand.empty() ? "" : text_of_file(options.brand), .author = options.author},
       .formats = table_formats(options.format)};
   const std::filesystem::path folder = write_output(output, results_of(options), how);
+  const bool has_sheet =
+      std::any_of(output.csv.begin(), output.csv.end(), [](const CsvFile& file) { return file.name == "sheet.html"; });
   if (!options.json && !options.quiet) {
     say(fmt::format("results: {}\n", (folder / "summary.json").string()));
     if (options.plots) say(fmt::format("plots for gnuplot: {}\n", (folder / "plots").string()));
     say(fmt::format("report: {}\n", (folder / "report.html").string()));
+    if (output.complete && has_sheet) say(fmt::format("sheet: {}\n", (folder / "sheet.html").string()));
   }
   if (options.open) open_in_browser(folder / "report.html");
 }
@@ -269,35 +246,19 @@ int present(const StudyOutput& study, const StudyOptions& options, bool all) {
     say_with_conclusion(output.brief, output.headline);
   if (!options.no_files) write_files(output, options, stopped);
   if (output.complete && !stopped) {
-    if (output.unconfirmed.empty()) return exit_done;
+    if (output.unconfirmed.empty()) {
+      if (!output.next.empty() && !options.no_files && !options.json && !options.quiet)
+        say(fmt::format(fmt::runtime(output.next), fmt::arg("scene", options.scene),
+                        fmt::arg("summary", (results_of(options) / "summary.json").string())) +
+            "\n");
+      return exit_done;
+    }
     complain(fmt::format("kurbel: not confirmed: {}. Loosen --accuracy, or take --no-error if no error is wanted\n",
                          output.unconfirmed));
     return exit_not_confirmed;
   }
   complain(fmt::format("kurbel: {}\n", output.complete ? "interrupted" : output.diagnosis));
   return stopped ? exit_interrupted : exit_run_failed;
-}
-
-void add_sheet_options(OptionList& command, SheetOptions& options) {
-  command.add_flag("--sheet", options.wanted,
-                   "write the classical sheet of the positions too, sheet.html: plan, tables and diagrams with their "
-                   "scales, to be printed");
-  command.add_option("--paper", options.paper, "of the sheet, landscape: A4 (default) or A3");
-}
-
-Paper paper_of(const SheetOptions& options, const StudyOptions& study) {
-  if (!options.wanted && !options.paper.empty())
-    throw std::invalid_argument(fmt::format("--paper {}: is that of the sheet; add --sheet", options.paper));
-  if (options.wanted && study.no_files)
-    throw std::invalid_argument("--sheet with --no-files: the sheet is a file; leave out one of the two");
-  return paper_named(options.paper.empty() ? "A4" : options.paper);
-}
-
-int present_with_sheet(const StudyOutput& output, const StudyOptions& options) {
-  const int code = present(output, options);
-  if (output.complete && !options.json && !options.quiet)
-    say(fmt::format("sheet: {}\n", (results_of(options) / "sheet.html").string()));
-  return code;
 }
 
 }  // namespace kurbel::app

@@ -10,12 +10,9 @@
 
 #include "app/command.h"
 #include "engine/scene/scene.h"
-#include "library/option_values.h"
-#include "studies/run/simulate.h"
-#include "studies/sheet/paper.h"
+#include "studies/findings/watch.h"
 
 namespace kurbel {
-struct MeasurementRequest;
 struct StudyOutput;
 }  // namespace kurbel
 
@@ -45,9 +42,6 @@ struct StudyOptions {
 std::filesystem::path results_of(const StudyOptions& options);
 void add_scene(OptionList& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
 void add_study_options(OptionList& command, StudyOptions& options);
-// --measured and what belongs to it: a test's record beside the simulation.
-void add_measured_options(OptionList& command, MeasurementRequest& request);
-
 // A line on stderr that is written over, on a terminal only, and only for work longer than a second.
 class Progress {
  public:
@@ -75,22 +69,8 @@ Watch watch_of(const StudyOptions& options, Progress& progress);
 // The name that an option once had: taken still, and told nowhere.
 void add_former_name(OptionList& command, const std::string& name, std::string& value);
 
-// Options of a simulation within a study: the same, and traces for the report.
-SimulateOptions simulate_options(const StudyOptions& options, Progress& progress);
-
-// Of commands that can write the classical sheet of positions, sheet.html beside the report.
-struct SheetOptions {
-  bool wanted = false;
-  std::string paper;  // "A4", "A3"; empty: A4
-};
-void add_sheet_options(OptionList& command, SheetOptions& options);
-// Throws std::invalid_argument for a paper that there is not, and where files are asked for and forbidden.
-Paper paper_of(const SheetOptions& options, const StudyOptions& study);
-
 // Prints, writes the files unless asked not to, and returns the exit code.
 // `all`: the long form where there is a short one, too.
 int present(const StudyOutput& output, const StudyOptions& options, bool all = false);
-// The same of a study with a sheet among its files, and where that is.
-int present_with_sheet(const StudyOutput& output, const StudyOptions& options);
 
 }  // namespace kurbel::app

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "app/command_line.h"
+#include "app/question_command.h"
 #include "app/terminal.h"
 #include "app/verb.h"
-#include "studies/effects/effect_study.h"
+#include "engine/scene/effects.h"
 
 namespace kurbel::app::effects_command {
 namespace {
@@ -24,29 +24,17 @@ int list_effects() {
   return exit_done;
 }
 
-int study(const StudyOptions& arguments) {
-  if (arguments.scene.empty()) return list_effects();
-  const Scene scene = read(arguments);
-  check_folder(arguments);
-  Progress progress(arguments.quiet);
-  const EffectStudy found = study_effects(scene, simulate_options(arguments, progress));
-  return present(output_of(found), arguments);
-}
-
+// The question, and without a scene the list.
 void set_up(OptionList& command, int& code) {
-  const auto arguments = std::make_shared<StudyOptions>();
-  add_study_options(command, *arguments);
+  const auto options = std::make_shared<StudyOptions>();
+  add_study_options(command, *options);
   command.option("scene").required(false);
-  command.action([&code, arguments] { code = study(*arguments); });
+  command.action([&code, options] {
+    code = options->scene.empty() ? list_effects() : answer(question_named("effects"), *options, {});
+  });
 }
 
-const Verb verb{{.place = 90,
-                 .name = "effects",
-                 .arguments = "scene.toml",
-                 .help = "what each effect changes and costs; without a scene: the list",
-                 .does = "what each effect changes and costs: the full model, and the model without one effect at a "
-                         "time, ranked; without a scene: the list of effects",
-                 .set_up = set_up}};
+const Verb verb{{question_named("effects"), set_up}};
 
 }  // namespace
 }  // namespace kurbel::app::effects_command

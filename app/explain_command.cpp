@@ -30,14 +30,15 @@ void set_up(OptionList& command, int& code) {
   command.action([&code, wanted] { code = explain(wanted->first, wanted->second); });
 }
 
-const Verb verb{{.place = 135,
-                 .name = "explain",
-                 .arguments = "delta",
-                 .help = "what a figure means: definition, formula, unit, what it is not",
-                 .does = "what a figure means: definition, formula, unit, what it is not, which commands tell it; "
-                         "without a name all figures",
-                 .set_up = set_up,
-                 .of_scene = false}};
+const Verb verb{
+    {{.place = 135,
+      .name = "explain",
+      .arguments = "delta",
+      .help = "what a figure means: definition, formula, unit, what it is not",
+      .does = "what a figure means: definition, formula, unit, what it is not, which commands tell it; without "
+              "a name all figures"},
+     set_up,
+     false}};
 
 }  // namespace
 }  // namespace kurbel::app::explain_command

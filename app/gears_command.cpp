@@ -4,17 +4,19 @@
 #include <memory>
 #include <stdexcept>
 
-#include "app/command_line.h"
+#include "app/question_command.h"
 #include "app/verb.h"
 #include "studies/gears/bevel_worm.h"
 #include "studies/gears/gears.h"
+#include "studies/question/option_values.h"
 
 namespace kurbel::app::gears_command {
 namespace {
 
 struct GearsArguments {
   StudyOptions study;
-  std::string pair, speed, shaft_angle, worm_diameter;
+  DeclaredOptions declared;
+  std::string shaft_angle, worm_diameter;
   double friction = 0;
   std::vector<int> teeth;
   std::vector<double> shift;
@@ -80,30 +82,29 @@ StudyOutput alone(const GearsArguments& a, std::optional<double> speed) {
 }
 
 int gears(GearsArguments a) {
-  std::optional<double> speed;
-  if (!a.speed.empty()) speed = quantity_of("--speed", a.speed, "a speed", "1500 rpm", any_number);
   if (a.alone() == !a.study.scene.empty())
     throw std::invalid_argument(a.alone() ? "gears: give a scene or --teeth, not both"
                                           : "gears: give a scene, or a pair alone: --teeth 19 95 --module \"4 mm\"");
+  const Question& question = question_named("gears");
   if (!a.alone()) {
     if (const std::string option = a.alone_option(); !option.empty())
       throw std::invalid_argument(
-          fmt::format("{} belongs to a pair alone (with --teeth); a scene's stages say it themselves", option));
-    const Scene scene = read(a.study);
-    check_folder(a.study);
-    return present(output_of(find_gears(scene, {.pair = a.pair, .speed = speed})), a.study);
+          fmt::format("{} belongs to a pair alone (with --teeth); a scene's stages say it "
+                      "themselves",
+                      option));
+    return answer(question, a.study, a.declared.given());
   }
   a.study.scene = "pair_alone";  // names the folder of the results
   check_folder(a.study);
-  return present(alone(a, speed), a.study);
+  const GearsOptions asked = gears_options().read(a.declared.given(), question.name, Scene{}, true);
+  return present(alone(a, asked.speed), a.study);
 }
 
 void set_up(OptionList& command, int& code) {
   const auto a = std::make_shared<GearsArguments>();
   add_study_options(command, a->study);
   command.option("scene").required(false);
-  command.add_option("--pair", a->pair, "one stage, e.g. gearbox.stage1 (default: all whose module is given)");
-  command.add_option("--speed", a->speed, "of the first wheel, e.g. \"1500 rpm\": sliding speeds, mesh frequency");
+  a->declared.add_to(command, gears_options().declared());
   command
       .add_option("--teeth", a->teeth, "a pair alone: teeth of both wheels, driving one first; an internal wheel < 0")
       .values(2);
@@ -125,14 +126,7 @@ void set_up(OptionList& command, int& code) {
   command.action([&code, a] { code = gears(*a); });
 }
 
-const Verb verb{
-    {.place = 60,
-     .name = "gears",
-     .arguments = "scene.toml",
-     .help = "gear pairs: diameters, contact, sliding, undercut, interference, a turning drawing",
-     .does = "gear pairs of the stages given by module: diameters, contact ratio, sliding, undercut, interference, "
-             "mesh stiffness, a turning drawing; or a pair alone (`--teeth 19 95 --module \"4 mm\" --shift 0.3 0`)",
-     .set_up = set_up}};
+const Verb verb{{question_named("gears"), set_up}};
 
 }  // namespace
 }  // namespace kurbel::app::gears_command

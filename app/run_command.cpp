@@ -1,4 +1,4 @@
-// run_command.cpp — run one model of a scene, or compare two.
+// run_command.cpp — run one model of a scene.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,15 +9,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/command_line.h"
+#include "app/question_command.h"
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "engine/model/model.h"
 #include "engine/run/checkpoint.h"
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/files/whole_file.h"
+#include "studies/measured/measurement_options.h"
 #include "studies/measured/overlay.h"
 #include "studies/run/run_findings.h"
+#include "studies/trials/run_options.h"
 #include "studies/trials/trials_findings.h"
 
 namespace kurbel::app::run_command {
@@ -27,46 +29,10 @@ constexpr std::uintmax_t most_state_bytes = 256u << 20;
 
 struct RunArguments {
   StudyOptions study;
-  std::string effects, against, method, until, setting, from_state, save_state;
-  std::optional<double> accuracy;
-  bool no_error = false, no_trials = false, explain = false, all = false;
-  MeasurementRequest measured;
+  DeclaredOptions run, measurement;
+  std::string setting, from_state, save_state;
+  bool explain = false, all = false;
 };
-
-void add_run_options(OptionList& command, RunArguments& arguments) {
-  add_study_options(command, arguments.study);
-  command.add_option("--effects", arguments.effects,
-                     "none, all, or names of effects (see kurbel effects) joined by commas; elasticity:COUPLING,… for "
-                     "some couplings; -NAME takes one away (overrides the scene)");
-  command.add_option("--accuracy", arguments.accuracy,
-                     "measured error of every figure over its scale (overrides the scene)");
-  command.add_option("--until", arguments.until, "end of the simulated time, e.g. \"3 s\" (overrides the scene)");
-  command.add_option("--method", arguments.method,
-                     "auto, work, dopri5, verner6, dop853, fehlberg8, adams, esdirk3, esdirk, esdirk5, bdf; for "
-                     "multibody one of Simbody's integrators");
-  command.add_flag("--no-error", arguments.no_error, "skip the second run that measures the errors");
-  command.add_flag("--no-trials", arguments.no_trials,
-                   "skip the runs of the rigid machine and those that try, one by one, the effects that are off (made "
-                   "behind short runs only)");
-}
-
-SimulateOptions options_of(const RunArguments& arguments, Progress& progress) {
-  SimulateOptions options = simulate_options(arguments.study, progress);
-  options.measure_error = !arguments.no_error;
-  if (!arguments.method.empty()) options.method = arguments.method;
-  if (arguments.accuracy) {
-    if (!(*arguments.accuracy >= 1e-12 && *arguments.accuracy <= 0.1))
-      throw std::invalid_argument(fmt::format("--accuracy {}: must be 1e-12 … 0.1", *arguments.accuracy));
-    options.accuracy = arguments.accuracy;
-  }
-  if (!arguments.until.empty()) options.until = quantity_of("--until", arguments.until, "a time > 0", "3 s", positive);
-  return options;
-}
-
-void check_arguments(const RunArguments& arguments, const Scene& scene) {
-  if (!arguments.method.empty()) check_method(arguments.method, scene.run.model);
-  check_folder(arguments.study);
-}
 
 // Method and first tolerance by what an accuracy study of the same text measured, where the user names its file.
 void use_setting(const std::string& file, const Scene& scene, const Effects& effects, SimulateOptions& options) {
@@ -99,14 +65,16 @@ std::string text_of_state(const std::string& file) {
 }
 
 // Read before anything runs; nothing: none was asked for.
-std::optional<Measurement> measurement_of(const RunArguments& arguments, const Model& model, SimulateOptions& options) {
-  if (!arguments.measured.asked()) return {};
+std::optional<Measurement> measurement_of(const MeasurementRequest& request, bool from_start, const Model& model,
+                                          SimulateOptions& options) {
+  if (!request.asked()) return {};
   const Scene& scene = model.scene;
   if (scene.run.model != "reduced")
     throw std::invalid_argument(
-        "--measured: belongs to the reduced model, which records its channels; set model = \"reduced\"");
-  Measurement measurement = read_measurement(arguments.measured, channels_of_run(model));
-  if (arguments.from_state.empty()) require_overlap(measurement, 0, options.until.value_or(scene.run.until));
+        "--measured: belongs to the reduced model, which records its channels; set model = "
+        "\"reduced\"");
+  Measurement measurement = read_measurement(request, channels_of_run(model));
+  if (from_start) require_overlap(measurement, 0, options.until.value_or(scene.run.until));
   options.traces = true;
   return measurement;
 }
@@ -121,15 +89,16 @@ int present(const Study& study, const std::optional<Overlay>& overlay, const Run
 
 int run(const RunArguments& arguments) {
   const Scene scene = read(arguments.study);
-  const Effects effects = arguments.effects.empty() ? scene.effects : parse_effects(arguments.effects, scene);
+  const RunAsked asked = run_options().read(arguments.run.given(), "run", scene, true);
+  const Effects effects = asked.effects.value_or(scene.effects);
   const auto model = compile(scene, effects);
   if (arguments.explain) {
     say(model->explain());
     return exit_done;
   }
-  check_arguments(arguments, scene);
   Progress progress(arguments.study.quiet);
-  SimulateOptions options = options_of(arguments, progress);
+  SimulateOptions options = asked.simulation(inquiry_of(scene, arguments.study, progress));
+  check_folder(arguments.study);
   use_setting(arguments.setting, scene, effects, options);
   if (!arguments.save_state.empty()) {
     if (const std::string why = why_no_file_at(arguments.save_state); !why.empty())
@@ -139,7 +108,8 @@ int run(const RunArguments& arguments) {
   if (!arguments.from_state.empty()) options.go_on_from = text_of_state(arguments.from_state);
   if (scene.run.model != "reduced" && (options.keep_state || !options.go_on_from.empty()))
     throw std::invalid_argument("--from-state and --save-state belong to the reduced model; set model = \"reduced\"");
-  const std::optional<Measurement> measurement = measurement_of(arguments, *model, options);
+  const auto request = measurement_options().read(arguments.measurement.given(), "run", scene, true);
+  const auto measurement = measurement_of(request, arguments.from_state.empty(), *model, options);
   Result result;
   try {
     result = simulate(model, is_elastic(*model) ? "elastic" : "rigid", options);
@@ -148,7 +118,7 @@ int run(const RunArguments& arguments) {
   }
   if (!result.checkpoint.empty()) write_whole(arguments.save_state, result.checkpoint);
   std::optional<Overlay> overlay;
-  if (arguments.no_trials) {
+  if (!asked.trials) {
     if (measurement) overlay = lay_over(*measurement, result);
     return present(result, overlay, arguments);
   }
@@ -157,24 +127,10 @@ int run(const RunArguments& arguments) {
   return present(tried, overlay, arguments);
 }
 
-int compare(const RunArguments& arguments) {
-  const Scene scene = read(arguments.study);
-  const auto asked = [&](const std::string& list) -> std::optional<Effects> {
-    if (list.empty()) return {};
-    return parse_effects(list, scene);
-  };
-  check_arguments(arguments, scene);
-  const ModelPair models = models_to_compare(scene, asked(arguments.effects), asked(arguments.against));
-  Progress progress(arguments.study.quiet);
-  const SimulateOptions options = options_of(arguments, progress);
-  Comparison c = kurbel::compare(scene, models, options);
-  if (arguments.no_trials) return present(output_of(c), arguments.study);
-  return present(output_of(with_trials(std::move(c), options)), arguments.study);
-}
-
 void set_up_run(OptionList& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
-  add_run_options(command, *arguments);
+  add_study_options(command, arguments->study);
+  arguments->run.add_to(command, run_options().declared());
   command.add_flag("--all", arguments->all,
                    "print all figures, works, notes and limits of steps, not only the conclusion and key figures");
   command.add_flag("--explain", arguments->explain,
@@ -184,45 +140,32 @@ void set_up_run(OptionList& command, int& code) {
                      "cheapest that was exact enough");
   command.add_option("--save-state", arguments->save_state,
                      "writes the state at the end into this file, for --from-state");
-  add_measured_options(command, arguments->measured);
+  arguments->measurement.add_to(command, measurement_options().declared());
   command.add_option("--from-state", arguments->from_state,
                      "goes on from a state that --save-state wrote, of this machine; its parameters may be others");
   command.action([&code, arguments] { code = run(*arguments); });
 }
 
-void set_up_compare(OptionList& command, int& code) {
-  const auto arguments = std::make_shared<RunArguments>();
-  add_run_options(command, *arguments);
-  command.add_option(
-      "--against", arguments->against,
-      "effects of the first model; none for the bare machine (default: those of the second without elasticity)");
-  command.action([&code, arguments] { code = compare(*arguments); });
-}
-
 const Verb run_verb{
-    {.place = 10,
-     .name = "run",
-     .arguments = "scene.toml",
-     .help = "simulate a scene",
-     .does = "simulates; prints the conclusion and at most twelve key figures with units and measured errors (`--all`: "
-             "all of them), writes `report.html`, `summary.json` and `trajectory.csv` into `results/SCENE/run`; short "
-             "runs try the effects that are off, and tell which would move a key figure, and what the rigid machine "
-             "would tell, which stands grey behind",
-     .set_up = set_up_run,
-     .more = {
-         "scene.toml --explain | what was merged, the coordinates and their inertias, and why",
-         "scene.toml --until \"2 s\" --save-state warm.json | keeps the state at the end; `--from-state warm.json` "
-         "goes on from there, in this scene or in one whose parameters differ, to the last bit the same each time",
-         "scene.toml --measured test.csv --map \"T1=torque.main_coupling\" --shift fit | lays a test's record over the "
-         "plots and tells what is left between them"}}};
-
-const Verb compare_verb{{.place = 20,
-                         .name = "compare",
-                         .arguments = "scene.toml",
-                         .help = "the rigid against the elastic model, or any two sets of effects",
-                         .does = "rigid against elastic with the same other effects on both sides, or any two sets of "
-                                 "effects (`--effects`, `--against`); `--against none`: the bare machine",
-                         .set_up = set_up_compare}};
+    {{.place = 10,
+      .name = "run",
+      .arguments = "scene.toml",
+      .help = "simulate a scene",
+      .does =
+          "simulates; prints the conclusion and at most twelve key figures with units and measured errors (`--all`: "
+          "all of them), writes `report.html`, `summary.json` and "
+          "`trajectory.csv` into `results/SCENE/run`; short "
+          "runs try the effects that are off, and tell which would move a key figure, and what the rigid machine "
+          "would tell, which stands grey behind",
+      .more =
+          {"scene.toml --explain | what was merged, the coordinates and their inertias, and why",
+           "scene.toml --until \"2 s\" --save-state warm.json | keeps the state at the end; `--from-state warm.json` "
+           "goes on from there, in this scene or in one whose parameters differ, to the last bit the same each "
+           "time",
+           "scene.toml --measured test.csv --map \"T1=torque.main_coupling\" --shift fit | lays a test's record over "
+           "the "
+           "plots and tells what is left between them"}},
+     set_up_run}};
 
 }  // namespace
 }  // namespace kurbel::app::run_command

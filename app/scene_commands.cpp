@@ -185,53 +185,54 @@ void set_up_commands(OptionList& command, int& code) {
   });
 }
 
-const Verb check_verb{{.place = 120,
-                       .name = "check",
-                       .arguments = "scene.toml",
-                       .help = "validate a scene",
-                       .does = "validates only; all errors at once as `file:line:col: what, got, allowed, next step`",
-                       .set_up = set_up_with_scene<check>,
-                       .of_scene = false}};
-const Verb figures_verb{{.place = 130,
-                         .name = "figures",
-                         .arguments = "scene.toml",
-                         .help = "list the figures that runs of a scene yield",
-                         .does = "names of the figures that runs of the scene yield",
-                         .set_up = set_up_with_scene<figures>,
-                         .of_scene = false}};
-const Verb new_verb{{.place = 140,
-                     .name = "new",
-                     .arguments = "press",
-                     .help = "write a commented scene to start from",
-                     .does = "writes a commented scene to start from: " + names_of_templates() +
-                             "; a file that exists is never overwritten. Beside it, where there is none, the schema by "
-                             "which editors complete and check keys",
-                     .set_up = set_up_new,
-                     .of_scene = false}};
-const Verb keys_verb{{.place = 150,
-                      .name = "keys",
-                      .arguments = "coupling",
-                      .help = "print the keys of one kind, or of a whole scene (Markdown)",
-                      .does =
-                          "keys of one kind, for the terminal; without a kind every key of a scene with unit, default "
-                          "and domain (docs/keys.md)",
-                      .set_up = set_up_keys,
-                      .of_scene = false}};
-const Verb schema_verb{{.place = 160,
-                        .name = "schema",
-                        .help = "print the JSON Schema of a scene, for editors",
-                        .does = "JSON Schema of a scene (docs/scene.schema.json): editors complete and check by its "
-                                "`#:schema` line",
-                        .set_up = set_up_schema,
-                        .of_scene = false}};
-const Verb commands_verb{{.place = 170,
-                          .name = "commands",
-                          .arguments = "run",
-                          .help = "list the commands, or the options of one, for completion and manual",
-                          .does = "options of a command, a line each, as completion asks for them; without a name the "
-                                  "commands",
-                          .set_up = set_up_commands,
-                          .of_scene = false}};
+const Verb check_verb{{{.place = 120,
+                        .name = "check",
+                        .arguments = "scene.toml",
+                        .help = "validate a scene",
+                        .does = "validates only; all errors at once as `file:line:col: what, got, allowed, next step`"},
+                       set_up_with_scene<check>,
+                       false}};
+const Verb figures_verb{{{.place = 130,
+                          .name = "figures",
+                          .arguments = "scene.toml",
+                          .help = "list the figures that runs of a scene yield",
+                          .does = "names of the figures that runs of the scene yield"},
+                         set_up_with_scene<figures>,
+                         false}};
+const Verb new_verb{
+    {{.place = 140,
+      .name = "new",
+      .arguments = "press",
+      .help = "write a commented scene to start from",
+      .does = "writes a commented scene to start from: " + names_of_templates() +
+              "; a file that exists is never overwritten. Beside it, where there is none, the schema by "
+              "which editors complete and check keys"},
+     set_up_new,
+     false}};
+const Verb keys_verb{
+    {{.place = 150,
+      .name = "keys",
+      .arguments = "coupling",
+      .help = "print the keys of one kind, or of a whole scene (Markdown)",
+      .does = "keys of one kind, for the terminal; without a kind every key of a scene with unit, default "
+              "and domain (docs/keys.md)"},
+     set_up_keys,
+     false}};
+const Verb schema_verb{{{.place = 160,
+                         .name = "schema",
+                         .help = "print the JSON Schema of a scene, for editors",
+                         .does = "JSON Schema of a scene (docs/scene.schema.json): editors complete and check by its "
+                                 "`#:schema` line"},
+                        set_up_schema,
+                        false}};
+const Verb commands_verb{{{.place = 170,
+                           .name = "commands",
+                           .arguments = "run",
+                           .help = "list the commands, or the options of one, for completion and manual",
+                           .does = "options of a command, a line each, as completion asks for them; without a name the "
+                                   "commands"},
+                          set_up_commands,
+                          false}};
 
 }  // namespace
 }  // namespace kurbel::app::scene_commands

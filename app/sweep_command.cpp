@@ -1,5 +1,5 @@
 // sweep_command.cpp — kurbel sweep: a design of variants of a scene, into a database; kurbel merge: shards into one;
-// kurbel uncertainty: what tolerances make of the figures; kurbel diff: two machines side by side.
+// kurbel diff: two machines side by side.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,15 +7,15 @@
 #include <memory>
 #include <stdexcept>
 
-#include "app/command_line.h"
+#include "app/question_command.h"
 #include "app/terminal.h"
 #include "app/verb.h"
 #include "engine/scene/document.h"
 #include "engine/tables/table_text.h"
 #include "studies/difference/difference.h"
+#include "studies/question/option_values.h"
 #include "studies/sweep/machine.h"
 #include "studies/sweep/sweep_findings.h"
-#include "studies/uncertainty/uncertainty.h"
 
 namespace kurbel::app::sweep_command {
 namespace {
@@ -70,20 +70,8 @@ Design design_of(const SweepArguments& a, VariantTable table) {
   return Design(a.design.empty() ? "grid" : a.design, std::move(table.parameters), a.seed);
 }
 
-// A scene that is put to a study, as it is.
-MachineQuestion question_of(const StudyOptions& options, const std::string& of) {
-  MachineQuestion q;
-  q.text = read_text_file(options.scene, max_scene_bytes);
-  q.file = options.scene;
-  q.settings = options.set;
-  q.allowed = options.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene;
-  q.of = study_named(of);
-  q.interrupted = &interrupted();
-  return q;
-}
-
-MachineQuestion question_of(const SweepArguments& a) {
-  MachineQuestion q = question_of(a.study, a.of);
+MachineQuestion question_of(const SweepArguments& a, const Inquiry& inquiry) {
+  MachineQuestion q = kurbel::question_of(inquiry, a.of);
   q.errors_every = errors_every(a.errors);
   if (!a.delta.empty() && q.of != SweepStudy::size)
     throw std::invalid_argument(fmt::format("--delta {}: belongs to --of size", a.delta));
@@ -107,11 +95,12 @@ SweepIdentity identity_of(const SweepArguments& a, const Scene& scene, const Des
 
 int sweep(const SweepArguments& a) {
   VariantTable table = table_asked(a);
-  const MachineQuestion question = question_of(a);
   SweepJob job{.jobs = threads_of(a.jobs)};
   read_shard("--shard", a.shard, job);
   // Whatever is wrong is told before anything is written.
   const Scene scene = read(a.study);
+  Progress progress(a.study.quiet);
+  const MachineQuestion question = question_of(a, inquiry_of(scene, a.study, progress));
   const VariedScene varied(question, table.parameters);
   const Design design = design_of(a, std::move(table));
   job.design = &design;
@@ -121,7 +110,6 @@ int sweep(const SweepArguments& a) {
   if (!a.xlsx.empty()) check_xlsx(a.xlsx, design.rows() / job.shards);
 
   SweepStore store(a.into, identity_of(a, scene, design, figures));
-  Progress progress(a.study.quiet);
   job.watch = watch_of(a.study, progress);
   job.evaluator = [&] { return machine_evaluator(question, varied, figures); };
   const SweepEnd end = run_sweep(job, store);
@@ -193,97 +181,42 @@ void set_up_merge(OptionList& command, int& code) {
 }
 
 const Verb sweep_verb{
-    {.place = 112,
-     .name = "sweep",
-     .arguments = "scene.toml --vary \"main_coupling.stiffness=500..1500 kN*m/rad\" --design sobol:512 --into r.db",
-     .help = "thousands of variants of a scene into a database; what moves the figures",
-     .does = "computes a design of variants (`--vary`, `--variants`, `--design`), each with measured errors, into an "
-             "SQLite file that resumes by itself; response curves, maps with limits (`--limit`), influence by Sobol's "
-             "indices, failures by reason, worst machines with the line that computes each alone",
-     .set_up = set_up_sweep}};
+    {{.place = 112,
+      .name = "sweep",
+      .arguments = "scene.toml --vary \"main_coupling.stiffness=500..1500 kN*m/rad\" --design sobol:512 --into r.db",
+      .help = "thousands of variants of a scene into a database; what moves the figures",
+      .does = "computes a design of variants (`--vary`, `--variants`, `--design`), each with measured errors, into an "
+              "SQLite file that resumes by itself; response curves, maps with limits (`--limit`), influence by Sobol's "
+              "indices, failures by reason, worst machines with the line that computes each alone"},
+     set_up_sweep}};
 
-const Verb merge_verb{{.place = 114,
-                       .name = "merge",
-                       .arguments = "a.db b.db --into all.db",
-                       .help = "shards of a sweep into one database",
-                       .does = "puts shards of one sweep together, after checking that scene, design and version agree "
-                               "and that no row has two results",
-                       .set_up = set_up_merge,
-                       .of_scene = false}};
-
-struct UncertaintyArguments {
-  StudyOptions study;
-  UncertaintyOptions options;
-  std::string of = "run";
-  bool no_error = false;
-};
-
-int uncertainty(UncertaintyArguments a) {
-  MachineQuestion question = question_of(a.study, a.of);
-  question.errors_every = a.no_error ? 0 : 1;
-  read(a.study);  // what is wrong with it is told in its place
-  check_folder(a.study);
-  Progress progress(a.study.quiet);
-  a.options.watch = watch_of(a.study, progress);
-  a.options.jobs = threads_of(a.options.jobs);
-  return present(output_of(study_uncertainty(question, a.options)), a.study);
-}
-
-void set_up_uncertainty(OptionList& command, int& code) {
-  const auto a = std::make_shared<UncertaintyArguments>();
-  a->options.jobs = 0;
-  add_study_options(command, a->study);
-  command
-      .add_option("--figures", a->options.figures,
-                  "names joined by commas, or a quantity for all that have it: delta,peak_torque (default: all)")
-      .split_at(',');
-  command.add_option("--limit", a->options.limits, "\"delta.press <= 0.05\": how surely it holds; repeatable")
-      .repeatable();
-  command.add_option("--of", a->of, "run (default), steady, modes or size");
-  command.add_option("--samples", a->options.samples, "machines drawn from the tolerances (default: 500)");
-  command.add_option("--seed", a->options.seed, "of what is drawn (default: 1)");
-  command.add_option("--jobs", a->options.jobs, "threads (default: one for each core)").check(thread_count);
-  command.add_flag("--no-error", a->no_error, "skip the runs that measure errors: none is undecided then");
-  command.add_flag(
-      "--no-trials", [a] { a->options.biases = false; },
-      "skip the runs that try, one by one, the effects that are off");
-  command.action([&code, a] { code = uncertainty(*a); });
-}
-
-const Verb uncertainty_verb{
-    {.place = 116,
-     .name = "uncertainty",
-     .arguments = "scene.toml --limit \"delta.press <= 0.05\"",
-     .help = "what the tolerances of a scene make of its figures, and which of them matters",
-     .does = "what tolerances that the scene gives (`stiffness = { value = \"900 kN*m/rad\", tolerance = \"10 %\", "
-             "distribution = \"normal\", k = 2 }`) make of the figures, by gradients and by samples; how surely limits "
-             "hold; which tolerance matters; numerical errors and known biases apart",
-     .set_up = set_up_uncertainty}};
+const Verb merge_verb{
+    {{.place = 114,
+      .name = "merge",
+      .arguments = "a.db b.db --into all.db",
+      .help = "shards of a sweep into one database",
+      .does = "puts shards of one sweep together, after checking that scene, design and version agree "
+              "and that no row has two results"},
+     set_up_merge,
+     false}};
 
 struct DifferenceArguments {
   StudyOptions study;
-  std::string other, of = "run", delta;
+  std::string other;
   std::vector<std::string> other_set;
-  bool no_error = false;
+  DeclaredOptions declared;
 };
 
-int difference(const DifferenceArguments& a) {
+int compare_scenes(const DifferenceArguments& a) {
   StudyOptions second = a.study;
   second.scene = a.other;
   second.set.insert(second.set.end(), a.other_set.begin(), a.other_set.end());
-  MachineQuestion questions[] = {question_of(a.study, a.of), question_of(second, a.of)};
-  for (MachineQuestion& q : questions) {
-    q.errors_every = a.no_error ? 0 : 1;
-    if (!a.delta.empty()) q.delta = quantity_of("--delta", a.delta, "a plain number", "0.05", any_number);
-  }
-  if (!a.delta.empty() && questions[0].of != SweepStudy::size)
-    throw std::invalid_argument(fmt::format("--delta {}: belongs to --of size", a.delta));
-  read(a.study);  // what is wrong with either is told in its place
-  read(second);
+  // What is wrong with either is told in its place.
+  const Scene one = read(a.study), other = read(second);
   check_folder(a.study);
   Progress progress(a.study.quiet);
-  progress(fmt::format("{} of both", a.of), 0);
-  return present(output_of(difference_between(questions[0], questions[1], a.of)), a.study);
+  return present(
+      difference(inquiry_of(one, a.study, progress), inquiry_of(other, second, progress), a.declared.given()), a.study);
 }
 
 void set_up_difference(OptionList& command, int& code) {
@@ -294,21 +227,20 @@ void set_up_difference(OptionList& command, int& code) {
       .add_option("--other-set", a->other_set,
                   "COMPONENT.KEY=VALUE in the other machine alone; --set holds for both; repeatable")
       .repeatable();
-  command.add_option("--of", a->of, "run (default), steady, modes or size");
-  command.add_option("--delta", a->delta, "demanded δ, of --of size");
-  command.add_flag("--no-error", a->no_error, "skip the runs that measure errors: any change counts then");
-  command.action([&code, a] { code = difference(*a); });
+  a->declared.add_to(command, difference_options());
+  command.action([&code, a] { code = compare_scenes(*a); });
 }
 
 const Verb difference_verb{
-    {.place = 22,
-     .name = "diff",
-     .arguments = "a.toml b.toml",
-     .help = "two machines figure by figure, and what differs in their scenes",
-     .does = "puts the same question (`--of`) to two scenes, or to one with other values (`--other-set`): every figure "
-             "of both with its error, whether they differ by more than that, and the keys that differ",
-     .set_up = set_up_difference,
-     .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | what one value does"}}};
+    {{.place = 22,
+      .name = "diff",
+      .arguments = "a.toml b.toml",
+      .help = "two machines figure by figure, and what differs in their scenes",
+      .does =
+          "puts the same question (`--of`) to two scenes, or to one with other values (`--other-set`): every figure of "
+          "both with its error, whether they differ by more than that, and the keys that differ",
+      .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | what one value does"}},
+     set_up_difference}};
 
 }  // namespace
 }  // namespace kurbel::app::sweep_command

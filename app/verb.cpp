@@ -18,7 +18,7 @@ std::vector<VerbText>& registered() {
   return list;
 }
 
-std::vector<OptionText> declared_by(const VerbText& verb) {
+std::vector<OptionHelp> declared_by(const VerbText& verb) {
   return options_of(
       [&verb](OptionList& command) {
         int code = 0;
@@ -30,7 +30,7 @@ std::vector<OptionText> declared_by(const VerbText& verb) {
 std::set<std::string> shared_options() {
   StudyOptions options;
   std::set<std::string> names;
-  for (const OptionText& option :
+  for (const OptionHelp& option :
        options_of([&](OptionList& command) { add_study_options(command, options); }, "study"))
     names.insert(option.name);
   return names;
@@ -66,6 +66,9 @@ Verb::Verb(VerbText text) { registered().push_back(std::move(text)); }
 
 std::vector<VerbText> verbs() {
   std::vector<VerbText> list = registered();
+  for (const Question& question : questions())
+    if (std::none_of(list.begin(), list.end(), [&](const VerbText& verb) { return verb.name == question.name; }))
+      list.push_back(verb_of(question));
   std::sort(list.begin(), list.end(), [](const VerbText& a, const VerbText& b) { return a.place < b.place; });
   return list;
 }
@@ -80,7 +83,7 @@ std::string verbs_as_manual() {
       text += fmt::format(".TP\n.B kurbel {} {}\n{}.\n", verb.name, roff(more.substr(0, bar)),
                           roff(capitalised(more.substr(bar + 3))));
     }
-    for (const OptionText& option : declared_by(verb)) {
+    for (const OptionHelp& option : declared_by(verb)) {
       if (option.name == "--help" || (verb.of_scene && shared.count(option.name))) continue;
       if (option.by_place || option.hidden) continue;
       text += fmt::format(".TP\n.B {}\n{}\n", roff(option.name), roff(option.help));
@@ -114,7 +117,7 @@ std::string options_of_verb(const std::string& name) {
     names.push_back(verb.name);
     if (verb.name != name) continue;
     std::string text;
-    for (const OptionText& option : declared_by(verb))
+    for (const OptionHelp& option : declared_by(verb))
       if (!option.hidden)
         for (const std::string& word : option.long_names) text += "--" + word + "\n";
     return text;

@@ -1,28 +1,26 @@
 // verb.h — a command says all of itself in its own file: name, purpose, options, action. Help, completion, manual page
 // and docs/commands.md ask here.
 //
-//     const Verb modes{{.place = 70, .name = "modes", .arguments = "scene.toml",
-//                       .help = "natural frequencies, …", .does = "natural frequencies, shapes, damping; …",
-//                       .set_up = [](OptionList& command, int& code) { … }}};
+//     const Verb check{{{.place = 120, .name = "check", .arguments = "scene.toml",
+//                        .help = "validate a scene", .does = "validates only; …"},
+//                       [](OptionList& command, int& code) { … }}};
+//
+// Questions are commands without more (studies/question): one of the same name here stands in the question's place.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
+#include "studies/question/question.h"
 
 namespace kurbel::app {
 
-struct VerbText {
-  int place = 0;            // in lists, ascending
-  std::string name;         // "modes"
-  std::string arguments{};  // as in "kurbel modes scene.toml"
-  std::string help;         // a line, in kurbel --help
-  std::string does;         // for the manual page and docs/commands.md: Markdown without links
+struct VerbText : QuestionText {
   // Adds options; the action leaves its exit code in `code`.
-  void (*set_up)(OptionList& command, int& code) = nullptr;
-  bool of_scene = true;             // has the options that every study has; else all of its options are its own
-  std::vector<std::string> more{};  // further examples: "scene.toml --explain", with what they do behind " | "
+  std::function<void(OptionList& command, int& code)> set_up = nullptr;
+  bool of_scene = true;  // has the options that every study has; else all of its options are its own
 };
 
 // Registers it as long as the program runs.
@@ -30,7 +28,9 @@ class Verb {
  public:
   explicit Verb(VerbText text);
 };
-// All that are registered, by their places.
+// Of a question, as its declaration says; it must outlive the program's commands.
+VerbText verb_of(const Question& question);
+// All that are registered, and all questions, by their places.
 std::vector<VerbText> verbs();
 
 // What stands between the marks in docs/kurbel.1, docs/commands.md and what completion asks for.

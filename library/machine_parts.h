@@ -16,7 +16,7 @@
 
 namespace kurbel {
 
-struct MachineQuestion;
+struct Inquiry;
 
 struct MachineParts {
   std::string text, file;             // as they were given, without the settings
@@ -46,8 +46,8 @@ auto asked_of(const MachineParts& machine, const Ask& ask) {
 
 Watch watch_of(const Watcher& watcher);
 
-// The machine put to one of the sweep's studies.
-MachineQuestion question_of(const MachineParts& machine, const std::string& of, const Watcher& watcher);
+// The machine as it is put to a question; it must outlive that.
+Inquiry inquiry_of(const MachineParts& machine, const Watcher& watcher);
 
 // Throws std::out_of_range: `what` has no `name`, but names like it.
 [[noreturn]] void refuse_name(const std::string& what, const std::string& name, const std::vector<std::string>& names);

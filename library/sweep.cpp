@@ -72,13 +72,6 @@ SweepRows computed(const Design& design, const SweepIdentity& identity, const Sw
 
 }  // namespace
 
-MachineQuestion question_of(const MachineParts& machine, const std::string& of, const Watcher& watcher) {
-  MachineQuestion question;
-  question.text = machine.text, question.file = machine.file, question.settings = machine.settings;
-  question.of = study_named(of), question.interrupted = watcher.interrupted;
-  return question;
-}
-
 std::vector<std::vector<double>> rows_of(const Variation& variation) {
   const Design design = design_of(variation);
   std::vector<std::vector<double>> rows;
@@ -138,9 +131,7 @@ std::size_t merge(const std::vector<std::string>& files, const std::string& into
 
 SweepAnswer answer(const Machine& machine, const std::string& of, bool errors, const Watcher& watcher) {
   return asked_of(machine.parts(), [&] {
-    MachineQuestion question = question_of(machine.parts(), of, watcher);
-    question.errors_every = errors ? 1 : 0;
-    const MachineAnswer found = answer_of(question);
+    const MachineAnswer found = answer_of(question_of(inquiry_of(machine.parts(), watcher), of, errors));
     std::vector<FigureValue> figures;
     for (const Figure& f : found.figures) figures.push_back({f.name, f.value, f.unit, f.error, f.at});
     return SweepAnswer{name_of(found.state), found.diagnosis, FigureValues(std::move(figures))};
@@ -152,7 +143,7 @@ SweepRows sweep(const Machine& machine, const Variation& variation, const std::v
   return asked_of(machine.parts(), [&] {
     const MachineParts& parts = machine.parts();
     const Design design = design_of(variation);
-    const MachineQuestion question = question_of(parts, of, choices.watcher);
+    const MachineQuestion question = question_of(inquiry_of(parts, choices.watcher), of);
     const VariedScene varied(question, design.parameters());
     const std::vector<SweptFigure> wanted = chosen(figures_of(question), figures);
     const SweepIdentity identity = identity_of(design, wanted, choices.shard,

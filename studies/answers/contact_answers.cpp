@@ -144,10 +144,9 @@ class ContactJudge {
     }
     if (count == 0) return;
     answers_.push_back(
-        {Topic::bears,
-         fmt::format("\"{}\" lets go {} although it is closed, first at {:.4g} s: the torque reaches the "
-                     "{:.4g} N·m that it holds",
-                     component, so_often(count), first, capacity_of(component))});
+        {Topic::bears, fmt::format("\"{}\" lets go {} although it is closed, first at {:.4g} s: the torque reaches the "
+                                   "{:.4g} N·m that it holds",
+                                   component, so_often(count), first, capacity_of(component))});
   }
   double capacity_of(const std::string& component) const {
     for (const ElasticJoint& joint : m_.elastic)
@@ -163,7 +162,7 @@ class ContactJudge {
         first = event.t;
     if (count == 0) return;
     answers_.push_back({Topic::bears, fmt::format("\"{}\" slips {}, first at {:.4g} s, and grips again", belt,
-                                                     so_often(count), first)});
+                                                  so_often(count), first)});
   }
 
   Equations& equations_;

@@ -46,4 +46,8 @@ MachineDifference difference_between(const MachineQuestion& a, const MachineQues
 
 Findings findings_of(const MachineDifference& difference);
 
+// The same as a question to two scenes, of which the first is watched.
+const std::vector<DeclaredOption>& difference_options();
+StudyOutput difference(const Inquiry& first, const Inquiry& second, const GivenOptions& given);
+
 }  // namespace kurbel

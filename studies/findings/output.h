@@ -25,6 +25,7 @@ struct StudyOutput {
   bool complete = true;
   std::string diagnosis = {};    // of a run that failed on its way
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
+  std::string next = {};  // what to do with it, where files are written: {scene}, {summary} stand for their names
   std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
 
   void add_file(const std::string& name, std::string text) {

@@ -48,6 +48,10 @@ struct GearsOptions {
   std::optional<double> speed = {};  // of the first wheel of each gearbox [rad/s]
 };
 
+template <class Asked>
+class OptionsOf;
+const OptionsOf<GearsOptions>& gears_options();
+
 // Every stage of the scene's gearboxes whose module is given. Throws std::invalid_argument in words where there is
 // none, or none of that name.
 Gears find_gears(const Scene& scene, const GearsOptions& options);

@@ -80,6 +80,17 @@ bool same_machine(const Scene& a, const Scene& b) {
 
 }  // namespace
 
+MachineQuestion question_of(const Inquiry& inquiry, const std::string& of, bool measure_error) {
+  return {.text = inquiry.text,
+          .file = inquiry.file,
+          .settings = inquiry.settings,
+          .allowed = inquiry.allowed,
+          .of = study_named(of),
+          .errors_every = measure_error ? 1u : 0u,
+          .delta = {},
+          .interrupted = inquiry.watch.interrupted};
+}
+
 SweepStudy study_named(const std::string& of) {
   if (of == "run") return SweepStudy::run;
   if (of == "steady") return SweepStudy::steady;

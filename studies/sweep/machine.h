@@ -9,6 +9,7 @@
 #include "engine/reading/read_scene.h"
 #include "studies/experiments/design.h"
 #include "studies/findings/result.h"
+#include "studies/question/question.h"
 #include "studies/sweep/sweep.h"
 
 namespace kurbel {
@@ -26,6 +27,8 @@ struct MachineQuestion {
   std::optional<double> delta;   // of size
   const std::atomic<bool>* interrupted = nullptr;
 };
+// Throws std::invalid_argument for another study.
+MachineQuestion question_of(const Inquiry& inquiry, const std::string& of, bool measure_error = true);
 
 // A scene that is read once; what a row changes is put into it. Keys of components that hold one quantity are changed
 // in place, which is checked against reading once per parameter; all else is read anew.

@@ -155,10 +155,9 @@ void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
                                            100 * least_that_changes_the_answer));
   } else {
     const MovedFigure moved = moved_by(rigid, speed).front();
-    f.answer(Topic::depends, moved.on == "—"
-                                    ? fmt::format("The rigid model would tell no {}", moved.figure)
-                                    : fmt::format("The rigid model would tell {} in place of {} for {} ({})", moved.on,
-                                                  moved.off, moved.figure, moved.change));
+    f.answer(Topic::depends, moved.on == "—" ? fmt::format("The rigid model would tell no {}", moved.figure)
+                                             : fmt::format("The rigid model would tell {} in place of {} for {} ({})",
+                                                           moved.on, moved.off, moved.figure, moved.change));
   }
 }
 

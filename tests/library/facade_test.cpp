@@ -269,12 +269,11 @@ TEST(Facade, AStudyHasTheOptionsOfItsCommand) {
   // scene's settings and data files.
   const std::set<std::string> of_all = {"allow_files", "author", "brand", "format", "help", "json",   "no_files",
                                         "open",        "out",    "plots", "quiet",  "set",  "verbose"};
-  // A pair of gears without a machine; the lean scene is Machine::with().
+  // A pair of gears without a machine.
   const std::map<std::string, std::set<std::string>> of_commands_alone = {
       {"gears",
        {"addendum", "backlash", "bore", "centre_distance", "clearance", "friction", "helix", "module", "pressure_angle",
-        "root_radius", "shaft_angle", "shift", "teeth", "tip_diameter", "width", "worm_diameter"}},
-      {"advise", {"write"}}};
+        "root_radius", "shaft_angle", "shift", "teeth", "tip_diameter", "width", "worm_diameter"}}};
   for (const std::string& study : study_names()) {
     std::set<std::string> command = options_of_command(study);
     ASSERT_GT(command.size(), of_all.size() - 3) << study;

@@ -1,5 +1,5 @@
 // option_values.cpp — texts of options into values, with what may stand there where they are none.
-#include "library/option_values.h"
+#include "studies/question/option_values.h"
 
 #include <fmt/format.h>
 
@@ -29,27 +29,27 @@ double quantity_of(const std::string& option, const std::string& text, const std
   return value->value;
 }
 
-Moment moment_of(const std::string& at, std::optional<double>& speed) {
+Moment moment_of(const std::string& option, const std::string& at, std::optional<double>& speed) {
   Moment moment;
-  if (at.empty()) return moment;
   const std::string example = "\"step 2\", a time such as \"1.5 s\", or a speed such as \"60 rpm\"";
   if (at.starts_with("step ")) {
     const std::string number = at.substr(5);
     if (number.empty() || number.size() > 6 || number.find_first_not_of("0123456789") != std::string::npos)
-      throw std::invalid_argument(fmt::format("--at {}: must be {}", in_quotes(at), example));
+      throw std::invalid_argument(fmt::format("{} {}: must be {}", option, in_quotes(at), example));
     moment.after_step = std::stoul(number);
     return moment;
   }
   UnitError error;
   const auto value = parse_quantity(at, error);
   const auto is = [&](const char* like) { return value->dimension == parse_quantity(like, error)->dimension; };
-  if (!value) throw std::invalid_argument(fmt::format("--at {}: {}; must be {}", in_quotes(at), error.text, example));
+  if (!value)
+    throw std::invalid_argument(fmt::format("{} {}: {}; must be {}", option, in_quotes(at), error.text, example));
   if (is("1 s") && value->value >= 0) {
     moment.time = value->value;
   } else if (is("1 rad/s") && value->value != 0) {
     speed = value->value;
   } else {
-    throw std::invalid_argument(fmt::format("--at {}: must be {}", in_quotes(at), example));
+    throw std::invalid_argument(fmt::format("{} {}: must be {}", option, in_quotes(at), example));
   }
   return moment;
 }

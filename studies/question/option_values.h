@@ -14,8 +14,8 @@ namespace kurbel {
 double quantity_of(const std::string& option, const std::string& text, const std::string& what,
                    const std::string& example, const Domain& domain);
 
-// --at: after "step 2" of the operating sequence, at "1.5 s", or at a speed, which goes to `speed` [rad/s]. Throws
+// After "step 2" of the operating sequence, at "1.5 s", or at a speed, which goes to `speed` [rad/s]. Throws
 // std::invalid_argument for anything else.
-Moment moment_of(const std::string& at, std::optional<double>& speed);
+Moment moment_of(const std::string& option, const std::string& at, std::optional<double>& speed);
 
 }  // namespace kurbel

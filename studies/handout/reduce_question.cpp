@@ -1,0 +1,72 @@
+// reduce_question.cpp — kurbel reduce: inertia and torques reduced to one link.
+#include <stdexcept>
+
+#include "studies/handout/reduce_sheet.h"
+#include "studies/handout/sheet_options.h"
+
+namespace kurbel {
+namespace {
+
+struct ReduceAsked : ReduceOptions {
+  SheetAsked sheet;
+  ReduceSheetRequest request;
+};
+
+StudyOutput reduced(const Inquiry& inquiry, ReduceAsked asked) {
+  const std::optional<Paper> paper = asked.sheet.sheet(inquiry);
+  if (!paper && (asked.request.delta || !asked.request.flywheel.empty()))
+    throw std::invalid_argument("delta and flywheel are of the sheet's flywheel; ask for sheet, too, or for size");
+  if (!paper) return output_of(reduce(inquiry.scene, asked));
+  asked.request.paper = *paper;
+  asked.request.author = inquiry.author;
+  return output_of(sheet_of(inquiry.scene, asked, asked.request));
+}
+
+OptionsOf<ReduceAsked> options() {
+  return OptionsOf<ReduceAsked>()
+      .add(
+          {.name = "positions", .doc = "positions over the cycle (default: 12)", .domain = {.low = 1, .high = 100'000}},
+          &ReduceOptions::positions)
+      .add({.name = "to", .doc = "shaft or slider, e.g. gearbox.in, flywheel, press.slider (default: the crank)"},
+           &ReduceOptions::to)
+      .add({.name = "at",
+            .doc = "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a "
+                   "speed such as \"60 rpm\""},
+           OptionForm::one, [](ReduceAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.speed); })
+      .add({.name = "speed",
+            .doc = "of the crank, for torques that depend on it (default: the operating speed)",
+            .example = "60 rpm",
+            .what = "a speed > 0",
+            .domain = positive},
+           &ReduceOptions::speed)
+      .add({.name = "basis",
+            .doc = "classical (rigid machine at constant speed) or regime (the steady cycle with the scene's effects; "
+                   "default where the classical one leaves something out)"},
+           &ReduceOptions::basis,
+           std::vector{std::pair("classical", ReduceBasis::classical), std::pair("regime", ReduceBasis::regime)})
+      .add({.name = "orders", .doc = "harmonics up to this order (default: 12)", .domain = {.low = 1, .high = 1000}},
+           &ReduceOptions::orders)
+      .add(sheet_options(), &ReduceAsked::sheet)
+      .add({.name = "delta",
+            .doc = "of the sheet's flywheel: demanded δ, e.g. 1/80 (default: what the machine has with its own)",
+            .example = "0.05",
+            .what = "a plain number"},
+           OptionForm::one, [](ReduceAsked& asked, const OptionValues& given) { given.read(asked.request.delta); })
+      .add({.name = "flywheel",
+            .doc = "of the sheet: component to size (default: the scene's flywheel, else one on the crank)"},
+           OptionForm::one, [](ReduceAsked& asked, const OptionValues& given) { given.read(asked.request.flywheel); });
+}
+
+}  // namespace
+
+Question reduce_question() {
+  return make_question({.place = 30,
+                        .name = "reduce",
+                        .arguments = "scene.toml",
+                        .help = "inertia, torques and drive reduced to one shaft or slider",
+                        .does = "inertia, torques and the drive's elastic chain on any shaft or slider (`--to`), "
+                                "harmonics; a sheet of the positions to be printed (`--sheet`)"},
+                       options(), reduced);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,31 @@
+// sheet_options.cpp — whether a sheet is asked for, and on which paper.
+#include "studies/handout/sheet_options.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace kurbel {
+
+std::optional<Paper> SheetAsked::sheet(const Inquiry& inquiry) const {
+  if (wanted) return paper_named(paper.empty() ? "A4" : paper);
+  if (!paper.empty())
+    throw std::invalid_argument(
+        fmt::format("{0}paper {1}: is that of the sheet; add {0}sheet", inquiry.dashes ? "--" : "", paper));
+  return {};
+}
+
+const OptionsOf<SheetAsked>& sheet_options() {
+  static const auto made =
+      OptionsOf<SheetAsked>()
+          .add({.name = "sheet",
+                .doc =
+                    "write the classical sheet of the positions too, sheet.html: plan, tables and diagrams with their "
+                    "scales, to be printed",
+                .makes_a_file = true},
+               &SheetAsked::wanted)
+          .add({.name = "paper", .doc = "of the sheet, landscape: A4 (default) or A3"}, &SheetAsked::paper);
+  return made;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,22 @@
+// sheet_options.h — options of the classical sheet of positions, to be printed.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "studies/question/question.h"
+#include "studies/sheet/paper.h"
+
+namespace kurbel {
+
+struct SheetAsked {
+  bool wanted = false;
+  std::string paper;  // "A4", "A3"; empty: A4
+
+  // Throws std::invalid_argument for a paper that there is not, and for one without a sheet.
+  std::optional<Paper> sheet(const Inquiry& inquiry) const;
+};
+
+const OptionsOf<SheetAsked>& sheet_options();
+
+}  // namespace kurbel

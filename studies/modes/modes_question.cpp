@@ -1,0 +1,103 @@
+// modes_question.cpp — kurbel modes: natural frequencies, critical speeds, forced response.
+#include "studies/modes/modes.h"
+#include "studies/question/question.h"
+
+namespace kurbel {
+namespace {
+
+struct ModesAsked : ModesOptions {
+  ModesAsked() { spot_checks = 2; }
+  std::optional<Effects> effects;
+};
+
+StudyOutput natural_modes(const Inquiry& inquiry, ModesAsked asked) {
+  asked.watch = inquiry.watch;
+  return output_of(find_modes(inquiry.scene, asked.effects.value_or(effects_of_modes(inquiry.scene)), asked));
+}
+
+OptionsOf<ModesAsked> options() {
+  return OptionsOf<ModesAsked>()
+      .add(
+          {.name = "effects",
+           .doc = "as in [effects], or elasticity:COUPLING,... (default: the scene's, with all elasticity where it has "
+                  "none)"},
+          &ModesAsked::effects)
+      .add({.name = "count", .doc = "number of modes (default: 20)", .domain = {.low = 1, .high = 1000}},
+           &ModesOptions::count)
+      .add({.name = "at", .doc = "as the machine is after a step of its sequence or at a time: \"step 2\", \"1.5 s\""},
+           OptionForm::one, [](ModesAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.speed); })
+      .add(
+          {.name = "speed",
+           .doc = "operating point, e.g. \"300 rpm\" of the reduction link (default: where the scene's own start leads "
+                  "to)",
+           .example = "300 rpm",
+           .what = "a speed"},
+          &ModesOptions::speed)
+      .add({.name = "angle",
+            .doc = "holds the reduction link at an angle instead of averaging over the cycle, e.g. \"90 deg\"",
+            .example = "90 deg",
+            .what = "an angle"},
+           &ModesOptions::angle)
+      .add({.name = "range",
+            .doc = "two speeds that the forced response spans, e.g. \"0 rpm\" \"3000 rpm\"",
+            .example = "300 rpm",
+            .what = "two speeds ≥ 0, the slower first, e.g. \"0 rpm\" \"3000 rpm\"",
+            .domain = not_negative,
+            .count = 2},
+           OptionForm::several,
+           [](ModesAsked& asked, const OptionValues& given) {
+             std::vector<double> range;
+             given.read(range);
+             if (!(range[0] < range[1])) given.refuse(given.text(), "the slower one of two speeds");
+             asked.slowest = range[0], asked.fastest = range[1];
+           })
+      .add({.name = "orders",
+            .doc = "highest excitation order (default: 12 … 24)",
+            .example = "12",
+            .what = "a plain number > 0",
+            .domain = positive},
+           &ModesOptions::orders)
+      .add({.name = "barred",
+            .doc = "bars speeds where a joint without limits swings by more than this times its mean or the rated "
+                   "torque (default: 1)",
+            .example = "1",
+            .what = "a plain number > 0",
+            .domain = positive},
+           &ModesOptions::barred_factor)
+      .add(
+          {.name = "spot_checks",
+           .doc = "speeds of the range, where most is borne, at which the nonlinear cycle is held against the response "
+                  "(default: 2; 0: none)",
+           .domain = {.low = 0, .high = 100}},
+          &ModesOptions::spot_checks)
+      .add({.name = "spot",
+            .doc = "another such speed, e.g. \"250 rpm\"; may be given again",
+            .example = "250 rpm",
+            .what = "a speed > 0",
+            .domain = positive,
+            .each_time = true},
+           &ModesOptions::spots)
+      .add({.name = "no_misfires",
+            .doc = "where stresses of shafts are judged: leaves out the same as one cylinder after the other misfires"},
+           &ModesOptions::misfires, false)
+      .add({.name = "torque",
+            .doc = "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow"},
+           &ModesOptions::torque);
+}
+
+}  // namespace
+
+Question modes_question() {
+  return make_question(
+      {.place = 70,
+       .name = "modes",
+       .arguments = "scene.toml",
+       .help = "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra",
+       .does = "natural frequencies, shapes, damping; Campbell diagram; forced response by orders, barred "
+               "speeds, parametric zones, limits after DIN 740-2, stresses of shafts after IACS UR M68; spectrum of a "
+               "simulated torque (`--count`, "
+               "`--speed`, `--range`, `--orders`, `--spot-checks`, `--torque`)"},
+      options(), natural_modes);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,95 @@
+// option.cpp — texts of options into values; what is said of one that is none.
+#include "studies/question/option.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <stdexcept>
+
+#include "engine/scene/messages.h"
+#include "engine/scene/scene.h"
+#include "studies/question/option_values.h"
+
+namespace kurbel {
+
+std::string OptionValues::label() const {
+  if (!dashes_) return option_.text.name;
+  std::string name = option_.text.name;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return "--" + name;
+}
+
+const std::string& OptionValues::text() const { return texts_.front(); }
+
+void OptionValues::refuse(const std::string& text, const std::string& must) const {
+  throw std::invalid_argument(fmt::format("{} {}: must be {}", label(), in_quotes(text), must));
+}
+
+double OptionValues::quantity(const std::string& text) const {
+  return quantity_of(label(), text, option_.text.what, option_.text.example, option_.text.domain);
+}
+
+Moment OptionValues::moment(std::optional<double>& speed) const { return moment_of(label(), text(), speed); }
+
+void OptionValues::read(double& value) const { value = quantity(text()); }
+
+void OptionValues::read(std::vector<double>& value) const {
+  value.clear();
+  for (const std::string& one : texts_) value.push_back(quantity(one));
+}
+
+void OptionValues::read(Effects& value) const {
+  std::string all;
+  for (const std::string& one : texts_) all += (all.empty() ? "" : ",") + one;
+  value = parse_effects(all, scene_);
+}
+
+std::int64_t OptionValues::whole() const {
+  std::int64_t number = 0;
+  const char* const end = text().data() + text().size();
+  const auto read = std::from_chars(text().data(), end, number);
+  const Domain& domain = option_.text.domain;
+  if (read.ec != std::errc{} || read.ptr != end || !domain.contains(static_cast<double>(number)))
+    refuse(text(), fmt::format("a whole number, {} … {}", domain.low, domain.high));
+  return number;
+}
+
+std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOption>& options,
+                                                   const GivenOptions& given, const std::string& question,
+                                                   const Scene& scene, bool dashes) {
+  std::vector<std::string> names;
+  for (const DeclaredOption& option : options) names.push_back(option.text.name);
+  for (const auto& [name, value] : given)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw std::invalid_argument(fmt::format("{} has no option {}; it has {}{}", question, in_quotes(name),
+                                              names.empty() ? "none" : listed(names, "and"), suggestion(name, names)));
+  std::vector<std::optional<OptionValues>> all(options.size());
+  for (std::size_t k = 0; k < options.size(); ++k) {
+    const DeclaredOption& option = options[k];
+    std::vector<std::string> texts;
+    for (const auto& [name, value] : given) {
+      if (name != option.text.name || value.empty()) continue;
+      if (option.form != OptionForm::several || option.text.each_time) {
+        texts.push_back(value);
+        continue;
+      }
+      std::stringstream stream(value);
+      for (std::string one; std::getline(stream, one, ',');)
+        if (!one.empty()) texts.push_back(one);
+    }
+    if (texts.empty()) continue;
+    const OptionValues values(option, texts, scene, dashes);
+    if (option.form != OptionForm::several && texts.size() > 1)
+      throw std::invalid_argument(fmt::format("{} is given {} times; give one", values.label(), texts.size()));
+    if (option.text.count > 0 && texts.size() != static_cast<std::size_t>(option.text.count))
+      values.refuse(fmt::format("{}", fmt::join(texts, " ")), option.text.what);
+    if (option.form == OptionForm::flag && texts.front() != "true" && texts.front() != "false")
+      values.refuse(texts.front(), "true or false");
+    if (option.form != OptionForm::flag || texts.front() == "true") all[k].emplace(values);
+  }
+  return all;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,159 @@
+// option.h — options of a question, each declared once together with the member that it fills: the command line, the
+// library, Python, completion and the documents read this table.
+//
+//     OptionsOf<SizeAsked>()
+//         .add({.name = "delta", .doc = "demanded δ, e.g. 0.05 or 1/20", .example = "0.05", .what = "a plain number"},
+//              &SizeAsked::delta)
+//         .add({.name = "periods", .doc = "cycles of a period", .domain = {.low = 1, .high = 64}}, &SizeAsked::periods)
+//         .add({.name = "no_start", .doc = "skip the start"}, &SizeAsked::start_search, false)
+//         .add({.name = "form", .doc = "rim or disc"}, &SizeAsked::form, {{"rim", Form::rim}, {"disc", Form::disc}})
+//
+// The member's type says how the option is written: bool a flag, double a quantity with its unit, whole numbers, a string
+// a text, vectors several values; a std::optional member says whether it was given.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/analysis/moment.h"
+#include "engine/scene/effects.h"
+#include "engine/scene/keys.h"
+
+namespace kurbel {
+
+// By their names, {"mid_speed", "60 rpm"}; a flag is "true". What may be given again stands there again.
+using GivenOptions = std::vector<std::pair<std::string, std::string>>;
+
+struct OptionText {
+  std::string name;            // "mid_speed", on the command line --mid-speed
+  std::string doc;             // for help, manual page and documents
+  std::string example = {};    // of a quantity: shows its unit, "60 rpm"
+  std::string what = {};       // what a quantity must be: "a speed > 0"
+  Domain domain = any_number;  // of quantities and whole numbers
+  int count = 0;               // of several values: so many together; 0: any number
+  bool each_time = false;      // several values: one each time that the option is given, else joined by commas, too
+  std::string former = {};     // a name that it once had: taken still, and told nowhere
+  bool makes_a_file = false;   // among the results
+};
+
+enum class OptionForm { flag, one, several };
+struct DeclaredOption {
+  OptionText text;
+  OptionForm form = OptionForm::one;
+};
+
+// What was given for one option, as its reader sees it. Faults throw std::invalid_argument: name as it was given, what it
+// must be.
+class OptionValues {
+ public:
+  OptionValues(const DeclaredOption& option, std::vector<std::string> texts, const Scene& scene, bool dashes)
+      : option_(option), texts_(std::move(texts)), scene_(scene), dashes_(dashes) {}
+  std::string label() const;        // "--mid-speed", "mid_speed"
+  const std::string& text() const;  // the one
+  const std::vector<std::string>& texts() const { return texts_; }
+  const Scene& scene() const { return scene_; }
+  [[noreturn]] void refuse(const std::string& text, const std::string& must) const;
+
+  // After "step 2" of the operating sequence, at "1.5 s", or at a speed, which goes to `speed` [rad/s].
+  Moment moment(std::optional<double>& speed) const;
+  void read(double& value) const;
+  void read(std::string& value) const { value = text(); }
+  void read(std::vector<std::string>& value) const { value = texts_; }
+  void read(std::vector<double>& value) const;
+  void read(Effects& value) const;
+  template <class Whole>
+  requires std::is_integral_v<Whole>
+  void read(Whole& value) const { value = static_cast<Whole>(whole()); }
+  template <class T>
+  void read(std::optional<T>& value) const {
+    read(value.emplace());
+  }
+
+ private:
+  double quantity(const std::string& text) const;
+  std::int64_t whole() const;
+
+  const DeclaredOption& option_;
+  std::vector<std::string> texts_;
+  const Scene& scene_;
+  bool dashes_;
+};
+
+// Finds the values of every option among those given. Throws std::invalid_argument for one that is not declared, with those
+// that are, and for one that is given more often than it may.
+std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOption>& options,
+                                                   const GivenOptions& given, const std::string& question,
+                                                   const Scene& scene, bool dashes);
+
+template <class Asked>
+class OptionsOf {
+ public:
+  using Reader = std::function<void(Asked&, const OptionValues&)>;
+
+  template <class M, class B>
+  OptionsOf& add(OptionText text, M B::*member) {
+    constexpr bool several = std::is_same_v<M, std::vector<double>> || std::is_same_v<M, std::vector<std::string>> ||
+                             std::is_same_v<M, std::optional<Effects>>;
+    return add(std::move(text), several ? OptionForm::several : OptionForm::one,
+               [member](Asked& asked, const OptionValues& given) { given.read(asked.*member); });
+  }
+  // A flag: given, the member has this value.
+  template <class B>
+  OptionsOf& add(OptionText text, bool B::*member, bool given = true) {
+    return add(std::move(text), OptionForm::flag, [=](Asked& asked, const OptionValues&) { asked.*member = given; });
+  }
+  // Words, each with the value that it stands for.
+  template <class M, class B, class V>
+  OptionsOf& add(OptionText text, M B::*member, std::vector<std::pair<const char*, V>> words) {
+    return add(std::move(text), OptionForm::one, [member, words](Asked& asked, const OptionValues& given) {
+      std::string all;
+      for (const auto& [word, value] : words) {
+        if (given.text() == word) return void(asked.*member = value);
+        all += (all.empty() ? "" : " or ") + std::string(word);
+      }
+      given.refuse(given.text(), all);
+    });
+  }
+  // By a reader of its own.
+  OptionsOf& add(OptionText text, OptionForm form, Reader reader) {
+    declared_.push_back({std::move(text), form});
+    readers_.push_back(std::move(reader));
+    return *this;
+  }
+  // A group of options that several questions have: of a base of what is asked, or of a member.
+  template <class Part>
+  OptionsOf& add(const OptionsOf<Part>& group) {
+    for (std::size_t k = 0; k < group.declared().size(); ++k)
+      add(group.declared()[k].text, group.declared()[k].form, Reader(group.readers()[k]));
+    return *this;
+  }
+  template <class Part, class B>
+  OptionsOf& add(const OptionsOf<Part>& group, Part B::*member) {
+    for (std::size_t k = 0; k < group.declared().size(); ++k)
+      add(group.declared()[k].text, group.declared()[k].form,
+          [member, read = group.readers()[k]](Asked& asked, const OptionValues& given) { read(asked.*member, given); });
+    return *this;
+  }
+
+  const std::vector<DeclaredOption>& declared() const { return declared_; }
+  const std::vector<Reader>& readers() const { return readers_; }
+
+  Asked read(const GivenOptions& given, const std::string& question, const Scene& scene, bool dashes) const {
+    Asked asked;
+    const auto values = values_of(declared_, given, question, scene, dashes);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (values[k]) readers_[k](asked, *values[k]);
+    return asked;
+  }
+
+ private:
+  std::vector<DeclaredOption> declared_;
+  std::vector<Reader> readers_;
+};
+
+}  // namespace kurbel

@@ -1,0 +1,44 @@
+// question.cpp — the list of all questions.
+#include "studies/question/question.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/scene/messages.h"
+
+namespace kurbel {
+
+// Each stands in the folder of its study.
+Question compare_question();
+Question reduce_question();
+Question size_question();
+Question forces_question();
+Question gears_question();
+Question modes_question();
+Question steady_question();
+Question effects_question();
+Question advise_question();
+Question accuracy_question();
+Question uncertainty_question();
+
+const std::vector<Question>& questions() {
+  static const std::vector<Question> all = {compare_question(),  reduce_question(),     size_question(),
+                                            forces_question(),   gears_question(),      modes_question(),
+                                            steady_question(),   effects_question(),    advise_question(),
+                                            accuracy_question(), uncertainty_question()};
+  return all;
+}
+
+const Question& question_named(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Question& question : questions()) {
+    if (question.name == name) return question;
+    names.push_back(question.name);
+  }
+  throw std::invalid_argument(
+      fmt::format("no study {}; there are {}{}", in_quotes(name), listed(names, "and"), suggestion(name, names)));
+}
+
+}  // namespace kurbel

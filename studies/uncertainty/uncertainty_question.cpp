@@ -1,0 +1,58 @@
+// uncertainty_question.cpp — kurbel uncertainty: what tolerances make of the figures.
+#include "studies/question/question.h"
+#include "studies/sweep/machine.h"
+#include "studies/uncertainty/uncertainty.h"
+
+namespace kurbel {
+namespace {
+
+struct UncertaintyAsked : UncertaintyOptions {
+  UncertaintyAsked() { jobs = threads_of(0); }
+  std::string of = "run";
+  bool measure_error = true;
+};
+
+StudyOutput uncertain(const Inquiry& inquiry, UncertaintyAsked asked) {
+  const MachineQuestion question = question_of(inquiry, asked.of, asked.measure_error);
+  asked.watch = inquiry.watch;
+  return output_of(study_uncertainty(question, asked));
+}
+
+OptionsOf<UncertaintyAsked> options() {
+  using Asked = UncertaintyOptions;
+  return OptionsOf<UncertaintyAsked>()
+      .add({.name = "figures",
+            .doc = "names joined by commas, or a quantity for all that have it: delta,peak_torque (default: all)"},
+           &Asked::figures)
+      .add({.name = "limit", .doc = "\"delta.press <= 0.05\": how surely it holds; repeatable", .each_time = true},
+           &Asked::limits)
+      .add({.name = "of", .doc = "run (default), steady, modes or size"}, &UncertaintyAsked::of)
+      .add({.name = "samples",
+            .doc = "machines drawn from the tolerances (default: 500)",
+            .domain = {.low = 10, .high = 1'000'000}},
+           &Asked::samples)
+      .add({.name = "seed", .doc = "of what is drawn (default: 1)", .domain = {.low = 0, .high = 1 << 30}},
+           &Asked::seed)
+      .add({.name = "jobs", .doc = "threads (default: one for each core)", .domain = {.low = 1, .high = 1024}},
+           &Asked::jobs)
+      .add({.name = "no_error", .doc = "skip the runs that measure errors: none is undecided then"},
+           &UncertaintyAsked::measure_error, false)
+      .add({.name = "no_trials", .doc = "skip the runs that try, one by one, the effects that are off"}, &Asked::biases,
+           false);
+}
+
+}  // namespace
+
+Question uncertainty_question() {
+  return make_question(
+      {.place = 116,
+       .name = "uncertainty",
+       .arguments = "scene.toml --limit \"delta.press <= 0.05\"",
+       .help = "what the tolerances of a scene make of its figures, and which of them matters",
+       .does = "what tolerances that the scene gives (`stiffness = { value = \"900 kN*m/rad\", tolerance = \"10 "
+               "%\", distribution = \"normal\", k = 2 }`) make of the figures, by gradients and by samples; how "
+               "surely limits hold; which tolerance matters; numerical errors and known biases apart"},
+      options(), uncertain);
+}
+
+}  // namespace kurbel
