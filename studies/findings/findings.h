@@ -98,7 +98,7 @@ struct Findings {
   // The same in terminal, page and JSON, in one line.
   std::string conclusion() const { return in_one_line(concluded(answers)); }
   void answer(Topic topic, std::string sentence, double severity = 0) {
-    answers.push_back({question, std::move(sentence), severity});
+    answers.push_back({topic, std::move(sentence), severity});
   }
 
   void key(std::string name, const Estimate& value, std::string means, std::string note = {}, int digits = 0) {
