@@ -51,8 +51,9 @@ std::int64_t OptionValues::whole() const {
   const char* const end = text().data() + text().size();
   const auto read = std::from_chars(text().data(), end, number);
   const Domain& domain = option_.text.domain;
-  if (read.ec != std::errc{} || read.ptr != end || !domain.contains(static_cast<double>(number)))
-    refuse(text(), fmt::format("a whole number, {} … {}", domain.low, domain.high));
+  const bool is_whole = read.ec == std::errc{} && read.ptr == end;
+  if (!is_whole || !domain.contains(static_cast<double>(number)))
+    refuse(text(), fmt::format("{}{} … {}", is_whole ? "" : "a whole number, ", domain.low, domain.high));
   return number;
 }
 

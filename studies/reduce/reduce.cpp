@@ -291,6 +291,9 @@ class Reducer {
       }
       if (along_ && along_->cycle().sense < 0)
         for (Harmonic& h : s.harmonics) h.phase = -h.phase;
+      // −180° and 180° are one phase, and rounding would choose between them.
+      for (Harmonic& h : s.harmonics)
+        if (h.phase < -pi + 1e-8) h.phase += turn;
       r_.spectra.push_back(std::move(s));
     }
     r_.mean_drive.value = fine[1].mean();
