@@ -18,6 +18,7 @@
 #include "studies/forces/force_cycle.h"
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -239,6 +240,51 @@ std::optional<double> PowerFlow::efficiency() const {
   if (!(in > nothing)) return {};
   return std::max(0.0, 1 - friction / in);  // what goes out is no less than nothing
 }
+
+// --- what the studies of both kinds of mechanism share ---
+
+std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effects& effects, OutputLoads& loads,
+                                        const ForcesOptions& options) {
+  try {
+    const MachineMotion machine(asked, without_elasticity(effects), options);
+    if (machine.is_elastic()) return {};
+    std::vector<std::string> notes;
+    bool complete = true;
+    std::string diagnosis;
+    std::optional<SimulatedMotion> motion = machine.solve(loads, {notes, complete, diagnosis});
+    if (!motion || !complete) return {};
+    return std::move(motion->along);
+  } catch (const SceneError&) {
+    return {};
+  } catch (const std::runtime_error&) {  // its way does not come again between two tolerances
+    return {};
+  }
+}
+
+CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {
+  if (options.speed) return {*options.speed, "as asked for"};
+  if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
+  return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
+}
+
+void describe(const AskedMechanism& asked, AboutForces& out) {
+  out.title = asked.scene.heading();
+  out.speed_unit = asked.scene.speed_unit;
+  out.scene_file = asked.scene.file;
+  out.scene_text = asked.scene.text;
+  out.mechanism = asked.name;
+}
+
+void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, AboutForces& out,
+                    CycleOfForces& cycle) {
+  cycle.label = "prescribed";
+  cycle.description = fmt::format("crank turning at {} throughout, {}", out.speed_unit.text(speed.value), speed.source);
+  for (const std::string& words : {out.unbounded.any() ? out.unbounded.words : "", loads.words_of_sequence()})
+    if (!words.empty()) out.notes.push_back(words);
+  for (const std::string& note : substitutes(machine.model())) out.notes.push_back(note);
+}
+
+// --- the study ---
 
 Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   check(options);

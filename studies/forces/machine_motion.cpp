@@ -13,7 +13,6 @@
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
-#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -422,24 +421,6 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   return motion;
 }
 
-std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effects& effects, OutputLoads& loads,
-                                        const ForcesOptions& options) {
-  try {
-    const MachineMotion machine(asked, without_elasticity(effects), options);
-    if (machine.is_elastic()) return {};
-    std::vector<std::string> notes;
-    bool complete = true;
-    std::string diagnosis;
-    std::optional<SimulatedMotion> motion = machine.solve(loads, {notes, complete, diagnosis});
-    if (!motion || !complete) return {};
-    return std::move(motion->along);
-  } catch (const SceneError&) {
-    return {};
-  } catch (const std::runtime_error&) {  // its way does not come again between two tolerances
-    return {};
-  }
-}
-
 double still_to_come(const std::vector<double>& course, double noise) {
   if (course.size() < 3) return HUGE_VAL;
   const std::size_t last = course.size() - 1, quarter = std::max<std::size_t>(1, last / 4);
@@ -450,29 +431,6 @@ double still_to_come(const std::vector<double>& course, double noise) {
   if (!(std::abs(now) < no_nearer * std::abs(before))) return HUGE_VAL;
   const double ratio = now / before;
   return std::abs(now) * (ratio > 0 ? ratio / (1 - ratio) : 1);
-}
-
-CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {
-  if (options.speed) return {*options.speed, "as asked for"};
-  if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
-  return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
-}
-
-void describe(const AskedMechanism& asked, AboutForces& out) {
-  out.title = asked.scene.heading();
-  out.speed_unit = asked.scene.speed_unit;
-  out.scene_file = asked.scene.file;
-  out.scene_text = asked.scene.text;
-  out.mechanism = asked.name;
-}
-
-void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, AboutForces& out,
-                    CycleOfForces& cycle) {
-  cycle.label = "prescribed";
-  cycle.description = fmt::format("crank turning at {} throughout, {}", out.speed_unit.text(speed.value), speed.source);
-  for (const std::string& words : {out.unbounded.any() ? out.unbounded.words : "", loads.words_of_sequence()})
-    if (!words.empty()) out.notes.push_back(words);
-  for (const std::string& note : substitutes(machine.model())) out.notes.push_back(note);
 }
 
 }  // namespace kurbel
