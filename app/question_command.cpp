@@ -29,10 +29,10 @@ void DeclaredOptions::add_to(OptionList& command, const std::vector<DeclaredOpti
       if (!text.former.empty()) add_former_name(command, dashed(text.former), storage.one);
     } else {
       Option added = command.add_option(name, storage.several, text.doc);
-      if (text.each_time)
-        added.repeatable().one_value_each_time();
-      else if (text.count > 0)
+      if (text.count > 0)
         added.values(text.count);
+      else if (!text.words)  // a scene behind it is no value of it
+        added.repeatable().one_value_each_time();
     }
   }
 }

@@ -36,7 +36,8 @@ OptionsOf<AccuracyOptions> options() {
            &Asked::budget)
       .add({.name = "figure", .doc = "the figure that this is about (default: the largest peak torque, else δ)"},
            &Asked::figure)
-      .add({.name = "methods", .doc = "only these, e.g. dop853 esdirk (default: all that apply)"}, OptionForm::several,
+      .add({.name = "methods", .doc = "only these, e.g. dop853 esdirk (default: all that apply)", .words = true},
+           OptionForm::several,
            [](Asked& asked, const OptionValues& given) {
              for (const std::string& method : given.texts()) {
                check_method(method, "reduced");
@@ -48,7 +49,8 @@ OptionsOf<AccuracyOptions> options() {
             .doc = "only these, e.g. 1e-4 1e-8 (default: 1e-3 … 1e-12)",
             .example = "1e-6",
             .what = "1e-12 … 0.01",
-            .domain = {.low = 1e-12, .high = 0.01}},
+            .domain = {.low = 1e-12, .high = 0.01},
+            .words = true},
            &Asked::tolerances)
       .add({.name = "no_multibody", .doc = "leave Simbody's closed loop out, which takes longest"}, &Asked::multibody,
            false)

@@ -37,6 +37,7 @@ struct OptionText {
   Domain domain = any_number;  // of quantities and whole numbers
   int count = 0;               // of several values: so many together; 0: any number
   bool each_time = false;      // several values: one each time that the option is given, else joined by commas, too
+  bool words = false;          // several values: words behind one another on the command line, too
   std::string former = {};     // a name that it once had: taken still, and told nowhere
   bool makes_a_file = false;   // among the results
 };

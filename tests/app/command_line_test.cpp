@@ -216,6 +216,11 @@ TEST_F(CommandLine, UnknownOptionIsRefused) {
   EXPECT_NE(r.err.find("--acuracy"), std::string::npos) << r.err;
 }
 
+TEST_F(CommandLine, AListOfEffectsTakesNoSceneBehindIt) {
+  const Ended r = kurbel({"run", "--effects", "none", scene(""), "--no-files", "--quiet"});
+  EXPECT_EQ(r.code, 0) << r.err;
+}
+
 TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
   // The run itself would take hours.
   const std::string path = scene("until = \"1000000 s\"\n");
