@@ -33,7 +33,7 @@ StudyOutput difference(const Inquiry& first, const Inquiry& second, const GivenO
                                  question_of(second, asked.of, asked.measure_error)};
   for (MachineQuestion& question : questions) question.delta = asked.delta;
   if (asked.delta && questions[0].of != SweepStudy::size)
-    throw std::invalid_argument("delta belongs to the question size; drop it, or ask of size");
+    throw std::invalid_argument(first.dashes ? "--delta: belongs to --of size" : "delta: belongs to of = \"size\"");
   first.watch.at(asked.of + " of both", 0);
   return output_of(difference_between(questions[0], questions[1], asked.of));
 }

@@ -15,7 +15,9 @@ struct ReduceAsked : ReduceOptions {
 StudyOutput reduced(const Inquiry& inquiry, ReduceAsked asked) {
   const std::optional<Paper> paper = asked.sheet.sheet(inquiry);
   if (!paper && (asked.request.delta || !asked.request.flywheel.empty()))
-    throw std::invalid_argument("delta and flywheel are of the sheet's flywheel; ask for sheet, too, or for size");
+    throw std::invalid_argument(
+        inquiry.dashes ? "--delta and --flywheel are of the sheet's flywheel; add --sheet, or ask kurbel size"
+                       : "delta and flywheel are of the sheet's flywheel; ask for sheet, too, or for size");
   if (!paper) return output_of(reduce(inquiry.scene, asked));
   asked.request.paper = *paper;
   asked.request.author = inquiry.author;
