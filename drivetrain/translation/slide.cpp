@@ -48,10 +48,10 @@ class SlideChannels final : public ElementPool {
     for (const Told& told : told_) {
       const auto& [slide, shaft, gain, forces, travelled] = told;
       const double k = slide.per_radian, rate = k * gain, start = slide.start;
-      channels.push_back(
-          {Name::make(quantities::position, slide.name), "m", [=, node = slide.node, own = travelled](const Snapshot& s) {
-             return start + (own < 0 ? k * s.node_angle[node] : s.now.own[own]);
-           }});
+      channels.push_back({Name::make(quantities::position, slide.name), "m",
+                          [=, node = slide.node, own = travelled](const Snapshot& s) {
+                            return start + (own < 0 ? k * s.node_angle[node] : s.now.own[own]);
+                          }});
       channels.push_back({Name::make(quantities::velocity, slide.name), "m/s",
                           [rate, i = shaft](const Snapshot& s) { return rate * s.now.speed[i]; }});
       channels.push_back({Name::make(quantities::acceleration, slide.name), "m/s2",

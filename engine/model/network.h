@@ -87,9 +87,9 @@ class Network {
     enum class Over { time, speed, size_of_speed, ratio_of_speeds, channel };
     std::string component, of;  // "torque", in the scene's words
     Over over = Over::speed;
-    int node = 0;                                    // whose speed
-    int other = -1;                                  // of a ratio, which is the slower speed over the faster: between these
-    std::string channel = {};                        // or a channel: offset + sign · its value
+    int node = 0;              // whose speed
+    int other = -1;            // of a ratio, which is the slower speed over the faster: between these
+    std::string channel = {};  // or a channel: offset + sign · its value
     double sign = 1, offset = 0, low = 0, high = 0;  // in SI
     std::string unit = {};                           // SI, of these
     Beyond below = Beyond::unsaid, above = Beyond::unsaid;

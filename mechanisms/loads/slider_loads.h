@@ -64,7 +64,8 @@ struct PressForce {
   Hold hold(const SliderState<double>& s) const {
     // On an edge, the greater of both sides: it is a wall that holds whatever lies in its jump.
     const double d = end.distance(s.x), near = on_edge * stroke;
-    return end.hold(std::max(profile.value_in(profile.piece(d - near), d), profile.value_in(profile.piece(d + near), d)));
+    return end.hold(
+        std::max(profile.value_in(profile.piece(d - near), d), profile.value_in(profile.piece(d + near), d)));
   }
   double piece_begin(const SliderState<double>& s) const { return profile.piece_begin(s.mode); }
   double piece_end(const SliderState<double>& s) const { return profile.piece_end(s.mode); }

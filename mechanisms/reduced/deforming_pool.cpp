@@ -314,7 +314,8 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
       return placed_[i].dynamics->acceleration_x(here(s), acceleration(placed_[i], s));
     });
     if (!placed.mechanism.loads.empty())
-      add(quantities::force, "N", [this, i, here](const Snapshot& s) { return load_force(placed_[i], s.now, here(s)); });
+      add(quantities::force, "N",
+          [this, i, here](const Snapshot& s) { return load_force(placed_[i], s.now, here(s)); });
     const auto& free = placed.dynamics->free();
     if (std::find(free.begin(), free.end(), std::size_t{C::y}) == free.end())
       add_own("guide_reaction", "N", [this, i](const Snapshot& s) { return reactions(placed_[i], s)[C::y]; });

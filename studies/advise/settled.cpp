@@ -11,9 +11,10 @@ namespace {
 
 bool is_compared(const Figure& figure) {
   return figure.scale > 0 &&
-         is_one_of(figure.what, {quantities::delta, quantities::mean_speed, quantities::mid_speed, quantities::cycle_max_speed,
-                                 quantities::cycle_min_speed, quantities::cycle_peak_torque, quantities::cycle_rms_torque,
-                                 quantities::peak_drive_torque, quantities::mean_drive_torque, quantities::rms_drive_torque});
+         is_one_of(figure.what,
+                   {quantities::delta, quantities::mean_speed, quantities::mid_speed, quantities::cycle_max_speed,
+                    quantities::cycle_min_speed, quantities::cycle_peak_torque, quantities::cycle_rms_torque,
+                    quantities::peak_drive_torque, quantities::mean_drive_torque, quantities::rms_drive_torque});
 }
 
 bool is_asked(const Figure& figure, const std::vector<std::string>& figures) {

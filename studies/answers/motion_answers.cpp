@@ -176,7 +176,8 @@ std::vector<Answer> motion_answers(Equations& equations, const RunOutcome& outco
   }
   double fastest = 0;
   for (const Figure& f : figures)
-    if (f.what == quantities::max_speed || f.what == quantities::min_speed) fastest = std::max(fastest, std::abs(f.value));
+    if (f.what == quantities::max_speed || f.what == quantities::min_speed)
+      fastest = std::max(fastest, std::abs(f.value));
   if (const std::optional<Answer> answer = judge.never_starts(fastest)) {
     answers.push_back(*answer);
     return answers;

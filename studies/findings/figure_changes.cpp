@@ -24,8 +24,8 @@ bool is_telling(const Figure& figure) {
          (is_judged_by_the_machine(figure.what) ||
           is_one_of(figure.what,
                     {quantities::peak_torque, quantities::delta, quantities::cycle_fluctuation, quantities::run_up_time,
-                     quantities::run_down_time, quantities::rms_torque, quantities::slip_heat, quantities::stopping_time,
-                     quantities::stopping_angle, quantities::cycle_time}));
+                     quantities::run_down_time, quantities::rms_torque, quantities::slip_heat,
+                     quantities::stopping_time, quantities::stopping_angle, quantities::cycle_time}));
 }
 
 bool measure_the_same(const Figure& a, const Figure& b) {

@@ -205,7 +205,9 @@ class RunFigures {
     const std::optional<Stopping> stopping =
         tell_.listing() ? Stopping{} : first_stopping(model_, run_->outcome.events);
     if (!stopping) return;
-    tell_(quantities::stopping_time, link(), [&] { return Found{stopping->time, model_.scene.run.until, stopping->at}; });
+    tell_(quantities::stopping_time, link(), [&] {
+      return Found{stopping->time, model_.scene.run.until, stopping->at};
+    });
     tell_(quantities::stopping_angle, link(), [&] { return Found{stopping->angle, 1, stopping->at}; });
   }
   // A machine that nothing drives repeats its cycles, too, unless it loses something: like the two before it.

@@ -67,7 +67,8 @@ std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
     if (f.what == quantities::cycle_peak_torque)
       as_run.figures.push_back(renamed(f, Name::make(quantities::peak_torque, f.of)));
     if (f.words() == "greatest_torque" || f.words() == "least_torque") as_run.figures.push_back(f);
-    if (f.what == quantities::rms_drive_torque) as_run.figures.push_back(renamed(f, Name::own("motor_rms_torque", f.of)));
+    if (f.what == quantities::rms_drive_torque)
+      as_run.figures.push_back(renamed(f, Name::own("motor_rms_torque", f.of)));
   }
   add_rim_speeds(c, as_run);
   std::vector<Figure> strands = rating_figures(*c.model, nullptr, as_run.figures, 0, 0);

@@ -163,7 +163,8 @@ class Cycle final : public Observer {
     const int shaft = m.shaft_of_node[at(node)];
     double force = 0;
     for (const Channel& channel : m.pool_channels)
-      if (channel.name.what == quantities::force && channel.name.of == driven_.mechanism->name) force += channel.value(s);
+      if (channel.name.what == quantities::force && channel.name.of == driven_.mechanism->name)
+        force += channel.value(s);
     const SimbodyReactions r =
         simbody_reactions(*driven_.mechanism->data.as<SliderCrankData>(),
                           std::remainder(s.node_angle[node] + driven_.element->phase, 2 * std::numbers::pi),
