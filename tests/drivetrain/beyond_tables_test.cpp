@@ -111,7 +111,7 @@ TEST(BeyondTables, AFluidCouplingBelowItsFirstSpeedRatio) {
   const auto scene = [](const std::string& lambda) {
     return scene_from(fmt::format(R"(
 line = ["motor", "fluid", "mill"]
-motor = {{ kind = "speed source", speed = "1450 rpm" }}
+motor = {{ kind = "prescribed speed", speed = "1450 rpm" }}
 fluid = {{ kind = "fluid coupling", diameter = "0.25 m", lambda = {{ over = "speed ratio", unit = ["1", "1"], {} }} }}
 mill = {{ kind = "load", torque = "5 N*m", inertia = "0.1 kg*m2" }}
 run = {{ until = "5 s", start = "rest" }}

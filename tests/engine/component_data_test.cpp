@@ -45,6 +45,8 @@ backlash = "1 deg"
 [clutch]
 kind = "clutch"
 torque = "100 N*m"
+inertia_in = "0.05 kg*m2"
+inertia_out = "0.05 kg*m2"
 allowable_heat = "3 kJ"
 [shaft]
 kind = "shaft"

@@ -293,7 +293,7 @@ slider_mass = "5 kg"
 load = )";
   for (
       const char* load : {
-          R"({ kind = "press", force = "100 kN", nominal_travel = "20 mm", rise = "2 mm" })",
+          R"({ kind = "press", nominal_force = "100 kN", nominal_travel = "20 mm", rise = "2 mm" })",
           R"({ kind = "opposing", force = "1 kN" })",
           R"([{ kind = "medium", viscous = "100 N*s/m" }, { kind = "constant", force = "-50 N" }])",
           R"({ kind = "compressor", bore = "80 mm", suction_pressure = "1 bar", delivery_pressure = "6 bar", clearance = 0.06 })",
