@@ -179,7 +179,7 @@ TEST_F(CommandLine, ForcesOfASliderCrankAreWrittenAndBadRequestsRefused) {
     std::string said;
   } bad[] = {{{"--speed", "60 mm"}, "--speed \"60 mm\": must be a speed with its unit, e.g. \"300 rpm\""},
              {{"--speed", "0 rpm"}, "must be a speed ≠ 0"},
-             {{"--positions", "2"}, "--positions 2: must be 4 … 3600 of a turn"},
+             {{"--positions", "2"}, "--positions \"2\": must be 4 … 3600"},
              {{"--mechanism", "pres"}, "--mechanism pres: no mechanism of that name; allowed: \"press\""}};
   for (const auto& request : bad) {
     std::vector<std::string> arguments = {"forces", press, "--no-run"};
