@@ -15,15 +15,15 @@
 namespace kurbel {
 namespace {
 
-constexpr std::size_t most_unknowns = 400;  // the derivative is full
-constexpr double overlap = 0.02;            // of a round, by which the first run goes on
-constexpr double slowest = 20;              // a round may take this many times what it takes at the guessed speed
-constexpr double difference_step = 2e-5;    // of unknowns of order one
-constexpr std::int64_t dearest = 300;       // a round may take this many times the evaluations of the first one
-constexpr std::int64_t least_effort = 1000; // evaluations; fewer tell nothing of what a round takes
-constexpr double safely = 20;               // times a tolerance: what a round is good for
-constexpr double loose_directions = 100;    // times the tolerance of the motion: that of variational equations
-constexpr double grazes = 0.05;             // that differences to either side differ, of the greatest of them
+constexpr std::size_t most_unknowns = 400;   // the derivative is full
+constexpr double overlap = 0.02;             // of a round, by which the first run goes on
+constexpr double slowest = 20;               // a round may take this many times what it takes at the guessed speed
+constexpr double difference_step = 2e-5;     // of unknowns of order one
+constexpr std::int64_t dearest = 300;        // a round may take this many times the evaluations of the first one
+constexpr std::int64_t least_effort = 1000;  // evaluations; fewer tell nothing of what a round takes
+constexpr double safely = 20;                // times a tolerance: what a round is good for
+constexpr double loose_directions = 100;     // times the tolerance of the motion: that of variational equations
+constexpr double grazes = 0.05;              // that differences to either side differ, of the greatest of them
 
 Eigen::Index entry(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -125,8 +125,7 @@ void ReturnMap::follow(const ReturnMap& other) {
 
 // A trial far from any motion may take steps without end. The first round that comes round tells what one takes.
 void ReturnMap::learn_effort(const RunOutcome& outcome) {
-  if (most_flow_calls_ == 0)
-    most_flow_calls_ = dearest * std::max(least_effort, outcome.statistics.stepper.flow_calls);
+  if (most_flow_calls_ == 0) most_flow_calls_ = dearest * std::max(least_effort, outcome.statistics.stepper.flow_calls);
 }
 
 std::function<double(double, std::span<const double>)> ReturnMap::round_end(Equations& equations,

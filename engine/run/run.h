@@ -60,10 +60,10 @@ class RunExtension : public OdeSystem {
 };
 
 struct RunOptions {
-  double tolerance = 1e-8;      // local, over the scale of each state
-  std::string method = "auto";  // auto or one that method_named() knows
-  double until = 1;             // [s]
-  double budget = 300;          // processor time [s]
+  double tolerance = 1e-8;           // local, over the scale of each state
+  std::string method = "auto";       // auto or one that method_named() knows
+  double until = 1;                  // [s]
+  double budget = 300;               // processor time [s]
   std::int64_t most_flow_calls = 0;  // 0: no limit; a search that tries states far off sets one
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(double fraction)> progress;

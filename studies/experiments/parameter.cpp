@@ -185,8 +185,7 @@ VariantTable read_variants(const std::string& path) {
     for (const TableCell& cell : row) texts.push_back(cell.text);
   }
   if (cells.empty())
-    throw SceneError(
-        {{path, {1, 1}, "no variants; the first line names the keys, each further one is a variant"}});
+    throw SceneError({{path, {1, 1}, "no variants; the first line names the keys, each further one is a variant"}});
   table.rows.assign(cells.size(), std::vector<double>(table.parameters.size()));
   for (std::size_t k = 0; k < table.parameters.size(); ++k) fill_column(table.parameters[k], cells, k, table.rows);
   return table;

@@ -32,9 +32,8 @@ OptionsOf<UncertaintyAsked> options() {
             .doc = "machines drawn from the tolerances (default: 500)",
             .domain = {.low = 10, .high = 1'000'000}},
            &Asked::samples)
-      .add(
-          {.name = "seed", .doc = "of what is drawn (default: 1)", .domain = {.low = 0, .high = 9007199254740992}},
-          &Asked::seed)
+      .add({.name = "seed", .doc = "of what is drawn (default: 1)", .domain = {.low = 0, .high = 9007199254740992}},
+           &Asked::seed)
       .add({.name = "jobs", .doc = "threads (default: one for each core)", .domain = {.low = 1, .high = 1024}},
            &Asked::jobs)
       .add({.name = "no_error", .doc = "skip the runs that measure errors: none is undecided then"},
