@@ -11,7 +11,7 @@
 
 #include "bench/benches.h"
 #include "studies/accuracy/machine_info.h"
-#include "studies/findings/text_table.h"
+#include "studies/findings/figure_text.h"
 #include "studies/report/render.h"
 
 namespace kurbel::bench {

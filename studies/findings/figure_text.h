@@ -11,6 +11,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/estimate.h"
 #include "engine/scene/speed_unit.h"
@@ -44,5 +45,9 @@ FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, c
 
 // What a column of errors says where none was measured.
 std::string error_cell(const Estimate& estimate);
+
+// A table for a terminal: rows aligned in columns, the first `text_columns` and the last one on the left, the others on the
+// right. UTF-8 safe.
+std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t text_columns);
 
 }  // namespace kurbel

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "studies/findings/figure_text.h"
 #include "studies/findings/output.h"
-#include "studies/findings/text_table.h"
 
 namespace kurbel {
 namespace {

@@ -24,7 +24,7 @@ constexpr std::size_t most_files = 20;
 // Families of elements may be more; the others named here have grown too large, and may not grow further.
 const std::map<std::string, std::size_t> families = {
     {"mechanisms/linkages", 21},  // five linkages, each with its bodies, and what Simbody is asked
-    {"engine/model", 23},        {"engine/run", 21}, {"studies/findings", 22}, {"studies/run", 22},
+    {"engine/model", 23},        {"engine/run", 21}, {"studies/findings", 21}, {"studies/run", 22},
 };
 
 constexpr long most_lines = 450;
