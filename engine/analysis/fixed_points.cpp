@@ -14,6 +14,7 @@ constexpr double slowest_shrinking = 0.999;  // from round to round; nearer to 1
 constexpr double floor_of_rounds = 1e-10;    // of the rated values: below that rounds are noise
 constexpr double same_motion = 1e-3;         // of the rated values, and of the time of a round
 constexpr int rounds_looked_at = 6;
+constexpr double looser_residual = 10;       // at which a looser search ends, over its tolerance
 
 // How much the largest eigenvalue moves with an entry of the matrix.
 double condition_of_largest(const Eigen::MatrixXd& derivative) {
@@ -135,17 +136,27 @@ SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double 
   return out;
 }
 
-SteadyPoint find_looser(ReturnMap& loose, const SteadyPoint& point, double enough) {
-  SteadyPoint other = point;
+std::shared_ptr<ReturnMap> looser_map(const ReturnMap& map, double tolerance, std::shared_ptr<const Model> model) {
+  ReturnMapOptions options = map.options();
+  options.tolerance = tolerance;
+  auto loose = std::make_shared<ReturnMap>(model ? std::move(model) : map.shared_model(), options);
+  loose->follow(map);
+  return loose;
+}
+
+SteadyTwin looser_twin(const ReturnMap& map, const SteadyPoint& point, double tolerance,
+                       std::shared_ptr<const Model> model) {
+  SteadyTwin twin{looser_map(map, tolerance, std::move(model)), point};
+  SteadyPoint& other = twin.point;
   if (point.to_come.size() > 0) other.z += point.to_come;
-  if (point.to_come.size() > 0 || point.grazed || point.neutral()) return other;
-  other = find_steady(loose, point.z, enough);
-  if (!other.found) return other;
+  if (point.to_come.size() > 0 || point.grazed || point.neutral()) return twin;
+  other = find_steady(*twin.map, point.z, looser_residual * tolerance);
+  if (!other.found) return twin;
   const double apart = point.z.size() > 0 ? (other.z - point.z).cwiseAbs().maxCoeff() : 0;
-  if (apart <= same_motion && std::abs(other.time - point.time) <= same_motion * point.time) return other;
+  if (apart <= same_motion && std::abs(other.time - point.time) <= same_motion * point.time) return twin;
   other.found = false;
   other.why = "with looser tolerances the search comes to another motion";
-  return other;
+  return twin;
 }
 
 }  // namespace kurbel

@@ -145,10 +145,19 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
 // changes more than `enough`, or where nothing tells that rounds shrink.
 SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double enough);
 
-// The same motion by a looser map that follows the one of the point: what differs is the point's error. What the run alone
-// came to, is moved by what is still to come; a member of a family, and what an event only just touches, is kept as it is.
-// Not found where the looser search comes to another motion.
-SteadyPoint find_looser(ReturnMap& loose, const SteadyPoint& point, double enough);
+// A map of a like machine, or of the same one, with this tolerance; its section, period and limits are those of the map.
+std::shared_ptr<ReturnMap> looser_map(const ReturnMap& map, double tolerance,
+                                      std::shared_ptr<const Model> model = nullptr);
+
+// The same motion by a looser map: what differs is the error of all that is read from the motion. What the run alone came to,
+// is moved by what is still to come; a member of a family, and what an event only just touches, is kept as it is. `point` is
+// not found where the looser search comes to another motion.
+struct SteadyTwin {
+  std::shared_ptr<ReturnMap> map;
+  SteadyPoint point;
+};
+SteadyTwin looser_twin(const ReturnMap& map, const SteadyPoint& point, double tolerance,
+                       std::shared_ptr<const Model> model = nullptr);
 
 // Eigenvalues, largest magnitude first.
 std::vector<std::complex<double>> multipliers_of(const Eigen::MatrixXd& derivative);

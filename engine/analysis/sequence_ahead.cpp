@@ -1,6 +1,7 @@
 // sequence_ahead.cpp — the armed step of a sequence against a round of the motion.
 #include "engine/analysis/sequence_ahead.h"
 
+#include "engine/analysis/follow_period.h"
 #include "engine/events/operating_sequence.h"
 
 namespace kurbel {
@@ -17,17 +18,7 @@ bool sequence_goes_on(const ReturnMap& map, const Eigen::VectorXd& z) {
   if (equations.modes().armed_time < never || sequence.steps[armed].when == SequenceStep::When::angle) return true;
   const double* speed = equations.snapshot(map.start_time(), y).now.speed;
   if (OperatingSequence(m).guard(equations.modes(), y, speed) <= 0) return true;
-  RunOptions run{.tolerance = 1e-9,
-                 .method = map.options().method,
-                 .until = 0,
-                 .budget = map.options().budget,
-                 .interrupted = map.options().interrupted,
-                 .progress = {}};
-  const bool by_time = map.periodicity().by_time;
-  run.from = {map.start_time(), y};
-  run.until = map.start_time() + (by_time ? map.periodicity().time * map.options().cycles : map.time_limit());
-  if (!by_time) run.stop = map.round_end(equations, y);
-  integrate(equations, run, {});
+  follow_period(map, z, equations, {.tolerance = 1e-9}, {});
   return equations.modes().next_step != armed;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/analysis/follow_period.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
@@ -65,15 +66,8 @@ CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolera
   out.time = regime.point.time;
   out.link_angle = equations.angle_with_turns(at(m.reduction_angle), y);
   MeanMotion mean{.state = {map.start_time(), y, equations.modes()}, .speed = 0, .mean = {}, .joint_torque = {}};
-  RunOptions run{.tolerance = tolerance,
-                 .method = "auto",
-                 .until = map.start_time() + out.time,
-                 .budget = 60,
-                 .interrupted = nullptr,
-                 .progress = {}};
-  run.from = {map.start_time(), y};
   Sampler sampler(m, out, map.start_time(), count);
-  const RunOutcome outcome = integrate(equations, run, {&sampler});
+  const RunOutcome outcome = follow_period(map, regime.point, equations, {.tolerance = tolerance}, {&sampler});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   if (!sampler.is_full()) throw std::invalid_argument("the round of the steady motion ended before its period");
   out.events = outcome.events;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/analysis/follow_period.h"
 #include "engine/analysis/sensitivities.h"
 #include "engine/matrices/linear_algebra.h"
 #include "engine/matrices/periodic_schur.h"
@@ -79,17 +80,11 @@ class Machine {
     std::vector<double> events;
   };
   Way follow(const Eigen::VectorXd& z) {
-    const std::vector<double> y = map_.place(equations_, z);
-    const bool by_time = map_.periodicity().by_time;
-    const double from = map_.start_time(),
-                 round = by_time ? map_.periodicity().time * map_.options().cycles : map_.time_limit();
-    RunOptions run = options(from, from + round);
-    run.from->y = y;
-    run.stop = map_.round_end(equations_, y);
     MeanJacobian mean(equations_);
-    const RunOutcome outcome = integrate(equations_, run, {&mean});
+    const RunOutcome outcome = follow_period(map_, z, equations_, {.tolerance = tolerance_}, {&mean});
     if (!outcome.complete) throw BrokenOff(outcome.diagnosis);
-    if (!by_time && !outcome.stopped) throw BrokenOff("the machine does not come round");
+    if (!map_.periodicity().by_time && !outcome.stopped) throw BrokenOff("the machine does not come round");
+    const double from = map_.start_time();
     Way way{outcome.t - from, mean.mean(), {}};
     for (const Event& e : outcome.events) way.events.push_back(e.t - from);
     return way;

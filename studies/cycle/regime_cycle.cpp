@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/analysis/follow_period.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -165,16 +166,7 @@ RegimeCycle assembled(const Model& m, const RoundRecorder& recorder, double sens
 RegimeCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::vector<int>& nodes, double tolerance) {
   const Model& m = map.model();
   Equations equations(map.shared_model(), true);
-  std::vector<double> y = map.place(equations, point.z);
-  y.resize(equations.size(), 0.0);
-  RunOptions run{.tolerance = tolerance,
-                 .method = map.options().method,
-                 .until = map.start_time() + point.time * (map.periodicity().by_time ? 1 : 1.5),
-                 .budget = map.options().budget,
-                 .interrupted = map.options().interrupted,
-                 .progress = {}};
-  run.stop = map.round_end(equations, y);
-  run.from = {map.start_time(), y};
+  const std::vector<double> y = map.place(equations, point.z);
   const TrackedAngle& link = m.angles[at(m.reduction_angle)];
   const double omega = link.gain * equations.snapshot(map.start_time(), y).now.speed[link.shaft];
   const double sense = omega < 0 ? -1 : 1;
@@ -182,7 +174,7 @@ RegimeCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
   const bool anywhere = map.periodicity().by_time && !map.periodicity().angle_matters;
   const double origin = anywhere ? equations.angle_with_turns(at(m.reduction_angle), y) : 0;
   RoundRecorder recorder(m, sense, origin, nodes);
-  const RunOutcome outcome = integrate(equations, run, {&recorder});
+  const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&recorder});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   if (!recorder.singular().empty())
     throw std::invalid_argument(
@@ -203,13 +195,9 @@ RegimeCycle regime_cycle(const Regime& regime, const std::vector<int>& nodes) {
 
 std::optional<RegimeCycle> looser_regime_cycle(const Regime& regime, const std::vector<int>& nodes) {
   try {
-    ReturnMapOptions options = regime.map->options();
-    options.tolerance = looser_tolerance;
-    ReturnMap loose(regime.map->shared_model(), options);
-    loose.follow(*regime.map);
-    const SteadyPoint point = find_looser(loose, regime.point, looser_tolerance * 10);
-    if (!point.found) return {};
-    return follow(loose, point, nodes, looser_tolerance);
+    const SteadyTwin twin = looser_twin(*regime.map, regime.point, looser_tolerance);
+    if (!twin.point.found) return {};
+    return follow(*twin.map, twin.point, nodes, looser_tolerance);
   } catch (const std::invalid_argument&) {
     return {};
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/analysis/follow_period.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -196,15 +197,9 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
   try {
     SimulatedMotion motion;
     Sampled tight = along_round(loads, *regime.map, regime.point.z, map_tolerance);
-    ReturnMap loose(model_, [&] {
-      ReturnMapOptions options = regime.map->options();
-      options.tolerance = looser_tolerance;
-      return options;
-    }());
-    loose.follow(*regime.map);
-    const SteadyPoint other = find_looser(loose, regime.point, enough);
+    const auto [loose, other] = looser_twin(*regime.map, regime.point, looser_tolerance);
     motion.others.push_back(
-        {along_round(loads, loose, other.found ? other.z : regime.point.z, looser_tolerance).along, 1});
+        {along_round(loads, *loose, other.found ? other.z : regime.point.z, looser_tolerance).along, 1});
     if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(regime.still_changes, enough)), 1});
     const int cycles = static_cast<int>(std::lround(tight.along.cycle / loads.cycle()));
     motion.description = fmt::format("the machine as it keeps going ({}), crank's cycle of {:.0f}°{}",
@@ -231,15 +226,8 @@ MachineMotion::Window MachineMotion::round_of(const ReturnMap& map, const Eigen:
   const std::vector<double> y = map.place(equations, z);
   Window window;
   window.begin = angle_in(equations, y);
-  const bool by_time = map.periodicity().by_time;
-  RunOptions run = run_options(tolerance);
-  run.method = "auto";
-  run.from = {map.start_time(), y};
-  const double time = by_time ? map.periodicity().time * map.options().cycles : map.time_limit();
-  run.until = map.start_time() + time;
-  if (!by_time) run.stop = map.round_end(equations, y);
   StepEnds ends(crank_.tracked);
-  const RunOutcome outcome = integrate(equations, run, {&ends});
+  const RunOutcome outcome = follow_period(map, z, equations, {.tolerance = tolerance}, {&ends});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   window.way = angle_in(equations, outcome.state) - window.begin;
   for (const Event& e : outcome.events) window.events.push_back(ends.angle(e.t) + crank_.phase);
@@ -273,17 +261,13 @@ MachineMotion::Sampled MachineMotion::along_round(OutputLoads& loads, const Retu
   std::vector<double> targets = targets_of(where, origin);
   Equations equations(model_, false);
   const std::vector<double> y = map.place(equations, z);
-  RunOptions run = run_options(tolerance);
-  run.method = "auto";
-  run.from = {map.start_time(), y};
   const double last = targets.back();
-  run.until = map.start_time() +
-              2.5 * (map.periodicity().by_time ? map.periodicity().time * map.options().cycles : map.time_limit());
-  run.stop = [&, last](double, std::span<const double> now) {
+  FollowOptions follow{.tolerance = tolerance, .periods = 2.5};
+  follow.stop = [&, last](double, std::span<const double> now) {
     return std::min(1.0, 1e-3 + direction * (last - equations.angle_with_turns(crank_.tracked, now)));
   };
   PassageRecorder passages(crank_.tracked, crank_.node, forces_, where, std::move(targets), direction);
-  const RunOutcome outcome = integrate(equations, run, {&passages});
+  const RunOutcome outcome = follow_period(map, z, equations, follow, {&passages});
   if (passages.passed.size() != where.size())
     throw std::invalid_argument(outcome.diagnosis.empty() ? "the round ended before the crank's cycle"
                                                           : outcome.diagnosis);

@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "engine/analysis/follow_period.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/run/recorders.h"
@@ -19,7 +20,6 @@ using Complex = std::complex<double>;
 constexpr double fine = 1e-11, loose = 1e-9;  // tolerances of the two rounds
 constexpr double rounding = 1e-10;            // of the rated torque
 constexpr std::size_t harmonics = 96;         // of a round; what is above counts with the next one's frequency
-constexpr double neutral_within = 1e-6;
 
 double link_speed(const Model& m, const Snapshot& s) {
   const TrackedAngle& link = m.angles[at(m.reduction_angle)];
@@ -94,23 +94,14 @@ SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
                    double tolerance) {
   const Model& m = map.model();
   Equations equations(map.shared_model(), true);
-  std::vector<double> y = map.place(equations, point.z);
-  y.resize(equations.size(), 0.0);
-  RunOptions run{.tolerance = tolerance,
-                 .method = "auto",
-                 .until = map.start_time() + point.time * (map.periodicity().by_time ? 1 : 1.5),
-                 .budget = 60,
-                 .interrupted = nullptr,
-                 .progress = {}};
-  run.stop = map.round_end(equations, y);
-  run.from = {map.start_time(), y};
   std::vector<ExtremeOf> wanted;
   for (const LimitedJoint& joint : joints)
     for (const auto which : {Functional::greatest, Functional::least})
       wanted.push_back(torque_extreme(m, joint, which));
   ExtremeRecorder extremes(std::move(wanted));
   Integrals integrals(m, joints, map.start_time(), point.time);
-  const RunOutcome outcome = integrate(equations, run, {&extremes, &integrals});
+  const RunOutcome outcome =
+      follow_period(map, point, equations, {.tolerance = tolerance}, {&extremes, &integrals});
   if (!outcome.diagnosis.empty()) return {.words = outcome.diagnosis};
   SteadyLoads loads{.found = true};
   const double time = loads.round = outcome.t - map.start_time();
@@ -130,20 +121,10 @@ SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
   return loads;
 }
 
-// The same with tolerances 100 × looser, the fixed point found anew where it is one by itself.
+// The same with tolerances 100 × looser.
 SteadyLoads follow_loosely(const Regime& regime, const std::vector<LimitedJoint>& joints) {
-  const bool neutral = std::abs(regime.point.largest() - 1) < neutral_within;
-  if (!regime.polished || neutral) {
-    SteadyPoint point = regime.point;
-    if (neutral && point.to_come.size() > 0) point.z += point.to_come;  // the member that a looser run comes to
-    return follow(*regime.map, point, joints, loose);
-  }
-  ReturnMapOptions options;
-  options.tolerance = loose;
-  ReturnMap map(regime.map->shared_model(), options);
-  map.follow(*regime.map);
-  const SteadyPoint point = find_steady(map, regime.point.z, 10 * loose);
-  return point.found ? follow(map, point, joints, loose) : SteadyLoads{};
+  const SteadyTwin twin = looser_twin(*regime.map, regime.point, loose);
+  return twin.point.found ? follow(*twin.map, twin.point, joints, loose) : SteadyLoads{};
 }
 
 constexpr std::array<Estimate JointLoad::*, 6> measured = {&JointLoad::mean,  &JointLoad::upper,    &JointLoad::lower,

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/analysis/family.h"
+#include "engine/analysis/follow_period.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/scene/units.h"
@@ -326,14 +327,14 @@ class Search {
 
   // The same search with looser tolerances and other tables; what it finds otherwise is the error.
   void measure_errors(Round& fine) {
-    ReturnMap loose(model_elsewhere(), map_options(looser_tolerance));
-    loose.follow(*map_);
-    const SteadyPoint point = options_.mid_speed ? out_.point : find_looser(loose, out_.point, enough * 100);
+    const auto [loose, point] =
+        options_.mid_speed ? SteadyTwin{looser_map(*map_, looser_tolerance, model_elsewhere()), out_.point}
+                           : looser_twin(*map_, out_.point, looser_tolerance, model_elsewhere());
     if (!point.found) return;
     for (std::size_t i = 0; i < std::min(point.multipliers.size(), out_.point.multipliers.size()); ++i)
       out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +
                                        rounding_of_multipliers);
-    const Round other = go_round(loose, point, looser_tolerance);
+    const Round other = go_round(*loose, point, looser_tolerance);
     for (Figure& f : fine.figures)
       for (const Figure& g : other.figures)
         if (f.name == g.name) {
@@ -362,16 +363,7 @@ class Search {
   void follow() {
     Equations equations(out_.model, true);
     TraceRecorder traces(*out_.model);
-    const std::vector<double> y = map_->place(equations, out_.point.z);
-    RunOptions run{.tolerance = 1e-9,
-                   .method = "auto",
-                   .until = map_->start_time() + 2.05 * out_.point.time * (map_->periodicity().by_time ? 1 : 1.5),
-                   .budget = 60,
-                   .interrupted = options_.watch.interrupted,
-                   .progress = {}};
-    run.from = {map_->start_time(), y};
-    run.stop = map_->round_end(equations, y, 2.05);
-    integrate(equations, run, {&traces});
+    follow_period(*map_, out_.point, equations, {.tolerance = 1e-9, .periods = 2.05}, {&traces});
     out_.traces = traces.traces();
   }
 

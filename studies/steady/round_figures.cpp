@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "drivetrain/shared/rating_keys.h"
+#include "engine/analysis/follow_period.h"
 #include "engine/numerics/index.h"
 #include "studies/duty/motor_figures.h"
 #include "studies/duty/work_periods.h"
@@ -155,19 +156,9 @@ class RoundFigures {
         ranges_(m_),
         equations_(map.shared_model(), true),
         drives_(equations_, drives_of(m_)) {
-    RunOptions run{.tolerance = tolerance,
-                   .method = "auto",
-                   .until = map.start_time() + point.time * (map.periodicity().by_time ? 1 : 1.5),
-                   .budget = 60,
-                   .interrupted = nullptr,
-                   .progress = {}};
-    std::vector<double> y = map.place(equations_, point.z);
-    run.stop = map.round_end(equations_, y);
-    turned_ = -link_angle(y);
-    y.resize(drives_.size(), 0.0);
-    run.from = {map.start_time(), y};
-    run.extension = &drives_;
-    outcome_ = integrate(equations_, run, {&extremes_, &ranges_});
+    turned_ = -link_angle(map.place(equations_, point.z));
+    outcome_ = follow_period(map, point, equations_, {.tolerance = tolerance, .extension = &drives_},
+                             {&extremes_, &ranges_});
     if (outcome_.diagnosis.empty()) turned_ += link_angle(outcome_.state);
   }
 

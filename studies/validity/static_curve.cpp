@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "drivetrain/induction/induction_law.h"
+#include "engine/analysis/follow_period.h"
 #include "engine/run/run.h"
 #include "studies/findings/trace.h"
 
@@ -101,16 +102,7 @@ std::vector<std::string> static_curve_notes(const ReturnMap& map, const SteadyPo
   constexpr double rounds = 2.05;  // a swing a round turns three times within them
   Equations equations(map.shared_model(), true);
   TraceRecorder recorder(map.model());
-  const std::vector<double> y = map.place(equations, point.z);
-  RunOptions run{.tolerance = 1e-9,
-                 .method = "auto",
-                 .until = map.start_time() + rounds * point.time * (map.periodicity().by_time ? 1 : 1.5),
-                 .budget = 60,
-                 .interrupted = nullptr,
-                 .progress = {}};
-  run.from = {map.start_time(), y};
-  run.stop = map.round_end(equations, y, rounds);
-  integrate(equations, run, {&recorder});
+  follow_period(map, point, equations, {.tolerance = 1e-9, .periods = rounds}, {&recorder});
   const auto traces = recorder.traces();
   return static_curve_notes(map.model(), [&](const std::string& motor) {
     const Trace *speed = traces->find("speed." + motor), *torque = traces->find("torque." + motor);
