@@ -15,7 +15,8 @@ namespace {
 constexpr double enter_angle = 0.2, leave_angle = 0.1;  // [rad]
 constexpr double least_speed = 1e-4;                    // of the speed's scale
 constexpr double quarter = 0.5 * std::numbers::pi;      // longest step over time [rad]
-constexpr double half_turn = std::numbers::pi;          // and over the angle
+// And over the angle: an estimate of the error that vanishes by chance would let a step of this machine grow to half a turn.
+constexpr double sixth_turn = std::numbers::pi / 3;
 constexpr double two_turns = 4 * std::numbers::pi;
 constexpr double same_place = 1e-10;  // [rad]
 
@@ -209,7 +210,7 @@ double WorkStepper::next_stop() {
     const auto next = std::upper_bound(edges.begin(), edges.end(), s + same_place);
     edge_ = edges.empty() ? HUGE_VAL : turned + (next == edges.end() ? edges.front() + cycle : *next) - s;
   }
-  return std::min(edge_, turned + half_turn);
+  return std::min(edge_, turned + sixth_turn);
 }
 
 // The angle turned at a time within the step: Hermite's cubic through the ends, then Newton's method on the dense
