@@ -14,7 +14,7 @@ constexpr double slowest_shrinking = 0.999;  // from round to round; nearer to 1
 constexpr double floor_of_rounds = 1e-10;    // of the rated values: below that rounds are noise
 constexpr double same_motion = 1e-3;         // of the rated values, and of the time of a round
 constexpr int rounds_looked_at = 6;
-constexpr double looser_residual = 10;       // at which a looser search ends, over its tolerance
+constexpr double looser_residual = 10;  // at which a looser search ends, over its tolerance
 
 // How much the largest eigenvalue moves with an entry of the matrix.
 double condition_of_largest(const Eigen::MatrixXd& derivative) {
@@ -95,7 +95,7 @@ void SteadyPoint::take(const Eigen::VectorXd& at, const ReturnMap::Image& image)
   derivative = image.derivative;
   multipliers = multipliers_of(derivative);
   if (derivative.size() > 0) multiplier_error = condition_of_largest(derivative) * image.uncertain;
-  time = image.time;
+  time = image.time, turned = image.turned;
   grazed = image.grazed;
 }
 
@@ -117,7 +117,7 @@ SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double 
     change = round.z - out.z;
     if (along.squaredNorm() > 0) change -= along * along.dot(change) / along.squaredNorm();
     out.residual = change.size() > 0 ? change.cwiseAbs().maxCoeff() : 0;
-    out.time = round.time;
+    out.time = round.time, out.turned = round.turned;
     out.z = round.z;
     if (out.first.size() == 0) out.first = round.z;
     changes.push_back(out.residual);

@@ -1,11 +1,14 @@
-// link_speeds.h — how fast the reduction link turns in a run, forwards and backwards: whether it keeps swinging.
+// link_speeds.h — how the shafts turn in a run: whether the link keeps vibrating, when it turns back, when all stopped.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "engine/numerics/index.h"
+#include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 
 namespace kurbel {
@@ -29,7 +32,7 @@ class LinkSpeeds final : public Observer {
   double forwards_ = 0, backwards_ = 0;
 };
 
-// To and fro as fast as over the wait before, hundreds of swings long: it will neither come round nor come to rest.
+// To and fro as fast as over the wait before, hundreds of vibrations long: it will neither come round nor come to rest.
 class LastSwing {
  public:
   bool as_before(const LinkSpeeds& speeds) {
@@ -40,6 +43,41 @@ class LastSwing {
 
  private:
   double greatest_ = 0;  // [rad/s]; 0: it did not turn back
+};
+
+// When a shaft last turned faster than this part of its rated speed, at the ends of steps.
+class LastMotion final : public Observer {
+ public:
+  LastMotion(const Model& m, double least) : m_(m), least_(least) {}
+  void step(StepView& view) override {
+    const std::span<const double> y = view.y();
+    for (std::size_t s = 0; s < m_.free_shafts; ++s)
+      if (std::abs(y[view.equations().speed_index(static_cast<int>(s))]) > least_ * m_.shafts[s].speed_scale)
+        time_ = view.t();
+  }
+  double time() const { return time_; }  // [s]; 0: none ever turned
+
+ private:
+  const Model& m_;
+  double least_, time_ = 0;
+};
+
+// When the link turns back from forwards to backwards, located on the solution between the steps.
+class TurningTimes final : public Observer {
+ public:
+  explicit TurningTimes(const Model& m) : shaft_(m.angles[at(m.reduction_angle)].shaft) {}
+  void step(StepView& view) override {
+    if (at(shaft_) >= view.equations().model().free_shafts) return;
+    const std::size_t speed = view.equations().speed_index(shaft_);
+    const auto at_time = [&](double t) { return view.at(t, speed); };
+    const double before = at_time(view.t_previous()), now = at_time(view.t());
+    if (before > 0 && now <= 0) times_.push_back(find_root(at_time, view.t_previous(), before, view.t(), now));
+  }
+  const std::vector<double>& times() const { return times_; }
+
+ private:
+  int shaft_;
+  std::vector<double> times_;  // [s]
 };
 
 }  // namespace kurbel

@@ -82,12 +82,10 @@ Periodicity periodicity_of(const Model& m) {
     const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];
     const std::string& name = m.network.nodes[at(node)].component;
     const double link_speed = std::abs(given.settled_speed() / m.node_ratio[at(node)]);
-    if (!(link_speed > 0))
-      throw std::invalid_argument(
-          fmt::format("\"{}\" prescribes a mean speed of 0: nothing turns, so there is no cycle", name));
     if (given.amplitude != 0) times.push_back({1 / std::abs(given.frequency), name});
     if (given.period() > 0) times.push_back({given.period(), name});
-    if (result.angle_matters || times.empty()) times.push_back({result.angle / link_speed, name});
+    // In the mean nothing turns at a speed of 0: what reads an angle sees one place of its cycle.
+    if (link_speed > 0 && (result.angle_matters || times.empty())) times.push_back({result.angle / link_speed, name});
     result.settled_from = std::max(result.settled_from, given.settled_from());
   }
   result.by_time = !times.empty();

@@ -34,7 +34,8 @@ class Search {
         options_(options),
         equations_(shared_, false),
         map_(new_map()),
-        period_(map_->periodicity()) {}
+        period_(map_->periodicity()),
+        last_motion_(m_, still) {}
 
   Regime run() {
     state_.t = 0;
@@ -143,6 +144,8 @@ class Search {
 
   double round_angle() const { return period_.angle * options_.cycles; }
   double round_time() const { return period_.time * options_.cycles; }
+  // How long the link at this speed may need to come round [s].
+  double patience(double omega) const { return 3 * round_angle() / std::max(std::abs(omega), 0.05 * m_.speed_scale); }
 
   // Of what came to no whole round, by the way of the link, or by time where that alone tells a cycle.
   double cycles_of(double time, double begin) const {
@@ -153,7 +156,7 @@ class Search {
   // The link once round, or the common period of time; where the link stands or creeps, some time.
   void go_on() {
     equations_.bind(state_.modes);
-    const double omega = link_speed(), patience = 3 * round_angle() / std::max(std::abs(omega), 0.05 * m_.speed_scale);
+    const double omega = link_speed();
     const std::size_t angle = at(m_.reduction_angle);
     const double begin = equations_.angle_with_turns(angle, state_.y);
     const bool by_time = period_.by_time && is_settled();
@@ -161,14 +164,14 @@ class Search {
     const double periods = std::floor(state_.t / round_time() + 1e-9) + 1;
     RunOptions run = on_until(aligning  ? periods * round_time()
                               : by_time ? state_.t + round_time()
-                                        : state_.t + patience_factor_ * patience);
+                                        : state_.t + patience_factor_ * patience(omega));
     if (!period_.by_time)
       run.stop = [this, angle, begin](double, std::span<const double> y) {
         return std::min(1.0, round_angle() - std::abs(equations_.angle_with_turns(angle, y) - begin));
       };
     if (options_.progress) options_.progress(fmt::format("regime: round {}", out_.rounds + 1), 0);
     LinkSpeeds speeds(m_);
-    const RunOutcome outcome = integrate(equations_, run, {&speeds});
+    const RunOutcome outcome = integrate(equations_, run, {&speeds, &last_motion_});
     ++out_.rounds;
     const State before = std::exchange(state_, {outcome.t, outcome.state, equations_.modes()});
     if (!outcome.complete) {
@@ -193,7 +196,7 @@ class Search {
   void wait(const Pace& now, const LinkSpeeds& speeds) {
     patience_factor_ = std::min(2 * patience_factor_, 64.0);
     if (!is_settled() && state_.t < switched_until()) return;
-    if (is_settled() && !m_.scene.sequence.repeat && swings_.as_before(speeds)) return drift();
+    if (is_settled() && !m_.scene.sequence.repeat && swings_.as_before(speeds)) return vibrate();
     if (now.rate > still || period_.by_time) return;
     if (now.speed <= still) return end(Regime::Kind::at_rest, at_rest());
     const double omega = std::abs(link_speed());
@@ -202,16 +205,14 @@ class Search {
         with_holders(fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link())));
   }
   std::string at_rest() {
+    if (last_motion_.time() == 0) return with_holders("the machine stands from its start on");
     return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rested_at()));
   }
-  // When the last shaft stopped, where all are held; else by when nothing moves any more: a round is long beside that.
+  // When the last shaft was held; where nothing holds it, when it was as good as still.
   double rested_at() const {
-    for (std::size_t s = 0; s < m_.free_shafts; ++s)
-      if (!equations_.at_standstill(s)) return state_.t;
-    double last = 0;
     for (const Event& e : events_)
-      if (e.kind == EventKind::rest) last = std::max(last, e.t);
-    return last > 0 ? last : state_.t;
+      if (e.kind == EventKind::rest && e.t >= (1 - 1e-12) * last_motion_.time()) return e.t;
+    return last_motion_.time();
   }
   std::string with_holders(std::string text) {
     for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;
@@ -264,6 +265,7 @@ class Search {
     std::vector<double> times;
     for (const Event& e : events_)
       if (e.t > last - (1 - 1e-6) * period && e.t <= last) times.push_back(e.t);
+    if (times.empty()) return true;
     std::sort(times.begin(), times.end());
     times.push_back(times.front() + period);
     std::size_t widest = 0;
@@ -286,8 +288,6 @@ class Search {
   // The same event again and again after the same time, with the whole state: so many of its kind may lie between. Of a
   // sequence the same command of the same step.
   bool find_own_period() {
-    constexpr std::size_t most_between = 8;
-    constexpr double same_time = 1e-6, settled_time = 1e-10, settling = 0.9;
     if (events_.size() < 4 || events_seen_ == looked_at_) return false;
     looked_at_ = events_seen_;
     const bool sequence = m_.scene.sequence.repeat;
@@ -302,6 +302,28 @@ class Search {
       for (auto e = events_.rbegin(); e != events_.rend(); ++e)
         if (e->component == last.component && e->what == last.what) times.push_back(e->t);
     }
+    return comes_again(
+        times, sequence ? "the operating sequence goes round" : "it swings by itself, no law asks for this period");
+  }
+
+  // The link turns back again and again, and nothing happens that tells a period.
+  void vibrate() {
+    TurningTimes turning(m_);
+    equations_.bind(state_.modes);
+    const double as_long = 0.5 * patience_factor_ * patience(0);
+    const RunOutcome outcome = integrate(equations_, on_until(state_.t + as_long), {&turning});
+    if (outcome.complete) {
+      state_ = {outcome.t, outcome.state, equations_.modes()};
+      period_changes_ = 0;  // it has settled
+      if (comes_again({turning.times().rbegin(), turning.times().rend()}, "no law asks for this period")) return;
+    }
+    drift();
+  }
+
+  // Whether the motion does, of times at which the same happened, latest first; so many of its kind may lie between.
+  bool comes_again(const std::vector<double>& times, const std::string& why) {
+    constexpr std::size_t most_between = 8;
+    constexpr double same_time = 1e-6, settled_time = 1e-10, settling = 0.9;
     for (std::size_t k = 1; k <= most_between && 2 * k < times.size(); ++k) {
       const double period = times[0] - times[k], before = times[k] - times[2 * k];
       const double change = std::abs(period - before);
@@ -315,9 +337,7 @@ class Search {
       const double of_laws = std::exchange(period_.time, period);
       rest_on_run(map);
       if (done_) {
-        out_.words = fmt::format(
-            "everything comes again after {:.6g} s: {}", period,
-            sequence ? "the operating sequence goes round" : "it swings by itself, no law asks for this period");
+        out_.words = fmt::format("everything comes again after {:.6g} s: {}", period, why);
         return true;
       }
       period_.time = of_laws;
@@ -381,7 +401,7 @@ class Search {
     state_ = out_.state;
     const bool nothing_swings = !period_.angle_matters && !period_.by_time && pace().rate <= 100 * still;
     if (nothing_swings) return end(Regime::Kind::equilibrium, "all speeds keep: no law depends on an angle or on time");
-    end(Regime::Kind::cycle, cycle_words());
+    end(point.vibrates() ? Regime::Kind::vibrating : Regime::Kind::cycle, cycle_words());
   }
   std::string cycle_words() const {
     if (period_.by_time)
@@ -434,6 +454,7 @@ class Search {
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // the latter of its own, at the last look [s]
   int settled_rounds_ = 0, next_trial_ = 1;
   LastSwing swings_;
+  LastMotion last_motion_;
   std::string why_not_, changes_most_;
   std::vector<double> speeds_;  // fastest shaft at the ends of settled rounds, of its rated speed
   std::vector<Event> events_;   // the last ones
@@ -441,6 +462,10 @@ class Search {
 };
 
 }  // namespace
+
+RegimeOptions regime_options(const RunSettings& run, const std::atomic<bool>* interrupted) {
+  return {.method = run.method == "work" ? "auto" : run.method, .budget = run.budget, .interrupted = interrupted};
+}
 
 Regime find_regime(std::shared_ptr<const Model> model, const RegimeOptions& options) {
   return Search(std::move(model), options).run();

@@ -26,10 +26,14 @@ struct RegimeOptions {
   std::function<void(const std::string& what, double fraction)> progress = {};
 };
 
+// As a scene's run asks for it: its budget, and its method unless that goes over the angle, where no round is one of time.
+RegimeOptions regime_options(const RunSettings& run, const std::atomic<bool>* interrupted = nullptr);
+
 struct Regime {
   enum class Kind {
     equilibrium,  // all speeds keep; the reduction link may stand
     cycle,        // everything comes again after a round
+    vibrating,    // so it does, and the link does not turn in the mean
     at_rest,      // nothing moves
     runaway,      // speeds grow beyond bounds
     drifting,     // neither: it goes on changing, or nothing has a common period
@@ -46,7 +50,7 @@ struct Regime {
   State state;                     // in the regime: on the section of a cycle
   SteadyPoint point;               // of a cycle or an equilibrium that turns: the fixed point and its multipliers
   std::shared_ptr<ReturnMap> map;  // of it; null where nothing comes round
-  bool repeats() const { return map && (kind == Kind::cycle || kind == Kind::equilibrium); }
+  bool repeats() const { return map && (kind == Kind::cycle || kind == Kind::vibrating || kind == Kind::equilibrium); }
 };
 inline const char* name_of(Regime::Kind kind) {
   return kind == Regime::Kind::runaway ? "running away" : enumerator_words<Regime::Kind::interrupted>(kind);

@@ -152,6 +152,7 @@ ReturnMap::Image ReturnMap::judge(const RunOutcome& outcome, double from, double
   }
   const std::span<const double> y(outcome.state.data(), equations.size());
   image.link_angle = equations.angle_with_turns(link, y);
+  image.turned = image.link_angle - link_begin;
   if (section_) image.z = section_->read(equations.modes(), y);
   const std::string name = m.node_label(m.reduction_node);
   const double phi = place_within(image.link_angle, periodicity_.angle);

@@ -56,6 +56,7 @@ class ReturnMap {
     Eigen::VectorXd z;           // P(z), scaled
     double time = 0;             // that the round took [s]
     double link_angle = 0;       // where it ended [rad]
+    double turned = 0;           // by the link [rad]
     Eigen::MatrixXd derivative;  // ∂P/∂z, if asked for
     Eigen::RowVectorXd slowing;  // ∂(time)/∂z [s], if asked for
     double uncertain = 0;        // of an entry of the derivative, by the tolerances of the round
@@ -126,10 +127,12 @@ struct SteadyPoint {
   // Found by running alone: what further rounds would still add to z. Empty: found by Newton's method.
   Eigen::VectorXd to_come;
   double time = 0;                  // of one round [s]
+  double turned = 0;                // by the link in it [rad]
   double residual = 0;              // largest of |P(z) − z|, scaled
   int rounds = 0, derivatives = 0;  // of the map, and how many of them with derivative
   double cost = 0;                  // [cycles]
   bool grazed = false;
+  bool vibrates() const { return std::abs(turned) <= 1e-8; }  // the link does not turn in the mean
   double largest() const { return multipliers.empty() ? 0 : std::abs(multipliers.front()); }
   // One of a family: the multiplier is not to be told from 1. A machine that is merely slow is not.
   bool neutral() const { return !multipliers.empty() && std::abs(largest() - 1) <= multiplier_error; }

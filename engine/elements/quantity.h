@@ -99,6 +99,8 @@ inline constexpr QuantityKind delta{"delta", none, cycle};                      
 inline constexpr QuantityKind cycle_fluctuation{"cycle_fluctuation", none, cycle};  // the same of motion that does not
 inline constexpr QuantityKind cycle_time{"cycle_time", none, cycle};
 inline constexpr QuantityKind period{"period", none, cycle};
+inline constexpr QuantityKind vibration_frequency{"vibration_frequency", none, cycle};
+inline constexpr QuantityKind vibration_amplitude{"vibration_amplitude", none, cycle};
 inline constexpr QuantityKind driving_work_per_cycle{"driving_work_per_cycle", none, cycle};
 inline constexpr QuantityKind useful_work_per_cycle{"useful_work_per_cycle", none, cycle};
 inline constexpr QuantityKind harmful_work_per_cycle{"harmful_work_per_cycle", none, cycle};

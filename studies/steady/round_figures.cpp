@@ -115,6 +115,23 @@ std::vector<NamedShaft> shafts_of(const Model& m) {
   return shafts;
 }
 
+// Of the angles of all shafts, two each.
+std::vector<ExtremeOf> angles_of(const Model& m) {
+  std::vector<ExtremeOf> wanted;
+  for (const NamedShaft& shaft : shafts_of(m)) {
+    const int s = m.shaft_of_node[at(shaft.node)];
+    const double gain = m.gain_of_node[at(shaft.node)];
+    for (const Functional which : {Functional::greatest, Functional::least})
+      wanted.push_back({.name = Name::make(quantities::angle, shaft.name),
+                        .unit = "rad",
+                        .scale = 1,
+                        .functional = which,
+                        .value = [node = shaft.node](const Snapshot& x) { return x.node_angle[node]; },
+                        .rate = [=](const Snapshot& x) { return gain * x.now.speed[s]; }});
+  }
+  return wanted;
+}
+
 // Extremes over one round: speeds of all shafts first, two each, then torques, forces and accelerations.
 std::vector<ExtremeOf> wanted_of(const Model& m) {
   std::vector<ExtremeOf> wanted;
@@ -153,18 +170,20 @@ class RoundFigures {
       : map_(map),
         m_(map.model()),
         extremes_(wanted_of(m_)),
+        angles_(point.vibrates() ? angles_of(m_) : std::vector<ExtremeOf>{}),
         ranges_(m_),
         equations_(map.shared_model(), true),
         drives_(equations_, drives_of(m_)) {
     turned_ = -link_angle(map.place(equations_, point.z));
     outcome_ = follow_period(map, point, equations_, {.tolerance = tolerance, .extension = &drives_},
-                             {&extremes_, &ranges_});
+                             {&extremes_, &angles_, &ranges_});
     if (outcome_.diagnosis.empty()) turned_ += link_angle(outcome_.state);
   }
 
   Round collect() {
     if (!outcome_.diagnosis.empty()) return {.failed = outcome_.diagnosis};
     add_speeds();
+    add_vibration();
     add_torques();
     add_works();
     add_drives();
@@ -206,6 +225,14 @@ class RoundFigures {
             energy_scale());
       round_.shafts.push_back(std::move(f));
     }
+  }
+  // About a place, where the link does not turn in the mean.
+  void add_vibration() {
+    if (angles_.wanted().empty()) return;
+    add(quantities::vibration_frequency, "", 1 / time(), 1 / time());
+    for (std::size_t i = 0; i + 1 < angles_.wanted().size(); i += 2)
+      add(quantities::vibration_amplitude, angles_.wanted()[i].name.of,
+          0.5 * (angles_.found()[i].value - angles_.found()[i + 1].value), 1);
   }
   void add_torques() {
     for (std::size_t i = 2 * shafts_of(m_).size(); i < extremes_.wanted().size(); ++i)
@@ -265,7 +292,7 @@ class RoundFigures {
 
   const ReturnMap& map_;
   const Model& m_;
-  ExtremeRecorder extremes_;
+  ExtremeRecorder extremes_, angles_;
   DataRangeRecorder ranges_;
   Equations equations_;
   DriveQuadratures drives_;
