@@ -25,7 +25,7 @@ std::size_t steps_before(const Scene& scene, const Effects& effects, double time
 }  // namespace
 
 std::string Moment::describe() const {
-  if (after_step) return fmt::format("after step {}", *after_step);
+  if (after_step) return *after_step > 0 ? fmt::format("after step {}", *after_step) : "before step 1";
   return time ? fmt::format("at {:.6g} s", *time) : std::string();
 }
 

@@ -13,7 +13,7 @@ struct Moment {
   std::optional<std::size_t> after_step;  // of the operating sequence, counted from 1
   std::optional<double> time;             // [s]
   bool any() const { return after_step || time; }
-  std::string describe() const;  // "after step 2"; empty: none
+  std::string describe() const;  // "after step 2", "before step 1"; empty: none
 };
 
 // The scene with steps of its sequence that come later left waiting for ever. Of a time the run itself tells how many

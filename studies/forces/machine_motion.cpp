@@ -170,11 +170,9 @@ bool MachineMotion::is_driven() const {
 }
 
 Regime MachineMotion::regime() const {
-  RegimeOptions options{.tolerance = map_tolerance,
-                        .method = settings_.method == "work" ? "auto" : settings_.method,
-                        .budget = settings_.budget,
-                        .interrupted = options_.watch.interrupted,
-                        .progress = [this](const std::string& what, double part) { options_.watch.at(what, part); }};
+  RegimeOptions options = regime_options(settings_, options_.watch.interrupted);
+  options.tolerance = map_tolerance;
+  options.progress = [this](const std::string& what, double part) { options_.watch.at(what, part); };
   if (!is_driven()) options.most_rounds = rounds_undriven;
   try {
     return find_regime(model_, options);

@@ -38,6 +38,12 @@ struct SteadyAsked : SteadyOptions {
   MeasurementRequest measured;
 };
 
+void held(std::optional<double>& speed, const std::optional<double>& other, const OptionValues& given) {
+  given.read(speed);
+  if (*speed == 0) given.refuse(given.text(), "a speed other than 0, e.g. \"60 rpm\"");
+  if (other) given.refuse(given.text(), "one of mid speed and mean speed");
+}
+
 StudyOutput steady_motion(const Inquiry& inquiry, SteadyAsked asked) {
   asked.watch = inquiry.watch;
   asked.traces = inquiry.page;
@@ -65,19 +71,27 @@ Question steady_question() {
                &SteadyAsked::effects)
           .add({.name = "at",
                 .doc = "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at "
-                       "a mid speed (default: where its own start leads to)"},
+                       "a mid speed (default: where its own start leads to; of a machine that rests in the end, the "
+                       "last motion that it keeps before)"},
                OptionForm::one,
                [](SteadyAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.mid_speed); })
           .add({.name = "mid_speed",
                 .doc = "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\": finds the drive torque that it needs",
                 .example = "60 rpm",
-                .what = "a speed other than 0",
-                .former = "mean_speed"},
+                .what = "a speed other than 0"},
                OptionForm::one,
-               [](SteadyAsked& asked, const OptionValues& given) {
-                 given.read(asked.mid_speed);
-                 if (*asked.mid_speed == 0) given.refuse(given.text(), "a speed other than 0, e.g. \"60 rpm\"");
-               })
+               [](SteadyAsked& asked, const OptionValues& given) { held(asked.mid_speed, asked.mean_speed, given); })
+          .add({.name = "mean_speed",
+                .doc = "the same of the mean speed over time, 2π n/T",
+                .example = "60 rpm",
+                .what = "a speed other than 0"},
+               OptionForm::one,
+               [](SteadyAsked& asked, const OptionValues& given) { held(asked.mean_speed, asked.mid_speed, given); })
+          .add({.name = "hold_by",
+                .doc =
+                    "COMPONENT.KEY, e.g. \"load.torque\": the quantity of the scene that is scaled to keep that speed "
+                    "(default: a torque is added to the drive)"},
+               &SteadyOptions::hold_by)
           .add({.name = "periods",
                 .doc = "cycles after which the motion repeats (default: 1)",
                 .domain = {.low = 1, .high = 64}},

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "engine/analysis/kept_moment.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -101,9 +102,8 @@ class Reducer {
       model_ = compile_at(scene_, scene_.effects, options_.at);
   }
   Regime regime_of(std::shared_ptr<const Model> model, int most_rounds) const {
-    const RegimeOptions options{.method = scene_.run.method == "work" ? "auto" : scene_.run.method,
-                                .budget = scene_.run.budget,
-                                .most_rounds = most_rounds};
+    RegimeOptions options = regime_options(scene_.run);
+    options.most_rounds = most_rounds;
     Regime regime = find_regime(std::move(model), options);
     Deadline::check();
     return regime;
@@ -422,7 +422,11 @@ class Reducer {
 
 MachineReduction reduce(const Scene& scene, const ReduceOptions& options) {
   const Deadline deadline(scene.run.budget);
-  return Reducer(scene, options).run();
+  ReduceOptions asked = options;
+  const std::string later = choose_kept_moment(scene, scene.effects, regime_options(scene.run), asked.at);
+  MachineReduction reduction = Reducer(scene, asked).run();
+  if (!later.empty()) reduction.notes.push_back(later);
+  return reduction;
 }
 
 }  // namespace kurbel

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/analysis/kept_moment.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -190,9 +191,7 @@ class Sizer {
   // Torques along the steady cycle that the scene's own start leads to. A machine that stalls for want of inertia is
   // looked at with more of it.
   void find_regime_cycle() {
-    const RegimeOptions options{.method = scene_.run.method == "work" ? "auto" : scene_.run.method,
-                                .budget = scene_.run.budget,
-                                .interrupted = options_.simulation.watch.interrupted};
+    const RegimeOptions options = regime_options(scene_.run, options_.simulation.watch.interrupted);
     Regime regime = find_regime(model_, options);
     Deadline::check();
     const std::string as_it_is = regime.words;
@@ -436,7 +435,12 @@ std::string slope_of_what(const Sizing& s) {
 
 Sizing size_flywheel(const Scene& scene, const SizeOptions& options) {
   const Deadline deadline(scene.run.budget);
-  return Sizer(scene, options).run();
+  SizeOptions asked = options;
+  const std::string later = choose_kept_moment(
+      scene, scene.effects, regime_options(scene.run, options.simulation.watch.interrupted), asked.at);
+  Sizing sizing = Sizer(scene, asked).run();
+  if (!later.empty()) sizing.notes.push_back(later);
+  return sizing;
 }
 
 }  // namespace kurbel

@@ -12,6 +12,7 @@
 #include "engine/analysis/follow_period.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
@@ -66,8 +67,8 @@ class Search {
   SteadyCycle run() {
     const double begin = processor_time();
     out_.effects = effects_.describe();
-    if (options_.mid_speed) {
-      at_speed(*options_.mid_speed);
+    if (options_.holds_speed()) {
+      at_speed(*options_.held_speed());
     } else {
       freely();
     }
@@ -78,7 +79,7 @@ class Search {
 
   HeldRegime held() {
     HeldRegime held;
-    at_speed(*options_.mid_speed);
+    at_speed(*options_.held_speed());
     held.regime.kind = out_.found                                ? Regime::Kind::cycle
                        : out_.end == ReturnMap::End::interrupted ? Regime::Kind::interrupted
                                                                  : Regime::Kind::failed;
@@ -109,19 +110,10 @@ class Search {
     out_.label = is_elastic(*out_.model) ? "elastic" : "rigid";
   }
 
-  RegimeOptions regime_options() const {
-    return {.tolerance = map_tolerance,
-            .method = scene_.run.method == "work" ? "auto" : scene_.run.method,
-            .cycles = options_.periods,
-            .budget = scene_.run.budget,
-            .interrupted = options_.watch.interrupted,
-            .progress = [this](const std::string& what, double part) { options_.watch.at(what, part); }};
-  }
-
   // Where the scene's own start leads to.
   void freely() {
     describe_model(compile_network(network_, scene_, effects_));
-    Regime regime = find_regime(out_.model, regime_options());
+    Regime regime = find_regime(out_.model, regime_options(scene_, options_.periods, options_.watch));
     out_.kind = regime.kind;
     out_.regime = regime.words;
     out_.rounds = regime.rounds;
@@ -135,10 +127,11 @@ class Search {
     polished_ = regime.polished, still_changes_ = regime.still_changes;
   }
 
-  // --- a mid speed is demanded: the drive's torque is one more unknown ---
+  // --- a speed is demanded: a torque beside the drive, or a quantity of the scene, is one more unknown ---
 
   // The driving component that takes the added torque; without one, the link.
   void choose_drive() {
+    if (!options_.hold_by.empty()) return choose_quantity();
     const Network& net = network_;
     added_node_ = compile_network(net, scene_, effects_)->reduction_node;
     added_to_ = net.nodes[at(added_node_)].component;
@@ -149,29 +142,48 @@ class Search {
         return;
       }
   }
-  std::shared_ptr<const Model> model_with(double torque) const {
-    Network net = network_;
-    net.put(added_node_, added_to_, HoldingTorque{torque});
-    return compile_network(std::move(net), scene_, effects_);
+  void choose_quantity() {
+    const Setting* const setting = quantity_place(scene_.components, options_.hold_by).setting;
+    if (!setting || setting->number == 0)
+      throw std::invalid_argument(fmt::format(
+          "--hold-by {}: must name a quantity that the scene gives as a number other than 0, e.g. \"load.torque\"",
+          in_quotes(options_.hold_by)));
+    unit_ = setting->number;
   }
+  // The machine as `held` keeps its speed: a torque beside the drive [N·m], or the quantity's value.
+  Network network_with(double held) const {
+    Network net = network_;
+    if (options_.hold_by.empty()) {
+      net.put(added_node_, added_to_, HoldingTorque{held});
+      return net;
+    }
+    Scene other = scene_;
+    quantity_at(other.components, options_.hold_by)->number = held;
+    return network_as_of(other, options_.at);
+  }
+  std::shared_ptr<const Model> model_with(double held) const {
+    return compile_network(network_with(held), scene_, effects_);
+  }
+  double first_held(double speed) const { return options_.hold_by.empty() ? first_torque(speed) : unit_; }
 
-  // Unknowns: z and the added torque; residuals: P(z) − z and the miss of the mid speed, whose derivatives come from
-  // rounds beside, as it hangs on two peaks.
+  // Unknowns: z and what is held by; residuals: P(z) − z and the miss of the speed, whose derivatives come from rounds
+  // beside, as a mid speed depends on two peaks.
   void at_speed(double speed) {
     choose_drive();
-    prepare(model_with(first_torque(speed)));
+    prepare(model_with(first_held(speed)));
     if (map_->periodicity().by_time)
-      throw std::invalid_argument(
-          "--mid-speed: time drives this machine (a prescribed speed or a torque over time), so its mid speed is not "
-          "free; drop the option");
-    unit_ = out_.model->torque_scale / out_.model->scale_ratio[at(added_node_)];
+      throw std::invalid_argument(fmt::format(
+          "{}: time drives this machine (a prescribed speed or a torque over time), so its speed is not free; drop the "
+          "option",
+          option()));
+    if (options_.hold_by.empty()) unit_ = out_.model->torque_scale / out_.model->scale_ratio[at(added_node_)];
     const ReturnMap::Image guess = begin_at(speed);
     cost_ += map_->cost();
     out_.end = guess.end;
     out_.why = guess.why;
     if (guess.end != ReturnMap::End::returned) return;
     Eigen::VectorXd x(guess.z.size() + 1);
-    x << guess.z, first_torque(speed) / unit_;
+    x << guess.z, first_held(speed) / unit_;
     const NewtonOutcome newton = solve(system_at(speed), x, enough);
     out_.point.rounds = newton.rounds;
     out_.point.derivatives = newton.derivatives;
@@ -184,12 +196,20 @@ class Search {
     }
     const std::string what = image_.end != ReturnMap::End::returned ? trial_ended(newton, image_.why) : newton.why;
     out_.end = ReturnMap::End::failed;
-    out_.why = fmt::format(
-        "no added torque was found with which \"{}\" turns at {} in the mean (tried from {} on \"{}\" on): {}. Try a "
-        "mid speed further up first, more inertia, or a long kurbel run with that torque",
-        out_.model->node_label(out_.model->reduction_node), out_.model->scene.speed_unit.text(speed, 5),
-        with_unit(first_torque(speed), "N*m", 5), added_to_, what);
+    const std::string asked =
+        fmt::format("with which \"{}\" turns at {} in the mean", out_.model->node_label(out_.model->reduction_node),
+                    out_.model->scene.speed_unit.text(speed, 5));
+    out_.why = options_.hold_by.empty()
+                   ? fmt::format(
+                         "no added torque was found {} (tried from {} on \"{}\" on): {}. Try a speed further up first, "
+                         "more inertia, or a long kurbel run with that torque",
+                         asked, with_unit(first_torque(speed), "N*m", 5), added_to_, what)
+                   : fmt::format(
+                         "no {} was found {} (tried from the scene's value on): {}. Try a speed nearer to that of the "
+                         "scene, or another quantity",
+                         options_.hold_by, asked, what);
   }
+  std::string option() const { return options_.mid_speed ? "--mid-speed" : "--mean-speed"; }
 
   // A quasi-static start at that speed, or faster ones for a machine that just stops at its load's peak; where the scene
   // switches something, the machine as it is after its own start, which is brought to the speed from there.
@@ -197,12 +217,12 @@ class Search {
     ReturnMap::Image guess;
     const bool switches = !scene_.sequence.steps.empty() || is_switched(network_);
     if (switches) {
-      Regime regime = find_regime(out_.model, regime_options());
+      Regime regime = find_regime(out_.model, regime_options(scene_, options_.periods, options_.watch));
       cost_ += regime.cost;
       guess.why = "its own start does not lead to a cycle: " + regime.words;
       if (!regime.repeats()) return guess;
       if (regime.map->periodicity().by_time)
-        throw std::invalid_argument("--mid-speed: a sequence that repeats gives the period, so the speed is not free");
+        throw std::invalid_argument(option() + ": a sequence that repeats gives the period, so the speed is not free");
       map_ = regime.map;
       guess.end = ReturnMap::End::returned;
       guess.z = regime.point.z;
@@ -224,7 +244,8 @@ class Search {
     cost_ += map.cost();
     if (image_.end != ReturnMap::End::returned) return false;
     residual.resize(n + 1);
-    residual << image_.z - x.head(n), (link.mid() - speed) / std::abs(speed);
+    const double reached = options_.mid_speed ? link.mid() : image_.turned / image_.time;
+    residual << image_.z - x.head(n), (reached - speed) / std::abs(speed);
     return true;
   }
 
@@ -261,8 +282,8 @@ class Search {
     return 0;
   }
   void settle(const Eigen::VectorXd& x) {
-    const double torque = x[x.size() - 1] * unit_;
-    auto settled = std::make_shared<ReturnMap>(model_with(torque), map_options(map_tolerance));
+    held_ = x[x.size() - 1] * unit_;
+    auto settled = std::make_shared<ReturnMap>(model_with(held_), map_options(map_tolerance));
     settled->follow(*map_);
     map_ = std::move(settled);
     out_.model = map_->shared_model();
@@ -270,8 +291,11 @@ class Search {
     out_.found = true;
     out_.point.cost = out_.cost = cost_;
     out_.cost_limit = 6 * (static_cast<double>(map_->size()) + 2) * options_.periods;
-    out_.added_torque = torque;
-    out_.added_at = added_to_;
+    if (options_.hold_by.empty())
+      out_.added_torque = held_, out_.added_at = added_to_;
+    else
+      out_.held_quantity = {options_.hold_by, held_, unit_,
+                            quantity_place(scene_.components, options_.hold_by).key->unit};
   }
 
   // --- figures ---
@@ -320,16 +344,15 @@ class Search {
   // The same machine with its mechanisms extracted anew, where they work from tables.
   std::shared_ptr<const Model> model_elsewhere() const {
     if (!has_tables(network_)) return out_.model;
-    Network other = extracted_from(network_, Extraction::second);
-    if (options_.mid_speed) other.put(added_node_, added_to_, HoldingTorque{out_.added_torque});
-    return compile_network(std::move(other), scene_, effects_);
+    const Network net = options_.holds_speed() ? network_with(held_) : network_;
+    return compile_network(extracted_from(net, Extraction::second), scene_, effects_);
   }
 
   // The same search with looser tolerances and other tables; what it finds otherwise is the error.
   void measure_errors(Round& fine) {
-    const auto [loose, point] =
-        options_.mid_speed ? SteadyTwin{looser_map(*map_, looser_tolerance, model_elsewhere()), out_.point}
-                           : looser_twin(*map_, out_.point, looser_tolerance, model_elsewhere());
+    const auto [loose, point] = options_.holds_speed()
+                                    ? SteadyTwin{looser_map(*map_, looser_tolerance, model_elsewhere()), out_.point}
+                                    : looser_twin(*map_, out_.point, looser_tolerance, model_elsewhere());
     if (!point.found) return;
     for (std::size_t i = 0; i < std::min(point.multipliers.size(), out_.point.multipliers.size()); ++i)
       out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +
@@ -377,11 +400,19 @@ class Search {
   SteadyCycle out_;
   int added_node_ = 0;
   std::string added_to_;
-  double cost_ = 0, unit_ = 1;  // unit_: of the added torque [N·m]
+  double cost_ = 0, unit_ = 1, held_ = 0;  // unit_: of what the speed is held by, held_
   ReturnMap::Image image_;
 };
 
 }  // namespace
+
+RegimeOptions regime_options(const Scene& scene, int periods, const Watch& watch) {
+  RegimeOptions options = regime_options(scene.run, watch.interrupted);
+  options.tolerance = map_tolerance;
+  options.cycles = periods;
+  options.progress = [watch](const std::string& what, double part) { watch.at(what, part); };
+  return options;
+}
 
 SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyOptions& options) {
   return Search(scene, effects, options).run();

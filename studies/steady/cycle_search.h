@@ -5,6 +5,9 @@
 
 namespace kurbel {
 
+// Of a search as the scene's run asks for it: its budget, and its method unless that is one over the angle.
+RegimeOptions regime_options(const Scene& scene, int periods, const Watch& watch);
+
 SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyOptions& options);
 
 // The cycle at a mid speed that is demanded, which a torque added to the drive keeps.

@@ -9,10 +9,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/analysis/kept_moment.h"
+#include "engine/analysis/link_speeds.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
@@ -21,33 +22,14 @@
 namespace kurbel {
 namespace {
 
-// Angles at which the link turns back on its way from the scene's own start [rad].
-class TurningPoints final : public Observer {
- public:
-  explicit TurningPoints(const Model& m) : link_(m.angles[at(m.reduction_angle)]), tracked_(at(m.reduction_angle)) {}
-  void step(StepView& view) override {
-    const std::size_t speed = view.equations().speed_index(link_.shaft);
-    const auto at_time = [&](double t) { return view.at(t, speed); };
-    const double before = at_time(view.t_previous()), now = at_time(view.t());
-    if (!(before * now < 0)) return;
-    const double t = find_root(at_time, view.t_previous(), before, view.t(), now);
-    angles.push_back(view.equations().angle_with_turns(tracked_, view.at(t)));
-  }
-  std::vector<double> angles;
-
- private:
-  TrackedAngle link_;
-  std::size_t tracked_;
-};
-
-// "it swings between …": a member of no family of cycles. Empty where the link comes round.
-std::string swing_text(const std::shared_ptr<const Model>& rigid, double cycle, const std::string& link) {
+// From the scene's own start the link vibrates, and does not come round.
+bool turns_back(const std::shared_ptr<const Model>& rigid, double cycle) {
   const Model& m = *rigid;
   const std::size_t tracked = at(m.reduction_angle);
   double time = 2 * cycle / std::max(std::abs(m.scene.run.start.speed), 0.05 * m.speed_scale);
   for (int k = 0; k < 6; ++k, time *= 2) {
     Equations equations(rigid, false);
-    TurningPoints points(m);
+    TurningTimes turning(m);
     RunOptions run{.tolerance = 1e-10,
                    .method = "auto",
                    .until = time,
@@ -59,14 +41,11 @@ std::string swing_text(const std::shared_ptr<const Model>& rigid, double cycle, 
     run.stop = [&](double, std::span<const double> y) {
       return std::min(1.0, cycle - std::abs(equations.angle_with_turns(tracked, y) - begin));
     };
-    const RunOutcome outcome = integrate(equations, run, {&points});
-    if (!outcome.complete || outcome.stopped) return {};
-    if (points.angles.size() < 2) continue;
-    const auto [low, high] = std::minmax(points.angles[0], points.angles[1]);
-    return fmt::format(". From the scene's own start \"{}\" does not come round: it swings between {:.5g}° and {:.5g}°",
-                       link, low * in_degrees, high * in_degrees);
+    const RunOutcome outcome = integrate(equations, run, {&turning});
+    if (!outcome.complete || outcome.stopped) return false;
+    if (turning.times().size() > 1) return true;
   }
-  return {};
+  return false;
 }
 
 // What a cycle gains or loses is told only beyond the error of the balance.
@@ -96,10 +75,22 @@ std::string family_text(const OperatingDiagram& d, double cycle, const std::stri
       net > 0 ? "accelerates" : "slows down");
 }
 
+// "frequency 13 Hz, amplitude 0.0153 rad of "disc" …": of the shaft that vibrates most.
+std::string vibration_text(const SteadyCycle& c) {
+  const Figure* most = nullptr;
+  for (const Figure& f : c.figures)
+    if (f.what == quantities::vibration_amplitude && (!most || f.value > most->value)) most = &f;
+  return fmt::format("frequency {}{}", with_error(*c.find("vibration_frequency"), "Hz"),
+                     most ? fmt::format(", amplitude {} of \"{}\"", with_error(*most, "rad"), most->of) : "");
+}
+
 class Study {
  public:
   Study(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options)
-      : scene_(scene), effects_(effects), options_(options) {}
+      : scene_(scene), effects_(effects), options_(options) {
+    const RegimeOptions search = regime_options(scene, options.periods, options.watch);
+    out_.later = choose_kept_moment(scene, effects.back(), search, options_.at);
+  }
 
   SteadyStudy run() {
     const auto model = compile(scene_, effects_.back());
@@ -107,7 +98,9 @@ class Study {
     out_.scene_file = scene_.file;
     out_.link = model->node_label(model->reduction_node);
     out_.mid_speed = options_.mid_speed;
-    if (options_.at.any())
+    if (!out_.later.empty())
+      out_.notes.push_back(out_.later);
+    else if (options_.at.any())
       out_.notes.push_back(
           fmt::format("the machine as it is {}: what is switched later is left out", options_.at.describe()));
     find_diagram(*model);
@@ -160,19 +153,19 @@ class Study {
     return {};
   }
   int sense() const {
-    const double speed = options_.mid_speed.value_or(scene_.run.start.speed);
+    const double speed = options_.held_speed().value_or(scene_.run.start.speed);
     const StartSettings& start = scene_.run.start;
     const int on =
-        start.on.empty() || options_.mid_speed ? rigid_->reduction_node : rigid_->network.ports.at(start.on).in;
+        start.on.empty() || options_.holds_speed() ? rigid_->reduction_node : rigid_->network.ports.at(start.on).in;
     return speed / rigid_->node_ratio[at(on)] < 0 ? -1 : 1;
   }
   void refuse_family() const {
-    if (!out_.diagram || out_.diagram->uses_speed || out_.diagram->estimate || options_.mid_speed) return;
-    // Where losses are what balances it, the scene's own start says which member of the family is meant.
-    if (!(lossy_ && is_balanced(*out_.diagram)))
-      throw std::invalid_argument(
-          family_text(*out_.diagram, periodicity_of(*rigid_).angle, out_.link) +
-          (is_balanced(*out_.diagram) ? swing_text(rigid_, periodicity_of(*rigid_).angle, out_.link) : ""));
+    if (!out_.diagram || out_.diagram->uses_speed || out_.diagram->estimate || options_.holds_speed()) return;
+    // Where losses are what balances it, or where it does not come round, the scene's own start says which member of the
+    // family is meant.
+    const double cycle = periodicity_of(*rigid_).angle;
+    if (is_balanced(*out_.diagram) && (lossy_ || turns_back(rigid_, cycle))) return;
+    throw std::invalid_argument(family_text(*out_.diagram, cycle, out_.link));
   }
 
   // A simpler machine to compare with may leave a torque open that the scene's own has: a loop that is then rigid.
@@ -218,7 +211,7 @@ class Study {
           "{}. All steps of the sequence are done then; --at \"step N\" asks for the motion that the machine would "
           "keep after the Nth of them ({} in all)",
           cycle.why, scene_.sequence.steps.size());
-    if (is_interrupted(cycle) || !out_.diagram || options_.mid_speed) return cycle.why;
+    if (is_interrupted(cycle) || !out_.diagram || options_.holds_speed()) return cycle.why;
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
     const OperatingPoint* p = out_.diagram->working_point();
     if (p && cycle.kind == Regime::Kind::at_rest)
@@ -251,7 +244,7 @@ class Study {
     const SteadyCycle* rigid = nullptr;
     for (const SteadyCycle& c : out_.cycles)
       if (c.found && !is_elastic(*c.model)) rigid = &c;
-    if (!rigid || !out_.diagram || options_.mid_speed) return;
+    if (!rigid || !out_.diagram || options_.holds_speed()) return;
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;
     progress("start from rest", 0.5);
@@ -264,31 +257,39 @@ class Study {
     out_.ratios = fastest_ratios(scene_, effects, target, search_limit, options_.watch.interrupted);
   }
 
+  std::string speed_text(const SteadyCycle& c) const {
+    const SpeedUnit& unit = scene_.speed_unit;
+    const Figure* delta = c.find("delta." + out_.link);
+    return fmt::format("mean speed {}{}", with_error(*c.find("mean_speed." + out_.link) / unit.size, unit.name),
+                       delta ? ", δ = " + with_error(*delta, "") : "");
+  }
   void conclude() {
     if (!out_.complete) {
       out_.conclusion = out_.diagnosis;
       return;
     }
-    const SpeedUnit& unit = scene_.speed_unit;
     std::string text;
     for (const SteadyCycle& c : out_.cycles) {
-      const Figure* mean = c.find("mean_speed." + out_.link);
-      const Figure* delta = c.find("delta." + out_.link);
-      const char* begin = c.kind == Regime::Kind::equilibrium ? "Equilibrium, " : "Steady cycle, ";
-      text += fmt::format("{}{}: mean speed {}{}, {}", text.empty() ? begin : "; ", c.label,
-                          with_error(*mean / unit.size, unit.name), delta ? ", δ = " + with_error(*delta, "") : "",
-                          c.stability);
-      if (options_.mid_speed)
+      const char* begin = c.kind == Regime::Kind::equilibrium ? "Equilibrium, "
+                          : c.kind == Regime::Kind::vibrating ? "Vibration about a place, "
+                                                              : "Steady cycle, ";
+      text += fmt::format("{}{}: {}, {}", text.empty() ? begin : "; ", c.label,
+                          c.kind == Regime::Kind::vibrating ? vibration_text(c) : speed_text(c), c.stability);
+      if (c.held_quantity)
+        text += fmt::format(", with {} = {} in place of {}", c.held_quantity->key,
+                            with_unit(c.held_quantity->value, c.held_quantity->unit, 6),
+                            with_unit(c.held_quantity->of_scene, c.held_quantity->unit, 6));
+      else if (options_.holds_speed())
         text +=
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),
                         c.added_torque < 0 ? "less" : "more", c.added_at);
     }
-    out_.conclusion = text + ".";
+    out_.conclusion = text + (out_.later.empty() ? "." : fmt::format(". In the end {}.", out_.later));
   }
 
   const Scene& scene_;
   const std::vector<Effects>& effects_;
-  const SteadyOptions& options_;
+  SteadyOptions options_;
   std::shared_ptr<const Model> rigid_, lossy_;  // lossy: with losses by the load; null: none
   SteadyStudy out_;
 };

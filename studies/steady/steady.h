@@ -20,12 +20,17 @@ namespace kurbel {
 struct Traces;
 
 struct SteadyOptions {
-  std::optional<double> mid_speed = {};  // demanded, of the reduction link, (ω_max + ω_min)/2 [rad/s]
-  Moment at = {};                        // as the machine is then; default: when all is switched
-  int periods = 1;                       // cycles after which the motion repeats
-  bool traces = false;                   // for plots
-  bool start_search = true;              // start from rest and the gearbox ratio that starts fastest
+  // Demanded, of the reduction link, one of the two: (ω_max + ω_min)/2, or the mean over time [rad/s].
+  std::optional<double> mid_speed = {}, mean_speed = {};
+  // What keeps that speed, COMPONENT.KEY: a quantity of the scene that is scaled; empty: a torque added to the drive.
+  std::string hold_by = {};
+  Moment at = {};            // as the machine is then; default: when all is switched
+  int periods = 1;           // cycles after which the motion repeats
+  bool traces = false;       // for plots
+  bool start_search = true;  // start from rest and the gearbox ratio that starts fastest
   Watch watch = {};
+  bool holds_speed() const { return mid_speed || mean_speed; }
+  std::optional<double> held_speed() const { return mid_speed ? mid_speed : mean_speed; }
 };
 
 // δ of one shaft (theory 2.6).
@@ -48,6 +53,13 @@ struct MotorUse {
   std::optional<double> thermal() const {  // RMS over rated: what heats the windings
     return rated ? std::optional(rms / *rated) : std::nullopt;
   }
+};
+
+// A quantity of the scene with the value that a demanded speed needs.
+struct HeldQuantity {
+  std::string key;  // "load.torque"
+  double value = 0, of_scene = 0;
+  std::string unit;  // SI
 };
 
 // The steady cycle of one model.
@@ -74,10 +86,11 @@ struct SteadyCycle {
   std::vector<Figure> figures;            // with errors measured by a looser search
   std::vector<ShaftFluctuation> shafts;
   std::vector<MotorUse> motors;
-  SteadyLoads loads;         // of its joints, where any has limits
-  double work_residual = 0;  // of the cycle's works against each other, over the driving work
-  double added_torque = 0;   // constant, beside the drive, that the demanded mean speed needs [N·m]
-  std::string added_at;      // on this component's shaft
+  SteadyLoads loads;                          // of its joints, where any has limits
+  double work_residual = 0;                   // of the cycle's works against each other, over the driving work
+  double added_torque = 0;                    // constant, beside the drive, that the demanded mean speed needs [N·m]
+  std::string added_at;                       // on this component's shaft
+  std::optional<HeldQuantity> held_quantity;  // that keeps the demanded speed instead
   std::shared_ptr<const Traces> traces;
   std::vector<std::string> notes;  // how far the model holds in this motion
   std::vector<std::string> outside_data =
@@ -95,6 +108,7 @@ struct SteadyStudy {
   std::vector<SteadyCycle> cycles;          // of the models asked for
   std::optional<StartRun> start;            // rigid, from rest to 95 % of the steady speed
   std::vector<RatioSearch> ratios;
+  std::string later;  // in the end it rests, and why the motion shown is that of an earlier moment; empty: it is not
   std::vector<std::string> notes;
   std::string conclusion;
   bool complete = true;

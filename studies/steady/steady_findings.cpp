@@ -132,6 +132,11 @@ Record cycle_record(const SteadyCycle& c) {
   tell("drives", drive_list(c));
   if (!c.added_at.empty())
     tell("added_torque", Record{{"component", c.added_at}, {"value", c.added_torque}, {"unit", "N*m"}});
+  if (c.held_quantity)
+    tell("held_quantity", Record{{"key", c.held_quantity->key},
+                                 {"value", c.held_quantity->value},
+                                 {"scene_value", c.held_quantity->of_scene},
+                                 {"unit", c.held_quantity->unit}});
   tell("statistics", Record{{"unknowns", c.unknowns},
                             {"section", c.section},
                             {"rounds", c.point.rounds},

@@ -50,7 +50,7 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
                                                       with_unit(*m.rated, "N*m", 5))
                                         : ""));
   if (!c.added_at.empty())
-    words.push_back(fmt::format("the demanded mid speed needs {} N·m beside the scene's drive at \"{}\"{}",
+    words.push_back(fmt::format("the demanded speed needs {} N·m beside the scene's drive at \"{}\"{}",
                                 number(c.added_torque), c.added_at,
                                 std::abs(c.added_torque) < 1e-6 * c.model->torque_scale
                                     ? ": nothing, the machine has a cycle of this speed as it is"

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "engine/numerics/deadline.h"
+#include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
 #include "studies/modes/modes.h"
 #include "studies/run/simulate.h"
@@ -19,38 +20,6 @@
 
 namespace kurbel {
 namespace {
-
-struct QuantityPlace {
-  const Setting* setting = nullptr;  // null: the path leads to none
-  const Key* key = nullptr;
-};
-
-// The setting of a component's key that holds one quantity, or of one in a table within it.
-QuantityPlace place_of(const std::vector<Section>& sections, const std::string& path) {
-  const std::size_t dot = path.find('.');
-  if (dot == std::string::npos) return {};
-  const auto section =
-      std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == path.substr(0, dot); });
-  if (section == sections.end()) return {};
-  const Section* in = &*section;
-  for (std::size_t begin = dot + 1;;) {
-    const std::size_t end = path.find('.', begin);
-    const Setting* const setting = in->find(path.substr(begin, end - begin));
-    if (!setting || !setting->given) return {};
-    if (end == std::string::npos) {
-      const auto key = std::find_if(in->kind->keys.begin(), in->kind->keys.end(),
-                                    [&](const Key& k) { return k.name == setting->key; });
-      if (key == in->kind->keys.end() || key->type != KeyType::quantity) return {};
-      return {setting, &*key};
-    }
-    if (setting->sections.size() != 1) return {};
-    in = &setting->sections[0];
-    begin = end + 1;
-  }
-}
-Setting* quantity_at(std::vector<Section>& sections, const std::string& path) {
-  return const_cast<Setting*>(place_of(sections, path).setting);  // of these sections, which are the caller's own
-}
 
 // In SI by its unit alone. Where the reader takes it otherwise ("60 1/min" as a speed), the check against reading finds
 // it, and the parameter is read anew in every row.
@@ -279,7 +248,9 @@ RowAnswer answer_of(const MachineQuestion& q, VariedScene& varied, const std::ve
 
 }  // namespace
 
-const Key* quantity_key(const Scene& scene, const std::string& path) { return place_of(scene.components, path).key; }
+const Key* quantity_key(const Scene& scene, const std::string& path) {
+  return quantity_place(scene.components, path).key;
+}
 
 std::vector<SweptFigure> figures_of(const MachineQuestion& question) {
   VariedScene scene(question, {});

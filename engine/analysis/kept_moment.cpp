@@ -1,0 +1,51 @@
+// kept_moment.cpp — the motion at the end of all switching, and before one step after the other of it.
+#include "engine/analysis/kept_moment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kurbel {
+namespace {
+
+// Moments before something is switched for the last time, latest first.
+std::vector<Moment> earlier_moments(const Scene& scene) {
+  std::vector<Moment> moments;
+  const Sequence& sequence = scene.sequence;
+  if (sequence.repeat) return moments;
+  for (std::size_t k = sequence.steps.size(); k-- > 0;) moments.push_back({.after_step = k, .time = {}});
+  if (!moments.empty()) return moments;
+  constexpr double never = 1e299;
+  std::vector<double> edges = {0};
+  for (const Network::ShaftElement& e : build_network(scene).elements)
+    for (const double edge : {e.window.start, e.window.stop})
+      if (edge > 0 && edge < never) edges.push_back(edge);
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t k = edges.size() - 1; k > 0; --k)
+    if (edges[k] > edges[k - 1]) moments.push_back({.after_step = {}, .time = 0.5 * (edges[k - 1] + edges[k])});
+  return moments;
+}
+
+Regime regime_at(const Scene& scene, const Effects& effects, const Moment& moment, const RegimeOptions& options) {
+  const Scene then = as_of(scene, effects, moment);
+  return find_regime(compile_network(network_as_of(then, moment), then, effects), options);
+}
+
+}  // namespace
+
+std::string choose_kept_moment(const Scene& scene, const Effects& effects, const RegimeOptions& options, Moment& at) {
+  if (at.any()) return {};
+  const std::vector<Moment> earlier = earlier_moments(scene);
+  if (earlier.empty()) return {};
+  const Regime last = regime_at(scene, effects, {}, options);
+  if (last.repeats() || (last.kind != Regime::Kind::at_rest && last.kind != Regime::Kind::equilibrium)) return {};
+  for (const Moment& moment : earlier) {
+    if (!regime_at(scene, effects, moment, options).repeats()) continue;
+    at = moment;
+    return fmt::format("{}; shown is the motion that it keeps {}", last.words.substr(0, last.words.find(';')),
+                       moment.describe());
+  }
+  return {};
+}
+
+}  // namespace kurbel
