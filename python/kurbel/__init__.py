@@ -19,7 +19,7 @@ from ._kurbel import (Event, Figure, Machine, Motion, SceneError, State, __versi
                       explained_figures, keys, kinds, option_names, study_names)
 from ._results import Run, Study, Trajectory
 from ._sweep import Sweep, merge, rows_in, sweep
-from ._text import assigned, choices_of, machine
+from ._text import assigned, by_commas, choices_of, machine
 from . import _kurbel
 
 __all__ = ["Event", "Figure", "Machine", "Motion", "Run", "SceneError", "State", "Study", "Sweep", "Trajectory",
@@ -58,6 +58,7 @@ def _options(given):
     """Options as the module takes them: a flag as true, what is a list once for each, a mapping as NAME=VALUE."""
     said = []
     for key, value in given.items():
+        value = by_commas(value) if key in ("effects", "against") else value
         all_of_it = assigned(value) if isinstance(value, (Mapping, list, tuple)) else [value]
         said += [(key, ("true" if one else "false") if isinstance(one, bool) else str(one)) for one in all_of_it]
     return said

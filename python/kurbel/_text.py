@@ -58,14 +58,19 @@ def assigned(given):
     return [given] if isinstance(given, str) else list(given)
 
 
+def by_commas(names):
+    """Names of effects, as a list or joined already."""
+    return ",".join(names) if isinstance(names, (list, tuple)) else names
+
+
 def choices_of(**given):
     """Choices of a run as the module takes them: effects by commas, numbers in SI."""
     for name, value in given.items():
         if name in ("accuracy", "until", "tolerance") and isinstance(value, str):
             raise TypeError(f"{name}={value!r}: must be a number in SI units"
                             + ("" if name == "tolerance" else f"; or set={{'run.{name}': {value!r}}}"))
-    if isinstance(given.get("effects"), (list, tuple)):
-        given["effects"] = ",".join(given["effects"])
+    if "effects" in given:
+        given["effects"] = by_commas(given["effects"])
     return given
 
 

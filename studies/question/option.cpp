@@ -40,11 +40,7 @@ void OptionValues::read(std::vector<double>& value) const {
   for (const std::string& one : texts_) value.push_back(quantity(one));
 }
 
-void OptionValues::read(Effects& value) const {
-  std::string all;
-  for (const std::string& one : texts_) all += (all.empty() ? "" : ",") + one;
-  value = parse_effects(all, scene_);
-}
+void OptionValues::read(Effects& value) const { value = parse_effects(text(), scene_); }
 
 std::int64_t OptionValues::whole() const {
   std::int64_t number = 0;

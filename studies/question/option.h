@@ -66,7 +66,7 @@ class OptionValues {
   void read(std::string& value) const { value = text(); }
   void read(std::vector<std::string>& value) const { value = texts_; }
   void read(std::vector<double>& value) const;
-  void read(Effects& value) const;
+  void read(Effects& value) const;  // one text: names joined by commas
   template <class Whole>
   requires std::is_integral_v<Whole>
   void read(Whole& value) const { value = static_cast<Whole>(whole()); }
@@ -98,8 +98,7 @@ class OptionsOf {
 
   template <class M, class B>
   OptionsOf& add(OptionText text, M B::*member) {
-    constexpr bool several = std::is_same_v<M, std::vector<double>> || std::is_same_v<M, std::vector<std::string>> ||
-                             std::is_same_v<M, std::optional<Effects>>;
+    constexpr bool several = std::is_same_v<M, std::vector<double>> || std::is_same_v<M, std::vector<std::string>>;
     return add(std::move(text), several ? OptionForm::several : OptionForm::one,
                [member](Asked& asked, const OptionValues& given) { given.read(asked.*member); });
   }

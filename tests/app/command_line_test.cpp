@@ -221,6 +221,25 @@ TEST_F(CommandLine, AListOfEffectsTakesNoSceneBehindIt) {
   EXPECT_EQ(r.code, 0) << r.err;
 }
 
+// Two sets of effects are no third one: what says one thing is said once.
+TEST_F(CommandLine, WhatSaysOneThingIsGivenOnce) {
+  const std::string path = scene("until = \"0.1 s\"\n");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
+      {"run", {"--effects", "elasticity", "--effects", "gravity"}},
+      {"run", {"--effects", "none", "--effects", "none"}},
+      {"run", {"--accuracy", "1e-4", "--accuracy", "1e-6"}},
+      {"steady", {"--effects", "elasticity", "--effects", "gravity"}},
+      {"compare", {"--against", "none", "--against", "elasticity"}}};
+  for (const auto& [command, options] : cases) {
+    std::vector<std::string> arguments = {command, path, "--no-files", "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ended r = kurbel(arguments);
+    EXPECT_EQ(r.code, 2) << command << " " << options[0];
+    EXPECT_NE(r.err.find(options[0]), std::string::npos) << r.err;
+    EXPECT_NE(r.err.find("received 2"), std::string::npos) << r.err;
+  }
+}
+
 TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
   // The run itself would take hours.
   const std::string path = scene("until = \"1000000 s\"\n");

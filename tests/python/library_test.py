@@ -61,6 +61,9 @@ class Runs(unittest.TestCase):
         self.assertEqual(peaks[0], peaks[1])
         self.assertEqual(peaks[2], peaks[3])
         self.assertAlmostEqual(peaks[0] / peaks[2], 2, delta=1e-4)
+        modes = [kurbel.modes(TWO_MASSES, effects=effects).figures_of()["natural_frequency.1"].value
+                 for effects in ("elasticity,gravity", ["elasticity", "gravity"])]
+        self.assertEqual(modes[0], modes[1])
 
     def test_what_is_handed_out_says_what_it_is(self):
         run = kurbel.run(TWO_MASSES, errors=False)
