@@ -153,7 +153,7 @@ int Mechanism::growth(double angle, int direction) const {
   return ratio >= 0 ? 1 : -1;
 }
 
-double Mechanism::load(double angle, double speed, std::uint64_t acting) const {
+double Mechanism::load(double angle, double speed, const std::vector<bool>& acting) const {
   require_on_arc(*this, angle);
   const auto [x, ratio] = reduced->at(angle).output_position();
   const int direction = speed > 0 ? 1 : speed < 0 ? -1 : 0;
@@ -161,7 +161,7 @@ double Mechanism::load(double angle, double speed, std::uint64_t acting) const {
   s.travel = watches_travel() ? growth(angle, direction) * direction : (s.v >= 0 ? 1 : -1);
   double sum = 0;
   for (std::size_t k = 0; k < loads.size(); ++k) {
-    if (!(acting >> k & 1)) continue;
+    if (!acting.empty() && !acting[k]) continue;
     loads[k].take_first_piece(s, s.mode);
     sum += loads[k].value(s);
   }

@@ -4,7 +4,6 @@
 // The output slides (x [m], loads in N) or rocks (x is its angle [rad], loads in N·m).
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,9 +62,9 @@ struct Mechanism {
   // Sign of x′; on a dead centre as the motion to come has it, in that direction of the crank.
   int growth(double angle, int direction) const;
   // Σ F of the loads on the output [N], [N·m] of one that rocks, while the crank comes through this angle [rad] with
-  // this speed [rad/s]: at an edge of a law by the piece that begins there. `acting`: a bit for each load. Throws as
-  // require_on_arc.
-  double load(double angle, double speed, std::uint64_t acting = ~std::uint64_t{0}) const;
+  // this speed [rad/s]: at an edge of a law by the piece that begins there. `acting`: which loads act, in their order;
+  // empty: all. Throws as require_on_arc.
+  double load(double angle, double speed, const std::vector<bool>& acting = {}) const;
 
   // The same with its tables, its travel and the ends that its loads count from taken from there.
   Mechanism extracted_from(Extraction from) const;

@@ -32,9 +32,14 @@ bool sets(const SequenceStep& step, const std::string& component, const std::str
   });
 }
 
+// Empty where all act.
+ActingLoads some_of(ActingLoads acting) {
+  return std::find(acting.begin(), acting.end(), false) == acting.end() ? ActingLoads() : std::move(acting);
+}
+
 // What holds at the end of the sequence: a load acts where neither its mechanism nor itself was told off last.
 ActingLoads left_by(const Sequence& sequence, const std::string& component, const std::vector<SliderLoad>& loads) {
-  ActingLoads left = all_loads;
+  ActingLoads left(loads.size(), true);
   for (std::size_t k = 0; k < loads.size(); ++k) {
     std::map<std::string, bool> on;
     for (const SequenceStep& step : sequence.steps)
@@ -42,9 +47,9 @@ ActingLoads left_by(const Sequence& sequence, const std::string& component, cons
         if (said == component || said == loads[k].name || loads[k].name.starts_with(said + "."))
           on[said] = step.to > 0.5;
     for (const auto& [said, acts] : on)
-      if (!acts) left &= ~(ActingLoads{1} << k);
+      if (!acts) left[k] = false;
   }
-  return left;
+  return some_of(std::move(left));
 }
 
 std::shared_ptr<const Model> alone(const AskedMechanism& asked, const Effects& effects) {
@@ -80,9 +85,6 @@ OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects)
     : machine_(alone(asked, effects)), mechanism_(*find_mechanism(model().network, asked.name)) {
   const std::vector<SliderLoad>& loads = mechanism_.loads;
   const Sequence& sequence = asked.scene.sequence;
-  if (loads.size() > most_loads)
-    throw std::invalid_argument(
-        fmt::format("\"{}\" has {} loads; forces are found under at most {}", asked.name, loads.size(), most_loads));
   const auto touched = [&](const SliderLoad& load) {
     return std::any_of(sequence.steps.begin(), sequence.steps.end(),
                        [&](const SequenceStep& step) { return sets(step, asked.name, load.name); });
@@ -92,7 +94,7 @@ OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects)
   for (const WorkAccount& account : model().accounts) {
     const auto of =
         std::find_if(loads.begin(), loads.end(), [&](const SliderLoad& l) { return l.name == account.name; });
-    of_account_.push_back(of == loads.end() ? 0 : ActingLoads{1} << (of - loads.begin()));
+    of_account_.push_back(of == loads.end() ? -1 : static_cast<int>(of - loads.begin()));
   }
 }
 
@@ -116,8 +118,8 @@ std::string OutputLoads::words_of_sequence() const {
         "motion of the machine those that are on",
         mechanism_.name);
   std::vector<std::string> off;
-  for (std::size_t k = 0; k < mechanism_.loads.size(); ++k)
-    if (!(left_ >> k & 1)) off.push_back(mechanism_.loads[k].name);
+  for (std::size_t k = 0; k < left_.size(); ++k)
+    if (!left_[k]) off.push_back(mechanism_.loads[k].name);
   if (off.empty()) return {};
   return fmt::format("loads of {} count as the operating sequence leaves them: switched off{}", mechanism_.name,
                      off.size() == mechanism_.loads.size() ? "" : " " + listed(off, "and"));
@@ -135,10 +137,10 @@ double OutputLoads::force(double phi, const CrankMotion& motion) const {
 std::span<const double> OutputLoads::shares(double phi, const CrankMotion& motion) {
   machine_.set_modes(within(phi), motion.omega);
   const std::span<const double> all = machine_.at(within(phi), motion.omega, true).share;
-  if (motion.loads == all_loads) return all;
+  if (motion.loads.empty()) return all;
   acting_.assign(all.begin(), all.end());
   for (std::size_t i = 0; i < acting_.size(); ++i)
-    if (of_account_[i] && !(of_account_[i] & motion.loads)) acting_[i] = 0;
+    if (of_account_[i] >= 0 && !motion.loads[index(of_account_[i])]) acting_[i] = 0;
   return acting_;
 }
 
@@ -146,13 +148,12 @@ ActingLoads acting_loads(const Model& model, std::size_t element, const Instant&
   const Network::ShaftElement& e = model.network.elements[element];
   const auto is = [&](const CommandTarget& target) { return target.component == e.component; };
   const auto told = std::find_if(model.commands.begin(), model.commands.end(), is);
-  if (told == model.commands.end()) return all_loads;
+  if (told == model.commands.end()) return {};
   const double* command = now.command + (told - model.commands.begin());
-  if (command[0] <= 0.5) return 0;
-  ActingLoads on = all_loads;
+  ActingLoads on;
   for (std::size_t k = 0; k < mechanism_of(e)->mechanism().loads.size(); ++k)
-    if (command[k + 1] <= 0.5) on &= ~(ActingLoads{1} << k);
-  return on;
+    on.push_back(command[0] > 0.5 && command[k + 1] > 0.5);
+  return some_of(std::move(on));
 }
 
 // --- where the cycle is looked at ---

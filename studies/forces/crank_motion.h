@@ -34,7 +34,7 @@ struct AskedMechanism {
 
 struct CrankMotion {
   double omega = 0, alpha = 0;  // [rad/s], [rad/s²]
-  ActingLoads loads = all_loads;
+  ActingLoads loads = {};
 };
 
 // The loads on a mechanism's output, from its own element on a shaft of its own: angle and speed are the crank's.
@@ -49,7 +49,7 @@ class OutputLoads {
   void add_edges(const std::vector<double>& of_a_turn) { added_ = of_a_turn; }
 
   // As the operating sequence leaves them in the end; one that goes round leaves them as they come, and all count here.
-  ActingLoads left() const { return left_; }
+  const ActingLoads& left() const { return left_; }
   // What is to be said of that; empty: all act.
   std::string words_of_sequence() const;
   // Sum of all forces along +x [N], or of all torques on an output that rocks [N·m].
@@ -65,9 +65,9 @@ class OutputLoads {
   }
 
   const Mechanism& mechanism_;  // of that machine
-  ActingLoads left_ = all_loads;
-  bool goes_round_ = false;              // the sequence, and sets loads on its way
-  std::vector<ActingLoads> of_account_;  // the load that an account is of; 0: of none
+  ActingLoads left_;
+  bool goes_round_ = false;      // the sequence, and sets loads on its way
+  std::vector<int> of_account_;  // the load that an account is of; −1: of none
   std::vector<double> acting_;
   std::vector<double> added_;
 };

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,10 +42,8 @@ struct ForcesOptions {
   Watch watch = {};
 };
 
-// Which loads of a mechanism act, as an operating sequence has them: a bit each, in the order of its element's parts.
-using ActingLoads = std::uint64_t;
-inline constexpr ActingLoads all_loads = ~ActingLoads{0};
-inline constexpr std::size_t most_loads = 64;
+// Which loads of a mechanism act, as an operating sequence has them, in the order of its element's parts; empty: all.
+using ActingLoads = std::vector<bool>;
 
 // Powers that enter the mechanism [W].
 struct PowerFlow {
@@ -68,7 +65,7 @@ struct CyclePosition {
   double rod_angle = 0;               // β [rad]
   SliderCrankForces forces;
   PowerFlow power;
-  ActingLoads loads = all_loads;
+  ActingLoads loads = {};
 };
 
 // Order k of the crank's turn: amplitude and phase of A cos(k φ − phase).

@@ -20,7 +20,7 @@ namespace kurbel {
 struct PositionForces {
   LinkageForces forces;
   PowerFlow power;
-  ActingLoads loads = all_loads;
+  ActingLoads loads = {};
 };
 
 // Of the crank at a position.

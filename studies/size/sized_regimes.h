@@ -35,6 +35,7 @@ struct SizedRegime : SizedRound {
   bool found = false;
   std::string why;  // in words, unless it was found
   bool interrupted = false;
+  bool stops = false;              // the machine comes to rest with it; else nothing is known of its motion
   double start_speed = 0;          // of the link at its angle 0 [rad/s]
   std::vector<std::string> notes;  // how far the model holds in this motion
 };
@@ -59,6 +60,7 @@ class SizedRegimes {
     double error = 0;                   // of its flywheel [kg·m²]
     double least = 0, least_at = 0;     // the smallest δ that was found, and its flywheel [kg·m²]
     int regimes = 0;                    // asked
+    std::string unknown;                // why nothing is known of the motion with one of the inertias asked; else empty
   };
   // By secants over the logarithms of δ and of the inertia, at most eight regimes. `others`: what turns with the flywheel,
   // on its shaft [kg·m²].

@@ -317,9 +317,14 @@ load = )";
           }
       }
       double sum = 0;
-      for (std::size_t k = 0; k < mechanism->loads.size(); ++k) sum += mechanism->load(1, 30, std::uint64_t{1} << k);
+      std::vector<bool> none(mechanism->loads.size(), false);
+      for (std::size_t k = 0; k < mechanism->loads.size(); ++k) {
+        std::vector<bool> one = none;
+        one[k] = true;
+        sum += mechanism->load(1, 30, one);
+      }
       EXPECT_DOUBLE_EQ(sum, mechanism->load(1, 30));
-      EXPECT_EQ(mechanism->load(1, 30, 0), 0);
+      EXPECT_EQ(mechanism->load(1, 30, none), 0);
     }
   }
 }

@@ -106,6 +106,22 @@ TEST(SwitchedLoads, ForcesAreThoseOfTheMachineAsItIsLeft) {
   EXPECT_NE(off.notes.front().find("switched off"), std::string::npos);
 }
 
+// Of 70 loads the last is off: whatever a word of the machine holds, none stands for another.
+TEST(SwitchedLoads, OfManyEachIsSwitchedByItself) {
+  const std::string one = "load = { kind = \"opposing\", force = \"200 N\" }";
+  std::string list;
+  for (int k = 1; k <= 70; ++k)
+    list += fmt::format("{{ kind = \"constant\", force = \"{} N\" }}, ", k == 6 ? 1000 : k == 70 ? 500 : 10);
+  const Scene many = test::scene_from(with(crank, one, "load = [" + list + "]") +
+                                      "[sequence]\nsteps = [{ at = \"0 s\", set = \"crank.load70\", to = 0 }]\n");
+  const Scene sum = test::scene_from(with(crank, one, "load = { kind = \"constant\", force = \"1680 N\" }"));
+  const Forces as_many = find_forces(many, {}), as_one = find_forces(sum, {});
+  for (std::size_t k = 0; k < joint_count; ++k)
+    EXPECT_NEAR(as_many.prescribed->reaction[k].value, as_one.prescribed->reaction[k].value, 1e-9 * 3000);
+  ASSERT_TRUE(as_many.simulated && as_one.simulated);
+  EXPECT_NEAR(as_many.simulated->torque.value, as_one.simulated->torque.value, 1e-6 * 200);
+}
+
 // A motor that starts against them, or without: valves held open for half a second.
 TEST(SwitchedLoads, StartWithoutThemIsFaster) {
   const std::string text = with(with(crank, "[wheel]\nkind = \"flywheel\"",
