@@ -278,7 +278,8 @@ SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& c
       result.why = fmt::format("from {} the machine stalls at {:.5g}° of the cycle",
                                machine.model().scene.speed_unit.text(std::sqrt(2 * energy / inertia), 5),
                                pass.stalled_at() * 180 / std::numbers::pi);
-      if (i > 20 || energy > 1e3 * inertia * near * near) return result;
+      result.stalls = i > 20 || energy > 1e3 * inertia * near * near;
+      if (result.stalls) return result;
       energy *= 1.5;
       continue;
     }
@@ -292,7 +293,7 @@ SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& c
     energy = std::clamp(energy + step, 0.3 * energy, 3 * energy);
   }
   if (!result.found) {
-    if (result.why.empty()) result.why = "Newton's method finds no speed that comes back after a cycle";
+    result.why = "Newton's method finds no speed that comes back after a cycle, which does not say that there is none";
     return result;
   }
   result.why.clear();

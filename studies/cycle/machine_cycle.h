@@ -50,9 +50,10 @@ OperatingSpeed operating_speed(RigidMachine& machine);
 // with more inertia on the link. Found by Newton's method on the return map; spectrally accurate within each piece.
 struct SteadyRigidCycle {
   bool found = false;
-  std::string why;  // there is none
-  Piecewise speed;  // ω(φ) [rad/s]
-  Piecewise drive;  // M_d along it [N·m]
+  bool stalls = false;  // the machine does, from any speed: that there is no cycle is known
+  std::string why;      // none was found
+  Piecewise speed;      // ω(φ) [rad/s]
+  Piecewise drive;      // M_d along it [N·m]
   Extreme fastest, slowest;
   double multiplier = 0;  // of a disturbance of T over a cycle (Floquet); below 1: stable
   double time = 0;        // of a cycle [s]

@@ -139,6 +139,8 @@ class Reach {
           "no flywheel was found with which the {} machine has δ = {:g}: the least of {} regimes is {:.5g}, with "
           "{:.6g} kg·m²",
           which, s_.delta, found.regimes, found.least, found.least_at);
+      if (!found.unknown.empty())
+        s_.meeting_words += "; the search failed, which does not say that there is none: " + found.unknown;
       return;
     }
     const double on_shaft = found.regime->flywheel + others_;

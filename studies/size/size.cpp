@@ -342,6 +342,9 @@ class Sizer {
     return steady_rigid_cycle(*machine_, s_.cycle, drive_inertia - machine_->constant_inertia(), s_.operating->speed);
   }
 
+  static std::string not_assessed(const std::string& why) {
+    return "the inertia that gives the demanded δ with the torques as they are over the speed is not assessed: " + why;
+  }
   // δ falls as the inertia grows; a machine that stalls counts as δ = 2.
   void count_motor() {
     if (!s_.operating || !s_.needed) return;
@@ -355,20 +358,24 @@ class Sizer {
           fmt::format("with its torques as they are the sized machine's cycle is unstable: a disturbance of its energy "
                       "grows to {:.3g} of itself within a cycle, and the machine leaves it",
                       s_.with_motor->multiplier));
+    std::string unknown;
     const auto excess = [&](double log_inertia) {
       const SteadyRigidCycle c = steady(std::exp(log_inertia));
+      if (!c.found && !c.stalls) unknown = c.why;
       return (c.found ? c.delta() : 2.0) - s_.delta;
     };
     double high = std::log(exact), low = high, at_high = excess(high), at_low = at_high;
     for (int i = 0; i < 20 && at_high > 0; ++i) low = high, at_low = at_high, at_high = excess(high += 0.5);
     for (int i = 0; i < 14 && at_low <= 0; ++i) high = low, at_high = at_low, at_low = excess(low -= 0.5);
-    if (at_low <= 0 || at_high > 0) {
-      s_.soft_why = at_high > 0
+    if (!unknown.empty() || at_low <= 0 || at_high > 0) {
+      s_.soft_why = !unknown.empty() ? not_assessed(unknown)
+                    : at_high > 0
                         ? "no inertia tried gives the demanded δ with the torques as they are over the speed"
                         : "with the torques as they are over the speed δ holds down to a thousandth of the inertia";
       return;
     }
     const double root = find_root(excess, low, at_low, high, at_high, 1e-12 * s_.delta);
+    if (!unknown.empty()) return void(s_.soft_why = not_assessed(unknown));
     s_.soft = method(slope_of_what(s_).substr(4) + " counted", std::exp(root));
     s_.soft_cycle = steady(std::exp(root));
     s_.soft->delta = s_.soft_cycle->found ? std::optional(s_.soft_cycle->delta()) : std::nullopt;

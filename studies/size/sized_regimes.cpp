@@ -112,6 +112,7 @@ SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optio
                            name_of(regime.kind), regime.words));
     r.cycles = static_cast<int>(std::lround(regime.cost));
     r.interrupted = regime.kind == Regime::Kind::interrupted;
+    r.stops = regime.kind == Regime::Kind::at_rest;
     r.why = regime.words;
     if (!regime.repeats()) return r;
     fill(r, regime_cycle(regime, {motor}), model->node_ratio[kurbel::at(motor)]);
@@ -154,8 +155,11 @@ SizedRegimes::Meeting SizedRegimes::meeting(double delta, const SizedRegime& fir
     ++m.regimes;
     if (!r.found) {
       if (r.interrupted) break;
-      too_light = std::max(too_light, next);  // it stalls: that is too little inertia
-      slope *= 2;
+      if (r.stops && next < u)
+        too_light = std::max(too_light, next);  // it stalls: that is too little inertia
+      else
+        m.unknown = fmt::format("with {:.6g} kg·m²: {}", flywheel, r.why);
+      slope *= 2;  // nearer to what has a motion
       ++in_vain;
       continue;
     }

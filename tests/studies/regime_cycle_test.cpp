@@ -155,6 +155,24 @@ effects = { elasticity = true }
   EXPECT_NE(s.meeting_words.find("the least"), std::string::npos);
 }
 
+// Where no search comes to an end, nothing is known of any flywheel, and none of them counts as too light.
+TEST(RegimeCycle, ASearchThatFailsProvesNothingOfAFlywheel) {
+  const Scene scene = test::scene_file("tests/agreement/rubber_branches_crank.toml");
+  SizeOptions options;
+  options.delta = 0.012;
+  const Sizing s = size_flywheel(scene, options);
+  SizedRegimes::Parts parts{s.flywheel, s.link, s.motor, {}};
+  const Watch watch = {};
+  const SizedRegime first = SizedRegimes(scene, parts, watch).at(s.methods.front().flywheel, scene.effects, {}, false);
+  ASSERT_TRUE(first.found) << first.why;
+  parts.most_rounds = 0;
+  const SizedRegimes::Meeting m =
+      SizedRegimes(scene, parts, watch).meeting(0.5 * first.crank.value, first, s.motor_inertia, scene.effects);
+  EXPECT_FALSE(m.regime);
+  EXPECT_NE(m.unknown.find("kg·m²: after 0 rounds"), std::string::npos) << m.unknown;
+  EXPECT_EQ(m.least, first.crank.value);
+}
+
 // A press that is declutched in the end: while the clutch is in, it has a cycle.
 TEST(RegimeCycle, PressWithItsClutchInIsSizedAsItIsThen) {
   const Scene scene = test::scene_file("scenes/press_drive.toml");
