@@ -89,6 +89,7 @@ class Network {
     Over over = Over::speed;
     int node = 0;              // whose speed
     int other = -1;            // of a ratio, which is the slower speed over the faster: between these
+    int part = -1;             // of the component that may be switched by itself, a mechanism's load; −1: all of it
     std::string channel = {};  // or a channel: offset + sign · its value
     double sign = 1, offset = 0, low = 0, high = 0;  // in SI
     std::string unit = {};                           // SI, of these

@@ -139,6 +139,12 @@ RigidMachine::At RigidMachine::at(double phi, double omega, bool shares) {
   return result;
 }
 
+const Snapshot& RigidMachine::snapshot(double phi, double omega) {
+  set_modes(phi, omega);
+  fill_state(phi, omega);
+  return equations_.snapshot(0, state_);
+}
+
 // Walks once round with the modes that hold; a guard that falls below zero marks an edge, also where it comes back
 // within the same cell. s grows in the direction of motion.
 class RigidMachine::EdgeSearch {

@@ -60,6 +60,8 @@ class RigidMachine {
   };
   // With the modes that hold. Smooth in phi and omega. share is valid until the next call and needs omega ≠ 0.
   At at(double phi, double omega, bool shares = false);
+  // All of the machine there at t = 0, by the pieces that hold there. Valid until the next call; omega ≠ 0.
+  const Snapshot& snapshot(double phi, double omega);
 
   // Angles within [0, cycle()) where some torque's law changes when the link turns in this direction (±1): load edges,
   // knots of tables over angle or travel, dead centres of loads that oppose; ascending, located to 1e-13 rad.

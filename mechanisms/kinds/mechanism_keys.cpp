@@ -83,7 +83,7 @@ namespace {
 
 // Tables over the travel end somewhere.
 void limit_loads(const Mechanism& mechanism, int node, Network& net) {
-  for (const SliderLoad& load : mechanism.loads)
+  for (std::size_t k = 0; k < mechanism.loads.size(); ++k)
     std::visit(
         [&]<class Law>(const Law& law) {
           if constexpr (std::is_base_of_v<TravelForce, Law>)
@@ -92,13 +92,14 @@ void limit_loads(const Mechanism& mechanism, int node, Network& net) {
                          .of = "load",
                          .over = Network::DataRange::Over::channel,
                          .node = node,
+                         .part = static_cast<int>(k),
                          .channel = Name::make(quantities::position, mechanism.name).text,
                          .sign = -static_cast<double>(law.end.side),
                          .offset = law.end.side * law.end.position,
                          .unit = mechanism.rocks() ? "rad" : "m"},
                         *curve);
         },
-        load.law);
+        mechanism.loads[k].law);
 }
 
 }  // namespace

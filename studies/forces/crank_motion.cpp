@@ -17,6 +17,7 @@
 #include "engine/scene/units.h"
 #include "mechanisms/kinds/kinds.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/validity/outside_data.h"
 
 namespace kurbel {
 namespace {
@@ -39,6 +40,7 @@ ActingLoads some_of(ActingLoads acting) {
 
 // What holds at the end of the sequence: a load acts where neither its mechanism nor itself was told off last.
 ActingLoads left_by(const Sequence& sequence, const std::string& component, const std::vector<SliderLoad>& loads) {
+  if (sequence.repeat) return {};
   ActingLoads left(loads.size(), true);
   for (std::size_t k = 0; k < loads.size(); ++k) {
     std::map<std::string, bool> on;
@@ -52,12 +54,19 @@ ActingLoads left_by(const Sequence& sequence, const std::string& component, cons
   return some_of(std::move(left));
 }
 
+// With the loads that act in the end; of a sequence that goes round: with all.
 std::shared_ptr<const Model> alone(const AskedMechanism& asked, const Effects& effects) {
   Network network;
   const int node = network.add_node(asked.name, "", 1);  // kg·m²; forces do not see it
   network.ports[asked.name] = {node, node};
   network.components = {asked.name};
   network.put(node, asked.name, mechanism_element(asked.network, asked.name).element, {}, 0);
+  const ActingLoads left = left_by(asked.scene.sequence, asked.name, asked.mechanism().loads);
+  for (Network::DataRange range : asked.network.ranges) {
+    if (range.component != asked.name || (range.part >= 0 && !left.empty() && !left[index(range.part)])) continue;
+    range.node = node;
+    network.ranges.push_back(std::move(range));
+  }
   Scene bare;
   bare.file = asked.scene.file;
   return compile_network(std::move(network), bare, bare_machine(effects));
@@ -90,7 +99,7 @@ OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects)
                        [&](const SequenceStep& step) { return sets(step, asked.name, load.name); });
   };
   goes_round_ = sequence.repeat && std::any_of(loads.begin(), loads.end(), touched);
-  if (!sequence.repeat) left_ = left_by(sequence, asked.name, loads);
+  left_ = left_by(sequence, asked.name, loads);
   for (const WorkAccount& account : model().accounts) {
     const auto of =
         std::find_if(loads.begin(), loads.end(), [&](const SliderLoad& l) { return l.name == account.name; });
@@ -133,6 +142,8 @@ double OutputLoads::force(double phi, const CrankMotion& motion) const {
   wrap(modes, angle);
   return mechanism_.load(angle[0], motion.omega, motion.loads);
 }
+
+std::vector<std::string> OutputLoads::outside_data(double speed) { return kurbel::outside_data(machine_, speed); }
 
 std::span<const double> OutputLoads::shares(double phi, const CrankMotion& motion) {
   machine_.set_modes(within(phi), motion.omega);

@@ -54,6 +54,9 @@ class OutputLoads {
   std::string words_of_sequence() const;
   // Sum of all forces along +x [N], or of all torques on an output that rocks [N·m].
   double force(double phi, const CrankMotion& motion) const;
+  // What those that act take from beyond the ends of their tables while the crank turns round at this speed [rad/s]. A
+  // sentence each.
+  std::vector<std::string> outside_data(double speed);
   // Of each of model().accounts, reduced to the crank [N·m]; omega ≠ 0.
   std::span<const double> shares(double phi, const CrankMotion& motion);
 

@@ -216,6 +216,26 @@ void ForceCycle::widen_to(const ForceCycle& other, double times) {
   if (efficiency && other.efficiency) efficiency->widen_to(*other.efficiency, times);
 }
 
+void CycleOfForces::drop_errors(bool of_motion) {
+  const auto drop = [](auto&... figures) { (figures.error.reset(), ...); };
+  const auto drop_all = [](auto&... lists) {
+    for (auto* orders : {&lists...})
+      for (ForceHarmonic& h : *orders) h.amplitude.error.reset();
+  };
+  drop(torque, torque_mean), drop_all(torque_orders);
+  for (CycleWork& w : work) w.work.error.reset();
+  if (!of_motion) return;
+  drop(mean_speed, least_speed, greatest_speed, closure, kinetic_change, shaking_force, shaking_moment);
+  drop_all(shaking_x, shaking_y, shaking_couple);
+}
+
+void ForceCycle::drop_errors(bool of_motion) {
+  CycleOfForces::drop_errors(of_motion);
+  for (Peak& p : reaction) p.error.reset();
+  for (Estimate* flow : {&input, &useful, &harmful}) flow->error.reset();
+  if (efficiency) efficiency->error.reset();
+}
+
 // --- works ---
 
 namespace {

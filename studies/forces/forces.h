@@ -4,6 +4,7 @@
 // torques drive it, with the scene's effects, and the forces follow from the motion that it keeps.   (theory 9)
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <complex>
@@ -115,6 +116,8 @@ struct CycleOfForces {
 
   // Every error by `times` the difference to the other one; peaks are compared by magnitude.
   void widen_to(const CycleOfForces& other, double times);
+  // Of what hangs on the loads, and of all else that hangs on how they move the machine.
+  void drop_errors(bool of_motion);
 };
 void widen_peak(Peak& peak, const Peak& other, double times);
 
@@ -136,6 +139,7 @@ struct ForceCycle : CycleOfForces {
   int most_iterations = 0;
 
   void widen_to(const ForceCycle& other, double times);
+  void drop_errors(bool of_motion);
 };
 
 struct LinkageCycle;  // linkage_cycle.h
@@ -156,6 +160,7 @@ struct AboutForces {
   SpeedUnit speed_unit;
   bool elastic = false;  // the second problem's machine is
   UnboundedReactions unbounded;
+  std::vector<std::string> outside_data;  // what is taken from beyond the ends of tables; that has no error
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;
@@ -175,6 +180,16 @@ struct Forces : StudyOfForces<ForceCycle, CyclePosition> {
   std::shared_ptr<const LinkageCycle> links;  // of the problem in front, joints without friction: motion and inertia
   std::vector<Counterweight> counterweights;  // the first: as it is
 };
+
+// A problem under loads from outside of their data.
+template <class Cycle>
+void tell_outside_data(AboutForces& about, const std::vector<std::string>& sentences, Cycle& cycle, bool simulated) {
+  if (sentences.empty()) return;
+  for (const std::string& sentence : sentences)
+    if (std::find(about.outside_data.begin(), about.outside_data.end(), sentence) == about.outside_data.end())
+      about.outside_data.push_back(sentence);
+  cycle.drop_errors(simulated);
+}
 
 // Of a study of forces: the problems that were solved, the first of them first; the last one is the machine's own motion,
 // where there is one.

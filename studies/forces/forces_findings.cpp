@@ -27,7 +27,7 @@ bool has_friction(const Forces& f) { return !f.joints.frictionless(); }
 // With its error where that shows.
 std::string efficiency_text(const ForceCycle& c) {
   constexpr double shows = 5e-5;
-  const double value = c.efficiency->value, error = *c.efficiency->error;
+  const double value = c.efficiency->value, error = c.efficiency->error.value_or(0);
   return error > shows ? fmt::format("{:.3g} ± {:.1g} %", 100 * value, 100 * error)
                        : fmt::format("{:.4g} %", 100 * value);
 }
@@ -139,7 +139,7 @@ Record cycle_record(const ForceCycle& c) {
   tell("work_in", c.input.value);
   tell("work_useful", c.useful.value);
   tell("work_harmful", c.harmful.value);
-  tell("works_error", std::max({*c.input.error, *c.useful.error, *c.harmful.error}));
+  tell("works_error", larger_error(c.input, {0, larger_error(c.useful, c.harmful)}));
   tell("friction_residual", c.friction_residual);
   tell("positions_on_both_edges", c.both_edges);
   tell("positions", each(c.rows, position_record));

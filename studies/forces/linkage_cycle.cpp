@@ -317,6 +317,18 @@ void LinkageCycle::widen_to(const LinkageCycle& other, double times) {
   }
 }
 
+void LinkageCycle::drop_errors(bool of_motion) {
+  CycleOfForces::drop_errors(of_motion);
+  for (NamedPeak& reaction : reactions) reaction.peak.error.reset();
+  for (LinkOfCycle& l : links) {
+    if (!of_motion) return;
+    for (Peak* peak : {&l.omega, &l.alpha, &l.inertia_force, &l.inertia_couple}) peak->error.reset();
+    for (Estimate* mean :
+         {&l.reduced_inertia, &l.inertia_share, &l.least_share, &l.greatest_share, &l.energy, &l.energy_share})
+      mean->error.reset();
+  }
+}
+
 namespace {
 
 // The machine's own torque on the crank, held against that of the links' equilibrium: where they differ (inertia that is
@@ -364,6 +376,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   options.watch.say(
       fmt::format("first problem: {} at {} ({})", asked.name, out.speed_unit.text(speed.value), speed.source));
   out.prescribed = linkage_cycle(data, loads, steady_motion(loads, speed.value, options.positions));
+  tell_outside_data(out, loads.outside_data(speed.value), *out.prescribed, false);
   out.unbounded = unbounded_reactions(data, loads, speed.value);
   describe_first(speed, loads, machine, out, *out.prescribed);
   mark_unbounded(out.unbounded, *out.prescribed);
@@ -378,6 +391,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   for (const SimulatedMotion::Other& other : motion->others)
     out.simulated->widen_to(linkage_cycle(data, loads, other.motion), other.times);
   hold_against_machine(data, loads, *motion, *out.simulated, out.notes);
+  tell_outside_data(out, motion->outside_data, *out.simulated, true);
   out.simulated->label = "simulated";
   out.simulated->description = motion->description;
   mark_unbounded(out.unbounded, *out.simulated);

@@ -48,6 +48,7 @@ struct LinkageCycle : CycleOfForces {
   double equation_residual = 0;  // largest, of the links' equilibrium
 
   void widen_to(const LinkageCycle& other, double times);
+  void drop_errors(bool of_motion);
 };
 
 // At one angle of the crank; of a mechanism that passes change points, beside them.

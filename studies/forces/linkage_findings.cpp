@@ -37,6 +37,7 @@ Findings begin_findings(const AboutForces& f, const CycleOfForces& front, const 
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
   to.answer(f.complete ? Topic::figures : Topic::runs, conclusion, f.complete ? 0 : 100);
+  for (const std::string& sentence : f.outside_data) to.answer(Topic::sure, sentence, 0.5);
   to.tell("mechanism", f.mechanism);
   return to;
 }

@@ -14,6 +14,7 @@
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/validity/outside_data.h"
 
 namespace kurbel {
 namespace {
@@ -186,6 +187,7 @@ Regime MachineMotion::regime() const {
 struct MachineMotion::Sampled {
   MotionAlong along;
   std::vector<MachineForces> machine;
+  std::vector<std::string> outside_data;  // of a run
 };
 
 std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, const Regime& regime,
@@ -204,6 +206,7 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
                                      effects_ == "none" ? "rigid" : effects_, loads.cycle() * 360 / turn,
                                      cycles > 1 ? fmt::format(", {} of them until it comes again", cycles) : "");
     motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
+    motion.outside_data = kurbel::outside_data(*regime.map, regime.point);
     motion.kept = true;
     return motion;
   } catch (const std::invalid_argument& refused) {
@@ -312,12 +315,14 @@ MachineMotion::Sampled MachineMotion::one_run(const std::vector<Abscissa>& where
   out.along.where = where;
   std::vector<double> targets = targets_of(where, origin);
   PassageRecorder passages(crank_.tracked, crank_.node, forces_, where, std::move(targets), direction);
+  DataRangeRecorder ranges(*model_);
   Equations equations(model_, false);
-  integrate(equations, run_options(tolerance), {&passages});
+  integrate(equations, run_options(tolerance), {&passages, &ranges});
   if (passages.passed.size() != where.size())
     throw std::runtime_error(
         "the simulated crank does not repeat its way between two tolerances; ask for more accuracy (run.accuracy)");
   out.along.motion = std::move(passages.passed), out.machine = std::move(passages.machine);
+  out.outside_data = ranges.sentences();
   return out;
 }
 
@@ -400,6 +405,7 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   else
     out.notes.push_back(fmt::format("the simulated motion is the last whole cycle of the scene's run ({})", why));
   motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
+  motion.outside_data = std::move(tight.outside_data);
   return motion;
 }
 

@@ -26,9 +26,10 @@ struct SimulatedMotion {
   MotionAlong along;
   std::vector<MachineForces> machine;  // at each of its abscissae, by the machine's own equations
   std::vector<Other> others;
-  bool kept = false;     // by the machine: its regime
-  bool deforms = false;  // the mechanism does
-  std::string effects;   // of the machine, in words
+  std::vector<std::string> outside_data;  // what it takes from beyond the ends of tables
+  bool kept = false;                      // by the machine: its regime
+  bool deforms = false;                   // the mechanism does
+  std::string effects;                    // of the machine, in words
   std::string description;
 };
 

@@ -18,6 +18,7 @@
 #include "studies/cycle/classical.h"
 #include "studies/reduce/along_cycle.h"
 #include "studies/reduce/targets.h"
+#include "studies/validity/outside_data.h"
 #include "studies/validity/substitutes.h"
 
 namespace kurbel {
@@ -80,6 +81,8 @@ class Reducer {
     for (int k = 0; k < options_.positions; ++k) r_.positions.push_back(position(k, r_.cycle * k / options_.positions));
     add_curve();
     add_spectra();
+    if (machine_) r_.outside_data = outside_data(*machine_, r_.speed);
+    if (!r_.outside_data.empty()) drop_errors();
     r_.chain = elastic_chain(m, target_node_);
     add_notes();
     if (options_.also)
@@ -124,6 +127,7 @@ class Reducer {
       return without_a_cycle(error.what());
     }
     looser_ = looser_regime_cycle(regime, nodes);
+    r_.outside_data = outside_data(*regime.map, regime.point);
     r_.cycle = along_->cycle().way();
     r_.sense = along_->cycle().sense;
     r_.to_ratio = along_->mean_ratio();
@@ -304,6 +308,14 @@ class Reducer {
     r_.load_error = largest_difference(fine[2], (*loose)[2]);
     r_.mean_drive = estimate_from(r_.mean_drive.value, (*loose)[1].mean(), rounding * fine[1].largest());
     r_.mean_load = estimate_from(r_.mean_load.value, (*loose)[2].mean(), rounding * fine[2].largest());
+  }
+  // Of torques, and of inertia where it is that of the motion which they make.
+  void drop_errors() {
+    for (std::optional<double>* error : {&r_.drive_error, &r_.load_error, &r_.mean_drive.error, &r_.mean_load.error})
+      error->reset();
+    if (along_) r_.inertia_error.reset();
+    for (std::size_t i = along_ ? 0 : 1; i < r_.spectra.size(); ++i)
+      for (Harmonic& h : r_.spectra[i].harmonics) h.amplitude.error.reset();
   }
   // Within pieces: at an edge either may be a hair late, so that the other is looked at on both sides of it.
   static double largest_difference(const Piecewise& f, const Piecewise& looser) {

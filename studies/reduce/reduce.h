@@ -105,6 +105,7 @@ struct MachineReduction {
   Estimate mean_drive, mean_load;      // on the link [N·m]
   // Largest over the cycle, on the link: of I_r [kg·m²], M_d and M_c [N·m]. Nothing comes round: none.
   std::optional<double> inertia_error, drive_error, load_error;
+  std::vector<std::string> outside_data;  // what torques are taken from beyond the ends of tables; they have no errors
   std::vector<std::string> notes;
 };
 

@@ -242,7 +242,10 @@ Formulas formulas_of(const MachineReduction& r) {
 }
 
 std::string errors_text(const MachineReduction& r) {
-  if (!r.inertia_error) return "no errors are known: nothing comes round";
+  if (!r.inertia_error || !r.drive_error || !r.load_error)
+    return fmt::format(
+        "no errors are known{}: {}", r.inertia_error ? " of M_d and M_c" : "",
+        r.outside_data.empty() ? "nothing comes round" : "torques are taken from outside of their tables");
   return fmt::format(
       "errors, on {}: I_r ± {:.1g} kg·m², M_d ± {:.1g} N·m, M_c ± {:.1g} N·m (found and sampled 100 times "
       "less closely)",
@@ -277,6 +280,7 @@ Findings findings_of(const MachineReduction& r) {
   f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);
   f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
   f.answer(Topic::figures, conclusion_of(r));
+  for (const std::string& sentence : r.outside_data) f.answer(Topic::sure, sentence, 0.5);
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
   tell_all(f, r);

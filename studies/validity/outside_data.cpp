@@ -7,9 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
+#include "engine/numerics/period.h"
 #include "engine/run/recorders.h"
 #include "engine/scene/units.h"
+#include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -28,13 +31,36 @@ std::string in_words(const DataRange& range, double x, const SpeedUnit& unit) {
   return speed ? unit.text(x, 6) : with_unit(x, range.unit, 6);
 }
 
+// Of a cycle: evenly, and where the outputs of mechanisms turn round.
+std::vector<double> angles_of(const RigidMachine& machine) {
+  constexpr int of_a_turn = 720;
+  const double cycle = machine.cycle();
+  const auto cells = static_cast<int>(std::lround(of_a_turn * cycle / turn));
+  std::vector<double> angles;
+  for (int i = 0; i <= cells; ++i) angles.push_back(cycle * i / cells);
+  for (const Network::ShaftElement& e : machine.model().network.elements) {
+    const MechanismElement* const element = mechanism_of(e);
+    const double ratio = machine.model().node_ratio[at(e.node)];
+    if (!element || ratio == 0) continue;
+    const double own = element->mechanism().cycle();
+    for (const double reversal : element->mechanism().travel.reversals)
+      for (int k = 0; k < std::max(1.0, std::round(std::abs(ratio) * cycle / own)); ++k)
+        angles.push_back(place_within((reversal + k * own - e.phase) / ratio, cycle));
+  }
+  return angles;
+}
+
 }  // namespace
 
 DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
   for (const DataRange& range : model.network.ranges) {
-    Watched watched{range, {}, {}};
+    Watched watched{range, {}, {}, {}};
     for (std::size_t e = 0; e < model.network.elements.size(); ++e)
       if (model.network.elements[e].component == range.component) watched.elements.push_back(e);
+    const auto told = std::find_if(model.commands.begin(), model.commands.end(),
+                                   [&](const CommandTarget& target) { return target.component == range.component; });
+    if (range.part >= 0 && told != model.commands.end())
+      watched.command = at(told - model.commands.begin()) + 1 + at(range.part);
     const auto shaft = at(model.shaft_of_node[at(range.node)]);
     const double gain = model.gain_of_node[at(range.node)];
     switch (range.over) {
@@ -49,6 +75,7 @@ DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
         break;
       case DataRange::Over::ratio_of_speeds: {
         const auto other = at(model.shaft_of_node[at(range.other)]);
+        if (shaft == other) break;
         watched.value = [=, of_other = model.gain_of_node[at(range.other)]](const Snapshot& s) {
           const double a = gain * s.now.speed[shaft], b = of_other * s.now.speed[other];
           const auto [slower, faster] = std::abs(a) < std::abs(b) ? std::pair(a, b) : std::pair(b, a);
@@ -69,6 +96,7 @@ DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
 }
 
 bool DataRangeRecorder::is_in_force(const Watched& watched, const Snapshot& snapshot) const {
+  if (watched.command && snapshot.now.command[*watched.command] <= 0.5) return false;
   return watched.elements.empty() || std::any_of(watched.elements.begin(), watched.elements.end(),
                                                  [&](std::size_t e) { return snapshot.now.active[e] != 0; });
 }
@@ -122,12 +150,13 @@ std::vector<std::string> DataRangeRecorder::sentences() const {
                                        in_words(range, end, unit), since_[i])});
         continue;
       }
-      list.push_back(
-          fmt::format("the {} of \"{}\" is taken from outside its table, which {}; {}. No error is known of "
-                      "what hangs on it; beyond = \"hold\" or \"line\" would make it part of the data",
-                      range.of, range.component, where,
-                      (above ? range.line_above : range.line_below) ? "its last slope goes on there"
-                                                                    : "its end value holds there"));
+      std::string sentence = fmt::format(
+          "the {} of \"{}\" is taken from outside its table, which {}; {}. No error is known of "
+          "what hangs on it; beyond = \"hold\" or \"line\" would make it part of the data",
+          range.of, range.component, where,
+          (above ? range.line_above : range.line_below) ? "its last slope goes on there" : "its end value holds there");
+      // Both branches of a table may end at one place.
+      if (std::find(list.begin(), list.end(), sentence) == list.end()) list.push_back(std::move(sentence));
     }
   }
   if (!refused.empty()) throw SceneError(refused);
@@ -155,6 +184,13 @@ void tell_outside_data(const DataRangeRecorder& ranges, Result& result) {
 std::vector<std::string> outside_data(ReturnMap& map, const SteadyPoint& point) {
   DataRangeRecorder recorder(map.model());
   if (!recorder.empty()) map.image(point.z, false, {&recorder});
+  return recorder.sentences();
+}
+
+std::vector<std::string> outside_data(RigidMachine& machine, double speed) {
+  DataRangeRecorder recorder(machine.model());
+  if (!recorder.empty())
+    for (const double phi : angles_of(machine)) recorder.see(0, machine.snapshot(phi, speed));
   return recorder.sentences();
 }
 

@@ -11,6 +11,7 @@
 
 #include "engine/analysis/return_map.h"
 #include "engine/model/model.h"
+#include "engine/rigid/rigid_machine.h"
 #include "engine/run/run.h"
 #include "studies/findings/result.h"
 
@@ -22,6 +23,7 @@ class DataRangeRecorder final : public Observer {
   explicit DataRangeRecorder(const Model& model);
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
+  void see(double t, const Snapshot& snapshot);
   void remember(Tape& tape) override { tape(since_, least_, greatest_); }
   bool empty() const { return watched_.empty(); }
 
@@ -33,11 +35,11 @@ class DataRangeRecorder final : public Observer {
  private:
   struct Watched {
     Network::DataRange range;
-    std::vector<std::size_t> elements;  // whose torque it is; none: always in force
+    std::vector<std::size_t> elements;   // whose torque it is; none: always in force
+    std::optional<std::size_t> command;  // that a part of it has for itself
     std::function<double(const Snapshot&)> value;
   };
   bool is_in_force(const Watched& watched, const Snapshot& snapshot) const;
-  void see(double t, const Snapshot& snapshot);
 
   const Model& model_;
   std::vector<Watched> watched_;
@@ -52,6 +54,9 @@ void tell_outside_data(const DataRangeRecorder& ranges, Result& result);
 
 // Of the steady motion from the map's fixed point: a round more, only where there are such tables. A sentence each.
 std::vector<std::string> outside_data(ReturnMap& map, const SteadyPoint& point);
+
+// Of the rigid machine whose link turns round once at this speed [rad/s], ≠ 0. A sentence each.
+std::vector<std::string> outside_data(RigidMachine& machine, double speed);
 
 // Whether this speed of the link lies beyond a table over the speed [rad/s].
 bool lies_beyond_a_table(const Model& model, double link_speed);

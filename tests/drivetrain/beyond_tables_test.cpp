@@ -9,6 +9,8 @@
 #include <random>
 
 #include "engine/scene/messages.h"
+#include "studies/forces/forces_findings.h"
+#include "studies/reduce/reduce.h"
 #include "studies/report/render.h"
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady.h"
@@ -125,6 +127,119 @@ run = {{ until = "5 s", start = "rest" }}
   EXPECT_TRUE(tells(part));
   EXPECT_FALSE(part.find("final_speed.mill")->error);
   EXPECT_FALSE(tells(run(scene("points = [[0.5, 0.0019], [0.95, 0.0008], [1, 0]], beyond = \"hold\""), false)));
+}
+
+// A press whose load is known over `covered` of its 100 mm of travel.
+Scene press_known_over(const std::string& covered, const std::string& motor, const std::string& more = "") {
+  return scene_from(fmt::format(R"(
+line = ["motor", "press"]
+motor = {{ kind = {} }}
+press = {{ kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "1 kg*m2", slider_mass = "5 kg", load = [{{ kind = "opposing", force = "100 N" }}, {{ kind = "table", force = {{ over = "travel", unit = ["mm", "N"], points = {} }} }}] }}
+run = {{ until = "5 s", start = {{ speed = "9 rad/s" }} }}
+{})",
+                                motor, covered, more));
+}
+const std::string shunt =
+    R"("dc shunt motor", stall_torque = "200 N*m", no_load_speed = "10 rad/s", inertia = "20 kg*m2")";
+const std::string part = "[[0, 500], [60, 100]]", held_on = "[[0, 500], [60, 100]], beyond = \"hold\"";
+
+const std::string& conclusion(const StudyOutput& output) { return output.conclusion; }
+bool says_outside(const std::string& text) { return text.find("outside its table") != std::string::npos; }
+
+// Forces and balancing torque under a load from outside of its table are told without an error, what the given motion alone
+// makes with it; both problems.
+TEST(BeyondTables, ForcesUnderALoadFromOutsideHaveNoErrors) {
+  for (const auto& [points, outside] : {std::pair(part, true), std::pair(held_on, false)}) {
+    const Forces f = find_forces(press_known_over(points, shunt), {});
+    ASSERT_TRUE(f.prescribed && f.simulated);
+    for (const ForceCycle* cycle : {&*f.prescribed, &*f.simulated}) {
+      for (const Peak& reaction : cycle->reaction) EXPECT_EQ(reaction.error.has_value(), !outside) << points;
+      for (const Estimate* figure : {static_cast<const Estimate*>(&cycle->torque), &cycle->torque_mean, &cycle->input})
+        EXPECT_EQ(figure->error.has_value(), !outside) << points;
+    }
+    EXPECT_TRUE(f.prescribed->mean_speed.error && f.prescribed->shaking_force.error);
+    EXPECT_EQ(f.simulated->mean_speed.error.has_value(), !outside);
+    EXPECT_EQ(f.simulated->shaking_force.error.has_value(), !outside);
+    const StudyOutput output = output_of(f);
+    EXPECT_EQ(says_outside(conclusion(output)), outside) << conclusion(output);
+    if (!outside) continue;
+    EXPECT_NE(conclusion(output).find("which ends at 0.06 m, and the motion goes to 0.1 m"), std::string::npos)
+        << conclusion(output);
+    EXPECT_EQ(f.outside_data.size(), 1u) << "once, though both problems leave it";
+  }
+}
+
+TEST(BeyondTables, ForcesInOtherMechanismsLikewise) {
+  for (const char* beyond : {"", ", beyond = \"hold\""}) {
+    const Scene scene = scene_from(fmt::format(R"(
+line = ["motor", "saw"]
+motor = {{ kind = {} }}
+saw = {{ kind = "four-bar", crank = "0.1 m", coupler = "0.4 m", rocker = "0.3 m", ground = "0.45 m", crank_inertia = "1 kg*m2", coupler_mass = "1 kg", load = {{ kind = "table", torque = {{ over = "swing", unit = ["deg", "N*m"], points = [[0, 20], [5, 10]]{} }} }} }}
+run = {{ until = "5 s", start = {{ speed = "9 rad/s" }} }}
+)",
+                                               shunt, beyond));
+    const LinkageStudy f = find_linkage_forces(scene, {});
+    ASSERT_TRUE(f.prescribed && f.simulated);
+    const bool outside = *beyond == 0;
+    for (const LinkageCycle* cycle : {&*f.prescribed, &*f.simulated}) {
+      EXPECT_EQ(cycle->reactions.front().peak.error.has_value(), !outside);
+      EXPECT_EQ(cycle->torque.error.has_value(), !outside);
+    }
+    EXPECT_TRUE(f.prescribed->links.front().inertia_force.error);
+    EXPECT_EQ(f.simulated->links.back().inertia_force.error.has_value(), !outside);
+    EXPECT_EQ(says_outside(conclusion(output_of(f))), outside);
+  }
+}
+
+// The motor's table ends below the speed that the machine keeps: the crank's given motion does not ask it.
+TEST(BeyondTables, ForcesOfAGivenMotionHangOnNoMotor) {
+  const Scene scene = press_known_over(
+      held_on,
+      R"("motor", inertia = "20 kg*m2", torque = { over = "speed", unit = ["rad/s", "N*m"], points = [[0, 200], [8, 100]] })");
+  const Forces f = find_forces(scene, {});
+  ASSERT_TRUE(f.prescribed && f.simulated);
+  EXPECT_TRUE(f.prescribed->torque.error);
+  EXPECT_GT(f.simulated->mean_speed.value, 8);
+  EXPECT_FALSE(f.simulated->torque.error);
+  EXPECT_TRUE(says_outside(conclusion(output_of(f))));
+}
+
+// A load that the operating sequence leaves off asks for nothing.
+TEST(BeyondTables, ALoadThatIsOffIsTakenFromNowhere) {
+  const Scene off =
+      press_known_over(part, shunt, R"(sequence = { steps = [{ at = "0 s", set = "press.load2", to = 0 }] })");
+  const Forces f = find_forces(off, {});
+  ASSERT_TRUE(f.prescribed && f.simulated);
+  EXPECT_TRUE(f.outside_data.empty()) << f.outside_data.front();
+  EXPECT_TRUE(f.prescribed->torque.error && f.simulated->torque.error);
+  EXPECT_FALSE(tells(run(off)));
+  EXPECT_TRUE(tells(run(press_known_over(part, shunt))));
+}
+
+TEST(BeyondTables, ReducedTorquesFromOutsideHaveNoErrors) {
+  for (const auto& [points, outside] : {std::pair(part, true), std::pair(held_on, false)}) {
+    const MachineReduction r = reduce(press_known_over(points, shunt), {});
+    EXPECT_EQ(r.basis, ReduceBasis::classical);
+    EXPECT_EQ(r.mean_load.error.has_value(), !outside);
+    EXPECT_EQ(r.load_error.has_value(), !outside);
+    EXPECT_TRUE(r.inertia_error) << "no torque is in it";
+    EXPECT_TRUE(r.spectra.front().harmonics.front().amplitude.error);
+    EXPECT_EQ(r.spectra.back().harmonics.front().amplitude.error.has_value(), !outside);
+    EXPECT_EQ(says_outside(conclusion(output_of(r))), outside) << conclusion(output_of(r));
+  }
+  ReduceOptions options;
+  options.basis = ReduceBasis::regime;
+  const MachineReduction r = reduce(press_known_over(part, shunt), options);
+  EXPECT_FALSE(r.mean_load.error || r.inertia_error);
+  EXPECT_TRUE(says_outside(conclusion(output_of(r))));
+  // At a speed that is given beyond a motor's table.
+  const std::string table =
+      R"("motor", inertia = "20 kg*m2", torque = { over = "speed", unit = ["rad/s", "N*m"], points = [[0, 200], [12, 100]] })";
+  for (const double speed : {11.0, 13.0}) {
+    ReduceOptions given;
+    given.speed = speed;
+    EXPECT_EQ(reduce(press_known_over(held_on, table), given).outside_data.empty(), speed < 12) << speed;
+  }
 }
 
 // Random drives and loads by table over speed and time, against what the trajectory itself shows.
