@@ -252,8 +252,8 @@ void Flow::write_quadratures(double* rate) {
   }
   for (std::size_t i = 0; i < m.torque_joints.size(); ++i) {
     const TorqueJoint& joint = m.torque_joints[i];
-    const double tau = joint_torques_.torque()[at(joint.joint)];
-    const double spring = joint.elastic >= 0 ? spring_torque_[at(joint.elastic)] : tau;
+    const double tau = joint.torque(joint_torques_.torque().data());
+    const double spring = joint.elastic >= 0 ? joint.told(spring_torque_.data(), joint.elastic) : tau;
     rate[m.accounts.size() + 2 * i] = tau * tau;
     rate[m.accounts.size() + 2 * i + 1] = spring * spring;
   }

@@ -46,6 +46,9 @@ class Sampler final : public Observer {
       out_.twist[j][next_] = s.now.twist[j] - rest;
       mean_[equations.twist_index(static_cast<int>(j))] -= rest;
     }
+    for (const TorqueJoint& joint : m_.torque_joints)
+      if (joint.elastic >= 0)
+        out_.torque[at(joint.elastic)][next_] = joint.told(s.sums.connection_torque, joint.elastic);
   }
 
   const Model& m_;

@@ -84,6 +84,21 @@ struct TrackedAngle {
   double gain = 1;  // dφ/dt = gain · ω
 };
 
+// What a joint is said to transmit: its own torque, or of a shaft by its dimensions that in its middle, of what its parts
+// transmit (lobatto_element.h).
+struct ToldTorque {
+  std::vector<double> weight = {};  // of the parts in their order; empty: the joint's own
+  // `own`: of a joint among all, of a shaft of its part in the middle.
+  template <class T>
+  T operator()(const T* all, int own) const {
+    if (weight.empty()) return all[own];
+    const T* const part = all + own - static_cast<std::ptrdiff_t>(weight.size() / 2);
+    T sum{};
+    for (std::size_t k = 0; k < weight.size(); ++k) sum += weight[k] * part[k];
+    return sum;
+  }
+};
+
 // A coupling, whether it stayed elastic or was merged: its torque is a result of every run.
 struct TorqueJoint {
   std::string component;
@@ -91,6 +106,8 @@ struct TorqueJoint {
   int elastic = -1;           // index of the elastic joint; −1: merged, torque by d'Alembert
   int first = -1, last = -1;  // elastic joints whose twists together are the component's
   double torque_scale = 1;    // [N·m]
+  ToldTorque told = {};
+  double torque(const double* of_joints) const { return told(of_joints, joint); }  // per joint of the network [N·m]
 };
 
 // A motor: the elements of a component that drive and tell a rated torque and speed. Or what turns a shaft whose speed is

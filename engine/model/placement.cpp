@@ -9,6 +9,7 @@
 #include "engine/model/relations.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/numerics/lobatto_element.h"
 
 namespace kurbel {
 namespace {
@@ -243,6 +244,7 @@ void list_torque_joints(Compilation& c) {
       if (joint.chain >= 0 && m.network.chains[at(joint.chain)].degree > 0) {
         if (2 * k != total + 1) continue;  // the torque of a continuous shaft is that in its middle
         if (joint.elastic) listed.first -= k - 1, listed.last += total - k;
+        listed.told = {lobatto_element(total).middle};
       } else if (total > 20 && k != 1 && k != total) {
         continue;  // both ends of a long chain
       } else if (joint.label.empty() && total > 1) {

@@ -55,6 +55,19 @@ MatrixXd point_stiffness(const VectorXd& x, const VectorXd& weight) {
   return 4 * slope.transpose() * weight.asDiagonal() * slope;  // d/d(place) = 2 d/dx
 }
 
+// −dφ/ds at s = ½ by the twists between neighbours: of each the slopes of all points behind it. No point is there.
+VectorXd twists_in_the_middle(const VectorXd& x) {
+  const Index n = x.size();
+  VectorXd by_twist = VectorXd::Zero(n - 1);
+  for (Index i = 1; i < n; ++i) {
+    double value = 1, slope = 0;  // of the polynomial that is 1 at this point, 0 at the others; d/ds = 2 d/dx
+    for (Index j = 0; j < n; ++j)
+      if (j != i) value *= -x[j] / (x[i] - x[j]), slope -= 2 / x[j];
+    by_twist.head(i).array() += value * slope;
+  }
+  return by_twist;
+}
+
 struct Made : LobattoElement {
   MatrixXd points;  // stiffness between the points
   VectorXd held;    // x of the modes with both ends held
@@ -78,6 +91,10 @@ struct Made : LobattoElement {
     for (Index k = 0; k < p; ++k)
       for (Index l = 0; l < p; ++l) stiffness.push_back(s(k, l)), compliance.push_back(inverse(k, l));
     if (p == 1) return;
+    if (p % 2 == 1) {
+      const VectorXd torque = inverse.transpose() * twists_in_the_middle(x);
+      middle.assign(torque.begin(), torque.end());
+    }
     const VectorXd scale = w.segment(1, p - 1).cwiseSqrt().cwiseInverse();
     const MatrixXd inner = scale.asDiagonal() * points.block(1, 1, p - 1, p - 1) * scale.asDiagonal();
     held = symmetric_eigenvalues(inner).cwiseSqrt();

@@ -14,6 +14,9 @@ struct LobattoElement {
   std::vector<double> weight;      // w, Σ w = 1
   std::vector<double> stiffness;   // S, p × p by rows, symmetric
   std::vector<double> compliance;  // S⁻¹
+  // Of an odd degree above 1: the torque in the middle, −k dφ/ds of the polynomial through the points, over the torques
+  // between neighbours, which balance points alone: middle · τ. It converges as frequencies do.
+  std::vector<double> middle;
   double share(int k) const { return place[static_cast<std::size_t>(k + 1)] - place[static_cast<std::size_t>(k)]; }
 };
 

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "engine/elements/coupled_springs.h"
 #include "engine/numerics/index.h"
+#include "engine/numerics/lobatto_element.h"
 #include "engine/run/recorders.h"
 
 namespace kurbel {
@@ -37,11 +39,11 @@ void refuse_too_many(const Scene& scene, std::size_t channels) {
 
 Channel torque_of(const TorqueJoint& joint) {
   return {Name::make(quantities::torque, joint.component), "N*m",
-          [j = joint.joint](const Snapshot& s) { return s.joint_torque[j]; }};
+          [joint](const Snapshot& s) { return joint.torque(s.joint_torque); }};
 }
 Channel spring_torque_of(const TorqueJoint& joint) {
   return {Name::make(quantities::spring_torque, joint.component), "N*m",
-          [e = joint.elastic](const Snapshot& s) { return s.sums.spring_torque[e]; }};
+          [joint](const Snapshot& s) { return joint.told(s.sums.spring_torque, joint.elastic); }};
 }
 Channel torque_of(const GearTorque& torque) {
   return {Name::make(quantities::torque, torque.name), "N*m",
@@ -153,21 +155,25 @@ class ChannelList {
   std::vector<Channel> channels_;
 };
 
-// A part of a row: its torque follows the twists and their rates of all parts.
+// A part of a row: its torque, and that in the middle of all, follows the twists and their rates of all parts.
 void tell_rates_of_row(const Model& model, const TorqueJoint& joint, const AnyConnection& part, ExtremeOf& transmitted,
                        ExtremeOf& spring) {
   const SpringRow* row = part.row.get();
   const int k = part.row_part, first = joint.first;
-  spring.slope =
-      spring.rate = [row, k, first](const Snapshot& s) { return row->spring_torque(k, s.sums.twist_rate + first); };
+  const auto by_twists = [row, k, told = joint.told](const double* twist) {
+    std::array<double, highest_lobatto_degree> torque{};
+    for (int l = 0; l < row->size; ++l) torque[at(l)] = row->spring_torque(l, twist);
+    return told(torque.data(), k);
+  };
+  spring.slope = spring.rate = [by_twists, first](const Snapshot& s) { return by_twists(s.sums.twist_rate + first); };
   const auto* const elastic = model.elastic.data() + first;
-  transmitted.slope = transmitted.rate = [row, k, first, elastic](const Snapshot& s) {
-    double damper = 0;
+  transmitted.slope = transmitted.rate = [by_twists, row, first, elastic](const Snapshot& s) {
+    std::array<double, highest_lobatto_degree> acceleration{};
     for (int l = 0; l < row->size; ++l) {
       const ElasticJoint& e = elastic[l];
-      damper += row->stiffness[at(k * row->size + l)] * (e.gain_a * s.alpha[e.shaft_a] - e.gain_b * s.alpha[e.shaft_b]);
+      acceleration[at(l)] = e.gain_a * s.alpha[e.shaft_a] - e.gain_b * s.alpha[e.shaft_b];
     }
-    return row->spring_torque(k, s.sums.twist_rate + first) + row->retardation * damper;
+    return by_twists(s.sums.twist_rate + first) + row->retardation * by_twists(acceleration.data());
   };
 }
 

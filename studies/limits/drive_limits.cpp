@@ -33,6 +33,8 @@ std::vector<LimitedJoint> limited_joints(const Model& model) {
   for (const ElasticJoint& e : model.elastic) {
     const Network::Joint& joint = model.network.joints[at(e.joint)];
     LimitedJoint one{.name = names[joints.size()], .component = joint.component, .joint = e.joint};
+    for (const TorqueJoint& known : model.torque_joints)
+      if (known.joint == e.joint) one.told = known.told;
     one.stands = model.node_ratio[at(joint.a)] == 0;
     one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
     one.turns = std::abs(model.node_ratio[at(joint.a)]);

@@ -23,6 +23,7 @@ struct LimitedJoint {
   std::string name;  // of its component; numbered where that has several: "shaft.2"
   std::string component;
   int joint = 0;          // in the network
+  ToldTorque told = {};   // of it
   bool stands = false;    // it holds what does not turn, a housing: the drive's rated torque says nothing of it
   double rated = 0;       // torque of the drive at its rated point, reduced to this joint [N·m]
   double turns = 0;       // its speed over the reduction link's

@@ -55,7 +55,7 @@ class Integrals final : public Observer {
     slowest_ = std::min(slowest_, std::abs(omega));
     const Complex turn = std::polar(1.0, -2 * pi * (t - begin_) / round_);
     for (std::size_t i = 0; i < joints_.size(); ++i) {
-      const double torque = s.joint_torque[joints_[i].joint];
+      const double torque = joints_[i].told(s.joint_torque, joints_[i].joint);
       Sums& sum = sums_[i];
       sum.first += weight * torque;
       sum.square += weight * torque * torque;
@@ -152,7 +152,7 @@ SteadyLoads constant_loads(const Regime& regime, const std::shared_ptr<const Mod
   loads.speed = link_speed(*machine, s), loads.slowest = std::abs(loads.speed);
   for (const LimitedJoint& joint : joints) {
     JointLoad load;
-    load.mean.value = load.upper.value = load.lower.value = s.joint_torque[joint.joint];
+    load.mean.value = load.upper.value = load.lower.value = joint.told(s.joint_torque, joint.joint);
     loads.joints.push_back(load);
   }
   return loads;

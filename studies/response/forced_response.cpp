@@ -144,6 +144,8 @@ std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omeg
   torque += drive_.spring_torques(twist);
   std::vector<JointSwing> all;
   for (Index j = 0; j < twist.size(); ++j) all.push_back({torque[j], twist[j]});
+  for (const TorqueJoint& joint : drive_.model->torque_joints)
+    if (joint.elastic >= 0) all[at(joint.elastic)].torque = joint.told(torque.data(), joint.elastic);
   return all;
 }
 

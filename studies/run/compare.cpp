@@ -44,7 +44,7 @@ std::map<std::string, double> torques_at_start(const Result& result) {
   const std::vector<double> y = equations.start(0);
   const Snapshot& s = equations.snapshot(0, y);
   std::map<std::string, double> torques;
-  for (const TorqueJoint& joint : result.model->torque_joints) torques[joint.component] = s.joint_torque[joint.joint];
+  for (const TorqueJoint& joint : result.model->torque_joints) torques[joint.component] = joint.torque(s.joint_torque);
   return torques;
 }
 

@@ -26,6 +26,8 @@ class Torques final : public Observer {
       if (t > view.t()) break;
       const Snapshot& s = view.snapshot(t);
       for (std::size_t j = 0; j < of_.size(); ++j) of_[j].push_back(s.joint_torque[at(m.elastic[j].joint)]);
+      for (const TorqueJoint& joint : m.torque_joints)
+        if (joint.elastic >= 0) of_[at(joint.elastic)].back() = joint.torque(s.joint_torque);
     }
   }
   const std::vector<std::vector<double>>& of() const { return of_; }
