@@ -40,6 +40,13 @@ Eigen::VectorXd loosely_reached(const ReturnMap& map) {
 
 }  // namespace
 
+Eigen::VectorXd uncertainty_of_member(ReturnMap& map) {
+  Eigen::VectorXd apart = loosely_reached(map);
+  const Eigen::VectorXd along = map.along_the_motion(Eigen::VectorXd::Zero(apart.size()));
+  if (along.squaredNorm() > 0) apart -= along * along.dot(apart) / along.squaredNorm();
+  return apart;
+}
+
 std::string trial_ended(const NewtonOutcome& search, const std::string& why) {
   return fmt::format(
       "the search failed, which does not say that there is none: of {} trial{} of Newton's method the last did not "

@@ -26,6 +26,10 @@ NewtonOutcome solve_in_family(const NewtonSystem& system, const Eigen::VectorXd&
 // much it may be another: what is left to the run's own, and what a run with looser steps comes to.
 bool is_member_of_run(const ReturnMap& map, SteadyPoint& point);
 
+// What the member of a family that the section's run belongs to is uncertain by: where a run from the scene's start with steps
+// 100 times looser is at the section's time or angle, less what lies along the motion itself.
+Eigen::VectorXd uncertainty_of_member(ReturnMap& map);
+
 // What is said of a search whose last trial had no residual: `why` tells of that trial, not of the machine.
 std::string trial_ended(const NewtonOutcome& search, const std::string& why);
 

@@ -253,8 +253,9 @@ class Search {
   void rest_on_run(const std::shared_ptr<ReturnMap>& map) {
     const ReturnMap::Image way = map->approach_from(state_);
     if (way.end != ReturnMap::End::returned) return spend(*map);
-    const SteadyPoint point = find_by_rounds(*map, way.z, 10 * enough_by_run);
+    SteadyPoint point = find_by_rounds(*map, way.z, 10 * enough_by_run);
     if (!point.found) return spend(*map);
+    if (point.vibrates()) point.to_come += uncertainty_of_member(*map);
     spend(*map);
     accept(map, point);
     out_.polished = out_.stable = false;
@@ -330,20 +331,35 @@ class Search {
       if (!(period > 0) || change > same_time * period) continue;
       // While it still settles as fast as this, a few rounds more are worth it: the period is taken as it is.
       if (change > settled_time * period && change < settling * std::exchange(period_changes_, change)) return false;
-      const auto map = std::make_shared<ReturnMap>(shared_, map_options(), period);
       if (period_.by_time && std::abs(std::remainder(period, period_.time)) < same_time * period_.time) continue;
       if (!go_where_least_happens(times[0], period)) return false;
+      const double exact = events_.empty() ? by_whole_state(period) : period;
+      const auto map = std::make_shared<ReturnMap>(shared_, map_options(), exact);
       period_.by_time = true;
-      const double of_laws = std::exchange(period_.time, period);
+      const double of_laws = std::exchange(period_.time, exact);
       rest_on_run(map);
       if (done_) {
-        out_.words = fmt::format("everything comes again after {:.6g} s: {}", period, why);
+        out_.words = fmt::format("everything comes again after {:.6g} s: {}", exact, why);
         return true;
       }
       period_.time = of_laws;
       period_.by_time = of_laws > 0;
     }
     return false;
+  }
+
+  // A period that the link's turning tells to the run's tolerance, corrected by as much as the whole state lags behind.
+  double by_whole_state(double period) {
+    for (int twice = 0; twice < 2; ++twice) {
+      ReturnMap map(shared_, map_options(), period);
+      const ReturnMap::Image way = map.approach_from(state_);
+      const ReturnMap::Image round = way.end == ReturnMap::End::returned ? map.image(way.z, false) : way;
+      spend(map);
+      if (round.end != ReturnMap::End::returned) break;
+      const Eigen::VectorXd along = map.along_the_motion(way.z);
+      if (along.squaredNorm() > 0) period -= along.dot(round.z - way.z) / along.squaredNorm();
+    }
+    return period;
   }
 
   void polish() {

@@ -353,11 +353,17 @@ class Reducer {
       for (const ReducedPosition& p : r_.positions)
         if (!p.singular.empty())
           left_out += fmt::format("{}{} ({:.4g}°)", left_out.empty() ? "" : ", ", p.number, p.phi * 360 / turn);
-      if (!left_out.empty())
+      if (!left_out.empty()) {
+        r_.notes.push_back(fmt::format(
+            "the motion itself is not integrated over the way of {}: at a dead centre x′ = 0 while \"{}\" turns on, so "
+            "that no equation of motion in x goes through it; kurbel run integrates over time or angle and tells x, v "
+            "and a",
+            r_.to, r_.link));
         r_.notes.push_back(fmt::format(
             "left out: position {}: a dead centre, where {} stands still; {} are infinite there", left_out, r_.to,
             r_.to_rocker ? "reduced inertia I_r/x′² and torque M/x′"
                          : "reduced mass m_r = I_r/x′² and force F_r = M/x′"));
+      }
     }
   }
 

@@ -379,7 +379,9 @@ class Sizer {
     s_.soft = method(slope_of_what(s_).substr(4) + " counted", std::exp(root));
     s_.soft_cycle = steady(std::exp(root));
     s_.soft->delta = s_.soft_cycle->found ? std::optional(s_.soft_cycle->delta()) : std::nullopt;
-    s_.soft->error = s_.methods.front().error;
+    // δ is the difference of two speeds that are good to the sampling of the cycle, and I₀ goes as 1/δ.
+    const double by_speeds = 2 * cycle_sampling / s_.delta * s_.soft->drive_inertia / square(s_.flywheel_ratio);
+    if (const auto& error = s_.methods.front().error) s_.soft->error = *error + by_speeds;
   }
 
   // A tool that works in less than half of the cycle.

@@ -199,13 +199,14 @@ class RoundFigures {
     add(Name::make(what, of), value, scale);
   }
   double link_angle(std::span<const double> y) const { return equations_.angle_with_turns(at(m_.reduction_angle), y); }
+  bool vibrates() const { return !angles_.wanted().empty(); }
   double time() const { return outcome_.t - map_.start_time(); }
   double energy_scale() const { return m_.torque_scale * 2 * std::numbers::pi; }
   // Of the link: its cycle, and the period after which all repeats.
   void add_times(const std::string& link) {
     add(quantities::period, "", time(), time());
-    if (m_.cycle > 0 && turned_ != 0) add(quantities::cycle_time, link, time() * m_.cycle / std::abs(turned_), time());
-    add(quantities::mean_speed, link, turned_ / time(), m_.speed_scale);
+    if (m_.cycle > 0 && !vibrates()) add(quantities::cycle_time, link, time() * m_.cycle / std::abs(turned_), time());
+    add(quantities::mean_speed, link, vibrates() ? 0 : turned_ / time(), m_.speed_scale);
   }
   void add_speeds() {
     const std::vector<NamedShaft> shafts = shafts_of(m_);
@@ -228,7 +229,7 @@ class RoundFigures {
   }
   // About a place, where the link does not turn in the mean.
   void add_vibration() {
-    if (angles_.wanted().empty()) return;
+    if (!vibrates()) return;
     add(quantities::vibration_frequency, "", 1 / time(), 1 / time());
     for (std::size_t i = 0; i + 1 < angles_.wanted().size(); i += 2)
       add(quantities::vibration_amplitude, angles_.wanted()[i].name.of,

@@ -243,7 +243,7 @@ class Study {
   void find_start() {
     const SteadyCycle* rigid = nullptr;
     for (const SteadyCycle& c : out_.cycles)
-      if (c.found && !is_elastic(*c.model)) rigid = &c;
+      if (c.found && c.kind != Regime::Kind::vibrating && !is_elastic(*c.model)) rigid = &c;
     if (!rigid || !out_.diagram || options_.holds_speed()) return;
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;

@@ -212,7 +212,7 @@ TEST(Steady, SpeedIsHeldByAQuantityOfTheScene) {
     ASSERT_TRUE(study.complete) << study.diagnosis;
     ASSERT_TRUE(study.cycles[0].held_quantity);
     EXPECT_NEAR(study.cycles[0].held_quantity->value, 60 * (1 - speed / 40), 1e-7);
-    EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.load"), speed, 1e-8);
+    EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.motor"), speed, 1e-8);
   }
   EXPECT_TRUE(has(thrown_by(scene, {.mean_speed = 10, .hold_by = "load.mass"}), "must name a quantity"));
 }
