@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
@@ -158,14 +157,6 @@ void Progress::operator()(const std::string& what, double fraction) {
 
 namespace {
 
-// What was set beside the scene stands in every summary.
-std::string with_settings(const std::string& json, const std::vector<std::string>& set) {
-  if (set.empty()) return json;
-  auto summary = nlohmann::ordered_json::parse(json);
-  summary["set"] = set;
-  return summary.dump(2);
-}
-
 // Of the one scene that a command is about.
 std::optional<SettledText>& scene_read() {
   static std::optional<SettledText> text;
@@ -231,13 +222,13 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
 
 }  // namespace
 
-int present(const StudyOutput& study, const StudyOptions& options, bool all) {
-  StudyOutput output = study;
-  output.json = with_settings(study.json, options.set);
+int present(StudyOutput output, const StudyOptions& options, bool all) {
+  // What was set beside the scene stands in every summary.
+  if (!options.set.empty()) output.summary.push_back({"set", options.set});
   // Asked once: what is decided here holds for the files as for the exit code.
   const bool stopped = interrupt_seen;
   if (options.json)
-    say(printable_json(output.json) + "\n");
+    say(output.json() + "\n");
   else if (options.quiet)
     say(printable(output.conclusion) + "\n");
   else if (all || output.brief.empty())

@@ -71,6 +71,6 @@ void add_former_name(OptionList& command, const std::string& name, std::string& 
 
 // Prints, writes the files unless asked not to, and returns the exit code.
 // `all`: the long form where there is a short one, too.
-int present(const StudyOutput& output, const StudyOptions& options, bool all = false);
+int present(StudyOutput output, const StudyOptions& options, bool all = false);
 
 }  // namespace kurbel::app

@@ -52,14 +52,14 @@ Study diff(const Machine& a, const Machine& b, const Options& given, const Watch
 
 std::vector<FigureValue> Study::figures() const {
   std::vector<FigureValue> all;
-  for (FigureRow& row : summary_tables(parts_->output.json).figures)
+  for (FigureRow& row : summary_tables(parts_->output.summary).figures)
     all.push_back({std::move(row.name), row.value, std::move(row.unit), row.error, row.at, std::move(row.of)});
   return all;
 }
 
 std::string Study::conclusion() const { return parts_->output.conclusion; }
 std::string Study::text() const { return parts_->output.table; }
-std::string Study::json() const { return parts_->output.json; }
+std::string Study::json() const { return parts_->output.json(); }
 std::string Study::html() const { return html_of(parts_->output.report()); }
 bool Study::complete() const { return parts_->output.complete; }
 std::string Study::diagnosis() const { return parts_->output.diagnosis; }

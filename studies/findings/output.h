@@ -19,7 +19,7 @@ struct StudyOutput {
   std::string table;               // for a terminal, ends with a newline; holds the conclusion
   std::string brief = {};          // the same in short, the conclusion a sentence a line; empty: there is none
   std::string headline = {};       // the conclusion as the short form has it
-  std::string json;                // the same figures for programs
+  Record summary;                  // the same figures for programs: summary.json
   std::function<Report()> report;  // made only when it is written
   std::vector<CsvFile> csv = {};
   bool complete = true;
@@ -27,6 +27,8 @@ struct StudyOutput {
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
   std::string next = {};  // what to do with it, where files are written: {scene}, {summary} stand for their names
   std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
+
+  std::string json() const;  // the summary as text
 
   void add_file(const std::string& name, std::string text) {
     csv.push_back({name, [text = std::move(text)] { return text; }});
@@ -39,7 +41,10 @@ std::string terminal_text(const Findings& findings);
 std::string brief_text(const Findings& findings);
 // Sentence by sentence on lines of at most Brief::width columns.
 std::string headline_text(const Findings& findings);
-std::string summary_json(const Findings& findings);
+// What summary.json holds.
+Record summary_of(const Findings& findings);
+// A record as JSON, indented by two blanks; what is not UTF-8 is replaced, control characters are escaped.
+std::string json_text(const Record& record);
 Report page_of(const Findings& findings);
 
 StudyOutput rendered(Findings findings);

@@ -1,4 +1,5 @@
 // render_json.cpp — findings for programs: summary.json.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/printable.h"
@@ -37,14 +38,23 @@ Json json_of(const Value& value) {
   });
 }
 
-void tell(Json& j, const Rows& rows) {
-  if (!rows.key.empty()) j[rows.key] = json_of(Value(rows.list()));
+// What is said of a key again stands in the place of what was said first.
+void put(Record& summary, const std::string& key, Value value) {
+  const auto said = std::find_if(summary.begin(), summary.end(), [&](const Field& field) { return field.key == key; });
+  if (said == summary.end())
+    summary.push_back({key, std::move(value)});
+  else
+    said->value = std::move(value);
 }
-void tell(Json& j, const Sentences& words) {
-  if (!words.key.empty()) j[words.key] = words.lines;
+
+void tell(Record& summary, const Rows& rows) {
+  if (!rows.key.empty()) put(summary, rows.key, rows.list());
 }
-void tell(Json& j, const Field& field) { j[field.key] = json_of(field.value); }
-void tell(Json&, const Drawn&) {}
+void tell(Record& summary, const Sentences& words) {
+  if (!words.key.empty()) put(summary, words.key, words.lines);
+}
+void tell(Record& summary, const Field& field) { put(summary, field.key, field.value); }
+void tell(Record&, const Drawn&) {}
 
 }  // namespace
 
@@ -59,17 +69,23 @@ List Rows::list() const {
   return list;
 }
 
-std::string summary_json(const Findings& f) {
-  Json j = {{"version", summary_version}};
-  if (!f.title.empty()) j["title"] = f.title;
-  if (!f.scene_file.empty()) j["scene"] = f.scene_file;
-  if (!f.speed_unit.empty()) j["speed_unit"] = f.speed_unit;
-  if (f.tells_complete) j["complete"] = f.complete;
-  if (!f.complete && f.tells_diagnosis) j["diagnosis"] = f.diagnosis;
-  j["conclusion"] = f.conclusion();
-  for (const Statement& s : f.statements) std::visit([&](const auto& what) { tell(j, what); }, s.what);
-  // What is no UTF-8 is replaced, and no terminal obeys it.
-  return printable_json(j.dump(2, ' ', false, Json::error_handler_t::replace));
+Record summary_of(const Findings& f) {
+  Record summary = {{"version", summary_version}};
+  if (!f.title.empty()) put(summary, "title", f.title);
+  if (!f.scene_file.empty()) put(summary, "scene", f.scene_file);
+  if (!f.speed_unit.empty()) put(summary, "speed_unit", f.speed_unit);
+  if (f.tells_complete) put(summary, "complete", f.complete);
+  if (!f.complete && f.tells_diagnosis) put(summary, "diagnosis", f.diagnosis);
+  put(summary, "conclusion", f.conclusion());
+  for (const Statement& s : f.statements) std::visit([&](const auto& what) { tell(summary, what); }, s.what);
+  return summary;
 }
+
+std::string json_text(const Record& record) {
+  // What is no UTF-8 is replaced, and no terminal obeys it.
+  return printable_json(json_of(record).dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+std::string StudyOutput::json() const { return json_text(summary); }
 
 }  // namespace kurbel

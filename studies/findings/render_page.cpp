@@ -161,7 +161,7 @@ StudyOutput rendered(Findings findings) {
           .table = terminal_text(*kept),
           .brief = brief_text(*kept),
           .headline = headline_text(*kept),
-          .json = summary_json(*kept),
+          .summary = summary_of(*kept),
           .report = [kept] { return page_of(*kept); },
           .csv = kept->csv,
           .complete = kept->complete,

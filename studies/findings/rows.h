@@ -68,6 +68,11 @@ class Value {
   decltype(auto) visit(F&& f) const {
     return std::visit(std::forward<F>(f), what_);
   }
+  // bool, std::int64_t, double, std::string, List or Record; null: it is another.
+  template <class T>
+  const T* as() const {
+    return std::get_if<T>(&what_);
+  }
 
  private:
   struct Whole {

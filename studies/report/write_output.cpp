@@ -13,7 +13,7 @@ std::filesystem::path write_output(const StudyOutput& output, const std::filesys
   ResultSet set(place);
   make_table_files(output, options.formats,
                    [&](const std::string& name, const std::string& bytes) { set.add(name, bytes); });
-  set.add("summary.json", output.json + "\n");
+  set.add("summary.json", output.json() + "\n");
   const Report report = output.report();
   set.add("report.html", html_of(report, options.head));
   if (options.plots) {

@@ -1,32 +1,42 @@
-// summary_tables.cpp — a walk through summary.json.
+// summary_tables.cpp — a walk through a summary.
 #include "studies/tables/summary_tables.h"
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include "studies/dictionary/dictionary.h"
 
 namespace kurbel {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string text_in(const Json& record, const char* key) {
-  const auto found = record.find(key);
-  return found != record.end() && found->is_string() ? found->get<std::string>() : "";
+const Value* value_of(const Record& record, const char* key) {
+  const auto found = std::find_if(record.begin(), record.end(), [&](const Field& field) { return field.key == key; });
+  return found == record.end() ? nullptr : &found->value;
 }
 
-std::optional<double> number_in(const Json& record, const char* key) {
-  const auto found = record.find(key);
-  return found != record.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+std::string text_in(const Record& record, const char* key) {
+  const Value* value = value_of(record, key);
+  const std::string* text = value ? value->as<std::string>() : nullptr;
+  return text ? *text : "";
 }
 
-bool is_figure(const Json& record) {
-  return !text_in(record, "name").empty() && number_in(record, "value") && record.contains("unit");
+// What is not finite is not known.
+std::optional<double> number_in(const Record& record, const char* key) {
+  const Value* value = value_of(record, key);
+  if (!value) return {};
+  if (const std::int64_t* whole = value->as<std::int64_t>()) return static_cast<double>(*whole);
+  const double* number = value->as<double>();
+  return number && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
 }
 
-bool is_event(const Json& record) { return number_in(record, "t") && record.contains("component"); }
+bool is_figure(const Record& record) {
+  return !text_in(record, "name").empty() && number_in(record, "value") && value_of(record, "unit");
+}
 
-FigureRow figure_row(const Json& record, const std::string& of) {
+bool is_event(const Record& record) { return number_in(record, "t") && value_of(record, "component"); }
+
+FigureRow figure_row(const Record& record, const std::string& of) {
   FigureRow row{.of = of,
                 .name = text_in(record, "name"),
                 .value = *number_in(record, "value"),
@@ -38,28 +48,33 @@ FigureRow figure_row(const Json& record, const std::string& of) {
   return row;
 }
 
-void walk(const Json& json, const std::string& of, SummaryTables& into) {
-  if (json.is_array()) {
-    for (const Json& item : json) walk(item, of, into);
-  } else if (json.is_object()) {
-    if (is_figure(json)) into.figures.push_back(figure_row(json, of));
-    if (is_event(json))
-      into.events.push_back(
-          {of, *number_in(json, "t"), text_in(json, "component"), text_in(json, "from"), text_in(json, "what")});
-    const std::string label = text_in(json, "label");
-    for (const auto& [key, value] : json.items()) {
-      const bool models = key == "models" && value.is_object();
-      if (!models) walk(value, label.empty() ? of : label, into);
-      for (auto model = value.begin(); models && model != value.end(); ++model) walk(*model, model.key(), into);
-    }
+void walk(const Value& value, const std::string& of, SummaryTables& into);
+
+void walk(const Record& record, const std::string& of, SummaryTables& into) {
+  if (is_figure(record)) into.figures.push_back(figure_row(record, of));
+  if (is_event(record))
+    into.events.push_back(
+        {of, *number_in(record, "t"), text_in(record, "component"), text_in(record, "from"), text_in(record, "what")});
+  const std::string label = text_in(record, "label");
+  for (const auto& [key, value] : record) {
+    if (const Record* models = key == "models" ? value.as<Record>() : nullptr)
+      for (const Field& model : *models) walk(model.value, model.key, into);
+    else
+      walk(value, label.empty() ? of : label, into);
   }
+}
+
+void walk(const Value& value, const std::string& of, SummaryTables& into) {
+  if (const Record* record = value.as<Record>()) walk(*record, of, into);
+  if (const List* list = value.as<List>())
+    for (const Value& item : *list) walk(item, of, into);
 }
 
 }  // namespace
 
-SummaryTables summary_tables(const std::string& json) {
+SummaryTables summary_tables(const Record& summary) {
   SummaryTables tables;
-  walk(Json::parse(json), "", tables);
+  walk(summary, "", tables);
   return tables;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "studies/findings/rows.h"
+
 namespace kurbel {
 
 struct FigureRow {
@@ -27,8 +29,8 @@ struct SummaryTables {
   std::vector<EventRow> events;
 };
 
-// All that stand in a summary.json, wherever: what has a name, a value and a unit is a figure, what lies in a list of
-// events with a time is an event.
-SummaryTables summary_tables(const std::string& json);
+// All that stand in a summary, wherever: what has a name, a value and a unit is a figure, what has a time and a component
+// is an event.
+SummaryTables summary_tables(const Record& summary);
 
 }  // namespace kurbel

@@ -116,7 +116,7 @@ bool prints_no_number(const std::string& text) {
 std::string fault_of(const StudyOutput& output) {
   if (output.conclusion.empty()) return "an output without a conclusion";
   if (!output.complete && output.diagnosis.empty()) return "incomplete, and no word why";
-  if (!nlohmann::json::accept(output.json)) return "a summary that is no JSON";
+  if (!nlohmann::json::accept(output.json())) return "a summary that is no JSON";
   for (const CsvFile& file : output.csv) file.text();
   if (output.report) output.report();
   if (output.complete && prints_no_number(output.table))
@@ -212,8 +212,8 @@ std::string judge_run(const std::string& text) {
       if (result.complete && !(std::isfinite(state.angle.value) && std::isfinite(state.speed.value)))
         return fmt::format("complete, but the final state of {} is not finite", name);
     const StudyOutput output = output_of(result);
-    if (result.complete && nlohmann::json::accept(output.json))
-      if (std::string found = null_value_in(nlohmann::json::parse(output.json)); !found.empty())
+    if (result.complete && nlohmann::json::accept(output.json()))
+      if (std::string found = null_value_in(nlohmann::json::parse(output.json())); !found.empty())
         return "complete, but null in the summary: " + found;
     return fault_of(output);
   });

@@ -129,7 +129,7 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
                           [](const std::string& f) { return f.find("whatever its tolerance") != std::string::npos; }));
   // What is printed, written and drawn holds every setting.
   const StudyOutput output = output_of(study);
-  const auto json = nlohmann::json::parse(output.json);
+  const auto json = nlohmann::json::parse(output.json());
   EXPECT_EQ(json["settings"].size(), study.settings.size());
   EXPECT_EQ(json["models"].size(), study.levels.size());
   const std::string page = html_of(output.report());
@@ -146,7 +146,7 @@ TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
   const auto folder = std::filesystem::temp_directory_path() / "kurbel_known_accuracy";
   std::filesystem::create_directories(folder);
   const auto summary = folder / "summary.json";
-  std::ofstream(summary) << output_of(study).json;
+  std::ofstream(summary) << output_of(study).json();
   double last = 0;
   for (const double accuracy : {1e-3, 1e-5, 1e-6}) {
     const KnownSetting known = known_setting(summary, scene, scene.effects, accuracy);
@@ -183,7 +183,7 @@ TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
   refused(folder / "torn.json", 1e-3, "torn.json:3:14: --setting: is no JSON here");
   std::ofstream(folder / "foreign.json") << "{\"figures\": []}";
   refused(folder / "foreign.json", 1e-3, "is no summary of kurbel accuracy");
-  std::string method = output_of(study).json;
+  std::string method = output_of(study).json();
   for (std::size_t at = 0; (at = method.find("\"dop853\"", at)) != std::string::npos;)
     method.replace(at, 8, "\"dop835\"");
   for (std::size_t at = 0; (at = method.find("\"verner6\"", at)) != std::string::npos;)

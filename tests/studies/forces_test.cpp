@@ -304,7 +304,7 @@ TEST(ForcesStudy, JammingJointsAreSaidWithTheirPosition) {
 TEST(ForcesStudy, OutputHoldsBothProblemsAndIsValidJson) {
   const Forces f = forces_of(fmt::format(fmt::runtime(pump), 0, rough, 30));
   const StudyOutput output = output_of(f);
-  const auto json = nlohmann::json::parse(output.json);
+  const auto json = nlohmann::json::parse(output.json());
   EXPECT_EQ(json["prescribed"]["positions"].size(), 13u);
   EXPECT_EQ(json["simulated"]["peaks"].size(), 7u);
   EXPECT_EQ(json["counterweights"].size(), 4u);

@@ -106,7 +106,7 @@ TEST(GearErrors, cover_the_difference_to_long_double_and_are_those_of_rounding) 
     const GearPair& p = gears.stages.front().pair;
     if (p.wheel[0].undercut || p.wheel[1].undercut || p.start < p.limit_start || p.end > p.limit_end) continue;
     ++pairs;
-    const Json json = Json::parse(output_of(gears).json)["pairs"][0];
+    const Json json = Json::parse(output_of(gears).json())["pairs"][0];
     for (const auto& [name, exact] : pair_in_long_double(d)) {
       const Told t = told_of(json, name);
       EXPECT_LE(std::abs(t.value - exact), t.error) << name << ", trial " << trial;
@@ -149,7 +149,7 @@ TEST(GearErrors, of_a_moment_of_inertia_cover_an_outline_of_twenty_times_as_many
 TEST(GearErrors, stand_beside_every_figure) {
   const Gears gears = find_gears(test::scene_file("scenes/gear_pair.toml"), {.pair = "", .speed = 100.0});
   const StudyOutput output = output_of(gears);
-  for (const Json& pair : Json::parse(output.json)["pairs"])
+  for (const Json& pair : Json::parse(output.json())["pairs"])
     for (const Json& of : {pair, pair["wheels"][0], pair["wheels"][1], pair["mesh_stiffness"]})
       for (const auto& [key, value] : of.items()) {
         if (!value.is_number_float() || key.ends_with("_error") || key == "module" || key == "helix") continue;
@@ -170,7 +170,7 @@ TEST(GearErrors, of_a_stiffness_out_of_the_methods_range_are_not_known) {
   EXPECT_NEAR(stiffness_error(in_range.stages[0].stiffness, 100), 8, 1e-12);
   d.shift = {-0.2, 0.5};  // x₁ < x₂
   const Gears beyond = single_pair(d);
-  EXPECT_TRUE(Json::parse(output_of(beyond).json)["pairs"][0]["mesh_stiffness"]["mean_error"].is_null());
+  EXPECT_TRUE(Json::parse(output_of(beyond).json())["pairs"][0]["mesh_stiffness"]["mean_error"].is_null());
   for (const KeyFigure& figure : findings_of(beyond).figures)
     if (figure.means == "mesh_stiffness") {
       EXPECT_FALSE(figure.error.has_value());
@@ -184,7 +184,7 @@ TEST(GearErrors, of_bevel_and_worm_pairs_cover_the_difference_to_long_double) {
     const BevelPair b{.teeth = {static_cast<int>(between(10, 40)), static_cast<int>(between(10, 90))},
                       .module = between(0.001, 0.01),
                       .shaft_angle = between(0.3, 1.6)};
-    const Json bevel = Json::parse(rendered(findings_of(b)).json);
+    const Json bevel = Json::parse(rendered(findings_of(b)).json());
     const Real sum = b.shaft_angle, u = static_cast<Real>(b.teeth[1]) / b.teeth[0];
     const Real one = std::atan2(std::sin(sum), u + std::cos(sum)), two = sum - one;
     const Real cone = static_cast<Real>(b.module) * b.teeth[0] / (2 * std::sin(one));
@@ -200,7 +200,7 @@ TEST(GearErrors, of_bevel_and_worm_pairs_cover_the_difference_to_long_double) {
                      .module = between(0.002, 0.01),
                      .worm_diameter = between(0.03, 0.1),
                      .friction = between(0, 0.2)};
-    const Json worm = Json::parse(rendered(findings_of(w)).json);
+    const Json worm = Json::parse(rendered(findings_of(w)).json());
     const Real lead = std::atan(static_cast<Real>(w.starts) * w.module / w.worm_diameter);
     const Real friction = std::atan(w.friction / std::cos(static_cast<Real>(w.pressure_angle)));
     const Real back = std::tan(lead - friction) / std::tan(lead);

@@ -100,7 +100,7 @@ TEST(GearsStudy, ReportDrawsWholeWheelsAndSaysTheNumbers) {
   d.width = {0.04, 0.04};
   const Gears g = single_pair(d, 150.0);
   const StudyOutput output = output_of(g);
-  const auto json = nlohmann::json::parse(output.json);
+  const auto json = nlohmann::json::parse(output.json());
   EXPECT_NEAR(json["pairs"][0]["centre_distance"].get<double>(), 0.228, 1e-12);
   EXPECT_NE(output.table.find(output.conclusion), std::string::npos);
   const Report report = output.report();

@@ -179,7 +179,7 @@ TEST(ForcesInALinkage, NamesJointsSensesAndAxes) {
   options.simulate = false;
   const LinkageStudy f = find_linkage_forces(test::scene_from(rocker), options);
   const Findings findings = findings_of(f);
-  const auto json = nlohmann::json::parse(summary_json(findings));
+  const auto json = nlohmann::json::parse(json_text(summary_of(findings)));
   EXPECT_NE(json.at("signs").get<std::string>().find("crank pin: crank on coupler"), std::string::npos);
   ASSERT_EQ(findings.csv.size(), 2U);
   const std::string csv = findings.csv[0].text();

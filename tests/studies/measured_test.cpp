@@ -187,7 +187,7 @@ TEST_F(Measured, ASteadyCycleTakesTheTimeModuloItsPeriod) {
   Findings f = findings_of(study);
   show(f, o);
   const StudyOutput output = rendered(std::move(f));
-  const auto told = nlohmann::json::parse(output.json).at("measured").at("models").at(0);
+  const auto told = nlohmann::json::parse(output.json()).at("measured").at("models").at(0);
   EXPECT_NEAR(told.at("shift").get<double>(), -0.2 * period, 1e-5 * period);
   int measured = 0;
   for (const ReportSection& section : output.report().sections)
@@ -208,7 +208,7 @@ TEST_F(Measured, ARunTellsItEverywhere) {
   const StudyOutput output = rendered(std::move(f));
   EXPECT_NE(output.brief.find("measured − simulated, torque.shaft: rms "), std::string::npos) << output.brief;
   EXPECT_NE(output.table.find("T1 → torque.shaft"), std::string::npos);
-  const auto j = nlohmann::json::parse(output.json);
+  const auto j = nlohmann::json::parse(output.json());
   EXPECT_EQ(j.at("measured").at("models").at(0).at("signals").at(0).at("points"), 4);
   int measured = 0;
   for (const ReportSection& section : output.report().sections)

@@ -429,7 +429,7 @@ TEST(ModesStudy, EngineReportsCrankshaftModesOrdersAndCriticalSpeeds) {
     EXPECT_LE(joint.peak, joint.amplitude_sum * (1 + 1e-12));
     EXPECT_GE(joint.peak, joint.rms);
   }
-  const auto json = nlohmann::json::parse(output_of(m).json);
+  const auto json = nlohmann::json::parse(output_of(m).json());
   EXPECT_EQ(json["modes"].size(), 6u);
   EXPECT_NEAR(json["modes"][0]["frequency"].get<double>() * 2 * pi, m.modes[0].omega, 1e-12 * m.modes[0].omega);
 }

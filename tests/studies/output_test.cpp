@@ -32,7 +32,7 @@ Comparison press_comparison() {
 
 TEST(Summary, HoldsModelFiguresFinalStatesEventsBalanceAndStatistics) {
   const Scene scene = press_at_speed();
-  const auto j = nlohmann::json::parse(output_of(run(scene)).json);
+  const auto j = nlohmann::json::parse(output_of(run(scene)).json());
   EXPECT_EQ(j.at("title"), "Crank press, 630 kN");
   EXPECT_EQ(j.at("model").at("coordinates"), 5);
   EXPECT_TRUE(j.at("model").at("effects").is_string());
@@ -60,7 +60,7 @@ TEST(Summary, HoldsModelFiguresFinalStatesEventsBalanceAndStatistics) {
 
 TEST(Summary, OfAComparisonHoldsBothModels) {
   const Comparison c = press_comparison();
-  const auto j = nlohmann::json::parse(output_of(c).json);
+  const auto j = nlohmann::json::parse(output_of(c).json());
   EXPECT_EQ(j.at("models").at("rigid").at("model").at("coordinates"), 1);
   EXPECT_EQ(j.at("models").at("elastic").at("model").at("coordinates"), 5);
   for (const auto& factor : j.at("amplification")) EXPECT_GT(factor.at("value").get<double>(), 0);
@@ -107,7 +107,7 @@ TEST(Output, WhatHasNoValueInARunThatBrokeOffIsLeftOut) {
     r.figures.front().value = none;
     r.energy.by_line["driving"] = r.energy.relative = none;
     const StudyOutput output = output_of(r);
-    const auto json = nlohmann::json::parse(output.json);
+    const auto json = nlohmann::json::parse(output.json());
     for (const auto& figure : json["figures"]) EXPECT_TRUE(figure["value"].is_number()) << figure;
     const std::string page = html_of(output.report());
     for (const std::string& text : {output.table, output.conclusion, page.substr(page.find("id=\"data\""))}) {

@@ -206,7 +206,7 @@ TEST(Size, EverySceneThatDrivesACycleCanBeSized) {
     ASSERT_TRUE(s.methods[0].delta) << scene;
     EXPECT_NEAR(*s.methods[0].delta, 0.03, 1e-10) << scene;
     const StudyOutput output = output_of(s);
-    EXPECT_TRUE(nlohmann::json::accept(output.json)) << scene;
+    EXPECT_TRUE(nlohmann::json::accept(output.json())) << scene;
     EXPECT_NE(html_of(output.report()).find("Wittenbauer"), std::string::npos) << scene;
   }
 }

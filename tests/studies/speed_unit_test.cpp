@@ -55,7 +55,7 @@ TEST(SpeedUnits, OnlyWordsAndTheNameOfTheUnitChange) {
   scene.run.until = 0.2;
   const auto told = [&](const SpeedUnit& unit) {
     scene.speed_unit = unit;
-    return nlohmann::json::parse(output_of(test::run(scene, false)).json);
+    return nlohmann::json::parse(output_of(test::run(scene, false)).json());
   };
   const nlohmann::json turns = told({}), radian = told(radians());
   EXPECT_EQ(turns["speed_unit"], "rpm");

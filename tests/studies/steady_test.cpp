@@ -386,7 +386,7 @@ TEST(SteadyOutput, JsonHoldsFiguresMultipliersAndOperatingPoints) {
   const Scene scene = scene_file("scenes/compressor.toml");
   const SteadyStudy study = steady(scene, {Effects{}, scene.effects}, {.traces = true, .start_search = false});
   const StudyOutput output = output_of(study);
-  const auto json = nlohmann::json::parse(output.json);
+  const auto json = nlohmann::json::parse(output.json());
   ASSERT_EQ(json["cycles"].size(), 2u);
   EXPECT_EQ(json["cycles"][1]["multipliers"].size(), 3u);
   EXPECT_EQ(json["operating_points"].size(), study.diagram->points.size());

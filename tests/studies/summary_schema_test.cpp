@@ -89,7 +89,7 @@ void expect_met(const std::string& verb, const Findings& findings, const std::st
   expect_explained(verb, findings);
   const std::string& told = form.empty() ? verb : form;
   test::expect_sound_conclusion(findings, verb);
-  EXPECT_EQ(misfit(schema().at("$defs").at(told), Json::parse(summary_json(findings)), told), "");
+  EXPECT_EQ(misfit(schema().at("$defs").at(told), Json::parse(json_text(summary_of(findings))), told), "");
 }
 template <class Study>
 void expect_told(const std::string& verb, const Study& study) {
@@ -180,7 +180,8 @@ TEST(SummarySchema, HoldsForSweepsAndTolerances) {
   SweepStore(file, identity).write(rows);
   const SweepStudyResult sweep = study_of(SweepStore(file), {"peak_torque.c <= 30 N*m"});
   std::filesystem::remove(file);
-  EXPECT_EQ(misfit(schema().at("$defs").at("sweep"), Json::parse(summary_json(findings_of(sweep))), "sweep"), "");
+  EXPECT_EQ(misfit(schema().at("$defs").at("sweep"), Json::parse(json_text(summary_of(findings_of(sweep)))), "sweep"),
+            "");
 
   MachineQuestion question;
   question.text = test::scene_file("scenes/crank_press.toml").text;
@@ -188,7 +189,7 @@ TEST(SummarySchema, HoldsForSweepsAndTolerances) {
   question.settings = {"run.until=0.3 s", "flywheel.inertia={ value = \"420 kg*m2\", tolerance = \"5 %\" }"};
   const UncertaintyStudy uncertainty = study_uncertainty(
       question, {.figures = {"peak_torque"}, .limits = {"peak_torque.main_coupling <= 8 kN*m"}, .samples = 20});
-  EXPECT_EQ(misfit(schema().at("$defs").at("uncertainty"), Json::parse(summary_json(findings_of(uncertainty))),
+  EXPECT_EQ(misfit(schema().at("$defs").at("uncertainty"), Json::parse(json_text(summary_of(findings_of(uncertainty)))),
                    "uncertainty"),
             "");
 }

@@ -88,7 +88,7 @@ TEST(Trials, NothingIsTriedWhereNothingIsOff) {
   EXPECT_TRUE(found.trials.tried.empty());
   EXPECT_TRUE(found.trials.not_tried.empty());
   EXPECT_TRUE(words_of(found.trials, {}).empty());
-  EXPECT_EQ(summary_json(findings_of(found)).find("\"trials\""), std::string::npos);
+  EXPECT_EQ(json_text(summary_of(findings_of(found))).find("\"trials\""), std::string::npos);
 }
 
 class TrialsOf : public testing::TestWithParam<const char*> {};

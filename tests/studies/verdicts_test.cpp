@@ -120,7 +120,7 @@ TEST(Efficiency, IsNotMadeOfRounding) {
         }
       }
       const StudyOutput output = output_of(f);
-      const auto json = nlohmann::json::parse(output.json);
+      const auto json = nlohmann::json::parse(output.json());
       EXPECT_TRUE(json["prescribed"]["efficiency"].is_null());
       EXPECT_NE(json["prescribed"]["no_efficiency"].get<std::string>().find("no "), std::string::npos);
       if (*friction) {
@@ -202,7 +202,7 @@ TEST(ForcePeaks, AreOfTheContinuousMotionWhateverRowsAreAskedFor) {
     EXPECT_EQ(f.counterweights[0].peak_force.value, f.prescribed->shaking_force.value);
   }
   const Forces& f = *first;
-  const auto json = nlohmann::json::parse(output_of(f).json);
+  const auto json = nlohmann::json::parse(output_of(f).json());
   double drawn = 0;
   for (const CyclePosition& p : f.simulated->curve) drawn = std::max(drawn, p.forces.main_bearing.magnitude());
   EXPECT_NEAR(drawn, f.simulated->reaction[0].value, 1e-12 * drawn);

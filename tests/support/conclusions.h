@@ -48,7 +48,8 @@ inline void expect_sound_conclusion(const Findings& f, const std::string& whose)
   ASSERT_FALSE(sentences.empty()) << whose;
   const std::string& first = sentences.front();
   EXPECT_TRUE(page_of(f).conclusion.starts_with(first)) << whose;
-  EXPECT_TRUE(nlohmann::json::parse(summary_json(f)).at("conclusion").get<std::string>().starts_with(first)) << whose;
+  EXPECT_TRUE(nlohmann::json::parse(json_text(summary_of(f))).at("conclusion").get<std::string>().starts_with(first))
+      << whose;
   EXPECT_NE(terminal_text(f).find(first), std::string::npos) << whose << ": " << first;
   if (f.brief) {
     const std::string told = in_one_run_of_words(headline_text(f)), wanted = in_one_run_of_words(first);

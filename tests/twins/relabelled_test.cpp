@@ -209,16 +209,16 @@ void expect_same_output(const TwinScene& scene, const std::string& what, const S
 }
 
 TEST_P(Relabelled, RunSaysTheSame) {
-  expect_same_output(scene(), "run", [](const Scene& s) { return output_of(run(s, false)).json; });
+  expect_same_output(scene(), "run", [](const Scene& s) { return output_of(run(s, false)).json(); });
 }
 TEST_P(Relabelled, ModesSayTheSame) {
   if (skipped()) GTEST_SKIP() << "takes long: scripts/test --thorough";
-  expect_same_output(scene(), "modes", [](const Scene& s) { return output_of(find_modes(s, s.effects, {})).json; });
+  expect_same_output(scene(), "modes", [](const Scene& s) { return output_of(find_modes(s, s.effects, {})).json(); });
 }
 TEST_P(Relabelled, ReductionSaysTheSame) {
   if (skipped()) GTEST_SKIP() << "takes long: scripts/test --thorough";
   expect_same_output(scene(), "reduce", [](const Scene& s) {
-    return output_of(reduce(s, {.positions = 5, .to = {}, .speed = {}, .orders = 4})).json;
+    return output_of(reduce(s, {.positions = 5, .to = {}, .speed = {}, .orders = 4})).json();
   });
 }
 
