@@ -209,8 +209,8 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
       .head = {.brand_svg = options.brand.empty() ? "" : text_of_file(options.brand), .author = options.author},
       .formats = table_formats(options.format)};
   const std::filesystem::path folder = write_output(output, results_of(options), how);
-  const bool has_sheet =
-      std::any_of(output.csv.begin(), output.csv.end(), [](const CsvFile& file) { return file.name == "sheet.html"; });
+  const bool has_sheet = std::any_of(output.files.begin(), output.files.end(),
+                                     [](const auto& file) { return file.first == "sheet.html"; });
   if (!options.json && !options.quiet) {
     say(fmt::format("results: {}\n", (folder / "summary.json").string()));
     if (options.plots) say(fmt::format("plots for gnuplot: {}\n", (folder / "plots").string()));

@@ -163,30 +163,30 @@ Rows omission_table(const AccuracyStudy& study) {
       .column("why", "why", &Omission::why);
 }
 
-std::string settings_csv(const AccuracyStudy& study) {
+DataTable settings_data(const AccuracyStudy& study) {
   using S = const MeasuredSetting&;
-  auto csv = csv_of(study.settings);
-  csv.column("model", [&](S s) { return fmt::format("\"{}\"", study.levels[s.level].name); })
-      .column("method", &MeasuredSetting::method)
-      .column("tolerance", &MeasuredSetting::tolerance, 6)
-      .column("trajectory_error", &MeasuredSetting::trajectory_error, 6);
+  auto data = data_of("settings", study.settings);
+  data.column("model", {}, [&study](S s) { return fmt::format("\"{}\"", study.levels[s.level].name); })
+      .column("method", {}, &MeasuredSetting::method)
+      .column("tolerance", {}, &MeasuredSetting::tolerance, 6)
+      .column("trajectory_error", {}, &MeasuredSetting::trajectory_error, 6);
   for (std::size_t i = 0; i < study.figures.size(); ++i)
-    csv.column(
-           "numerical_error." + study.figures[i].name, [i](S s) { return s.numerical_error[i]; }, 6)
+    data.column(
+            "numerical_error." + study.figures[i].name, {}, [i](S s) { return s.numerical_error[i]; }, 6)
         .column(
-            "total_error." + study.figures[i].name, [i](S s) { return s.total_error[i]; }, 6);
-  return csv.column("seconds", &MeasuredSetting::seconds, 6)
-      .column("fastest", &MeasuredSetting::fastest, 6)
-      .column("slowest", &MeasuredSetting::slowest, 6)
-      .column("repetitions", &MeasuredSetting::repetitions)
-      .column("steps", &MeasuredSetting::steps)
-      .column("rejected", &MeasuredSetting::rejected)
-      .column("right_hand_sides", &MeasuredSetting::flow_calls)
-      .column("jacobians", &MeasuredSetting::jacobian_calls)
-      .column("events", &MeasuredSetting::events)
-      .column("energy_drift", &MeasuredSetting::energy_drift, 6)
-      .column("on_front", [](S s) { return s.on_front ? 1 : 0; })
-      .text();
+            "total_error." + study.figures[i].name, {}, [i](S s) { return s.total_error[i]; }, 6);
+  return data.column("seconds", {}, &MeasuredSetting::seconds, 6)
+      .column("fastest", {}, &MeasuredSetting::fastest, 6)
+      .column("slowest", {}, &MeasuredSetting::slowest, 6)
+      .column("repetitions", {}, &MeasuredSetting::repetitions)
+      .column("steps", {}, &MeasuredSetting::steps)
+      .column("rejected", {}, &MeasuredSetting::rejected)
+      .column("right_hand_sides", {}, &MeasuredSetting::flow_calls)
+      .column("jacobians", {}, &MeasuredSetting::jacobian_calls)
+      .column("events", {}, &MeasuredSetting::events)
+      .column("energy_drift", {}, &MeasuredSetting::energy_drift, 6)
+      .column("on_front", {}, [](S s) { return s.on_front ? 1 : 0; })
+      .table();
 }
 
 // --- all of it ---
@@ -277,7 +277,7 @@ Findings findings_of(const AccuracyStudy& study) {
   f.say(f.chapter("Notes"), Sentences{.lines = study.notes, .indent = "  note: ", .key = "notes"});
   f.tell("machine", machine_info());
   f.tell("processor_seconds", study.seconds);
-  f.csv = {{"settings.csv", [&study] { return settings_csv(study); }}};
+  f.tables = {{"settings", [&study] { return settings_data(study); }}};
   return f;
 }
 

@@ -1,4 +1,4 @@
-// findings.h — what a study found, each thing said once; terminal, JSON, CSV and page are renderings of it (output.h).
+// findings.h — what a study found, each thing said once; terminal, JSON, page and files of tables are renderings of it (output.h).
 //
 //   Findings f{.title = "Size of the flywheel", .conclusion = "420 kg·m² keep δ below 0.05."};
 //   const Chapter results = f.chapter("Results");   // chapters stand on the page as they are declared,
@@ -19,6 +19,7 @@
 
 #include "engine/base/estimate.h"
 #include "studies/conclusions/conclusion.h"
+#include "studies/data/data_table.h"
 #include "studies/findings/formulas.h"
 #include "studies/findings/report.h"
 #include "studies/findings/rows.h"
@@ -27,11 +28,6 @@ namespace kurbel {
 
 // Of summary.json: one higher whenever a program that reads it has to change.
 inline constexpr int summary_version = 2;
-
-struct CsvFile {
-  std::string name;                   // "trajectory.csv"
-  std::function<std::string()> text;  // made only when it is written
-};
 
 // Sentences, a line each.
 struct Sentences {
@@ -92,7 +88,7 @@ struct Findings {
   std::vector<KeyFigure> figures = {};
   std::vector<std::string> chapters = {};
   std::vector<Statement> statements = {};
-  std::vector<CsvFile> csv = {};
+  std::vector<TableFile> tables = {};
   std::optional<Brief> brief = {};  // what a terminal is told unless all is asked for; none: all
 
   // The same in terminal, page and JSON, in one line.

@@ -1,4 +1,4 @@
-// output.h — a study's findings as they are handed out: text for the terminal, JSON, a page, tables as CSV.
+// output.h — a study's findings as they are handed out: text for the terminal, JSON, a page, tables.
 #pragma once
 
 #include <concepts>
@@ -21,7 +21,8 @@ struct StudyOutput {
   std::string headline = {};       // the conclusion as the short form has it
   Record summary;                  // the same figures for programs: summary.json
   std::function<Report()> report;  // made only when it is written
-  std::vector<CsvFile> csv = {};
+  std::vector<TableFile> tables = {};
+  std::vector<std::pair<std::string, std::string>> files = {};  // what is no table: name and text
   bool complete = true;
   std::string diagnosis = {};    // of a run that failed on its way
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
@@ -29,10 +30,6 @@ struct StudyOutput {
   std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
 
   std::string json() const;  // the summary as text
-
-  void add_file(const std::string& name, std::string text) {
-    csv.push_back({name, [text = std::move(text)] { return text; }});
-  }
 };
 
 // The renderings of findings, each in its own file: render_terminal.cpp, render_json.cpp, render_page.cpp.

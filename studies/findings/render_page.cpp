@@ -163,7 +163,7 @@ StudyOutput rendered(Findings findings) {
           .headline = headline_text(*kept),
           .summary = summary_of(*kept),
           .report = [kept] { return page_of(*kept); },
-          .csv = kept->csv,
+          .tables = kept->tables,
           .complete = kept->complete,
           .diagnosis = kept->diagnosis,
           .unconfirmed = kept->unconfirmed};

@@ -1,4 +1,4 @@
-// rows.h — a table said once: rows of values described by columns; terminal, JSON, page and CSV are renderings of it.
+// rows.h — a table said once: rows of values described by columns; terminal, JSON and page are renderings of it.
 //
 //   table_of("critical_speeds", "Strongest critical speeds", study.critical)
 //       .column("speed", "speed [1/min]", &CriticalSpeed::speed, {.factor = 30 / pi})
@@ -310,53 +310,5 @@ class QuantitiesOf {
   Lines lines_;
   std::vector<Record> records_;
 };
-
-// --- CSV: long, so row by row ---
-
-template <class T>
-class CsvOf {
- public:
-  explicit CsvOf(std::span<const T> rows) : rows_(rows) {}
-  template <class Get>
-  CsvOf& column(const std::string& heading, Get get, int digits = 12) {
-    return add(heading, [get, digits](std::string& text, const T& row) { put(text, std::invoke(get, row), digits); });
-  }
-  std::string text() const {
-    std::string text = headings_ + "\n";
-    for (const T& row : rows_)
-      for (std::size_t k = 0; k < cells_.size(); ++k) {
-        cells_[k](text, row);
-        text += k + 1 < cells_.size() ? ',' : '\n';
-      }
-    return text;
-  }
-
- private:
-  // What is not finite, or not there, is an empty cell.
-  static void put(std::string& text, double v, int digits) {
-    if (std::isfinite(v)) fmt::format_to(std::back_inserter(text), "{:.{}g}", v, digits);
-  }
-  static void put(std::string& text, const std::optional<double>& v, int digits) {
-    if (v) put(text, *v, digits);
-  }
-  static void put(std::string& text, const std::string& v, int) { text += v; }
-  template <std::integral N>
-  static void put(std::string& text, N v, int) {
-    fmt::format_to(std::back_inserter(text), "{:d}", v);
-  }
-  CsvOf& add(const std::string& heading, std::function<void(std::string&, const T&)> cell) {
-    headings_ += (cells_.empty() ? "" : ",") + heading;
-    cells_.push_back(std::move(cell));
-    return *this;
-  }
-  std::span<const T> rows_;
-  std::string headings_;
-  std::vector<std::function<void(std::string&, const T&)>> cells_;
-};
-
-template <class T>
-CsvOf<T> csv_of(const std::vector<T>& rows) {
-  return CsvOf<T>(std::span<const T>(rows));
-}
 
 }  // namespace kurbel

@@ -146,37 +146,37 @@ Record cycle_record(const ForceCycle& c) {
   return r;
 }
 
-std::string csv_of(const ForceCycle& c) {
+DataTable table_of_forces(const ForceCycle& c) {
   using P = const CyclePosition&;
-  auto csv = csv_of(c.positions);
-  csv.column("phi [rad]", [](P p) { return p.state.phi; })
-      .column("omega [rad/s]", [](P p) { return p.state.omega; })
-      .column("alpha [rad/s2]", [](P p) { return p.state.alpha; })
-      .column("position_along_x [m]", &CyclePosition::position)
-      .column("velocity [m/s]", &CyclePosition::velocity)
-      .column("slider_force_along_x [N]", [](P p) { return p.state.slider_force; })
-      .column("torque_of_shaft_on_crank [N*m]", [](P p) { return p.forces.torque; });
+  auto data = data_of("forces_" + c.label, c.positions);
+  data.column("phi", "rad", [](P p) { return p.state.phi; })
+      .column("omega", "rad/s", [](P p) { return p.state.omega; })
+      .column("alpha", "rad/s2", [](P p) { return p.state.alpha; })
+      .column("position_along_x", "m", &CyclePosition::position)
+      .column("velocity", "m/s", &CyclePosition::velocity)
+      .column("slider_force_along_x", "N", [](P p) { return p.state.slider_force; })
+      .column("torque_of_shaft_on_crank", "N*m", [](P p) { return p.forces.torque; });
   const auto force = [&](const std::string& name, Force2 SliderCrankForces::*of) {
-    csv.column(name + "_x [N]", [of](P p) { return (p.forces.*of).x; });
-    csv.column(name + "_y [N]", [of](P p) { return (p.forces.*of).y; });
+    data.column(name + "_x", "N", [of](P p) { return (p.forces.*of).x; });
+    data.column(name + "_y", "N", [of](P p) { return (p.forces.*of).y; });
   };
   force("main_bearing_of_frame_on_crank", &SliderCrankForces::main_bearing);
   force("crank_pin_of_crank_on_rod", &SliderCrankForces::crank_pin);
   force("slider_pin_of_rod_on_slider", &SliderCrankForces::slider_pin);
-  csv.column("guide_of_frame_on_slider_y [N]", [](P p) { return p.forces.guide; })
-      .column("guide_point_from_pin_x [m]", [](P p) { return p.forces.guide_point; })
-      .column("guide_friction_on_slider_x [N]", [](P p) { return p.forces.guide_friction; })
-      .column("both_edges", [](P p) { return static_cast<int>(p.forces.both_edges); });
+  data.column("guide_of_frame_on_slider_y", "N", [](P p) { return p.forces.guide; })
+      .column("guide_point_from_pin_x", "m", [](P p) { return p.forces.guide_point; })
+      .column("guide_friction_on_slider_x", "N", [](P p) { return p.forces.guide_friction; })
+      .column("both_edges", {}, [](P p) { return static_cast<int>(p.forces.both_edges); });
   force("shaking_on_frame", &SliderCrankForces::shaking_force);
-  csv.column("shaking_on_frame_moment_about_crank_axis [N*m]", [](P p) { return p.forces.shaking_moment; });
+  data.column("shaking_on_frame_moment_about_crank_axis", "N*m", [](P p) { return p.forces.shaking_moment; });
   for (std::size_t k = 0; k < joint_count; ++k) {
     const char* const joints[] = {"main", "crank_pin", "slider_pin", "guide"};
-    csv.column(fmt::format("friction_{} [W]", joints[k]), [k](P p) { return p.forces.friction_power[k]; });
+    data.column(fmt::format("friction_{}", joints[k]), "W", [k](P p) { return p.forces.friction_power[k]; });
   }
-  return csv.column("efficiency", [](P p) { return p.power.efficiency(); })
+  return data.column("efficiency", {}, [](P p) { return p.power.efficiency(); })
       .column(
-          "power_residual", [](P p) { return p.power.residual; }, 3)
-      .text();
+          "power_residual", {}, [](P p) { return p.power.residual; }, 3)
+      .table();
 }
 
 // --- formulas ---
@@ -312,8 +312,8 @@ Findings findings_of(const Forces& f) {
   to.note(notes, f.notes);
   to.show_scene(f.scene_file, f.scene_text);
   for (const ForceCycle* c : problems_of(f))
-    to.csv.push_back({fmt::format("forces_{}.csv", c->label), [c] { return csv_of(*c); }});
-  to.csv.push_back({fmt::format("links_{}.csv", front_of(f).label), [&f] { return csv_of_links(*f.links); }});
+    to.tables.push_back({"forces_" + c->label, [c] { return table_of_forces(*c); }});
+  to.tables.push_back({"links_" + front_of(f).label, [&f] { return table_of_links(*f.links, front_of(f).label); }});
   return to;
 }
 

@@ -257,29 +257,30 @@ std::string underscored(std::string name) {
   return name;
 }
 
-std::string csv_of_forces(const LinkageCycle& c, bool rocks) {
-  auto csv = csv_of(c.positions);
-  csv.column("phi [rad]", [](P p) { return p.forces.state.phi; })
-      .column("omega [rad/s]", [](P p) { return p.forces.state.omega; })
-      .column("alpha [rad/s2]", [](P p) { return p.forces.state.alpha; })
-      .column(rocks ? "output_angle [rad]" : "position_along_x [m]", [](P p) { return p.forces.output; })
-      .column(rocks ? "load_on_output [N*m]" : "load_on_output_along_x [N]", [](P p) { return p.forces.state.load; })
-      .column("torque_of_shaft_on_crank [N*m]", [](P p) { return p.forces.torque; });
+DataTable table_of_linkage_forces(const LinkageCycle& c, bool rocks) {
+  auto data = data_of("forces_" + c.label, c.positions);
+  data.column("phi", "rad", [](P p) { return p.forces.state.phi; })
+      .column("omega", "rad/s", [](P p) { return p.forces.state.omega; })
+      .column("alpha", "rad/s2", [](P p) { return p.forces.state.alpha; })
+      .column(rocks ? "output_angle" : "position_along_x", rocks ? "rad" : "m", [](P p) { return p.forces.output; })
+      .column(rocks ? "load_on_output" : "load_on_output_along_x", rocks ? "N*m" : "N",
+              [](P p) { return p.forces.state.load; })
+      .column("torque_of_shaft_on_crank", "N*m", [](P p) { return p.forces.torque; });
   const LinkageForces& first = c.positions.front().forces;
   for (std::size_t k = 0; k < first.joints.size(); ++k) {
     const JointForces& j = first.joints[k];
     const std::string name = underscored(fmt::format("{} of {} on {}", j.name, j.from, j.on));
-    csv.column(name + "_x [N]", [k](P p) { return p.forces.joints[k].force.x; });
-    csv.column(name + "_y [N]", [k](P p) { return p.forces.joints[k].force.y; });
-    if (j.slides) csv.column(name + "_moment [N*m]", [k](P p) { return p.forces.joints[k].moment; });
+    data.column(name + "_x", "N", [k](P p) { return p.forces.joints[k].force.x; });
+    data.column(name + "_y", "N", [k](P p) { return p.forces.joints[k].force.y; });
+    if (j.slides) data.column(name + "_moment", "N*m", [k](P p) { return p.forces.joints[k].moment; });
   }
-  csv.column("shaking_on_frame_x [N]", [](P p) { return p.forces.shaking_force.x; })
-      .column("shaking_on_frame_y [N]", [](P p) { return p.forces.shaking_force.y; })
-      .column("shaking_on_frame_moment_about_crank_axis [N*m]", [](P p) { return p.forces.shaking_moment; });
-  return csv
+  data.column("shaking_on_frame_x", "N", [](P p) { return p.forces.shaking_force.x; })
+      .column("shaking_on_frame_y", "N", [](P p) { return p.forces.shaking_force.y; })
+      .column("shaking_on_frame_moment_about_crank_axis", "N*m", [](P p) { return p.forces.shaking_moment; });
+  return data
       .column(
-          "power_residual", [](P p) { return p.power.residual; }, 3)
-      .text();
+          "power_residual", {}, [](P p) { return p.power.residual; }, 3)
+      .table();
 }
 
 }  // namespace
@@ -330,26 +331,26 @@ void say_links(Findings& to, Chapter in, const LinkageCycle& c) {
   to.draw(in, [&c] { return link_plots(c); });
 }
 
-std::string csv_of_links(const LinkageCycle& c) {
-  auto csv = csv_of(c.positions);
-  csv.column("phi [rad]", [](P p) { return p.forces.state.phi; });
+DataTable table_of_links(const LinkageCycle& c, const std::string& label) {
+  auto data = data_of("links_" + label, c.positions);
+  data.column("phi", "rad", [](P p) { return p.forces.state.phi; });
   for (std::size_t k = 0; k < c.links.size(); ++k) {
     const std::string name = underscored(c.links[k].name);
-    const auto column = [&](const std::string& what, auto&& of) {
-      csv.column(name + what, [k, of](P p) { return of(p.forces.links[k]); });
+    const auto column = [&](const std::string& what, const char* unit, auto&& of) {
+      data.column(name + what, unit, [k, of](P p) { return of(p.forces.links[k]); });
     };
     using L = const LinkForces&;
-    column("_omega [rad/s]", [](L l) { return l.omega; });
-    column("_alpha [rad/s2]", [](L l) { return l.alpha; });
-    column("_com_acceleration_x [m/s2]", [](L l) { return l.acceleration.x; });
-    column("_com_acceleration_y [m/s2]", [](L l) { return l.acceleration.y; });
-    column("_inertia_force_x [N]", [](L l) { return l.inertia_force.x; });
-    column("_inertia_force_y [N]", [](L l) { return l.inertia_force.y; });
-    column("_inertia_couple [N*m]", [](L l) { return l.inertia_couple; });
-    column("_reduced_inertia [kg*m2]", [](L l) { return l.reduced_inertia; });
-    column("_kinetic_energy [J]", [](L l) { return l.kinetic_energy; });
+    column("_omega", "rad/s", [](L l) { return l.omega; });
+    column("_alpha", "rad/s2", [](L l) { return l.alpha; });
+    column("_com_acceleration_x", "m/s2", [](L l) { return l.acceleration.x; });
+    column("_com_acceleration_y", "m/s2", [](L l) { return l.acceleration.y; });
+    column("_inertia_force_x", "N", [](L l) { return l.inertia_force.x; });
+    column("_inertia_force_y", "N", [](L l) { return l.inertia_force.y; });
+    column("_inertia_couple", "N*m", [](L l) { return l.inertia_couple; });
+    column("_reduced_inertia", "kg*m2", [](L l) { return l.reduced_inertia; });
+    column("_kinetic_energy", "J", [](L l) { return l.kinetic_energy; });
   }
-  return csv.text();
+  return data.table();
 }
 
 Findings findings_of(const LinkageStudy& f) {
@@ -372,9 +373,8 @@ Findings findings_of(const LinkageStudy& f) {
   for (const LinkageCycle* c : problems_of(f)) {
     to.say(positions, position_table(*c));
     to.tell(c->label, cycle_record(*c));
-    to.csv.push_back(
-        {fmt::format("forces_{}.csv", c->label), [c, rocks = f.rocks] { return csv_of_forces(*c, rocks); }});
-    to.csv.push_back({fmt::format("links_{}.csv", c->label), [c] { return csv_of_links(*c); }});
+    to.tables.push_back({"forces_" + c->label, [c, rocks = f.rocks] { return table_of_linkage_forces(*c, rocks); }});
+    to.tables.push_back({"links_" + c->label, [c] { return table_of_links(*c, c->label); }});
   }
   say_links(to, links, front);
   const auto problems = problems_of(f);

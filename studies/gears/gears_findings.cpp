@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/numerics/angles.h"
@@ -237,27 +238,29 @@ Record stage_record(const GearStage& s) {
   return r;
 }
 
-std::string path_csv(const GearPair& p) {
-  const std::vector<double> places = along_path(p);
-  return csv_of(places)
-      .column("g [m]", std::identity())
-      .column("r1 [m]", [&](double g) { return p.radius(g)[0]; })
-      .column("r2 [m]", [&](double g) { return p.radius(g)[1]; })
-      .column("rho1 [m]", [&](double g) { return p.curvature(g)[0]; })
-      .column("rho2 [m]", [&](double g) { return p.curvature(g)[1]; })
-      .column("sliding/omega1 [m]", [&](double g) { return p.sliding_speed(g, 1); })
+DataTable path_data(const std::string& name, const GearPair& p) {
+  return data_of(name, along_path(p))
+      .column("g", "m", std::identity())
+      .column("r1", "m", [&p](double g) { return p.radius(g)[0]; })
+      .column("r2", "m", [&p](double g) { return p.radius(g)[1]; })
+      .column("rho1", "m", [&p](double g) { return p.curvature(g)[0]; })
+      .column("rho2", "m", [&p](double g) { return p.curvature(g)[1]; })
+      .column("sliding/omega1", "m", [&p](double g) { return p.sliding_speed(g, 1); })
       .column(
-          "zeta1", [&](double g) { return p.specific_sliding(g)[0]; }, 9)
+          "zeta1", {}, [&p](double g) { return p.specific_sliding(g)[0]; }, 9)
       .column(
-          "zeta2", [&](double g) { return p.specific_sliding(g)[1]; }, 9)
-      .text();
+          "zeta2", {}, [&p](double g) { return p.specific_sliding(g)[1]; }, 9)
+      .table();
 }
 
-std::string outline_csv(const GearWheel& w) {
-  std::string text = "x [mm],y [mm]\n";
-  for (const OutlinePoint& q : wheel_outline(w, 16))
-    text += fmt::format("{:.7f},{:.7f}\n", in_millimetres * q.x, in_millimetres * q.y);
-  return text;
+DataTable outline_data(const std::string& name, const GearWheel& w) {
+  constexpr NumberFormat format{.digits = 7, .after_point = true};
+  return {.name = name,
+          .columns = {{"x", "mm", format}, {"y", "mm", format}},
+          .each_row = [&w](const std::function<void(DataRow)>& take) {
+            for (const OutlinePoint& q : wheel_outline(w, 16))
+              take(std::array<DataCell, 2>{in_millimetres * q.x, in_millimetres * q.y});
+          }};
 }
 
 Formulas formulas_of(const GearStage& s) {
@@ -339,9 +342,12 @@ void say_stage(Findings& f, const GearStage& s) {
   f.say(in, std::move(path));
   f.say(in, Sentences{.lines = {""}, .page = false});
   f.say(in, Sentences{.lines = verdicts, .indent = "  ", .page = false});
-  f.csv.push_back({fmt::format("{}.path.csv", s.name), [&p = s.pair] { return path_csv(p); }});
-  for (const std::size_t i : {0UL, 1UL})
-    f.csv.push_back({fmt::format("{}.wheel{}.csv", s.name, i + 1), [&w = s.pair.wheel[i]] { return outline_csv(w); }});
+  const std::string path_name = s.name + ".path";
+  f.tables.push_back({path_name, [path_name, &p = s.pair] { return path_data(path_name, p); }});
+  for (const std::size_t i : {0UL, 1UL}) {
+    const std::string name = fmt::format("{}.wheel{}", s.name, i + 1);
+    f.tables.push_back({name, [name, &w = s.pair.wheel[i]] { return outline_data(name, w); }});
+  }
 }
 
 }  // namespace

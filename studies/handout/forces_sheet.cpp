@@ -300,7 +300,7 @@ ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Pap
 StudyOutput output_of(ForcesSheet sheet) {
   std::string html = sheet.html();
   StudyOutput output = sheet.linkage ? output_of(std::move(*sheet.linkage)) : output_of(std::move(*sheet.slider_crank));
-  output.add_file("sheet.html", std::move(html));
+  output.files.emplace_back("sheet.html", std::move(html));
   return output;
 }
 

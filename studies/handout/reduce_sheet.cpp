@@ -294,7 +294,7 @@ ReduceSheet sheet_of(const Scene& given, const ReduceOptions& options, const Red
 StudyOutput output_of(ReduceSheet sheet) {
   std::string html = sheet.html();
   StudyOutput output = output_of(std::move(sheet.reduction));
-  output.add_file("sheet.html", std::move(html));
+  output.files.emplace_back("sheet.html", std::move(html));
   return output;
 }
 

@@ -236,31 +236,29 @@ Record history_record(const TorqueHistory& h) {
           {"strongest_orders", spectral_list("order", h.strongest_orders)}};
 }
 
-std::string shapes_csv(const ModesStudy& m) {
-  const std::vector<std::size_t> shafts = numbers_below(m.shaft_names.size());
-  auto csv = csv_of(shafts)
-                 .column("shaft", [&](std::size_t i) { return m.shaft_names[i]; })
-                 .column("ratio", [&](std::size_t i) { return m.drive.ratio[i]; })
-                 .column("inertia [kg*m2]",
-                         [&](std::size_t i) { return m.drive.shaft_inertia[static_cast<Eigen::Index>(i)]; });
+DataTable shapes_data(const ModesStudy& m) {
+  auto data = data_of("mode_shapes", numbers_below(m.shaft_names.size()))
+                  .column("shaft", {}, [&m](std::size_t i) { return m.shaft_names[i]; })
+                  .column("ratio", {}, [&m](std::size_t i) { return m.drive.ratio[i]; })
+                  .column("inertia", "kg*m2",
+                          [&m](std::size_t i) { return m.drive.shaft_inertia[static_cast<Eigen::Index>(i)]; });
   for (const Mode& mode : m.modes)
-    csv.column(
-        fmt::format("mode {} at {:.8g} Hz", mode.number, hertz(mode.omega)),
+    data.column(
+        fmt::format("mode {} at {:.8g} Hz", mode.number, hertz(mode.omega)), {},
         [shape = shaft_shape(m, mode)](std::size_t i) { return shape[static_cast<Eigen::Index>(i)]; }, 9);
-  return csv.text();
+  return data.table();
 }
 
-std::string response_csv(const ModesStudy& m) {
-  auto csv = csv_of(m.sweep).column("speed [rad/s]", &SpeedResponse::speed).column("kept", [](const SpeedResponse& s) {
-    return s.kept ? 1.0 : 0.0;
-  });
+DataTable response_data(const ModesStudy& m) {
+  auto data = data_of("forced_response", m.sweep)
+                  .column("speed", "rad/s", &SpeedResponse::speed)
+                  .column("kept", {}, [](const SpeedResponse& s) { return s.kept ? 1.0 : 0.0; });
   for (std::size_t j = 0; j < m.joint_names.size(); ++j)
-    csv.column(
-           fmt::format("mean {} [N*m]", m.joint_names[j]), [j](const SpeedResponse& s) { return s.joints[j].mean; }, 9)
+    data.column(
+            "mean " + m.joint_names[j], "N*m", [j](const SpeedResponse& s) { return s.joints[j].mean; }, 9)
         .column(
-            fmt::format("peak {} [N*m]", m.joint_names[j]), [j](const SpeedResponse& s) { return s.joints[j].peak; },
-            9);
-  return csv.text();
+            "peak " + m.joint_names[j], "N*m", [j](const SpeedResponse& s) { return s.joints[j].peak; }, 9);
+  return data.table();
 }
 
 // --- all of it ---
@@ -333,7 +331,7 @@ void say_stresses(Findings& f, Chapter in, const ModesStudy& m) {
   f.draw(in, [&m] { return stress_plots(m.stresses); });
   f.say(in, stress_table(m.stresses));
   if (!m.stresses.misfires.empty()) f.say(in, misfire_table(m.stresses));
-  f.csv.push_back({"shaft_stress.csv", [&m] { return stress_csv(m.stresses); }});
+  f.tables.push_back({"shaft_stress", [&m] { return stress_data(m.stresses); }});
 }
 
 void say_history(Findings& f, Chapter in, const ModesStudy& m) {
@@ -390,8 +388,8 @@ Findings findings_of(const ModesStudy& m) {
   say_history(f, history, m);
   f.note(notes, m.notes);
   f.show_scene(m.scene_file, m.scene_text);
-  f.csv.push_back({"mode_shapes.csv", [&m] { return shapes_csv(m); }});
-  if (!m.sweep.empty()) f.csv.push_back({"forced_response.csv", [&m] { return response_csv(m); }});
+  f.tables.push_back({"mode_shapes", [&m] { return shapes_data(m); }});
+  if (!m.sweep.empty()) f.tables.push_back({"forced_response", [&m] { return response_data(m); }});
   return f;
 }
 

@@ -37,7 +37,8 @@ std::string conclusion_of(const MachineReduction& r) {
 // --- tables ---
 
 struct Quantity {
-  std::string heading;
+  std::string name;
+  std::optional<std::string> unit;
   std::function<double(const ReducedPosition&)> value;
 };
 
@@ -45,15 +46,14 @@ struct Quantity {
 std::vector<Quantity> quantities_of(const MachineReduction& r) {
   const ReducedNames n = names_of(r);
   const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit);
-  std::vector<Quantity> list = {
-      {fmt::format("{}_r [{}]", n.inertia, i), &ReducedPosition::inertia},
-      {fmt::format("{}_drive [{}]", n.inertia, i), &ReducedPosition::drive_inertia},
-      {fmt::format("{}_em [{}]", n.inertia, i), &ReducedPosition::mechanism_inertia},
-      {fmt::format("{}_r′ [{}]", n.inertia, pretty_unit(n.slope_unit)), &ReducedPosition::slope},
-      {fmt::format("{}_d [{}]", n.torque, t), &ReducedPosition::drive},
-      {fmt::format("{}_c [{}]", n.torque, t), &ReducedPosition::load}};
+  std::vector<Quantity> list = {{n.inertia + "_r", i, &ReducedPosition::inertia},
+                                {n.inertia + "_drive", i, &ReducedPosition::drive_inertia},
+                                {n.inertia + "_em", i, &ReducedPosition::mechanism_inertia},
+                                {n.inertia + "_r′", pretty_unit(n.slope_unit), &ReducedPosition::slope},
+                                {n.torque + "_d", t, &ReducedPosition::drive},
+                                {n.torque + "_c", t, &ReducedPosition::load}};
   for (const std::size_t k : acting(r))
-    list.push_back({r.accounts[k], [k](const ReducedPosition& p) { return p.share[k]; }});
+    list.push_back({r.accounts[k], {}, [k](const ReducedPosition& p) { return p.share[k]; }});
   for (Quantity& q : list) {
     double largest = 0;
     for (const ReducedPosition& p : r.positions)
@@ -72,7 +72,7 @@ Rows positions_table(const MachineReduction& r) {
   table.only_for_people("position", &ReducedPosition::number)
       .only_for_people("φ [°]", &ReducedPosition::phi, {.factor = in_degrees});
   for (const Quantity& q : quantities_of(r))
-    table.only_for_people(q.heading, [&](const ReducedPosition& p) {
+    table.only_for_people(heading_of(q.name, q.unit), [&](const ReducedPosition& p) {
       return p.singular.empty() ? read_as(q.value(p)) : std::string("—");
     });
   return table;
@@ -179,34 +179,35 @@ Record spectrum_record(const Spectrum& s) {
        })}};
 }
 
-std::string positions_csv(const MachineReduction& r) {
+DataTable positions_data(const MachineReduction& r) {
   std::vector<ReducedPosition> regular = r.positions;
   std::erase_if(regular, [](const ReducedPosition& p) { return !p.singular.empty(); });
-  auto csv = csv_of(regular)
-                 .column("position", &ReducedPosition::number)
-                 .column(
-                     "φ [°]", [](const ReducedPosition& p) { return p.phi * in_degrees + 0.0; }, 15);
+  auto data = data_of("positions", std::move(regular));
+  data.column("position", {}, &ReducedPosition::number)
+      .column(
+          "φ", "°", [](const ReducedPosition& p) { return p.phi * in_degrees + 0.0; }, 15);
   for (const Quantity& q : quantities_of(r))
-    csv.column(
-        q.heading, [value = q.value](const ReducedPosition& p) { return value(p) + 0.0; }, 15);
-  return csv.text();
+    data.column(
+        q.name, q.unit, [value = q.value](const ReducedPosition& p) { return value(p) + 0.0; }, 15);
+  return data.table();
 }
 
-std::string harmonics_csv(const MachineReduction& r) {
-  std::vector<std::pair<std::string, Harmonic>> rows;
+DataTable harmonics_data(const MachineReduction& r) {
+  using Row = std::pair<std::string, Harmonic>;
+  std::vector<Row> rows;
   for (const Spectrum& s : r.spectra)
     for (const Harmonic& h : s.harmonics) rows.emplace_back(s.name, h);
-  return csv_of(rows)
-      .column("quantity", [](const auto& row) { return row.first; })
+  return data_of("harmonics", std::move(rows))
+      .column("quantity", {}, &Row::first)
       .column(
-          "order", [](const auto& row) { return row.second.order + 0.0; }, 6)
+          "order", {}, [](const Row& row) { return row.second.order + 0.0; }, 6)
       .column(
-          "amplitude", [](const auto& row) { return row.second.amplitude.value + 0.0; }, 15)
+          "amplitude", {}, [](const Row& row) { return row.second.amplitude.value + 0.0; }, 15)
       .column(
-          "phase [rad]", [](const auto& row) { return row.second.phase + 0.0; }, 15)
+          "phase", "rad", [](const Row& row) { return row.second.phase + 0.0; }, 15)
       .column(
-          "error", [](const auto& row) { return row.second.amplitude.error; }, 3)
-      .text();
+          "error", {}, [](const Row& row) { return row.second.amplitude.error; }, 3)
+      .table();
 }
 
 // --- formulas ---
@@ -296,7 +297,7 @@ Findings findings_of(const MachineReduction& r) {
     f.say(spectra, harmonics_table(r));
   }
   f.note(notes, r.notes, "");
-  f.csv = {{"positions.csv", [&r] { return positions_csv(r); }}, {"harmonics.csv", [&r] { return harmonics_csv(r); }}};
+  f.tables = {{"positions", [&r] { return positions_data(r); }}, {"harmonics", [&r] { return harmonics_data(r); }}};
   return f;
 }
 

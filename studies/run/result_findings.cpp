@@ -229,18 +229,20 @@ Record result_record(const Result& r) {
           {"notes", r.notes}};
 }
 
-std::string trajectory_csv(const Result& r) {
-  const TrajectoryRecorder& t = *r.trajectory;
-  std::string text = r.complete ? "" : "# incomplete: " + r.diagnosis + "\n";
-  text += "time [s]";
-  for (const Channel& channel : t.channels()) text += fmt::format(",{} [{}]", channel.name.text, channel.unit);
-  text += "\n";
-  for_each_row(t, [&](double time, std::span<const double> values) {
-    fmt::format_to(std::back_inserter(text), "{}", time);
-    for (const double value : values) fmt::format_to(std::back_inserter(text), ",{}", value);
-    text += '\n';
-  });
-  return text;
+DataTable trajectory_data(const std::string& name, const Result& r) {
+  DataTable table{.name = name,
+                  .remark = r.complete ? "" : "incomplete: " + r.diagnosis,
+                  .columns = {{"time", "s"}},
+                  .each_row = [&t = *r.trajectory](const std::function<void(DataRow)>& take) {
+                    std::vector<DataCell> cells(t.channels().size() + 1);
+                    for_each_row(t, [&](double time, std::span<const double> values) {
+                      cells.front() = time;
+                      std::copy(values.begin(), values.end(), cells.begin() + 1);
+                      take(cells);
+                    });
+                  }};
+  for (const Channel& channel : r.trajectory->channels()) table.columns.push_back({channel.name.text, channel.unit});
+  return table;
 }
 
 std::string coarse_rows_note(const TrajectoryRecorder& t, std::int64_t steps) {

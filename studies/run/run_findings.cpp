@@ -117,7 +117,8 @@ Record model_record(const Result& r) {
 
 void judge_completion(Findings& f, const Comparison& c) {
   for (const Result* r : {&c.a, &c.b}) {
-    if (r->trajectory) f.csv.push_back({"trajectory." + r->label + ".csv", [r] { return trajectory_csv(*r); }});
+    if (r->trajectory)
+      f.tables.push_back({"trajectory." + r->label, [r] { return trajectory_data("trajectory." + r->label, *r); }});
     if (r->unconfirmed()) f.unconfirmed = fmt::format("{} model: {}", r->label, r->accuracy_in_words());
     if (r->complete) continue;
     f.complete = false;
@@ -240,7 +241,7 @@ Findings findings_of(const Result& r, const Result* rigid) {
   show_background(f, {&r});
   if (r.begins_at > 0) f.tell("goes_on_from", r.begins_at);
   for (Field& field : result_record(r)) f.tell(std::move(field.key), std::move(field.value));
-  if (r.trajectory) f.csv.push_back({"trajectory.csv", [&r] { return trajectory_csv(r); }});
+  if (r.trajectory) f.tables.push_back({"trajectory", [&r] { return trajectory_data("trajectory", r); }});
   return f;
 }
 

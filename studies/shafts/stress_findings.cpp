@@ -194,38 +194,47 @@ std::vector<Plot> stress_plots(const ShaftStresses& s) {
   return plots;
 }
 
-std::string stress_csv(const ShaftStresses& s) {
-  const auto cell = [](double value) {
-    return std::isfinite(value) ? fmt::format(",{:.9g}", value) : std::string(",");
-  };
-  std::string text = "shaft,misfires,speed [rad/s],amplitude [Pa],continuous limit [Pa],passing limit [Pa]";
+DataTable stress_data(const ShaftStresses& s) {
+  constexpr NumberFormat format{9};
+  DataTable table{.name = "shaft_stress",
+                  .columns = {{.name = "shaft", .words = true},
+                              {.name = "misfires", .words = true},
+                              {"speed", "rad/s", format},
+                              {"amplitude", "Pa", format},
+                              {"continuous limit", "Pa", format},
+                              {"passing limit", "Pa", format}}};
   const std::size_t harmonics = s.normal.sweep.empty() ? 0 : s.normal.sweep.front().orders.front().size();
   for (std::size_t r = 1; r < harmonics; ++r)
-    text += fmt::format(",order {:g} [Pa]", s.normal.fundamental * static_cast<double>(r));
-  text += '\n';
-  const auto rows_of = [&](const Firing& firing, std::size_t j) {
-    const LimitedJoint& joint = s.joints[j];
-    for (const SpeedResponse& at : firing.sweep) {
-      if (!at.kept) continue;
-      text += fmt::format("{},{},{:.9g}", joint.name, firing.misfires, at.speed);
-      text += cell(summed_stress(joint, at.joints[j])) + cell(allowed_amplitude(joint, at.speed));
-      text +=
-          cell(joint.limits.shaft.is_of_propulsion() && joint.speed_ratio(at.speed) <= 0.8 ? joint.transient(at.speed)
-                                                                                           : HUGE_VAL);
-      for (std::size_t r = 1; r < harmonics; ++r) {
-        // The same order of a firing whose cycle is longer.
-        const double n = s.normal.fundamental / firing.fundamental * static_cast<double>(r);
-        const auto k = static_cast<std::size_t>(std::lround(n));
-        text += cell(k < at.orders[j].size() ? order_stress(joint, at.orders[j][k]) : HUGE_VAL);
+    table.columns.push_back({fmt::format("order {:g}", s.normal.fundamental * static_cast<double>(r)), "Pa", format});
+  table.each_row = [&s, harmonics](const std::function<void(DataRow)>& take) {
+    const auto known = [](double value) { return std::isfinite(value) ? value : NAN; };
+    std::vector<DataCell> cells;
+    const auto rows_of = [&](const Firing& firing, std::size_t j) {
+      const LimitedJoint& joint = s.joints[j];
+      for (const SpeedResponse& at : firing.sweep) {
+        if (!at.kept) continue;
+        const bool may_pass = joint.limits.shaft.is_of_propulsion() && joint.speed_ratio(at.speed) <= 0.8;
+        cells = {joint.name,
+                 firing.misfires,
+                 at.speed,
+                 known(summed_stress(joint, at.joints[j])),
+                 known(allowed_amplitude(joint, at.speed)),
+                 may_pass ? known(joint.transient(at.speed)) : NAN};
+        for (std::size_t r = 1; r < harmonics; ++r) {
+          // The same order of a firing whose cycle is longer.
+          const double n = s.normal.fundamental / firing.fundamental * static_cast<double>(r);
+          const auto k = static_cast<std::size_t>(std::lround(n));
+          cells.emplace_back(k < at.orders[j].size() ? known(order_stress(joint, at.orders[j][k])) : NAN);
+        }
+        take(cells);
       }
-      text += '\n';
+    };
+    for (const std::size_t j : judged_shafts(s.joints)) {
+      rows_of(s.normal, j);
+      for (const Firing& firing : s.misfires) rows_of(firing, j);
     }
   };
-  for (const std::size_t j : judged_shafts(s.joints)) {
-    rows_of(s.normal, j);
-    for (const Firing& firing : s.misfires) rows_of(firing, j);
-  }
-  return text;
+  return table;
 }
 
 }  // namespace kurbel

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/data/data_table.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
 #include "studies/shafts/shaft_stress.h"
@@ -19,6 +20,6 @@ double stress_excess(const ShaftStresses& s);
 Rows stress_table(const ShaftStresses& s);   // of every shaft the sum, and its orders
 Rows misfire_table(const ShaftStresses& s);  // of every shaft and cylinder that misfires
 std::vector<Plot> stress_plots(const ShaftStresses& s);
-std::string stress_csv(const ShaftStresses& s);  // shaft by shaft, speed by speed: the sum, every order, limits
+DataTable stress_data(const ShaftStresses& s);  // shaft by shaft, speed by speed: the sum, every order, limits
 
 }  // namespace kurbel

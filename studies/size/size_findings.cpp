@@ -289,18 +289,17 @@ void tell_basis(Findings& f, const Sizing& s) {
                                {"lower", tangent_record(s.exact.lower)}});
 }
 
-std::string diagrams_csv(const Sizing& s) {
-  const std::vector<double> phi = angles(s, curve_points);
+DataTable diagrams_data(const Sizing& s) {
   const auto of = [](const Piecewise& f) { return [&f](double x) { return f.value(x); }; };
-  return csv_of(phi)
-      .column("phi [rad]", std::identity())
-      .column("M_d [N*m]", of(s.diagram.drive_torque))
-      .column("M_c [N*m]", of(s.diagram.load_torque))
-      .column("A_d [J]", of(s.diagram.drive_work))
-      .column("A_c [J]", of(s.diagram.load_work))
-      .column("dT [J]", of(s.diagram.excess))
-      .column("I_em [kg*m2]", of(s.cycle.mechanism.value))
-      .text();
+  return data_of("diagrams", angles(s, curve_points))
+      .column("phi", "rad", std::identity())
+      .column("M_d", "N*m", of(s.diagram.drive_torque))
+      .column("M_c", "N*m", of(s.diagram.load_torque))
+      .column("A_d", "J", of(s.diagram.drive_work))
+      .column("A_c", "J", of(s.diagram.load_work))
+      .column("dT", "J", of(s.diagram.excess))
+      .column("I_em", "kg*m2", of(s.cycle.mechanism.value))
+      .table();
 }
 
 // --- all of it ---
@@ -388,7 +387,7 @@ Findings findings_of(const Sizing& s) {
   }
   if (s.sheet) say_titled(f, scales, scales_table(s));
   say_notes(f, notes, s);
-  f.csv = {{"diagrams.csv", [&s] { return diagrams_csv(s); }}};
+  f.tables = {{"diagrams", [&s] { return diagrams_data(s); }}};
   return f;
 }
 

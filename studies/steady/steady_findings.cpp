@@ -170,29 +170,30 @@ double at_angle(const Trace& trace, double angle) {
   return width > 0 ? trace.y[i - 1] + (trace.y[i] - trace.y[i - 1]) * (angle - trace.x[i - 1]) / width : trace.y[i];
 }
 
-std::string cycle_csv(const SteadyCycle& c) {
+DataTable cycle_data(const SteadyCycle& c) {
   constexpr int rows = 720;
   std::vector<double> angles;
   for (int i = 0; i <= rows; ++i) angles.push_back(c.model->cycle * i / rows);
-  auto csv = csv_of(angles).column("angle [rad]", std::identity());
+  auto data = data_of("steady." + c.label, std::move(angles));
+  data.column("angle", "rad", std::identity());
   for (const Trace& t : whole_cycle(c)->traces)
     if (!t.name.starts_with(measured_trace("")))
-      csv.column(
-          fmt::format("{} [{}]", t.name, t.unit), [&t](double angle) { return at_angle(t, angle); }, 10);
-  return csv.text();
+      data.column(
+          t.name, t.unit, [&t](double angle) { return at_angle(t, angle); }, 10);
+  return data.table();
 }
 
-void add_files(Findings& f, const SteadyStudy& s) {
+void add_tables(Findings& f, const SteadyStudy& s) {
   if (s.diagram)
-    f.csv.push_back({"operating_points.csv", [&s] {
-                       return csv_of(s.diagram->curve)
-                           .column("speed [rad/s]", &MeanTorques::omega)
-                           .column("drive_torque [N*m]", &MeanTorques::drive)
-                           .column("load_torque [N*m]", &MeanTorques::load)
-                           .text();
-                     }});
+    f.tables.push_back({"operating_points", [&s] {
+                          return data_of("operating_points", s.diagram->curve)
+                              .column("speed", "rad/s", &MeanTorques::omega)
+                              .column("drive_torque", "N*m", &MeanTorques::drive)
+                              .column("load_torque", "N*m", &MeanTorques::load)
+                              .table();
+                        }});
   for (const SteadyCycle& c : s.cycles)
-    if (whole_cycle(c)) f.csv.push_back({"steady." + c.label + ".csv", [&c] { return cycle_csv(c); }});
+    if (whole_cycle(c)) f.tables.push_back({"steady." + c.label, [&c] { return cycle_data(c); }});
 }
 
 // --- plots ---
@@ -438,7 +439,7 @@ Findings findings_of(const SteadyStudy& s) {
     f.say(figures, figure_table(s));
   }
   f.say(notes, Sentences{.lines = s.notes, .indent = "note: ", .key = "notes"});
-  add_files(f, s);
+  add_tables(f, s);
   return f;
 }
 

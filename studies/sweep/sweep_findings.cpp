@@ -169,42 +169,50 @@ std::string conclusion_of(const SweepStudyResult& s) {
   return text;
 }
 
-std::string csv_line(const SweepStudyResult& s, const SweepRow& r) {
-  std::string text = fmt::format("{},{},{:.4g}", r.row, name_of(r.state), r.seconds);
+void fill(std::vector<DataCell>& cells, const SweepStudyResult& s, const SweepRow& r) {
+  cells = {static_cast<double>(r.row), name_of(r.state), r.seconds};
   for (std::size_t k = 0; k < r.parameters.size(); ++k) {
     const SweptParameter& p = s.identity.parameters[k];
-    text += p.words.empty() ? fmt::format(",{}", r.parameters[k])
-                            : "," + p.words[static_cast<std::size_t>(r.parameters[k])];
+    if (p.words.empty())
+      cells.emplace_back(r.parameters[k]);
+    else
+      cells.emplace_back(p.words[static_cast<std::size_t>(r.parameters[k])]);
   }
   for (std::size_t k = 0; k < s.identity.figures.size(); ++k) {
     const double v = value_in(r, k);
-    const auto error = error_in(r, k);
-    text += std::isfinite(v) ? fmt::format(",{}", v) : ",";
-    text += error ? fmt::format(",{:.3g}", *error) : ",";
+    cells.emplace_back(std::isfinite(v) ? v : NAN);
+    cells.emplace_back(error_in(r, k).value_or(NAN));
   }
-  return text + '\n';
 }
 
 // Rows from `from` on, below `to`.
-std::string csv_text(const SweepStudyResult& s, std::size_t from, std::size_t to) {
-  std::string text = "row,state,seconds";
+DataTable variants_data(const std::string& name, const SweepStudyResult& s, std::size_t from, std::size_t to) {
+  DataTable table{.name = name,
+                  .columns = {{.name = "row", .format = whole_number},
+                              {.name = "state", .words = true},
+                              {.name = "seconds", .format = {4}}},
+                  .each_row = [&s, from, to](const std::function<void(DataRow)>& take) {
+                    std::vector<DataCell> cells;
+                    s.each_row([&](const SweepRow& r) { fill(cells, s, r), take(cells); }, from, to);
+                  }};
   for (const SweptParameter& p : s.identity.parameters)
-    text += fmt::format(",{}{}", p.path, p.unit.empty() ? "" : " [" + p.unit + "]");
-  for (const SweptFigure& f : s.identity.figures)
-    text += fmt::format(",{} [{}],error of {} [{}]", f.name, f.unit, f.name, f.unit);
-  text += '\n';
-  s.each_row([&](const SweepRow& r) { text += csv_line(s, r); }, from, to);
-  return text;
+    table.columns.push_back(
+        {.name = p.path, .unit = p.unit.empty() ? std::nullopt : std::optional(p.unit), .words = !p.words.empty()});
+  for (const SweptFigure& f : s.identity.figures) {
+    table.columns.push_back({f.name, f.unit});
+    table.columns.push_back({"error of " + f.name, f.unit, {3}});
+  }
+  return table;
 }
 
 // One table, or of a great sweep one each rows_in_table: none is ever in memory with the others.
-std::vector<CsvFile> csv_tables(const SweepStudyResult& s) {
-  std::vector<CsvFile> tables;
+std::vector<TableFile> variant_tables(const SweepStudyResult& s) {
+  std::vector<TableFile> tables;
   const std::vector<std::size_t>& begins = s.tally.pieces;
   for (std::size_t i = 0; i < std::max<std::size_t>(begins.size(), 1); ++i) {
     const std::size_t from = i == 0 ? 0 : begins[i], to = i + 1 < begins.size() ? begins[i + 1] : SweepStore::all;
-    tables.push_back({i == 0 ? "variants.csv" : fmt::format("variants_{}.csv", i + 1),
-                      [&s, from, to] { return csv_text(s, from, to); }});
+    const std::string name = i == 0 ? "variants" : fmt::format("variants_{}", i + 1);
+    tables.push_back({name, [name, &s, from, to] { return variants_data(name, s, from, to); }});
   }
   return tables;
 }
@@ -319,7 +327,7 @@ Findings findings_of(const SweepStudyResult& s) {
   f.tell("shard", s.identity.shard);
   f.tell("database", s.into);
   f.show_scene(s.identity.told("scene file"), s.identity.told("scene text"));
-  f.csv = csv_tables(s);
+  f.tables = variant_tables(s);
   return f;
 }
 

@@ -68,9 +68,29 @@ std::string described(std::string words, std::string unit) {
   return unit.empty() ? words : words + (words.empty() ? "[" : " [") + unit + "]";
 }
 
-std::string words_of(const std::string& name) {
-  const Definition* definition = definition_of(name);
-  return definition ? std::string(definition->words) : "";
+std::string described(const DataColumn& column) {
+  const Definition* definition = definition_of(column.name);
+  return described(definition ? std::string(definition->words) : "", column.unit.value_or(""));
+}
+
+// Where its columns of numbers stand.
+std::vector<std::size_t> numbers_in(const DataTable& table) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    if (!table.columns[k].words) places.push_back(k);
+  return places;
+}
+
+// Row by row; false: they are more than a matrix holds.
+bool collect(const DataTable& table, const std::vector<std::size_t>& places, std::vector<double>& data) {
+  constexpr std::size_t most_bytes = 2'000'000'000;
+  bool fits = true;
+  table.each_row([&](DataRow row) {
+    fits = fits && (data.size() + places.size()) * sizeof(double) < most_bytes;
+    for (std::size_t i = 0; fits && i < places.size(); ++i)
+      data.push_back(as_written(std::get<double>(row[places[i]]), table.columns[places[i]].format));
+  });
+  return fits;
 }
 
 // The lists of what is in the matrices.
@@ -87,39 +107,34 @@ struct Contents {
 
 }  // namespace
 
-bool fits_mat(const DataTable& table) {
-  constexpr std::size_t most_bytes = 2'000'000'000;
-  return table.rows() * table.columns.size() * sizeof(double) < most_bytes;
-}
-
-std::string mat_file(const DataTable& table, const std::vector<MatConstant>& constants) {
+std::optional<std::string> mat_file(const DataTable& table, const std::vector<MatConstant>& constants) {
   constexpr std::int32_t unknown_beyond = -1, constant_beyond = 0;
-  const std::vector<const DataColumn*> columns = table.numbers();
-  if (columns.empty()) return {};
-  const std::size_t rows = table.rows();
-  const DataColumn& abscissa = *columns.front();
+  const std::vector<std::size_t> places = numbers_in(table);
+  if (places.empty()) return "";
+  std::vector<double> data;
+  if (!collect(table, places, data)) return {};
+  const std::size_t rows = data.size() / places.size();
+  const DataColumn& abscissa = table.columns[places.front()];
   Contents contents;
   std::set<std::string> known;
   // What the others are over.
-  contents.add(abscissa.name, described(words_of(abscissa.name), abscissa.unit), 0, 1, unknown_beyond);
+  contents.add(abscissa.name, described(abscissa), 0, 1, unknown_beyond);
   known.insert(abscissa.name);
   // Constants, at both ends.
   std::vector<double> at_ends[2];
   for (const bool end : {false, true})
-    at_ends[end].push_back(rows == 0 ? 0 : end ? abscissa.numbers.back() : abscissa.numbers.front());
-  for (const DataColumn* column : columns) known.insert(column->name);
+    at_ends[end].push_back(rows == 0 ? 0 : end ? data[data.size() - places.size()] : data.front());
+  for (const std::size_t k : places) known.insert(table.columns[k].name);
   for (const MatConstant& c : constants) {
     if (!known.insert(c.name).second) continue;
     for (std::vector<double>& values : at_ends) values.push_back(c.value);
     contents.add(c.name, described(c.words, c.unit), 1, at_ends[0].size(), constant_beyond);
   }
   // Quantities.
-  for (std::size_t k = 1; k < columns.size(); ++k)
-    contents.add(columns[k]->name, described(words_of(columns[k]->name), columns[k]->unit), 2, k + 1, unknown_beyond);
-  std::vector<double> data;
-  data.reserve(rows * columns.size());
-  for (std::size_t row = 0; row < rows; ++row)
-    for (const DataColumn* column : columns) data.push_back(column->numbers[row]);
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const DataColumn& column = table.columns[places[k]];
+    contents.add(column.name, described(column), 2, k + 1, unknown_beyond);
+  }
 
   const MemoryFile memory;
   MatFile file(Mat_CreateVer(memory.path().c_str(), "MATLAB 5.0 MAT-file, by kurbel: Modelica's layout of results",
@@ -131,7 +146,7 @@ std::string mat_file(const DataTable& table, const std::vector<MatConstant>& con
   write(file.get(), "dataInfo", MAT_C_INT32, MAT_T_INT32, 4, contents.names.size(), contents.info);
   at_ends[0].insert(at_ends[0].end(), at_ends[1].begin(), at_ends[1].end());
   write(file.get(), "data_1", MAT_C_DOUBLE, MAT_T_DOUBLE, at_ends[1].size(), 2, at_ends[0]);
-  write(file.get(), "data_2", MAT_C_DOUBLE, MAT_T_DOUBLE, columns.size(), rows, data);
+  write(file.get(), "data_2", MAT_C_DOUBLE, MAT_T_DOUBLE, places.size(), rows, data);
   if (Mat_Close(file.release()) != 0) fail();
   return memory.bytes();
 }

@@ -11,10 +11,11 @@
 // The layout is that of Dymola's manual and of Modelica's tools (DyMat, buildingspy), which read it by their MAT reader.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "studies/tables/data_table.h"
+#include "studies/data/data_table.h"
 
 namespace kurbel {
 
@@ -23,11 +24,8 @@ struct MatConstant {
   double value = 0;
 };
 
-// A matrix of version 5 has at most 2 GB.
-bool fits_mat(const DataTable& table);
-
-// The file's bytes. Columns of words are left out. Constants that are named as a column is are left out. Throws
+// The file's bytes; none: a matrix of version 5 has at most 2 GB. Columns of words are left out. Constants that are named as a column is are left out. Throws
 // std::runtime_error where there is no memory for it.
-std::string mat_file(const DataTable& table, const std::vector<MatConstant>& constants);
+std::optional<std::string> mat_file(const DataTable& table, const std::vector<MatConstant>& constants);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// table_files.cpp — the CSV text of each table is made once; the other formats are made of it.
+// table_files.cpp — each table is written row by row into every format.
 #include "studies/tables/table_files.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 
 #include "engine/scene/messages.h"
 #include "studies/files/memory_file.h"
-#include "studies/tables/data_table.h"
 #include "studies/tables/mat_file.h"
 #include "studies/tables/summary_tables.h"
 #include "studies/tables/xlsx_book.h"
@@ -44,25 +43,31 @@ void add_events(XlsxBook& book, const std::vector<EventRow>& events) {
 std::vector<std::string> headings_of(const DataTable& table) {
   std::vector<std::string> headings;
   for (const DataColumn& column : table.columns)
-    headings.push_back(column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit));
+    headings.push_back(column.unit && column.unit->empty() ? column.name : heading_of(column.name, column.unit));
   return headings;
+}
+
+XlsxCell cell(const DataCell& of, const NumberFormat& format) {
+  const double* const number = std::get_if<double>(&of);
+  return number ? XlsxCell(as_written(*number, format)) : XlsxCell(std::get<std::string>(of));
 }
 
 // As many sheets as its rows need.
 void add_table(XlsxBook& book, const DataTable& table) {
   std::vector<XlsxCell> cells(table.columns.size());
-  std::size_t row = 0;
-  do {
+  const auto begin_sheet = [&] {
     XlsxSheet sheet = book.sheet(table.name);
     sheet.headings(headings_of(table));
-    for (std::size_t last = row + XlsxSheet::most_rows - 1; row < table.rows() && row < last; ++row) {
-      for (std::size_t k = 0; k < cells.size(); ++k) {
-        const DataColumn& column = table.columns[k];
-        cells[k] = column.is_words() ? XlsxCell(column.words[row]) : XlsxCell(column.numbers[row]);
-      }
-      sheet.row(cells);
-    }
-  } while (row < table.rows());
+    return sheet;
+  };
+  XlsxSheet sheet = begin_sheet();
+  std::size_t rows = 1;
+  table.each_row([&](DataRow row) {
+    if (rows == XlsxSheet::most_rows) sheet = begin_sheet(), rows = 1;
+    for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = cell(row[k], table.columns[k].format);
+    sheet.row(cells);
+    ++rows;
+  });
 }
 
 }  // namespace
@@ -96,17 +101,17 @@ void make_table_files(const StudyOutput& output, const TableFormats& formats,
     add_figures(*book, summary.figures);
     add_events(*book, summary.events);
   }
-  for (const CsvFile& file : output.csv) {
-    const std::string csv = file.text();
-    const bool is_table = file.name.ends_with(".csv");  // or a sheet to be printed, which has one form
-    if (formats.csv || !is_table) take(file.name, csv);
-    if (!is_table) continue;
-    if (!formats.mat && !formats.xlsx) continue;
-    const DataTable table = data_table(file.name, csv);
+  for (const TableFile& file : output.tables) {
+    const DataTable table = file.table();
+    if (formats.csv) take(table.name + ".csv", csv_text(table));
     if (book) add_table(*book, table);
-    if (formats.mat && fits_mat(table)) take(table.name + ".mat", mat_file(table, constants_of(summary, table.name)));
-    if (formats.mat && !fits_mat(table) && !formats.csv) take(file.name, csv);
+    if (!formats.mat) continue;
+    if (const auto mat = mat_file(table, constants_of(summary, table.name)))
+      take(table.name + ".mat", *mat);
+    else if (!formats.csv)
+      take(table.name + ".csv", csv_text(table));
   }
+  for (const auto& [name, text] : output.files) take(name, text);
   if (!book) return;
   book->close();
   take("results.xlsx", memory.bytes());

@@ -199,7 +199,7 @@ TEST(ForcesInALinkage, PushTheWayThatTheirColumnsName) {
     const LinkageStudy slow = find_linkage_forces(scene, options);
     options.speed = 40;
     const LinkageStudy fast = find_linkage_forces(scene, options);
-    const std::string csv = findings_of(fast).csv[0].text(), header = csv.substr(0, csv.find('\n'));
+    const std::string csv = csv_text(findings_of(fast).tables[0].table()), header = csv.substr(0, csv.find('\n'));
     const auto left = [](const PositionForces& p) {
       Force2 sum = p.forces.shaking_force;
       for (const JointForces& j : p.forces.joints)

@@ -181,8 +181,8 @@ TEST(ForcesInALinkage, NamesJointsSensesAndAxes) {
   const Findings findings = findings_of(f);
   const auto json = nlohmann::json::parse(json_text(summary_of(findings)));
   EXPECT_NE(json.at("signs").get<std::string>().find("crank pin: crank on coupler"), std::string::npos);
-  ASSERT_EQ(findings.csv.size(), 2U);
-  const std::string csv = findings.csv[0].text();
+  ASSERT_EQ(findings.tables.size(), 2U);
+  const std::string csv = csv_text(findings.tables[0].table());
   EXPECT_NE(csv.find("rocker_bearing_of_frame_on_rocker_x [N]"), std::string::npos) << csv.substr(0, 400);
   bool told = false;
   for (const auto& note : json.at("notes"))

@@ -110,7 +110,7 @@ TEST(Reduce, DeadCentresOfTheSliderAreLeftOutWithTheReason) {
   ASSERT_FALSE(r.notes.empty());
   const StudyOutput output = output_of(r);
   EXPECT_NE(output.table.find("position 0 (0°), 6 (180°): a dead centre"), std::string::npos) << output.table;
-  const std::string csv = output.csv.front().text();
+  const std::string csv = csv_text(output.tables.front().table());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 11);  // the heading and ten rows
   EXPECT_EQ(csv.find("—"), std::string::npos);
 }

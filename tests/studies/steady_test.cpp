@@ -403,8 +403,8 @@ TEST(SteadyOutput, JsonHoldsFiguresMultipliersAndOperatingPoints) {
       }
   EXPECT_EQ(equal_axes, 1);
   EXPECT_GE(over_angle, 3);
-  ASSERT_EQ(output.csv.size(), 3u);
-  EXPECT_TRUE(output.csv[0].text().starts_with("speed [rad/s],drive_torque"));
+  ASSERT_EQ(output.tables.size(), 3u);
+  EXPECT_TRUE(csv_text(output.tables[0].table()).starts_with("speed [rad/s],drive_torque"));
 }
 
 // Works over a cycle whose area is known in closed form: of a press 630 kN · 2.85 mm; of a compressor, with n = m = 1.3,

@@ -12,7 +12,6 @@
 #include "studies/run/run_findings.h"
 #include "studies/run/simulate.h"
 #include "studies/steady/steady.h"
-#include "studies/tables/data_table.h"
 #include "studies/tables/mat_file.h"
 #include "studies/tables/table_files.h"
 #include "studies/tables/trajectory_rows.h"
@@ -42,6 +41,18 @@ std::map<std::string, std::string> files_of(const StudyOutput& output, const std
   make_table_files(output, table_formats(formats),
                    [&](const std::string& name, const std::string& bytes) { files[name] = bytes; });
   return files;
+}
+
+// Column by column; words are no numbers.
+std::vector<std::vector<double>> columns_of(const DataTable& table) {
+  std::vector<std::vector<double>> columns(table.columns.size());
+  table.each_row([&](DataRow row) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const double* const number = std::get_if<double>(&row[k]);
+      columns[k].push_back(number ? as_written(*number, table.columns[k].format) : std::nan(""));
+    }
+  });
+  return columns;
 }
 
 // A MAT file read by libmatio.
@@ -90,18 +101,19 @@ class Mat {
   std::map<std::string, std::shared_ptr<matvar_t>> variables_;
 };
 
-TEST(TableFiles, TheCsvGivesTheRunsNumbersToTheLastBit) {
+TEST(TableFiles, ATableHoldsTheRunsNumbersToTheLastBit) {
   const TrajectoryRows rows = rows_of(*ringing().trajectory);
-  const DataTable table = data_table("trajectory.csv", trajectory_csv(ringing()));
+  const DataTable table = trajectory_data("trajectory", ringing());
+  const std::vector<std::vector<double>> numbers = columns_of(table);
   const std::size_t columns = ringing().trajectory->channels().size();
-  ASSERT_GT(table.rows(), 5u) << "rows at peaks, too";
-  ASSERT_EQ(table.rows(), rows.time.size());
+  ASSERT_GT(numbers[0].size(), 5u) << "rows at peaks, too";
+  ASSERT_EQ(numbers[0].size(), rows.time.size());
   ASSERT_EQ(table.columns.size(), columns + 1);
   EXPECT_EQ(table.columns[0].unit, "s");
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    EXPECT_EQ(table.columns[0].numbers[i], rows.time[i]);
+  for (std::size_t i = 0; i < numbers[0].size(); ++i) {
+    EXPECT_EQ(numbers[0][i], rows.time[i]);
     for (std::size_t k = 0; k < columns; ++k)
-      EXPECT_EQ(table.columns[k + 1].numbers[i], rows.values[i * columns + k]) << table.columns[k + 1].name;
+      EXPECT_EQ(numbers[k + 1][i], rows.values[i * columns + k]) << table.columns[k + 1].name;
   }
 }
 
@@ -122,7 +134,8 @@ TEST(TableFiles, AMatFileHoldsTheTrajectoryInModelicasLayout) {
   EXPECT_EQ(names[0], "time");
   EXPECT_EQ(told(0, 0), 0);
   EXPECT_EQ(told(0, 1), 1);
-  const DataTable table = data_table("trajectory.csv", trajectory_csv(ringing()));
+  const DataTable table = trajectory_data("trajectory", ringing());
+  const std::vector<std::vector<double>> numbers = columns_of(table);
   std::size_t quantities = 0, constants = 0;
   for (std::size_t i = 1; i < names.size(); ++i) {
     const auto row = static_cast<std::size_t>(told(i, 1)) - 1;
@@ -138,8 +151,8 @@ TEST(TableFiles, AMatFileHoldsTheTrajectoryInModelicasLayout) {
       ++quantities;
       EXPECT_EQ(told(i, 3), -1) << "unknown beyond the ends";
       ASSERT_EQ(names[i], table.columns[row].name);
-      for (std::size_t at = 0; at < table.rows(); ++at)
-        EXPECT_EQ(mat.number("data_2", row, at), table.columns[row].numbers[at]) << names[i] << at;
+      for (std::size_t at = 0; at < numbers[0].size(); ++at)
+        EXPECT_EQ(mat.number("data_2", row, at), numbers[row][at]) << names[i] << at;
     }
     if (names[i] == "torque.shaft") {
       EXPECT_EQ(words[i], "torque [N.m]");
@@ -147,9 +160,8 @@ TEST(TableFiles, AMatFileHoldsTheTrajectoryInModelicasLayout) {
   }
   EXPECT_EQ(quantities, table.columns.size() - 1);
   EXPECT_EQ(constants, ringing().figures.size());
-  EXPECT_EQ(mat["data_2"].dims[1], table.rows());
-  for (std::size_t at = 0; at < table.rows(); ++at)
-    EXPECT_EQ(mat.number("data_2", 0, at), table.columns[0].numbers[at]);
+  EXPECT_EQ(mat["data_2"].dims[1], numbers[0].size());
+  for (std::size_t at = 0; at < numbers[0].size(); ++at) EXPECT_EQ(mat.number("data_2", 0, at), numbers[0][at]);
   EXPECT_EQ(mat.number("data_1", 0, 1), 0.5) << "the time of the end";
 }
 
@@ -175,7 +187,7 @@ TEST(TableFiles, OnlyWhatIsAskedForIsMade) {
 TEST(TableFiles, WhatIsNoTableStaysAsItIs) {
   StudyOutput output = output_of(ringing());
   const std::string page = "<!doctype html>\n<p>a, b</p>\n<p>c, d, e, f</p>\n";
-  output.csv.push_back({"sheet.html", [&] { return page; }});
+  output.files.emplace_back("sheet.html", page);
   for (const char* formats : {"csv", "mat", "xlsx", "csv,mat,xlsx"}) {
     const auto files = files_of(output, formats);
     ASSERT_TRUE(files.contains("sheet.html")) << formats;
@@ -194,20 +206,26 @@ TEST(TableFiles, EveryStudysTablesAreMade) {
   const auto files = files_of(output, "csv,mat");
   ASSERT_TRUE(files.contains("steady.elastic.mat"));
   Mat mat(files.at("steady.elastic.mat"));
-  const DataTable table = data_table("steady.elastic.csv", files.at("steady.elastic.csv"));
+  const DataTable table = output.tables.back().table();
+  ASSERT_EQ(table.name, "steady.elastic");
+  const std::vector<std::vector<double>> numbers = columns_of(table);
   EXPECT_EQ(mat.texts("name").at(0), "angle");
   EXPECT_EQ(mat["data_2"].dims[0], table.columns.size());
-  for (std::size_t k = 0; k < table.columns.size(); ++k)
-    EXPECT_EQ(mat.number("data_2", k, 360), table.columns[k].numbers[360]);
+  for (std::size_t k = 0; k < table.columns.size(); ++k) EXPECT_EQ(mat.number("data_2", k, 360), numbers[k][360]);
 
-  const DataTable mixed = data_table("mixed.csv", "# a remark\nn,who [s],x [m]\n1,,0.5\n2,rotor,\n");
-  EXPECT_EQ(mixed.remark, "a remark");
-  ASSERT_EQ(mixed.columns.size(), 3u);
-  EXPECT_TRUE(mixed.columns[1].is_words());
-  EXPECT_EQ(mixed.columns[1].words[1], "rotor");
-  EXPECT_EQ(mixed.numbers().size(), 2u);
-  EXPECT_TRUE(std::isnan(mixed.columns[2].numbers[1]));
-  EXPECT_EQ(Mat(mat_file(mixed, {})).texts("name"), (std::vector<std::string>{"n", "x"}));
+  struct Row {
+    int n;
+    std::string who;
+    double x;
+  };
+  const std::vector<Row> rows = {{1, "", 0.5}, {2, "rotor", HUGE_VAL}, {3, "shaft", 1 / 3.0}};
+  DataTable mixed =
+      data_of("mixed", rows).column("n", {}, &Row::n).column("who", "s", &Row::who).column("x", "", &Row::x, 3).table();
+  mixed.remark = "a remark";
+  EXPECT_EQ(csv_text(mixed), "# a remark\nn,who [s],x []\n1,,0.5\n2,rotor,\n3,shaft,0.333\n");
+  Mat read(mat_file(mixed, {}).value());
+  EXPECT_EQ(read.texts("name"), (std::vector<std::string>{"n", "x"})) << "numbers alone";
+  EXPECT_EQ(read.number("data_2", 1, 2), 0.333) << "as in the other files";
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+// data_table.cpp — the text of tables and of their numbers.
+#include "studies/data/data_table.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <iterator>
+
+namespace kurbel {
+namespace {
+
+template <class Out>
+void put_number(Out out, double value, const NumberFormat& format) {
+  if (format.after_point)
+    fmt::format_to(out, "{:.{}f}", value, format.digits);
+  else if (format.digits > 0)
+    fmt::format_to(out, "{:.{}g}", value, format.digits);
+  else
+    fmt::format_to(out, "{}", value);
+}
+
+void put_cell(std::string& text, const DataCell& cell, const NumberFormat& format) {
+  if (const std::string* words = std::get_if<std::string>(&cell))
+    text += *words;
+  else if (const double number = std::get<double>(cell); !std::isnan(number))
+    put_number(std::back_inserter(text), number, format);
+}
+
+}  // namespace
+
+std::string heading_of(const std::string& name, const std::optional<std::string>& unit) {
+  return unit ? fmt::format("{} [{}]", name, *unit) : name;
+}
+
+double as_written(double value, const NumberFormat& format) {
+  if (!std::isfinite(value) || (format.digits == 0 && !format.after_point)) return value;
+  fmt::memory_buffer digits;
+  put_number(std::back_inserter(digits), value, format);
+  std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return value;
+}
+
+std::string csv_text(const DataTable& table) {
+  std::string text = table.remark.empty() ? "" : "# " + table.remark + "\n";
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    text += (k == 0 ? "" : ",") + heading_of(table.columns[k].name, table.columns[k].unit);
+  text += '\n';
+  table.each_row([&](DataRow row) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      put_cell(text, row[k], table.columns[k].format);
+      text += k + 1 < row.size() ? ',' : '\n';
+    }
+  });
+  return text;
+}
+
+}  // namespace kurbel
