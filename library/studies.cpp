@@ -67,7 +67,7 @@ std::string Study::unconfirmed() const { return parts_->output.unconfirmed; }
 
 std::vector<std::pair<std::string, std::string>> Study::tables() const {
   std::vector<std::pair<std::string, std::string>> all;
-  for (const TableFile& file : parts_->output.tables) all.emplace_back(file.name + ".csv", csv_text(file.table()));
+  for (const auto& [name, table] : parts_->output.tables) all.emplace_back(name + ".csv", csv_text(table()));
   all.insert(all.end(), parts_->output.files.begin(), parts_->output.files.end());
   return all;
 }

@@ -34,12 +34,22 @@ Rows settings_table(const AccuracyStudy& study) {
   using S = const MeasuredSetting&;
   auto table = table_of("settings", "Every setting", study.settings).not_on_terminal().fold().text_in(2).always();
   table.column("model", "model", [&](S s) { return study.levels[s.level].name; })
+      .in_file("model", {}, [&](S s) { return fmt::format("\"{}\"", study.levels[s.level].name); })
       .column("method", "method", &MeasuredSetting::method)
+      .also_in_file()
       .only_for_programs("tolerance", [](S s) { return s.tolerance > 0 ? Value(s.tolerance) : Value(); })
+      .in_file("tolerance", {}, &MeasuredSetting::tolerance, 6)
       .only_for_people("tolerance", &MeasuredSetting::tolerance, tolerance_text)
-      .column("trajectory_error", "error of motion", &MeasuredSetting::trajectory_error, error_number);
-  for (std::size_t i = 0; i < study.figures.size(); ++i)
-    table.only_for_people("error of " + study.figures[i].name, [i](S s) { return error_number(s.numerical_error[i]); });
+      .column("trajectory_error", "error of motion", &MeasuredSetting::trajectory_error, error_number)
+      .also_in_file({}, 6);
+  for (std::size_t i = 0; i < study.figures.size(); ++i) {
+    const std::string& name = study.figures[i].name;
+    table.only_for_people("error of " + name, [i](S s) { return error_number(s.numerical_error[i]); });
+    table.in_file(
+        "numerical_error." + name, {}, [i](S s) { return s.numerical_error[i]; }, 6);
+    table.in_file(
+        "total_error." + name, {}, [i](S s) { return s.total_error[i]; }, 6);
+  }
   return table
       .only_for_people("total error",
                        [&](S s) { return s.total_error.empty() ? "—" : error_number(s.total_error[study.key]); })
@@ -49,14 +59,25 @@ Rows settings_table(const AccuracyStudy& study) {
                          [](S s) {
                            return Record{{"median", s.seconds}, {"fastest", s.fastest}, {"slowest", s.slowest}};
                          })
+      .in_file("seconds", {}, &MeasuredSetting::seconds, 6)
+      .in_file("fastest", {}, &MeasuredSetting::fastest, 6)
+      .in_file("slowest", {}, &MeasuredSetting::slowest, 6)
       .only_for_programs("repetitions", &MeasuredSetting::repetitions)
+      .also_in_file()
       .column("steps", "steps", &MeasuredSetting::steps)
+      .also_in_file()
       .only_for_programs("rejected", &MeasuredSetting::rejected)
+      .also_in_file()
       .column("right_hand_sides", "right-hand sides", &MeasuredSetting::flow_calls)
+      .also_in_file()
       .column("jacobians", "Jacobians", &MeasuredSetting::jacobian_calls)
+      .also_in_file()
       .column("events", "events", &MeasuredSetting::events)
+      .also_in_file()
       .column("energy_drift", "energy drift", &MeasuredSetting::energy_drift, error_number)
+      .also_in_file({}, 6)
       .only_for_programs("on_front", &MeasuredSetting::on_front)
+      .also_in_file()
       .only_for_programs("on_front_of_model", &MeasuredSetting::on_level_front)
       .only_for_people("front", front_text)
       .only_for_programs("figures", [&](S s) {
@@ -163,32 +184,6 @@ Rows omission_table(const AccuracyStudy& study) {
       .column("why", "why", &Omission::why);
 }
 
-DataTable settings_data(const AccuracyStudy& study) {
-  using S = const MeasuredSetting&;
-  auto data = data_of("settings", study.settings);
-  data.column("model", {}, [&study](S s) { return fmt::format("\"{}\"", study.levels[s.level].name); })
-      .column("method", {}, &MeasuredSetting::method)
-      .column("tolerance", {}, &MeasuredSetting::tolerance, 6)
-      .column("trajectory_error", {}, &MeasuredSetting::trajectory_error, 6);
-  for (std::size_t i = 0; i < study.figures.size(); ++i)
-    data.column(
-            "numerical_error." + study.figures[i].name, {}, [i](S s) { return s.numerical_error[i]; }, 6)
-        .column(
-            "total_error." + study.figures[i].name, {}, [i](S s) { return s.total_error[i]; }, 6);
-  return data.column("seconds", {}, &MeasuredSetting::seconds, 6)
-      .column("fastest", {}, &MeasuredSetting::fastest, 6)
-      .column("slowest", {}, &MeasuredSetting::slowest, 6)
-      .column("repetitions", {}, &MeasuredSetting::repetitions)
-      .column("steps", {}, &MeasuredSetting::steps)
-      .column("rejected", {}, &MeasuredSetting::rejected)
-      .column("right_hand_sides", {}, &MeasuredSetting::flow_calls)
-      .column("jacobians", {}, &MeasuredSetting::jacobian_calls)
-      .column("events", {}, &MeasuredSetting::events)
-      .column("energy_drift", {}, &MeasuredSetting::energy_drift, 6)
-      .column("on_front", {}, [](S s) { return s.on_front ? 1 : 0; })
-      .table();
-}
-
 // --- all of it ---
 
 void add_key_figures(Findings& f, const AccuracyStudy& study) {
@@ -277,7 +272,7 @@ Findings findings_of(const AccuracyStudy& study) {
   f.say(f.chapter("Notes"), Sentences{.lines = study.notes, .indent = "  note: ", .key = "notes"});
   f.tell("machine", machine_info());
   f.tell("processor_seconds", study.seconds);
-  f.tables = {{"settings", [&study] { return settings_data(study); }}};
+  f.tables = {{"settings", [&study] { return settings_table(study).data(); }}};
   return f;
 }
 

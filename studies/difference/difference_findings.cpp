@@ -82,9 +82,9 @@ Rows figure_table(const MachineDifference& d) {
   const Names names = names_of(d);
   return table_of("figures", "Figure by figure", d.figures)
       .column("name", "figure", &FigureDifference::name)
-      .estimate_for_programs("a", &FigureDifference::a)
-      .estimate_for_programs("b", &FigureDifference::b)
-      .estimate_for_programs("difference", &FigureDifference::change)
+      .only_for_programs("a", &FigureDifference::a)
+      .only_for_programs("b", &FigureDifference::b)
+      .only_for_programs("difference", &FigureDifference::change)
       .only_for_programs("relative", &FigureDifference::relative)
       .only_for_people(names.a, [&d](F f) { return cell(d, f, f.a); })
       .only_for_people(names.b, [&d](F f) { return cell(d, f, f.b); })

@@ -88,7 +88,7 @@ struct Findings {
   std::vector<KeyFigure> figures = {};
   std::vector<std::string> chapters = {};
   std::vector<Statement> statements = {};
-  std::vector<TableFile> tables = {};
+  std::vector<NamedTable> tables = {};
   std::optional<Brief> brief = {};  // what a terminal is told unless all is asked for; none: all
 
   // The same in terminal, page and JSON, in one line.

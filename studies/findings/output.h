@@ -21,7 +21,7 @@ struct StudyOutput {
   std::string headline = {};       // the conclusion as the short form has it
   Record summary;                  // the same figures for programs: summary.json
   std::function<Report()> report;  // made only when it is written
-  std::vector<TableFile> tables = {};
+  std::vector<NamedTable> tables = {};
   std::vector<std::pair<std::string, std::string>> files = {};  // what is no table: name and text
   bool complete = true;
   std::string diagnosis = {};    // of a run that failed on its way
@@ -40,8 +40,6 @@ std::string brief_text(const Findings& findings);
 std::string headline_text(const Findings& findings);
 // What summary.json holds.
 Record summary_of(const Findings& findings);
-// A record as JSON, indented by two blanks; what is not UTF-8 is replaced, control characters are escaped.
-std::string json_text(const Record& record);
 Report page_of(const Findings& findings);
 
 StudyOutput rendered(Findings findings);

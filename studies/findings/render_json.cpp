@@ -1,42 +1,12 @@
-// render_json.cpp — findings for programs: summary.json.
+// render_json.cpp — findings for programs: the summary's values, and tables for files.
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <cmath>
+#include <limits>
 
-#include "engine/scene/printable.h"
 #include "studies/findings/output.h"
 
 namespace kurbel {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json json_of(const Value& value);
-
-Json json_of(const Record& record) {
-  Json j = Json::object();
-  auto& fields = j.get_ref<Json::object_t&>();
-  for (const Field& field : record) {  // no key comes twice, and none is looked for
-    const std::pair<const std::string, Json> entry(field.key, json_of(field.value));
-    fields.push_back(entry);
-  }
-  return j;
-}
-
-Json json_of(const Value& value) {
-  return value.visit([]<class T>(const T& v) -> Json {
-    if constexpr (std::is_same_v<T, std::monostate>) {
-      return {};
-    } else if constexpr (std::is_same_v<T, List>) {
-      Json list = Json::array();
-      for (const Value& item : v) list.push_back(json_of(item));
-      return list;
-    } else if constexpr (std::is_same_v<T, Record>) {
-      return json_of(v);
-    } else {
-      return v;
-    }
-  });
-}
 
 // What is said of a key again stands in the place of what was said first.
 void put(Record& summary, const std::string& key, Value value) {
@@ -56,6 +26,14 @@ void tell(Record& summary, const Sentences& words) {
 void tell(Record& summary, const Field& field) { put(summary, field.key, field.value); }
 void tell(Record&, const Drawn&) {}
 
+DataCell cell_of(const Value& value) {
+  if (const std::string* words = value.as<std::string>()) return *words;
+  if (const bool* so = value.as<bool>()) return *so ? 1.0 : 0.0;
+  if (const std::int64_t* whole = value.as<std::int64_t>()) return static_cast<double>(*whole);
+  const double* const number = value.as<double>();
+  return number && std::isfinite(*number) ? *number : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 List Rows::list() const {
@@ -69,6 +47,21 @@ List Rows::list() const {
   return list;
 }
 
+DataTable Rows::data() const {
+  DataTable table;
+  std::vector<std::vector<DataCell>> rows(count);
+  for (const Column& c : columns)
+    if (c.in_file) {
+      for (std::size_t i = 0; i < count; ++i) rows[i].push_back(cell_of(c.values[i]));
+      table.columns.push_back(*c.in_file);
+      table.columns.back().words = count > 0 && std::holds_alternative<std::string>(rows[0].back());
+    }
+  table.each_row = [rows = std::move(rows)](const std::function<void(DataRow)>& take) {
+    for (const std::vector<DataCell>& row : rows) take(row);
+  };
+  return table;
+}
+
 Record summary_of(const Findings& f) {
   Record summary = {{"version", summary_version}};
   if (!f.title.empty()) put(summary, "title", f.title);
@@ -79,11 +72,6 @@ Record summary_of(const Findings& f) {
   put(summary, "conclusion", f.conclusion());
   for (const Statement& s : f.statements) std::visit([&](const auto& what) { tell(summary, what); }, s.what);
   return summary;
-}
-
-std::string json_text(const Record& record) {
-  // What is no UTF-8 is replaced, and no terminal obeys it.
-  return printable_json(json_of(record).dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string StudyOutput::json() const { return json_text(summary); }

@@ -35,14 +35,6 @@ void say(std::string& text, const std::string& heading, bool apart) {
   if (!heading.empty()) text += heading + "\n";
 }
 
-void say(std::string& text, const Rows& rows) {
-  if (!rows.terminal || !rows.shown_to_people()) return;
-  say(text, rows.heading, rows.apart);
-  std::vector<std::vector<std::string>> lines = rows.texts();
-  lines.insert(lines.begin(), rows.headings());
-  text += aligned(lines, rows.text_columns_on_terminal);
-}
-
 void say(std::string& text, const Sentences& words) {
   if (!words.terminal || words.lines.empty()) return;
   say(text, words.heading, words.apart);
@@ -51,16 +43,6 @@ void say(std::string& text, const Sentences& words) {
 
 void say(std::string&, const Field&) {}
 void say(std::string&, const Drawn&) {}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return lines;
-}
 
 // At most so many columns; what is cut off stands in the report.
 std::string shortened(const std::string& text, std::size_t columns) {
@@ -92,24 +74,56 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns, c
   return lines;
 }
 
-}  // namespace
-
-std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t text_columns) {
+// Rows aligned in columns, a line each.
+std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string>>& rows, std::size_t text_columns) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
     for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
   }
-  std::string text;
+  std::vector<std::string> lines;
   for (const auto& row : rows) {
-    text += " ";
+    std::string& text = lines.emplace_back(" ");
     for (std::size_t k = 0; k < row.size(); ++k)
       text += " " + (k < text_columns || k + 1 == row.size() ? padded(row[k], k + 1 == row.size() ? 0 : widths[k])
                                                              : right(row[k], widths[k]));
     while (text.ends_with(' ')) text.pop_back();
-    text += "\n";
   }
-  return text;
+  return lines;
+}
+
+// With its headings.
+std::vector<std::string> lines_of(const Rows& rows) {
+  std::vector<std::vector<std::string>> lines = rows.texts();
+  lines.insert(lines.begin(), rows.headings());
+  return aligned_lines(lines, rows.text_columns_on_terminal);
+}
+
+std::string in_lines(const std::vector<std::string>& lines) {
+  return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
+std::vector<std::string> headline_of(const Findings& findings) {
+  std::vector<std::string> lines;
+  for (const std::string& sentence : concluded(findings.answers))
+    for (std::string& line : wrapped(sentence, Brief::width, "  ")) lines.push_back(std::move(line));
+  if (lines.size() > Brief::most_of_conclusion) {
+    lines.resize(Brief::most_of_conclusion);
+    lines.back() = shortened(lines.back() + std::string(Brief::width, '.'), Brief::width);
+  }
+  return lines;
+}
+
+void say(std::string& text, const Rows& rows) {
+  if (!rows.terminal || !rows.shown_to_people()) return;
+  say(text, rows.heading, rows.apart);
+  text += in_lines(lines_of(rows));
+}
+
+}  // namespace
+
+std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t text_columns) {
+  return in_lines(aligned_lines(rows, text_columns));
 }
 
 std::string terminal_text(const Findings& findings) {
@@ -119,27 +133,16 @@ std::string terminal_text(const Findings& findings) {
 }
 
 std::string headline_text(const Findings& findings) {
-  std::vector<std::string> lines;
-  for (const std::string& sentence : concluded(findings.answers))
-    for (std::string& line : wrapped(sentence, Brief::width, "  ")) lines.push_back(std::move(line));
-  if (lines.size() > Brief::most_of_conclusion) {
-    lines.resize(Brief::most_of_conclusion);
-    lines.back() = shortened(lines.back() + std::string(Brief::width, '.'), Brief::width);
-  }
-  return fmt::format("{}", fmt::join(lines, "\n"));
+  return fmt::format("{}", fmt::join(headline_of(findings), "\n"));
 }
 
 std::string brief_text(const Findings& f) {
   if (!f.brief) return {};
   const Brief& b = *f.brief;
   std::vector<std::string> lines = {shortened(b.about, Brief::width)};
-  for (const std::string& line : lines_of(headline_text(f))) lines.push_back(line);
-  if (b.figures.count > 0) {
-    std::vector<std::vector<std::string>> rows = b.figures.texts();
-    rows.insert(rows.begin(), b.figures.headings());
-    for (const std::string& line : lines_of(aligned(rows, b.figures.text_columns_on_terminal)))
-      lines.push_back(shortened(line, Brief::width));
-  }
+  for (std::string& line : headline_of(f)) lines.push_back(std::move(line));
+  if (b.figures.count > 0)
+    for (const std::string& line : lines_of(b.figures)) lines.push_back(shortened(line, Brief::width));
   for (const std::string& line : b.words) lines.push_back(shortened("  " + line, Brief::width));
   const std::size_t own = lines.size() + (b.more.empty() ? 0 : 1),
                     room = Brief::most_lines - std::min(own, Brief::most_lines);
@@ -148,9 +151,7 @@ std::string brief_text(const Findings& f) {
                         ? fmt::format("  {} more notes (report)", b.notes.size() - i)
                         : shortened("  note: " + b.notes[i], Brief::width));
   if (!b.more.empty()) lines.push_back(shortened("  " + b.more, Brief::width));
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
+  return in_lines(lines);
 }
 
 }  // namespace kurbel

@@ -1,9 +1,13 @@
-// rows.h — a table said once: rows of values described by columns; terminal, JSON and page are renderings of it.
+// rows.h — a table said once: rows of values described by columns; terminal, JSON, page and files are renderings of it.
 //
 //   table_of("critical_speeds", "Strongest critical speeds", study.critical)
 //       .column("speed", "speed [1/min]", &CriticalSpeed::speed, {.factor = 30 / pi})
 //       .column("mode", "mode", &CriticalSpeed::mode)
 //       .only_for_programs("harmonic", &CriticalSpeed::harmonic)
+//
+//   data_of(angles)                          // a table for a file alone
+//       .in_file("phi", "rad", std::identity())
+//       .in_file("M_d", "N*m", torque, 9)    // nine digits in CSV
 //
 // A column has a key for programs, a heading for people, or both; programs get the value in SI, people its reading.
 #pragma once
@@ -12,109 +16,22 @@
 
 #include <cmath>
 #include <concepts>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "engine/base/estimate.h"
 #include "studies/conclusions/headline.h"
+#include "studies/data/data_table.h"
+#include "studies/data/value.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/report.h"
 
 namespace kurbel {
-
-// --- values, for programs ---
-
-class Value;
-struct Field;
-using List = std::vector<Value>;
-using Record = std::vector<Field>;  // in this order
-
-// What JSON can say. A number that is not finite is null there.
-class Value {
- public:
-  Value();  // null
-  Value(const Value&);
-  Value(Value&&) noexcept;
-  Value& operator=(const Value&);
-  Value& operator=(Value&&) noexcept;
-  ~Value();
-  template <std::same_as<bool> T>
-  Value(T v) : what_(v) {}
-  template <std::integral T>
-  requires(!std::same_as<T, bool>) Value(T v) : Value(Whole{static_cast<std::int64_t>(v)}) {}
-  Value(double v);
-  Value(const char* v);
-  Value(std::string v);
-  Value(List v);
-  Value(Record v);
-  template <class T>
-  Value(const std::optional<T>& v) {
-    if (v) *this = Value(*v);
-  }
-  template <std::ranges::input_range R>
-  requires(!std::convertible_to<R, std::string> && !std::same_as<R, List> && !std::same_as<R, Record>)
-      Value(const R& range)
-      : Value(List(std::begin(range), std::end(range))) {}
-
-  template <class F>
-  decltype(auto) visit(F&& f) const {
-    return std::visit(std::forward<F>(f), what_);
-  }
-  // bool, std::int64_t, double, std::string, List or Record; null: it is another.
-  template <class T>
-  const T* as() const {
-    return std::get_if<T>(&what_);
-  }
-
- private:
-  struct Whole {
-    std::int64_t number;
-  };
-  explicit Value(Whole v);
-  std::variant<std::monostate, bool, std::int64_t, double, std::string, List, Record> what_;
-};
-
-struct Field {
-  std::string key;
-  Value value;
-};
-
-// Where a field is whole.
-inline Value::Value() = default;
-inline Value::Value(const Value&) = default;
-inline Value::Value(Value&&) noexcept = default;
-inline Value& Value::operator=(const Value&) = default;
-inline Value& Value::operator=(Value&&) noexcept = default;
-inline Value::~Value() = default;
-inline Value::Value(Whole v) : what_(v.number) {}
-inline Value::Value(double v) : what_(v) {}
-inline Value::Value(const char* v) : what_(std::string(v)) {}
-inline Value::Value(std::string v) : what_(std::move(v)) {}
-inline Value::Value(List v) : what_(std::move(v)) {}
-inline Value::Value(Record v) : what_(std::move(v)) {}
-
-// One value for each item.
-template <class Items, class F>
-List each(const Items& items, F&& value) {
-  List list;
-  for (const auto& item : items) list.push_back(Value(std::invoke(value, item)));
-  return list;
-}
-
-// An estimate of its own, or as KEY and KEY_error among others.
-inline Record estimate_record(const Estimate& e) { return {{"value", e.value}, {"error", e.error}}; }
-inline void tell_estimate(Record& among, const std::string& key, const Estimate& e) {
-  among.push_back({key, e.value});
-  among.push_back({key + "_error", e.error});
-}
 
 // --- readings, for people ---
 
@@ -146,10 +63,11 @@ std::string read_as(const T& v, const InWords& in_words) {
 // --- tables ---
 
 struct Column {
-  std::string key, heading;             // empty: not for programs; not for people
-  bool for_people = true;               // even under an empty heading
-  std::vector<Value> values = {};       // a row each, where there is a key
-  std::vector<std::string> texts = {};  // a row each, where it is for people
+  std::string key, heading;                // empty: not for programs; not for people
+  bool for_people = true;                  // even under an empty heading
+  std::vector<Value> values = {};          // a row each, where there is a key, or a file's column
+  std::vector<std::string> texts = {};     // a row each, where it is for people
+  std::optional<DataColumn> in_file = {};  // none: it stands in no file
 };
 
 struct Rows {
@@ -168,6 +86,7 @@ struct Rows {
   std::vector<std::string> means = {};        // per row, the name of its figure in the dictionary; none, or one each
 
   List list() const;                                    // as programs get it
+  DataTable data() const;                               // its columns for files
   std::vector<std::string> headings() const;            // as people read it
   std::vector<std::vector<std::string>> texts() const;  // without the headings
   bool shown_to_people() const { return (count > 0 && (!for_people || !for_people->empty())) || even_if_empty; }
@@ -213,17 +132,24 @@ class RowsOf : public Rows {
     return *this;
   }
 
-  // `get` gives an Estimate, or none: KEY and KEY_error for programs, "6257.16998 ± 0.00006" for people.
+  // `get` gives an Estimate: KEY and KEY_error for programs, "6257.16998 ± 0.00006" for people.
   template <class Get>
-  RowsOf& estimate_for_programs(const std::string& its_key, Get get) {
-    const auto of = [&](const T& row) -> std::optional<Estimate> { return std::invoke(get, row); };
-    only_for_programs(its_key, [&](const T& row) { return of(row) ? std::optional(of(row)->value) : std::nullopt; });
-    return only_for_programs(its_key + "_error", [&](const T& row) { return of(row).value_or(Estimate{}).error; });
+  RowsOf& estimate(std::string its_key, std::string its_heading, Get get) {
+    return column(std::move(its_key), std::move(its_heading), std::move(get),
+                  [](const Estimate& e) { return with_error(e, ""); });
   }
+
+  // The last column stands in a file, too, under its key. Digits: significant ones of numbers.
+  RowsOf& also_in_file(std::optional<std::string> unit = {}, int digits = 12) {
+    columns.back().in_file = {columns.back().key, std::move(unit), {digits}};
+    return *this;
+  }
+  // In a file alone. `get` gives a number, or std::optional of one (what is not finite is not known), or words.
   template <class Get>
-  RowsOf& estimate(const std::string& its_key, std::string its_heading, Get get) {
-    estimate_for_programs(its_key, get);
-    return only_for_people(std::move(its_heading), [&](const T& row) { return with_error(std::invoke(get, row), ""); });
+  RowsOf& in_file(std::string name, std::optional<std::string> unit, Get get, int digits = 12) {
+    only_for_programs(std::move(name), std::move(get)).also_in_file(std::move(unit), digits);
+    columns.back().key.clear();
+    return *this;
   }
 
   // Whose rows are figures: `get` gives a row's name in the dictionary.
@@ -269,46 +195,20 @@ RowsOf<T> table_of(std::string key, std::string title, std::vector<T>&& rows) {
   const std::span<const T> view(*kept);
   return {std::move(key), std::move(title), view, std::move(kept)};
 }
+// Of rows that stand in a file alone.
+template <class T>
+RowsOf<T> data_of(const std::vector<T>& rows) {
+  return table_of("", "", rows);
+}
+template <class T>
+RowsOf<T> data_of(std::vector<T>&& rows) {
+  return table_of("", "", std::move(rows));
+}
 // 0, 1, … count − 1: rows of what is numbered.
 std::vector<std::size_t> numbers_below(std::size_t count);
 
 // Rows of words under headings, for people alone.
 using Lines = std::vector<std::vector<std::string>>;
 Rows words_table(const std::string& title, const std::vector<std::string>& headings, const Lines& lines);
-
-// The other way round: a row a quantity (name, symbol, a value of each thing, unit), for programs a record a thing.
-template <class T>
-class QuantitiesOf {
- public:
-  QuantitiesOf(std::string title, std::vector<std::string> headings, std::span<const T> things)
-      : title_(std::move(title)), headings_(std::move(headings)), things_(things), records_(things.size()) {}
-  template <class Get, class Read = ReadAs>
-  QuantitiesOf& quantity(const std::string& key, std::string name, std::string symbol, std::string unit, Get get,
-                         Read read = {}) {
-    std::vector<std::string>& line = lines_.emplace_back();
-    line = {std::move(name), std::move(symbol)};
-    for (const T& thing : things_) line.push_back(read_as(std::invoke(get, thing), read));
-    line.push_back(std::move(unit));
-    return key.empty() ? *this : only_for_programs(key, get);
-  }
-  template <class Get>
-  QuantitiesOf& only_for_programs(const std::string& key, Get get) {
-    for (std::size_t i = 0; i < things_.size(); ++i) records_[i].push_back({key, std::invoke(get, things_[i])});
-    return *this;
-  }
-  Rows rows() const {
-    Rows table = words_table(title_, headings_, lines_);
-    table.text_columns = table.text_columns_on_terminal = 2;
-    return table;
-  }
-  const std::vector<Record>& records() const { return records_; }
-
- private:
-  std::string title_;
-  std::vector<std::string> headings_;
-  std::span<const T> things_;
-  Lines lines_;
-  std::vector<Record> records_;
-};
 
 }  // namespace kurbel

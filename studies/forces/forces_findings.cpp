@@ -133,7 +133,7 @@ Record cycle_record(const ForceCycle& c) {
   Record r = common_record(c, peaks_of(c));
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   if (c.efficiency)
-    tell_estimate(r, "efficiency", *c.efficiency);
+    tell("efficiency", *c.efficiency);
   else
     tell("efficiency", Value()), tell("no_efficiency", c.no_efficiency);
   tell("work_in", c.input.value);
@@ -148,35 +148,35 @@ Record cycle_record(const ForceCycle& c) {
 
 DataTable table_of_forces(const ForceCycle& c) {
   using P = const CyclePosition&;
-  auto data = data_of("forces_" + c.label, c.positions);
-  data.column("phi", "rad", [](P p) { return p.state.phi; })
-      .column("omega", "rad/s", [](P p) { return p.state.omega; })
-      .column("alpha", "rad/s2", [](P p) { return p.state.alpha; })
-      .column("position_along_x", "m", &CyclePosition::position)
-      .column("velocity", "m/s", &CyclePosition::velocity)
-      .column("slider_force_along_x", "N", [](P p) { return p.state.slider_force; })
-      .column("torque_of_shaft_on_crank", "N*m", [](P p) { return p.forces.torque; });
+  auto data = data_of(c.positions);
+  data.in_file("phi", "rad", [](P p) { return p.state.phi; })
+      .in_file("omega", "rad/s", [](P p) { return p.state.omega; })
+      .in_file("alpha", "rad/s2", [](P p) { return p.state.alpha; })
+      .in_file("position_along_x", "m", &CyclePosition::position)
+      .in_file("velocity", "m/s", &CyclePosition::velocity)
+      .in_file("slider_force_along_x", "N", [](P p) { return p.state.slider_force; })
+      .in_file("torque_of_shaft_on_crank", "N*m", [](P p) { return p.forces.torque; });
   const auto force = [&](const std::string& name, Force2 SliderCrankForces::*of) {
-    data.column(name + "_x", "N", [of](P p) { return (p.forces.*of).x; });
-    data.column(name + "_y", "N", [of](P p) { return (p.forces.*of).y; });
+    data.in_file(name + "_x", "N", [of](P p) { return (p.forces.*of).x; });
+    data.in_file(name + "_y", "N", [of](P p) { return (p.forces.*of).y; });
   };
   force("main_bearing_of_frame_on_crank", &SliderCrankForces::main_bearing);
   force("crank_pin_of_crank_on_rod", &SliderCrankForces::crank_pin);
   force("slider_pin_of_rod_on_slider", &SliderCrankForces::slider_pin);
-  data.column("guide_of_frame_on_slider_y", "N", [](P p) { return p.forces.guide; })
-      .column("guide_point_from_pin_x", "m", [](P p) { return p.forces.guide_point; })
-      .column("guide_friction_on_slider_x", "N", [](P p) { return p.forces.guide_friction; })
-      .column("both_edges", {}, [](P p) { return static_cast<int>(p.forces.both_edges); });
+  data.in_file("guide_of_frame_on_slider_y", "N", [](P p) { return p.forces.guide; })
+      .in_file("guide_point_from_pin_x", "m", [](P p) { return p.forces.guide_point; })
+      .in_file("guide_friction_on_slider_x", "N", [](P p) { return p.forces.guide_friction; })
+      .in_file("both_edges", {}, [](P p) { return static_cast<int>(p.forces.both_edges); });
   force("shaking_on_frame", &SliderCrankForces::shaking_force);
-  data.column("shaking_on_frame_moment_about_crank_axis", "N*m", [](P p) { return p.forces.shaking_moment; });
+  data.in_file("shaking_on_frame_moment_about_crank_axis", "N*m", [](P p) { return p.forces.shaking_moment; });
   for (std::size_t k = 0; k < joint_count; ++k) {
     const char* const joints[] = {"main", "crank_pin", "slider_pin", "guide"};
-    data.column(fmt::format("friction_{}", joints[k]), "W", [k](P p) { return p.forces.friction_power[k]; });
+    data.in_file(fmt::format("friction_{}", joints[k]), "W", [k](P p) { return p.forces.friction_power[k]; });
   }
-  return data.column("efficiency", {}, [](P p) { return p.power.efficiency(); })
-      .column(
+  return data.in_file("efficiency", {}, [](P p) { return p.power.efficiency(); })
+      .in_file(
           "power_residual", {}, [](P p) { return p.power.residual; }, 3)
-      .table();
+      .data();
 }
 
 // --- formulas ---
@@ -313,7 +313,7 @@ Findings findings_of(const Forces& f) {
   to.show_scene(f.scene_file, f.scene_text);
   for (const ForceCycle* c : problems_of(f))
     to.tables.push_back({"forces_" + c->label, [c] { return table_of_forces(*c); }});
-  to.tables.push_back({"links_" + front_of(f).label, [&f] { return table_of_links(*f.links, front_of(f).label); }});
+  to.tables.push_back({"links_" + front_of(f).label, [&f] { return table_of_links(*f.links); }});
   return to;
 }
 

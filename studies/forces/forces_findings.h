@@ -47,6 +47,6 @@ Record common_record(const CycleOfForces& cycle, const std::vector<NamedPeak>& p
 // Motion, inertia forces and shares of the links; the cycle must outlive the findings.
 void say_links(Findings& to, Chapter in, const LinkageCycle& cycle);
 List links_list(const LinkageCycle& cycle);
-DataTable table_of_links(const LinkageCycle& cycle, const std::string& label);
+DataTable table_of_links(const LinkageCycle& cycle);
 
 }  // namespace kurbel

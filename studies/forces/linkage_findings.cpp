@@ -115,32 +115,34 @@ Record common_record(const CycleOfForces& c, const std::vector<NamedPeak>& peaks
           {"order", h.order}, {"amplitude", h.amplitude.value}, {"phase", h.phase}, {"error", h.amplitude.error}};
     });
   };
-  Record r = {{"description", c.description}, {"cycle", c.cycle}};
-  tell_estimate(r, "mean_speed", c.mean_speed);
-  r.push_back({"least_speed", c.least_speed.value});
-  r.push_back({"greatest_speed", c.greatest_speed.value});
-  r.push_back({"speed_extremes_error", larger_error(c.least_speed, c.greatest_speed)});
-  tell_estimate(r, "closure", c.closure);
-  r.push_back({"peaks", each(peaks, [](const NamedPeak& p) {
-                 return Record{{"name", p.name},
-                               {"value", p.peak.told()},
-                               {"unit", p.unit},
-                               {"error", p.peak.error},
-                               {"phi", p.peak.phi}};
-               })});
-  r.push_back({"work", each(c.work, [](const CycleWork& w) {
-                 return Record{{"name", w.name}, {"line", w.kind}, {"work", w.work.value}, {"error", w.work.error}};
-               })});
-  tell_estimate(r, "kinetic_change", c.kinetic_change);
-  r.push_back({"power_residual", c.power_residual});
-  r.push_back({"machine_residual", c.machine_residual});
-  Record harmonics = {{"shaking_force_along", order_list(c.shaking_x)},
-                      {"shaking_force_across", order_list(c.shaking_y)},
-                      {"shaking_moment", order_list(c.shaking_couple)},
-                      {"balancing_torque", order_list(c.torque_orders)}};
-  tell_estimate(harmonics, "balancing_torque_mean", c.torque_mean);
-  r.push_back({"harmonics", std::move(harmonics)});
-  return r;
+  return {{"description", c.description},
+          {"cycle", c.cycle},
+          {"mean_speed", c.mean_speed},
+          {"least_speed", c.least_speed.value},
+          {"greatest_speed", c.greatest_speed.value},
+          {"speed_extremes_error", larger_error(c.least_speed, c.greatest_speed)},
+          {"closure", c.closure},
+          {"peaks", each(peaks,
+                         [](const NamedPeak& p) {
+                           return Record{{"name", p.name},
+                                         {"value", p.peak.told()},
+                                         {"unit", p.unit},
+                                         {"error", p.peak.error},
+                                         {"phi", p.peak.phi}};
+                         })},
+          {"work",
+           each(c.work,
+                [](const CycleWork& w) {
+                  return Record{{"name", w.name}, {"line", w.kind}, {"work", w.work.value}, {"error", w.work.error}};
+                })},
+          {"kinetic_change", c.kinetic_change},
+          {"power_residual", c.power_residual},
+          {"machine_residual", c.machine_residual},
+          {"harmonics", Record{{"shaking_force_along", order_list(c.shaking_x)},
+                               {"shaking_force_across", order_list(c.shaking_y)},
+                               {"shaking_moment", order_list(c.shaking_couple)},
+                               {"balancing_torque", order_list(c.torque_orders)},
+                               {"balancing_torque_mean", c.torque_mean}}}};
 }
 
 namespace {
@@ -258,29 +260,29 @@ std::string underscored(std::string name) {
 }
 
 DataTable table_of_linkage_forces(const LinkageCycle& c, bool rocks) {
-  auto data = data_of("forces_" + c.label, c.positions);
-  data.column("phi", "rad", [](P p) { return p.forces.state.phi; })
-      .column("omega", "rad/s", [](P p) { return p.forces.state.omega; })
-      .column("alpha", "rad/s2", [](P p) { return p.forces.state.alpha; })
-      .column(rocks ? "output_angle" : "position_along_x", rocks ? "rad" : "m", [](P p) { return p.forces.output; })
-      .column(rocks ? "load_on_output" : "load_on_output_along_x", rocks ? "N*m" : "N",
-              [](P p) { return p.forces.state.load; })
-      .column("torque_of_shaft_on_crank", "N*m", [](P p) { return p.forces.torque; });
+  auto data = data_of(c.positions);
+  data.in_file("phi", "rad", [](P p) { return p.forces.state.phi; })
+      .in_file("omega", "rad/s", [](P p) { return p.forces.state.omega; })
+      .in_file("alpha", "rad/s2", [](P p) { return p.forces.state.alpha; })
+      .in_file(rocks ? "output_angle" : "position_along_x", rocks ? "rad" : "m", [](P p) { return p.forces.output; })
+      .in_file(rocks ? "load_on_output" : "load_on_output_along_x", rocks ? "N*m" : "N",
+               [](P p) { return p.forces.state.load; })
+      .in_file("torque_of_shaft_on_crank", "N*m", [](P p) { return p.forces.torque; });
   const LinkageForces& first = c.positions.front().forces;
   for (std::size_t k = 0; k < first.joints.size(); ++k) {
     const JointForces& j = first.joints[k];
     const std::string name = underscored(fmt::format("{} of {} on {}", j.name, j.from, j.on));
-    data.column(name + "_x", "N", [k](P p) { return p.forces.joints[k].force.x; });
-    data.column(name + "_y", "N", [k](P p) { return p.forces.joints[k].force.y; });
-    if (j.slides) data.column(name + "_moment", "N*m", [k](P p) { return p.forces.joints[k].moment; });
+    data.in_file(name + "_x", "N", [k](P p) { return p.forces.joints[k].force.x; });
+    data.in_file(name + "_y", "N", [k](P p) { return p.forces.joints[k].force.y; });
+    if (j.slides) data.in_file(name + "_moment", "N*m", [k](P p) { return p.forces.joints[k].moment; });
   }
-  data.column("shaking_on_frame_x", "N", [](P p) { return p.forces.shaking_force.x; })
-      .column("shaking_on_frame_y", "N", [](P p) { return p.forces.shaking_force.y; })
-      .column("shaking_on_frame_moment_about_crank_axis", "N*m", [](P p) { return p.forces.shaking_moment; });
+  data.in_file("shaking_on_frame_x", "N", [](P p) { return p.forces.shaking_force.x; })
+      .in_file("shaking_on_frame_y", "N", [](P p) { return p.forces.shaking_force.y; })
+      .in_file("shaking_on_frame_moment_about_crank_axis", "N*m", [](P p) { return p.forces.shaking_moment; });
   return data
-      .column(
+      .in_file(
           "power_residual", {}, [](P p) { return p.power.residual; }, 3)
-      .table();
+      .data();
 }
 
 }  // namespace
@@ -331,13 +333,13 @@ void say_links(Findings& to, Chapter in, const LinkageCycle& c) {
   to.draw(in, [&c] { return link_plots(c); });
 }
 
-DataTable table_of_links(const LinkageCycle& c, const std::string& label) {
-  auto data = data_of("links_" + label, c.positions);
-  data.column("phi", "rad", [](P p) { return p.forces.state.phi; });
+DataTable table_of_links(const LinkageCycle& c) {
+  auto data = data_of(c.positions);
+  data.in_file("phi", "rad", [](P p) { return p.forces.state.phi; });
   for (std::size_t k = 0; k < c.links.size(); ++k) {
     const std::string name = underscored(c.links[k].name);
     const auto column = [&](const std::string& what, const char* unit, auto&& of) {
-      data.column(name + what, unit, [k, of](P p) { return of(p.forces.links[k]); });
+      data.in_file(name + what, unit, [k, of](P p) { return of(p.forces.links[k]); });
     };
     using L = const LinkForces&;
     column("_omega", "rad/s", [](L l) { return l.omega; });
@@ -350,7 +352,7 @@ DataTable table_of_links(const LinkageCycle& c, const std::string& label) {
     column("_reduced_inertia", "kg*m2", [](L l) { return l.reduced_inertia; });
     column("_kinetic_energy", "J", [](L l) { return l.kinetic_energy; });
   }
-  return data.table();
+  return data.data();
 }
 
 Findings findings_of(const LinkageStudy& f) {
@@ -374,7 +376,7 @@ Findings findings_of(const LinkageStudy& f) {
     to.say(positions, position_table(*c));
     to.tell(c->label, cycle_record(*c));
     to.tables.push_back({"forces_" + c->label, [c, rocks = f.rocks] { return table_of_linkage_forces(*c, rocks); }});
-    to.tables.push_back({"links_" + c->label, [c] { return table_of_links(*c, c->label); }});
+    to.tables.push_back({"links_" + c->label, [c] { return table_of_links(*c); }});
   }
   say_links(to, links, front);
   const auto problems = problems_of(f);

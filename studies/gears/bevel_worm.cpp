@@ -95,12 +95,10 @@ Findings findings_of(const BevelPair& b) {
                   b.teeth[0], b.teeth[1], b.shaft_angle / degree, b.cone_angle(0) / degree, b.cone_angle(1) / degree,
                   in_millimetres * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
       rows, cones);
-  f.tell("ratio", b.ratio());
-  f.tell("ratio_error", units_of_rounding * b.ratio());
+  f.tell("ratio", Estimate{b.ratio(), units_of_rounding * b.ratio()});
   f.tell("cone_angle", std::array{b.cone_angle(0), b.cone_angle(1)});
   f.tell("cone_angle_error", e.cone_angle);
-  f.tell("cone_distance", b.cone_distance());
-  f.tell("cone_distance_error", e.cone_distance);
+  f.tell("cone_distance", Estimate{b.cone_distance(), e.cone_distance});
   f.tell("virtual_teeth", std::array{b.virtual_teeth(0), b.virtual_teeth(1)});
   f.tell("virtual_teeth_error", e.virtual_teeth);
   return f;
@@ -137,10 +135,7 @@ Findings findings_of(const WormPair& w, std::optional<double> speed) {
                                         : fmt::format("can drive with η′ = {:.4f}", w.efficiency_back())),
            rows, efficiency);
   f.draw(static_cast<Chapter>(0), [w] { return efficiency_plot(w); });
-  const auto tell = [&](const std::string& key, const auto& get) {
-    f.tell(key, std::invoke(get, w));
-    f.tell(key + "_error", error(get));
-  };
+  const auto tell = [&](const char* key, const auto& get) { f.tell(key, Estimate{std::invoke(get, w), error(get)}); };
   tell("ratio", &WormPair::ratio);
   tell("lead_angle", &WormPair::lead_angle);
   tell("centre_distance", &WormPair::centre_distance);

@@ -61,7 +61,8 @@ std::string error_text(double error);
 // SI to a unit in which gears are told: 1000 for "mm" and "mrad".
 double in_unit(const std::string& unit);
 
-// QuantitiesOf (rows.h) with a column of errors, the largest of a row, before the unit; for programs KEY_error.
+// A row a quantity: name, symbol, a value of each thing, the largest error of them, unit. For programs a record a thing, with
+// KEY and KEY_error.
 template <class T>
 class MeasuredQuantities {
  public:
@@ -118,11 +119,12 @@ class MeasuredQuantities {
   std::vector<double> tell(const std::string& key, const Of& get, const ErrorOf& error) {
     std::vector<double> errors;
     for (std::size_t i = 0; i < things_.size(); ++i) {
-      if (!key.empty()) records_[i].push_back({key, std::invoke(get, things_[i])});
+      Value value = std::invoke(get, things_[i]);
       if constexpr (is_measured<Of>) {
         errors.push_back(error(i, [&](const T& thing) { return std::invoke(get, thing); }));
-        if (!key.empty()) records_[i].push_back({key + "_error", errors.back()});
+        value = Estimate{std::invoke(get, things_[i]), errors.back()};
       }
+      if (!key.empty()) records_[i].push_back({key, std::move(value)});
     }
     return errors;
   }

@@ -180,8 +180,11 @@ Rows path_table(const GearStage& s) {
   for (const char name : {'A', 'B', 'C', 'D', 'E'}) points.push_back(path_point(s, name));
   return table_of("path", "Along the path of contact", std::move(points))
       .column("point", "point", &PathPoint::name)
-      .column("g", "g [mm]", &PathPoint::g, length)
-      .only_for_programs("g_error", &PathPoint::g_error)
+      .only_for_people("g [mm]", &PathPoint::g, length)
+      .only_for_programs("g",
+                         [](P p) {
+                           return Estimate{p.g, p.g_error};
+                         })
       .only_for_people(
           "d₁ [mm]", [](P p) { return 2 * p.radius[0]; }, length)
       .only_for_people(
@@ -197,8 +200,10 @@ Rows path_table(const GearStage& s) {
                          return s.speed ? read_as(s.pair.sliding_speed(p.g, *s.speed), {.digits = 5})
                                         : length(p.sliding_over_omega);
                        })
-      .only_for_programs("sliding_over_omega", &PathPoint::sliding_over_omega)
-      .only_for_programs("sliding_over_omega_error", &PathPoint::sliding_error)
+      .only_for_programs("sliding_over_omega",
+                         [](P p) {
+                           return Estimate{p.sliding_over_omega, p.sliding_error};
+                         })
       .only_for_programs("specific_sliding", &PathPoint::specific_sliding)
       .only_for_programs("specific_sliding_error", &PathPoint::specific_sliding_error)
       .only_for_people("ζ₁", [](P p) { return p.specific_sliding[0]; }, {.digits = 5})
@@ -224,13 +229,10 @@ Record stage_record(const GearStage& s) {
   tell("backlash_angle", std::array{p.backlash_angle(0), p.backlash_angle(1)});
   tell("backlash_angle_error",
        std::array{backlash_error(s, backlash_angle_of(0)), backlash_error(s, backlash_angle_of(1))});
-  const auto stiffness_off = [&](double value) { return stiffness_error(s.stiffness, value); };
-  tell("mesh_stiffness", Record{{"single", s.stiffness.single},
-                                {"single_error", stiffness_off(s.stiffness.single)},
-                                {"mean", s.stiffness.mean},
-                                {"mean_error", stiffness_off(s.stiffness.mean)},
-                                {"torsional", s.stiffness.torsional},
-                                {"torsional_error", stiffness_off(s.stiffness.torsional)},
+  const auto with_its_error = [&](double value) { return Estimate{value, stiffness_error(s.stiffness, value)}; };
+  tell("mesh_stiffness", Record{{"single", with_its_error(s.stiffness.single)},
+                                {"mean", with_its_error(s.stiffness.mean)},
+                                {"torsional", with_its_error(s.stiffness.torsional)},
                                 {"within_range_of_method", s.stiffness.within}});
   tell("verdicts", each(s.verdicts, [](const GearVerdict& v) {
          return Record{{"finding", word_of(v.finding)}, {"text", v.text}};
@@ -238,25 +240,24 @@ Record stage_record(const GearStage& s) {
   return r;
 }
 
-DataTable path_data(const std::string& name, const GearPair& p) {
-  return data_of(name, along_path(p))
-      .column("g", "m", std::identity())
-      .column("r1", "m", [&p](double g) { return p.radius(g)[0]; })
-      .column("r2", "m", [&p](double g) { return p.radius(g)[1]; })
-      .column("rho1", "m", [&p](double g) { return p.curvature(g)[0]; })
-      .column("rho2", "m", [&p](double g) { return p.curvature(g)[1]; })
-      .column("sliding/omega1", "m", [&p](double g) { return p.sliding_speed(g, 1); })
-      .column(
+DataTable path_data(const GearPair& p) {
+  return data_of(along_path(p))
+      .in_file("g", "m", std::identity())
+      .in_file("r1", "m", [&p](double g) { return p.radius(g)[0]; })
+      .in_file("r2", "m", [&p](double g) { return p.radius(g)[1]; })
+      .in_file("rho1", "m", [&p](double g) { return p.curvature(g)[0]; })
+      .in_file("rho2", "m", [&p](double g) { return p.curvature(g)[1]; })
+      .in_file("sliding/omega1", "m", [&p](double g) { return p.sliding_speed(g, 1); })
+      .in_file(
           "zeta1", {}, [&p](double g) { return p.specific_sliding(g)[0]; }, 9)
-      .column(
+      .in_file(
           "zeta2", {}, [&p](double g) { return p.specific_sliding(g)[1]; }, 9)
-      .table();
+      .data();
 }
 
-DataTable outline_data(const std::string& name, const GearWheel& w) {
+DataTable outline_data(const GearWheel& w) {
   constexpr NumberFormat format{.digits = 7, .after_point = true};
-  return {.name = name,
-          .columns = {{"x", "mm", format}, {"y", "mm", format}},
+  return {.columns = {{"x", "mm", format}, {"y", "mm", format}},
           .each_row = [&w](const std::function<void(DataRow)>& take) {
             for (const OutlinePoint& q : wheel_outline(w, 16))
               take(std::array<DataCell, 2>{in_millimetres * q.x, in_millimetres * q.y});
@@ -342,12 +343,9 @@ void say_stage(Findings& f, const GearStage& s) {
   f.say(in, std::move(path));
   f.say(in, Sentences{.lines = {""}, .page = false});
   f.say(in, Sentences{.lines = verdicts, .indent = "  ", .page = false});
-  const std::string path_name = s.name + ".path";
-  f.tables.push_back({path_name, [path_name, &p = s.pair] { return path_data(path_name, p); }});
-  for (const std::size_t i : {0UL, 1UL}) {
-    const std::string name = fmt::format("{}.wheel{}", s.name, i + 1);
-    f.tables.push_back({name, [name, &w = s.pair.wheel[i]] { return outline_data(name, w); }});
-  }
+  f.tables.push_back({s.name + ".path", [&p = s.pair] { return path_data(p); }});
+  for (const std::size_t i : {0UL, 1UL})
+    f.tables.push_back({fmt::format("{}.wheel{}", s.name, i + 1), [&w = s.pair.wheel[i]] { return outline_data(w); }});
 }
 
 }  // namespace

@@ -218,47 +218,43 @@ List joint_list(const ModesStudy& m) {
 
 List spectral_list(const char* key, const std::vector<SpectralLine>& lines) {
   return each(lines, [&](const SpectralLine& l) {
-    Record r = {{key, l.frequency.value}, {"error", l.frequency.error}};
-    tell_estimate(r, "amplitude", l.amplitude);
-    return r;
+    return Record{{key, l.frequency.value}, {"error", l.frequency.error}, {"amplitude", l.amplitude}};
   });
 }
 
 Record history_record(const TorqueHistory& h) {
   return {{"channel", h.channel},
-          {"greatest", h.greatest.value},
-          {"greatest_error", h.greatest.error},
-          {"least", h.least.value},
-          {"least_error", h.least.error},
-          {"equivalent_amplitude", h.equivalent_amplitude.value},
-          {"equivalent_amplitude_error", h.equivalent_amplitude.error},
+          {"greatest", h.greatest},
+          {"least", h.least},
+          {"equivalent_amplitude", h.equivalent_amplitude},
           {"strongest_lines", spectral_list("frequency", h.strongest)},
           {"strongest_orders", spectral_list("order", h.strongest_orders)}};
 }
 
 DataTable shapes_data(const ModesStudy& m) {
-  auto data = data_of("mode_shapes", numbers_below(m.shaft_names.size()))
-                  .column("shaft", {}, [&m](std::size_t i) { return m.shaft_names[i]; })
-                  .column("ratio", {}, [&m](std::size_t i) { return m.drive.ratio[i]; })
-                  .column("inertia", "kg*m2",
-                          [&m](std::size_t i) { return m.drive.shaft_inertia[static_cast<Eigen::Index>(i)]; });
+  auto data = data_of(numbers_below(m.shaft_names.size()))
+                  .in_file("shaft", {}, [&m](std::size_t i) { return m.shaft_names[i]; })
+                  .in_file("ratio", {}, [&m](std::size_t i) { return m.drive.ratio[i]; })
+                  .in_file("inertia", "kg*m2",
+                           [&m](std::size_t i) { return m.drive.shaft_inertia[static_cast<Eigen::Index>(i)]; });
   for (const Mode& mode : m.modes)
-    data.column(
+    data.in_file(
         fmt::format("mode {} at {:.8g} Hz", mode.number, hertz(mode.omega)), {},
         [shape = shaft_shape(m, mode)](std::size_t i) { return shape[static_cast<Eigen::Index>(i)]; }, 9);
-  return data.table();
+  return data.data();
 }
 
 DataTable response_data(const ModesStudy& m) {
-  auto data = data_of("forced_response", m.sweep)
-                  .column("speed", "rad/s", &SpeedResponse::speed)
-                  .column("kept", {}, [](const SpeedResponse& s) { return s.kept ? 1.0 : 0.0; });
+  auto data =
+      data_of(m.sweep).in_file("speed", "rad/s", &SpeedResponse::speed).in_file("kept", {}, [](const SpeedResponse& s) {
+        return s.kept ? 1.0 : 0.0;
+      });
   for (std::size_t j = 0; j < m.joint_names.size(); ++j)
-    data.column(
+    data.in_file(
             "mean " + m.joint_names[j], "N*m", [j](const SpeedResponse& s) { return s.joints[j].mean; }, 9)
-        .column(
+        .in_file(
             "peak " + m.joint_names[j], "N*m", [j](const SpeedResponse& s) { return s.joints[j].peak; }, 9);
-  return data.table();
+  return data.data();
 }
 
 // --- all of it ---

@@ -182,14 +182,14 @@ Record spectrum_record(const Spectrum& s) {
 DataTable positions_data(const MachineReduction& r) {
   std::vector<ReducedPosition> regular = r.positions;
   std::erase_if(regular, [](const ReducedPosition& p) { return !p.singular.empty(); });
-  auto data = data_of("positions", std::move(regular));
-  data.column("position", {}, &ReducedPosition::number)
-      .column(
+  auto data = data_of(std::move(regular));
+  data.in_file("position", {}, &ReducedPosition::number)
+      .in_file(
           "φ", "°", [](const ReducedPosition& p) { return p.phi * in_degrees + 0.0; }, 15);
   for (const Quantity& q : quantities_of(r))
-    data.column(
+    data.in_file(
         q.name, q.unit, [value = q.value](const ReducedPosition& p) { return value(p) + 0.0; }, 15);
-  return data.table();
+  return data.data();
 }
 
 DataTable harmonics_data(const MachineReduction& r) {
@@ -197,17 +197,17 @@ DataTable harmonics_data(const MachineReduction& r) {
   std::vector<Row> rows;
   for (const Spectrum& s : r.spectra)
     for (const Harmonic& h : s.harmonics) rows.emplace_back(s.name, h);
-  return data_of("harmonics", std::move(rows))
-      .column("quantity", {}, &Row::first)
-      .column(
+  return data_of(std::move(rows))
+      .in_file("quantity", {}, &Row::first)
+      .in_file(
           "order", {}, [](const Row& row) { return row.second.order + 0.0; }, 6)
-      .column(
+      .in_file(
           "amplitude", {}, [](const Row& row) { return row.second.amplitude.value + 0.0; }, 15)
-      .column(
+      .in_file(
           "phase", "rad", [](const Row& row) { return row.second.phase + 0.0; }, 15)
-      .column(
+      .in_file(
           "error", {}, [](const Row& row) { return row.second.amplitude.error; }, 3)
-      .table();
+      .data();
 }
 
 // --- formulas ---

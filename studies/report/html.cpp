@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
+#include "studies/data/value.h"
 #include "studies/files/whole_file.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/thin.h"
 #include "studies/report/assets.h"
 #include "studies/report/theory.h"
-#include "studies/report/writer.h"
 
 namespace kurbel {
 namespace {
@@ -25,235 +25,245 @@ const char* name_of(Role role) {
   return names[static_cast<std::size_t>(role)];
 }
 
-void write(Writer& w, const Axis& axis) {
-  w.object([&] {
-    w.field("label", axis.label);
-    w.field("unit", axis.unit);
-    w.field("log", axis.logarithmic);
-    if (axis.least) w.field("least", *axis.least, 8);
-    if (axis.greatest) w.field("greatest", *axis.greatest, 8);
-    if (!axis.names.empty()) w.field("names", axis.names);
-  });
+Record record_of(const Axis& axis) {
+  Record r = {{"label", axis.label}, {"unit", axis.unit}, {"log", axis.logarithmic}};
+  if (axis.least) r.push_back({"least", Rounded{*axis.least, 8}});
+  if (axis.greatest) r.push_back({"greatest", Rounded{*axis.greatest, 8}});
+  if (!axis.names.empty()) r.push_back({"names", axis.names});
+  return r;
 }
 
-void write(Writer& w, const ColourMap& map) {
-  w.object([&] {
-    w.field("name", map.name);
-    w.field("unit", map.unit);
-    w.field("x", map.x, 6);
-    w.field("y", map.y, 6);
-    w.field("z", map.z, 4);
-  });
+List rounded(const std::vector<std::vector<double>>& lists, int digits) {
+  return each(lists, [digits](const std::vector<double>& list) { return RoundedList{list, digits}; });
 }
 
-void write(Writer& w, const Plot& plot) {
-  w.field("kind", "plot");
-  w.field("title", plot.title);
-  w.field("note", plot.note);
-  w.field("equalAxes", plot.equal_axes);
-  w.field("bars", plot.bars);
-  w.key("x"), write(w, plot.x);
-  w.key("y"), write(w, plot.y);
-  w.objects("series", order_of_drawing(plot), [&](std::size_t i) {
-    const Series& series = plot.series[i];
-    const Series points = drawn(series);
-    w.field("name", series.name);
-    w.field("role", name_of(series.role));
-    w.field("dashed", series.dashed);
-    w.field("points", series.points || !series.line);
-    w.field("line", series.line);
-    if (stands_behind(plot, series)) w.field("behind", true);
-    w.field("x", points.x, 8);
-    w.field("y", points.y, 7);
-    if (!points.labels.empty()) w.field("labels", points.labels);
-    if (!points.sizes.empty()) w.field("sizes", points.sizes, 3);
-    if (!series.text_at_start.empty()) w.field("textAtStart", series.text_at_start);
-    if (!series.text_at_end.empty()) w.field("textAtEnd", series.text_at_end);
-  });
-  if (plot.wide) w.field("wide", true);
-  if (plot.map) w.key("map"), write(w, *plot.map);
-  w.objects("bands", plot.bands, [&](const Band& band) {
-    w.field("from", band.from, 8);
-    w.field("to", band.to, 8);
-    w.field("text", band.text);
-    w.field("role", name_of(band.role));
-  });
-  w.objects("marks", marks_drawn(plot), [&](const EventMark& mark) {
-    w.field("x", mark.x, 8);
-    w.field("text", mark.text);
-  });
+Record record_of(const ColourMap& map) {
+  return {{"name", map.name},
+          {"unit", map.unit},
+          {"x", RoundedList{map.x, 6}},
+          {"y", RoundedList{map.y, 6}},
+          {"z", rounded(map.z, 4)}};
 }
 
-std::vector<std::string> classes_of(const std::vector<Tone>& tones) {
+Record series_record(const Plot& plot, const Series& series) {
+  Series points = drawn(series);
+  Record r = {{"name", series.name},
+              {"role", name_of(series.role)},
+              {"dashed", series.dashed},
+              {"points", series.points || !series.line},
+              {"line", series.line}};
+  if (stands_behind(plot, series)) r.push_back({"behind", true});
+  r.push_back({"x", RoundedList{std::move(points.x), 8}});
+  r.push_back({"y", RoundedList{std::move(points.y), 7}});
+  if (!points.labels.empty()) r.push_back({"labels", points.labels});
+  if (!points.sizes.empty()) r.push_back({"sizes", RoundedList{std::move(points.sizes), 3}});
+  if (!series.text_at_start.empty()) r.push_back({"textAtStart", series.text_at_start});
+  if (!series.text_at_end.empty()) r.push_back({"textAtEnd", series.text_at_end});
+  return r;
+}
+
+Record record_of(const Plot& plot) {
+  Record r = {
+      {"kind", "plot"},
+      {"title", plot.title},
+      {"note", plot.note},
+      {"equalAxes", plot.equal_axes},
+      {"bars", plot.bars},
+      {"x", record_of(plot.x)},
+      {"y", record_of(plot.y)},
+      {"series", each(order_of_drawing(plot), [&](std::size_t i) { return series_record(plot, plot.series[i]); })}};
+  if (plot.wide) r.push_back({"wide", true});
+  if (plot.map) r.push_back({"map", record_of(*plot.map)});
+  r.push_back({"bands", each(plot.bands, [](const Band& band) {
+                 return Record{{"from", Rounded{band.from, 8}},
+                               {"to", Rounded{band.to, 8}},
+                               {"text", band.text},
+                               {"role", name_of(band.role)}};
+               })});
+  r.push_back({"marks", each(marks_drawn(plot), [](const EventMark& mark) {
+                 return Record{{"x", Rounded{mark.x, 8}}, {"text", mark.text}};
+               })});
+  return r;
+}
+
+const char* class_of(Tone tone) {
   constexpr const char* classes[] = {"", "good", "fair", "aside", "bad"};
-  std::vector<std::string> names;
-  for (const Tone tone : tones) names.emplace_back(classes[static_cast<std::size_t>(tone)]);
-  return names;
+  return classes[static_cast<std::size_t>(tone)];
 }
 
-void write(Writer& w, const Table& table) {
-  w.field("kind", "table");
-  w.field("title", table.title);
-  w.field("folded", table.folded);
-  w.field("textColumns", static_cast<double>(table.text_columns));
-  w.field("columns", table.columns);
-  w.field("rows", table.rows);
-  if (!table.tones.empty()) {
-    w.key("tones");
-    w.list(table.tones, [&](const std::vector<Tone>& row) { w.value(classes_of(row)); });
+Record record_of(const Table& table) {
+  Record r = {{"kind", "table"},          {"title", table.title},
+              {"folded", table.folded},   {"textColumns", table.text_columns},
+              {"columns", table.columns}, {"rows", table.rows}};
+  if (!table.tones.empty())
+    r.push_back({"tones", each(table.tones, [](const std::vector<Tone>& row) { return each(row, class_of); })});
+  if (!table.means.empty()) r.push_back({"means", table.means});
+  return r;
+}
+
+Record record_of(const FormulaCard& formula) {
+  return {{"kind", "formula"},
+          {"title", formula.title},
+          {"symbols", formula.symbols},
+          {"numbers", formula.numbers},
+          {"note", formula.note}};
+}
+
+Record record_of(const Text& t) {
+  return {{"kind", "text"}, {"title", t.title}, {"body", t.body}, {"verbatim", t.verbatim}, {"folded", t.folded}};
+}
+
+Record record_of(const MachineView::Part& part) {
+  Record r = {{"name", part.name},
+              {"kind", part.kind},
+              {"ratioIn", Rounded{part.ratio_in}},
+              {"ratioOut", Rounded{part.ratio_out}},
+              {"elastic", part.elastic}};
+  if (part.slips) r.push_back({"slips", true});
+  r.push_back({"crank", part.crank});
+  r.push_back({"row", part.row});
+  return r;
+}
+
+Record record_of(const MachineView::Tie& tie) {
+  return {{"row", tie.row}, {"atEnd", tie.at_end}, {"part", tie.part}, {"out", tie.out}};
+}
+
+Record record_of(const MachineView::Linkage& linkage) {
+  return {{"name", linkage.name},
+          {"load", linkage.load},
+          {"ratio", Rounded{linkage.ratio}},
+          {"direction", Rounded{linkage.direction}},
+          {"x", rounded(linkage.x, 5)},
+          {"y", rounded(linkage.y, 5)},
+          {"links", each(linkage.links,
+                         [](const MachineView::Linkage::Link& link) {
+                           return Record{{"shape", link.shape}, {"joints", link.joints}};
+                         })},
+          {"fixed", linkage.fixed},
+          {"output", linkage.output},
+          {"gaps", each(linkage.gaps,
+                        [](const MachineView::Linkage::Gap& gap) {
+                          return Record{{"joint", gap.joint}, {"size", Rounded{gap.size}}};
+                        })},
+          {"bendEnlargement", Rounded{linkage.bend_enlargement}}};
+}
+
+Record record_of(const MachineView::Motion& motion) {
+  Record r = {{"label", motion.label},
+              {"role", name_of(motion.role)},
+              {"angle", RoundedList{motion.angle}},
+              {"twistIn", rounded(motion.twist_in, 4)},
+              {"twistOut", rounded(motion.twist_out, 4)}};
+  if (!motion.slip_in.empty()) {
+    r.push_back({"slipIn", rounded(motion.slip_in, 5)});
+    r.push_back({"slipOut", rounded(motion.slip_out, 5)});
   }
-  if (!table.means.empty()) w.field("means", table.means);
+  r.push_back({"torque", rounded(motion.torque, 4)});
+  r.push_back({"force", rounded(motion.force, 4)});
+  r.push_back({"bend", rounded(motion.bend, 4)});
+  r.push_back({"shift", rounded(motion.shift, 4)});
+  return r;
 }
 
-void write(Writer& w, const FormulaCard& formula) {
-  w.field("kind", "formula");
-  w.field("title", formula.title);
-  w.field("symbols", formula.symbols);
-  w.field("numbers", formula.numbers);
-  w.field("note", formula.note);
+Record record_of(const GearView::Wheel& wheel) {
+  return {{"name", wheel.name},
+          {"teeth", wheel.teeth},
+          {"internal", wheel.internal},
+          {"x", RoundedList{wheel.x, 7}},
+          {"y", RoundedList{wheel.y, 6}},
+          {"centre", Rounded{wheel.centre, 9}},
+          {"angle", Rounded{wheel.angle, 12}},
+          {"speed", Rounded{wheel.speed, 12}},
+          {"edge", Rounded{wheel.edge}},
+          {"circles", each(wheel.circles, [](const GearView::Circle& circle) {
+             return Record{{"name", circle.name}, {"radius", Rounded{circle.radius, 9}}};
+           })}};
 }
 
-void write(Writer& w, const Text& t) {
-  w.field("kind", "text");
-  w.field("title", t.title);
-  w.field("body", t.body);
-  w.field("verbatim", t.verbatim);
-  w.field("folded", t.folded);
+Record record_of(const KeyFigure& figure) {
+  const TileText text = tile_text({figure.value, figure.error}, figure.digits);
+  Record r = {{"name", figure.name}, {"value", text.value}};
+  if (!text.known.empty()) r.push_back({"known", text.known});
+  r.push_back({"unit", pretty_unit(figure.unit)});
+  r.push_back({"error", text.error});
+  r.push_back({"note", figure.note});
+  if (!figure.means.empty()) r.push_back({"means", figure.means});
+  return r;
 }
 
-void write(Writer& w, const MachineView::Linkage& linkage) {
-  w.field("name", linkage.name);
-  w.field("load", linkage.load);
-  w.field("ratio", linkage.ratio);
-  w.field("direction", linkage.direction);
-  w.field("x", linkage.x, 5);
-  w.field("y", linkage.y, 5);
-  w.objects("links", linkage.links, [&](const MachineView::Linkage::Link& link) {
-    w.field("shape", link.shape);
-    w.field("joints", link.joints);
-  });
-  w.field("fixed", linkage.fixed);
-  w.field("output", static_cast<double>(linkage.output));
-  w.objects("gaps", linkage.gaps, [&](const MachineView::Linkage::Gap& gap) {
-    w.field("joint", gap.joint);
-    w.field("size", gap.size);
-  });
-  w.field("bendEnlargement", linkage.bend_enlargement);
+Record record_of(const Meaning& meaning) {
+  return {{"id", meaning.id}, {"title", meaning.title}, {"text", meaning.text}};
 }
 
-void write(Writer& w, const MachineView& machine) {
-  w.field("kind", "machine");
-  w.field("title", machine.title);
-  w.field("link", machine.link);
-  w.field("enlargement", machine.enlargement);
-  w.field("cycle", machine.cycle > 0 ? machine.cycle : 2 * std::numbers::pi, 12);
-  w.objects("parts", machine.parts, [&](const MachineView::Part& part) {
-    w.field("name", part.name);
-    w.field("kind", part.kind);
-    w.field("ratioIn", part.ratio_in);
-    w.field("ratioOut", part.ratio_out);
-    w.field("elastic", part.elastic);
-    if (part.slips) w.field("slips", true);
-    w.field("crank", part.crank);
-    w.field("row", static_cast<double>(part.row));
-  });
-  w.objects("ties", machine.ties, [&](const MachineView::Tie& tie) {
-    w.field("row", static_cast<double>(tie.row));
-    w.field("atEnd", tie.at_end);
-    w.field("part", static_cast<double>(tie.part));
-    w.field("out", tie.out);
-  });
-  w.objects("linkages", machine.linkages, [&](const MachineView::Linkage& linkage) { write(w, linkage); });
-  w.field("time", machine.time, 7);
-  w.objects("motions", machine.motions, [&](const MachineView::Motion& motion) {
-    w.field("label", motion.label);
-    w.field("role", name_of(motion.role));
-    w.field("angle", motion.angle, 7);
-    w.field("twistIn", motion.twist_in, 4);
-    w.field("twistOut", motion.twist_out, 4);
-    if (!motion.slip_in.empty()) {
-      w.field("slipIn", motion.slip_in, 5);
-      w.field("slipOut", motion.slip_out, 5);
-    }
-    w.field("torque", motion.torque, 4);
-    w.field("force", motion.force, 4);
-    w.field("bend", motion.bend, 4);
-    w.field("shift", motion.shift, 4);
-  });
+template <class Parts>
+List records_of(const Parts& parts) {
+  return each(parts, [](const auto& part) { return record_of(part); });
 }
 
-void write(Writer& w, const GearView::Wheel& wheel) {
-  w.field("name", wheel.name);
-  w.field("teeth", static_cast<double>(wheel.teeth));
-  w.field("internal", wheel.internal);
-  w.field("x", wheel.x, 7);
-  w.field("y", wheel.y, 6);
-  w.field("centre", wheel.centre, 9);
-  w.field("angle", wheel.angle, 12);
-  w.field("speed", wheel.speed, 12);
-  w.field("edge", wheel.edge);
-  w.objects("circles", wheel.circles, [&](const GearView::Circle& circle) {
-    w.field("name", circle.name);
-    w.field("radius", circle.radius, 9);
-  });
+Record record_of(const MachineView& machine) {
+  return {{"kind", "machine"},
+          {"title", machine.title},
+          {"link", machine.link},
+          {"enlargement", Rounded{machine.enlargement}},
+          {"cycle", Rounded{machine.cycle > 0 ? machine.cycle : 2 * std::numbers::pi, 12}},
+          {"parts", records_of(machine.parts)},
+          {"ties", records_of(machine.ties)},
+          {"linkages", records_of(machine.linkages)},
+          {"time", RoundedList{machine.time}},
+          {"motions", records_of(machine.motions)}};
 }
 
-void write(Writer& w, const GearView& view) {
-  w.field("kind", "gears");
-  w.field("title", view.title);
-  w.field("note", view.note);
-  w.objects("wheels", view.wheels, [&](const GearView::Wheel& wheel) { write(w, wheel); });
-  w.objects("points", view.points, [&](const GearView::Point& point) {
-    w.field("name", point.name);
-    w.field("place", point.place, 9);
-  });
-  w.field("pitchPoint", view.pitch_point, 9);
-  w.field("direction", view.direction, 9);
-  w.field("start", view.start, 9);
-  w.field("end", view.end, 9);
-  w.field("basePitch", view.base_pitch, 9);
-  w.field("firstContact", view.first_contact, 9);
-  w.field("baseRadius", view.base_radius, 9);
-  w.field("closeUp", view.close_up);
+Record record_of(const GearView& view) {
+  return {{"kind", "gears"},
+          {"title", view.title},
+          {"note", view.note},
+          {"wheels", records_of(view.wheels)},
+          {"points", each(view.points,
+                          [](const GearView::Point& point) {
+                            return Record{{"name", point.name}, {"place", Rounded{point.place, 9}}};
+                          })},
+          {"pitchPoint", Rounded{view.pitch_point, 9}},
+          {"direction", Rounded{view.direction, 9}},
+          {"start", Rounded{view.start, 9}},
+          {"end", Rounded{view.end, 9}},
+          {"basePitch", Rounded{view.base_pitch, 9}},
+          {"firstContact", Rounded{view.first_contact, 9}},
+          {"baseRadius", Rounded{view.base_radius, 9}},
+          {"closeUp", Rounded{view.close_up}}};
 }
 
-std::string json_of(const Report& report, const Letterhead& head) {
-  Writer w;
-  w.object([&] {
-    w.field("title", report.title);
-    if (!head.brand_svg.empty()) w.field("brand", head.brand_svg);
-    if (!head.author.empty()) w.field("author", head.author);
-    w.field("subtitle", report.subtitle);
-    w.field("conclusion", report.conclusion);
-    w.field("complete", report.complete);
-    w.field("footer", report.footer);
-    w.objects("figures", report.figures, [&](const KeyFigure& figure) {
-      w.field("name", figure.name);
-      const TileText text = tile_text({figure.value, figure.error}, figure.digits);
-      w.field("value", text.value);
-      if (!text.known.empty()) w.field("known", text.known);
-      w.field("unit", pretty_unit(figure.unit));
-      w.field("error", text.error);
-      w.field("note", figure.note);
-      if (!figure.means.empty()) w.field("means", figure.means);
-    });
-    w.objects("sections", report.sections, [&](const ReportSection& section) {
-      w.field("title", section.title);
-      w.key("cards");
-      w.list(section.cards,
-             [&](const Card& card) { w.object([&] { std::visit([&](const auto& c) { write(w, c); }, card); }); });
-    });
-    if (!report.meanings.empty()) {
-      w.objects("meanings", report.meanings, [&](const Meaning& meaning) {
-        w.field("id", meaning.id);
-        w.field("title", meaning.title);
-        w.field("text", meaning.text);
-      });
-    }
-    const std::vector<std::string> notes = theory_notes(w.text);  // of all that was said above
-    if (!notes.empty()) w.field("theory", notes);
-  });
-  return w.text;
+Record section_record(const ReportSection& section) {
+  return {{"title", section.title}, {"cards", each(section.cards, [](const Card& card) {
+                                       return std::visit([](const auto& c) { return record_of(c); }, card);
+                                     })}};
+}
+
+// All that it says, a line each.
+void add_words(const Value& value, std::string& words) {
+  if (const std::string* text = value.as<std::string>()) words += *text + "\n";
+  if (const List* list = value.as<List>())
+    for (const Value& item : *list) add_words(item, words);
+  if (const Record* record = value.as<Record>())
+    for (const Field& field : *record) add_words(field.value, words);
+}
+
+Record record_of(const Report& report, const Letterhead& head) {
+  Record r = {{"title", report.title}};
+  if (!head.brand_svg.empty()) r.push_back({"brand", head.brand_svg});
+  if (!head.author.empty()) r.push_back({"author", head.author});
+  for (Field& field : Record{{"subtitle", report.subtitle},
+                             {"conclusion", report.conclusion},
+                             {"complete", report.complete},
+                             {"footer", report.footer},
+                             {"figures", records_of(report.figures)},
+                             {"sections", each(report.sections, section_record)}})
+    r.push_back(std::move(field));
+  if (!report.meanings.empty()) r.push_back({"meanings", records_of(report.meanings)});
+  std::string words;
+  for (const Field& field : r) add_words(field.value, words);
+  if (const std::vector<std::string> notes = theory_notes(words); !notes.empty()) r.push_back({"theory", notes});
+  return r;
 }
 
 std::string escaped(std::string_view text) {
@@ -322,28 +332,8 @@ Series drawn(const Series& series) {
   return s;
 }
 
-std::string json_string(const std::string& text) {
-  std::string out = "\"";
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (c == '<') {
-      out += "\\u003c";  // neither "</script" nor "<!--" can arise
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      out += fmt::format("\\u{:04x}", static_cast<int>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
 std::string html_of(const Report& report, const Letterhead& head) {
-  const std::string json = json_of(report, head);
+  const std::string json = json_text(record_of(report, head), JsonForm::in_page);
   const std::string_view page = report_assets::page_html();
   std::string html;
   html.reserve(page.size() + json.size() + report_assets::plotly_js().size() + 65536);

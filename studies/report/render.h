@@ -41,7 +41,4 @@ std::vector<std::string> draw_by_gnuplot(const std::vector<TextFile>& files, int
 // Both into a folder. Returns how many plots were drawn.
 int write_gnuplot(const Report& report, const std::string& folder);
 
-// Text as a script's string may hold it within a page: valid JSON without "</" and "<!--".
-std::string json_string(const std::string& text);
-
 }  // namespace kurbel

@@ -132,11 +132,9 @@ Record figure_record(const Figure& f) {
 }
 
 Record state_record(const ComponentState& s) {
-  Record r;
-  tell_estimate(r, "angle", s.angle);
-  tell_estimate(r, "speed", s.speed);
-  if (s.angle_out) tell_estimate(r, "angle_out", *s.angle_out);
-  if (s.speed_out) tell_estimate(r, "speed_out", *s.speed_out);
+  Record r = {{"angle", s.angle}, {"speed", s.speed}};
+  if (s.angle_out) r.push_back({"angle_out", *s.angle_out});
+  if (s.speed_out) r.push_back({"speed_out", *s.speed_out});
   return r;
 }
 
@@ -229,9 +227,8 @@ Record result_record(const Result& r) {
           {"notes", r.notes}};
 }
 
-DataTable trajectory_data(const std::string& name, const Result& r) {
-  DataTable table{.name = name,
-                  .remark = r.complete ? "" : "incomplete: " + r.diagnosis,
+DataTable trajectory_data(const Result& r) {
+  DataTable table{.remark = r.complete ? "" : "incomplete: " + r.diagnosis,
                   .columns = {{"time", "s"}},
                   .each_row = [&t = *r.trajectory](const std::function<void(DataRow)>& take) {
                     std::vector<DataCell> cells(t.channels().size() + 1);

@@ -69,7 +69,7 @@ Rows comparison_table(const Comparison& c) {
   auto table = table_of("comparison", "Every figure of both models", c.rows).always().not_on_terminal();
   table.explained_by(&ComparisonRow::name);
   table.column("name", "figure", &ComparisonRow::name);
-  table.estimate_for_programs(c.a.label, &ComparisonRow::a).estimate_for_programs(c.b.label, &ComparisonRow::b);
+  table.only_for_programs(c.a.label, &ComparisonRow::a).only_for_programs(c.b.label, &ComparisonRow::b);
   table.only_for_people(c.a.label, [&](R row) { return in_a(row).value; })
       .only_for_people("error", [&](R row) { return in_a(row).error; })
       .only_for_people(c.b.label, [&](R row) { return in_b(row).value; })
@@ -117,8 +117,7 @@ Record model_record(const Result& r) {
 
 void judge_completion(Findings& f, const Comparison& c) {
   for (const Result* r : {&c.a, &c.b}) {
-    if (r->trajectory)
-      f.tables.push_back({"trajectory." + r->label, [r] { return trajectory_data("trajectory." + r->label, *r); }});
+    if (r->trajectory) f.tables.push_back({"trajectory." + r->label, [r] { return trajectory_data(*r); }});
     if (r->unconfirmed()) f.unconfirmed = fmt::format("{} model: {}", r->label, r->accuracy_in_words());
     if (r->complete) continue;
     f.complete = false;
@@ -241,7 +240,7 @@ Findings findings_of(const Result& r, const Result* rigid) {
   show_background(f, {&r});
   if (r.begins_at > 0) f.tell("goes_on_from", r.begins_at);
   for (Field& field : result_record(r)) f.tell(std::move(field.key), std::move(field.value));
-  if (r.trajectory) f.tables.push_back({"trajectory", [&r] { return trajectory_data("trajectory", r); }});
+  if (r.trajectory) f.tables.push_back({"trajectory", [&r] { return trajectory_data(r); }});
   return f;
 }
 

@@ -69,7 +69,7 @@ std::vector<Plot> drive_plots(const Results& results);
 // For programs; without title, scene and completion.
 Record result_record(const Result& result);
 // Equidistant rows, and between them one at each extreme that is a figure.
-DataTable trajectory_data(const std::string& name, const Result& result);
+DataTable trajectory_data(const Result& result);
 // Where a peak goes by more than 5 % beyond all equidistant rows; `steps` of the run tell how many rows would follow it.
 std::string coarse_rows_note(const TrajectoryRecorder& trajectory, std::int64_t steps);
 

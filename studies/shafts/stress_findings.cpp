@@ -196,8 +196,7 @@ std::vector<Plot> stress_plots(const ShaftStresses& s) {
 
 DataTable stress_data(const ShaftStresses& s) {
   constexpr NumberFormat format{9};
-  DataTable table{.name = "shaft_stress",
-                  .columns = {{.name = "shaft", .words = true},
+  DataTable table{.columns = {{.name = "shaft", .words = true},
                               {.name = "misfires", .words = true},
                               {"speed", "rad/s", format},
                               {"amplitude", "Pa", format},

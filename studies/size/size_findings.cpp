@@ -102,10 +102,10 @@ Rows reached_table(const Sizing& s) {
       .column("model", "model", [](const DeltaReached& r) { return name_of(r.model); })
       .column("sized_by", "flywheel sized by", &DeltaReached::sized_by)
       .column("flywheel", "flywheel [kg·m²]", &DeltaReached::flywheel)
-      .estimate_for_programs("delta_crank", &DeltaReached::crank)
+      .only_for_programs("delta_crank", &DeltaReached::crank)
       .only_for_people("δ at the crank", [](const DeltaReached& r) { return figure_text(r.crank).value; })
       .only_for_people("error", [](const DeltaReached& r) { return figure_text(r.crank).error; })
-      .estimate_for_programs("delta_motor", &DeltaReached::motor)
+      .only_for_programs("delta_motor", &DeltaReached::motor)
       .only_for_people("δ at the motor",
                        [&](const DeltaReached& r) { return s.motor.empty() ? "—" : at_motor(r).value; })
       .only_for_people("error", [&](const DeltaReached& r) { return s.motor.empty() ? "" : at_motor(r).error; })
@@ -291,15 +291,15 @@ void tell_basis(Findings& f, const Sizing& s) {
 
 DataTable diagrams_data(const Sizing& s) {
   const auto of = [](const Piecewise& f) { return [&f](double x) { return f.value(x); }; };
-  return data_of("diagrams", angles(s, curve_points))
-      .column("phi", "rad", std::identity())
-      .column("M_d", "N*m", of(s.diagram.drive_torque))
-      .column("M_c", "N*m", of(s.diagram.load_torque))
-      .column("A_d", "J", of(s.diagram.drive_work))
-      .column("A_c", "J", of(s.diagram.load_work))
-      .column("dT", "J", of(s.diagram.excess))
-      .column("I_em", "kg*m2", of(s.cycle.mechanism.value))
-      .table();
+  return data_of(angles(s, curve_points))
+      .in_file("phi", "rad", std::identity())
+      .in_file("M_d", "N*m", of(s.diagram.drive_torque))
+      .in_file("M_c", "N*m", of(s.diagram.load_torque))
+      .in_file("A_d", "J", of(s.diagram.drive_work))
+      .in_file("A_c", "J", of(s.diagram.load_work))
+      .in_file("dT", "J", of(s.diagram.excess))
+      .in_file("I_em", "kg*m2", of(s.cycle.mechanism.value))
+      .data();
 }
 
 // --- all of it ---

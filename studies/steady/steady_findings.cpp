@@ -174,23 +174,23 @@ DataTable cycle_data(const SteadyCycle& c) {
   constexpr int rows = 720;
   std::vector<double> angles;
   for (int i = 0; i <= rows; ++i) angles.push_back(c.model->cycle * i / rows);
-  auto data = data_of("steady." + c.label, std::move(angles));
-  data.column("angle", "rad", std::identity());
+  auto data = data_of(std::move(angles));
+  data.in_file("angle", "rad", std::identity());
   for (const Trace& t : whole_cycle(c)->traces)
     if (!t.name.starts_with(measured_trace("")))
-      data.column(
+      data.in_file(
           t.name, t.unit, [&t](double angle) { return at_angle(t, angle); }, 10);
-  return data.table();
+  return data.data();
 }
 
 void add_tables(Findings& f, const SteadyStudy& s) {
   if (s.diagram)
     f.tables.push_back({"operating_points", [&s] {
-                          return data_of("operating_points", s.diagram->curve)
-                              .column("speed", "rad/s", &MeanTorques::omega)
-                              .column("drive_torque", "N*m", &MeanTorques::drive)
-                              .column("load_torque", "N*m", &MeanTorques::load)
-                              .table();
+                          return data_of(s.diagram->curve)
+                              .in_file("speed", "rad/s", &MeanTorques::omega)
+                              .in_file("drive_torque", "N*m", &MeanTorques::drive)
+                              .in_file("load_torque", "N*m", &MeanTorques::load)
+                              .data();
                         }});
   for (const SteadyCycle& c : s.cycles)
     if (whole_cycle(c)) f.tables.push_back({"steady." + c.label, [&c] { return cycle_data(c); }});

@@ -79,11 +79,8 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
 }
 
 Record operating_point(const OperatingDiagram& d, const OperatingPoint& p) {
-  Record r = {{"drive_slope", p.drive_slope}, {"load_slope", p.load_slope}, {"stable", p.stable()}};
-  tell_estimate(r, "speed", p.speed);
-  tell_estimate(r, "torque", p.torque);
-  tell_estimate(r, "margin", d.margin(p));
-  return r;
+  return {{"drive_slope", p.drive_slope}, {"load_slope", p.load_slope}, {"stable", p.stable()}, {"speed", p.speed},
+          {"torque", p.torque},           {"margin", d.margin(p)}};
 }
 
 std::vector<std::string> words_of_start(const SteadyStudy& s) {

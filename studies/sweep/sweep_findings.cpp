@@ -185,34 +185,14 @@ void fill(std::vector<DataCell>& cells, const SweepStudyResult& s, const SweepRo
   }
 }
 
-// Rows from `from` on, below `to`.
-DataTable variants_data(const std::string& name, const SweepStudyResult& s, std::size_t from, std::size_t to) {
-  DataTable table{.name = name,
-                  .columns = {{.name = "row", .format = whole_number},
-                              {.name = "state", .words = true},
-                              {.name = "seconds", .format = {4}}},
-                  .each_row = [&s, from, to](const std::function<void(DataRow)>& take) {
-                    std::vector<DataCell> cells;
-                    s.each_row([&](const SweepRow& r) { fill(cells, s, r), take(cells); }, from, to);
-                  }};
-  for (const SweptParameter& p : s.identity.parameters)
-    table.columns.push_back(
-        {.name = p.path, .unit = p.unit.empty() ? std::nullopt : std::optional(p.unit), .words = !p.words.empty()});
-  for (const SweptFigure& f : s.identity.figures) {
-    table.columns.push_back({f.name, f.unit});
-    table.columns.push_back({"error of " + f.name, f.unit, {3}});
-  }
-  return table;
-}
-
 // One table, or of a great sweep one each rows_in_table: none is ever in memory with the others.
-std::vector<TableFile> variant_tables(const SweepStudyResult& s) {
-  std::vector<TableFile> tables;
+std::vector<NamedTable> variant_tables(const SweepStudyResult& s) {
+  std::vector<NamedTable> tables;
   const std::vector<std::size_t>& begins = s.tally.pieces;
   for (std::size_t i = 0; i < std::max<std::size_t>(begins.size(), 1); ++i) {
     const std::size_t from = i == 0 ? 0 : begins[i], to = i + 1 < begins.size() ? begins[i + 1] : SweepStore::all;
     const std::string name = i == 0 ? "variants" : fmt::format("variants_{}", i + 1);
-    tables.push_back({name, [name, &s, from, to] { return variants_data(name, s, from, to); }});
+    tables.push_back({name, [&s, from, to] { return variants_data(s, from, to); }});
   }
   return tables;
 }
@@ -230,6 +210,28 @@ std::vector<std::string> notes_on_rows(const SweepStudyResult& s) {
 }
 
 }  // namespace
+
+DataTable variants_data(const SweepStudyResult& s, std::size_t from, std::size_t to, bool with_diagnosis) {
+  DataTable table{.columns = {{.name = "row"}, {.name = "state", .words = true}, {.name = "seconds", .format = {4}}},
+                  .each_row = [&s, from, to, with_diagnosis](const std::function<void(DataRow)>& take) {
+                    std::vector<DataCell> cells;
+                    const auto take_row = [&](const SweepRow& r) {
+                      fill(cells, s, r);
+                      if (with_diagnosis) cells.emplace_back(r.diagnosis);
+                      take(cells);
+                    };
+                    s.each_row(take_row, from, to);
+                  }};
+  for (const SweptParameter& p : s.identity.parameters)
+    table.columns.push_back(
+        {.name = p.path, .unit = p.unit.empty() ? std::nullopt : std::optional(p.unit), .words = !p.words.empty()});
+  for (const SweptFigure& f : s.identity.figures) {
+    table.columns.push_back({f.name, f.unit});
+    table.columns.push_back({"error of " + f.name, f.unit, {3}});
+  }
+  if (with_diagnosis) table.columns.push_back({.name = "diagnosis", .words = true});
+  return table;
+}
 
 void SweepStudyResult::each_row(const std::function<void(const SweepRow&)>& visit, std::size_t from,
                                 std::size_t to) const {

@@ -69,6 +69,9 @@ bool is_shifted_sobol(const SweepIdentity& identity);
 std::string line_of(const SweepIdentity& identity, const SweepRow& row);
 
 Findings findings_of(const SweepStudyResult& study);
+// Rows from `from` on, below `to`: state, parameters, figures with their errors, and why a row failed.
+DataTable variants_data(const SweepStudyResult& study, std::size_t from = 0, std::size_t to = SweepStore::all,
+                        bool with_diagnosis = false);
 // The counts must outlive the table. `unknown`: the key of rows without the figure; `from`: heading of the interval.
 Rows limit_table(const std::string& title, const std::vector<LimitCount>& limits, const std::string& unknown,
                  const std::string& from);

@@ -24,8 +24,8 @@ struct MatConstant {
   double value = 0;
 };
 
-// The file's bytes; none: a matrix of version 5 has at most 2 GB. Columns of words are left out. Constants that are named as a column is are left out. Throws
-// std::runtime_error where there is no memory for it.
+// The file's bytes; none: a matrix of version 5 has at most 2 GB. Columns of words and constants that are named as a column
+// are left out. Throws std::runtime_error where there is no memory for it.
 std::optional<std::string> mat_file(const DataTable& table, const std::vector<MatConstant>& constants);
 
 }  // namespace kurbel

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -24,13 +25,12 @@ std::vector<MatConstant> constants_of(const SummaryTables& summary, const std::s
   return constants;
 }
 
-XlsxCell cell(const std::optional<double>& number) { return number ? XlsxCell(*number) : XlsxCell(); }
-
 void add_figures(XlsxBook& book, const std::vector<FigureRow>& figures) {
   if (figures.empty()) return;
   XlsxSheet sheet = book.sheet("figures");
   sheet.headings({"figure", "value", "unit", "error", "at [s]", "model", "meaning"});
-  for (const FigureRow& f : figures) sheet.row({f.name, f.value, f.unit, cell(f.error), cell(f.at), f.of, f.meaning});
+  for (const FigureRow& f : figures)
+    sheet.row({f.name, f.value, f.unit, f.error.value_or(NAN), f.at.value_or(NAN), f.of, f.meaning});
 }
 
 void add_events(XlsxBook& book, const std::vector<EventRow>& events) {
@@ -38,36 +38,6 @@ void add_events(XlsxBook& book, const std::vector<EventRow>& events) {
   XlsxSheet sheet = book.sheet("events");
   sheet.headings({"time [s]", "component", "from", "to", "model"});
   for (const EventRow& e : events) sheet.row({e.time, e.component, e.from, e.what, e.of});
-}
-
-std::vector<std::string> headings_of(const DataTable& table) {
-  std::vector<std::string> headings;
-  for (const DataColumn& column : table.columns)
-    headings.push_back(column.unit && column.unit->empty() ? column.name : heading_of(column.name, column.unit));
-  return headings;
-}
-
-XlsxCell cell(const DataCell& of, const NumberFormat& format) {
-  const double* const number = std::get_if<double>(&of);
-  return number ? XlsxCell(as_written(*number, format)) : XlsxCell(std::get<std::string>(of));
-}
-
-// As many sheets as its rows need.
-void add_table(XlsxBook& book, const DataTable& table) {
-  std::vector<XlsxCell> cells(table.columns.size());
-  const auto begin_sheet = [&] {
-    XlsxSheet sheet = book.sheet(table.name);
-    sheet.headings(headings_of(table));
-    return sheet;
-  };
-  XlsxSheet sheet = begin_sheet();
-  std::size_t rows = 1;
-  table.each_row([&](DataRow row) {
-    if (rows == XlsxSheet::most_rows) sheet = begin_sheet(), rows = 1;
-    for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = cell(row[k], table.columns[k].format);
-    sheet.row(cells);
-    ++rows;
-  });
 }
 
 }  // namespace
@@ -101,15 +71,12 @@ void make_table_files(const StudyOutput& output, const TableFormats& formats,
     add_figures(*book, summary.figures);
     add_events(*book, summary.events);
   }
-  for (const TableFile& file : output.tables) {
-    const DataTable table = file.table();
-    if (formats.csv) take(table.name + ".csv", csv_text(table));
-    if (book) add_table(*book, table);
-    if (!formats.mat) continue;
-    if (const auto mat = mat_file(table, constants_of(summary, table.name)))
-      take(table.name + ".mat", *mat);
-    else if (!formats.csv)
-      take(table.name + ".csv", csv_text(table));
+  for (const auto& [name, made] : output.tables) {
+    const DataTable table = made();
+    if (book) book->add(name, table);
+    const auto mat = formats.mat ? mat_file(table, constants_of(summary, name)) : std::nullopt;
+    if (mat) take(name + ".mat", *mat);
+    if (formats.csv || (formats.mat && !mat)) take(name + ".csv", csv_text(table));
   }
   for (const auto& [name, text] : output.files) take(name, text);
   if (!book) return;

@@ -46,11 +46,11 @@ std::string column_letters(std::size_t column) {
   return letters;
 }
 
-void put_cell(std::string& to, std::size_t row, std::size_t column, const XlsxCell& cell) {
+void put_cell(std::string& to, std::size_t row, std::size_t column, const DataCell& cell) {
   const auto place = [&] { return column_letters(column) + std::to_string(row); };
   if (const double* number = std::get_if<double>(&cell)) {
     if (std::isfinite(*number)) fmt::format_to(std::back_inserter(to), "<c r=\"{}\"><v>{}</v></c>", place(), *number);
-  } else if (const std::string* text = std::get_if<std::string>(&cell); text && !text->empty()) {
+  } else if (const std::string* text = &std::get<std::string>(cell); !text->empty()) {
     fmt::format_to(std::back_inserter(to), "<c r=\"{}\" t=\"inlineStr\"><is><t xml:space=\"preserve\">", place());
     put_escaped(to, shortened(*text, longest_text));
     to += "</t></is></c>";
@@ -80,7 +80,7 @@ void XlsxSheet::headings(const std::vector<std::string>& texts, std::size_t lead
   rows_ = 1;
 }
 
-void XlsxSheet::row(const std::vector<XlsxCell>& cells) {
+void XlsxSheet::row(const std::vector<DataCell>& cells) {
   text_.clear();
   fmt::format_to(std::back_inserter(text_), "<row r=\"{}\">", ++rows_);
   for (std::size_t k = 0; k < cells.size(); ++k) put_cell(text_, rows_, k, cells[k]);
@@ -118,6 +118,28 @@ XlsxSheet XlsxBook::sheet(const std::string& name) {
   if (!sheet) throw std::runtime_error(fmt::format("cannot write {}: no temporary file for a sheet", file_));
   sheets_.push_back(sheet);
   return {sheet, bold_};
+}
+
+void XlsxBook::add(const std::string& name, const DataTable& table) {
+  std::vector<std::string> headings;
+  for (const DataColumn& column : table.columns)
+    headings.push_back(column.unit && column.unit->empty() ? column.name : heading_of(column.name, column.unit));
+  const auto begin_sheet = [&] {
+    XlsxSheet begun = sheet(name);
+    begun.headings(headings);
+    return begun;
+  };
+  XlsxSheet sheet = begin_sheet();
+  std::vector<DataCell> cells;
+  std::size_t rows = 1;
+  table.each_row([&](DataRow row) {
+    if (rows == XlsxSheet::most_rows) sheet = begin_sheet(), rows = 1;
+    cells.assign(row.begin(), row.end());
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (double* number = std::get_if<double>(&cells[k])) *number = as_written(*number, table.columns[k].format);
+    sheet.row(cells);
+    ++rows;
+  });
 }
 
 void XlsxBook::close() {

@@ -1,17 +1,19 @@
 // xlsx_book.h — a workbook of sheets, row after row, however many there are; numbers to the last bit.
 //
 //   XlsxBook book("v.xlsx");
-//   XlsxSheet variants = book.sheet("variants");
-//   variants.headings({"row", "inertia [kg*m2]"});
-//   variants.row({1.0, 200.0});
+//   book.add("variants", variants_data(study));
+//   XlsxSheet asked = book.sheet("sweep");
+//   asked.headings({"what", "as it was asked"});
+//   asked.row({"seed", 1.0});
 //   book.close();
 #pragma once
 
 #include <cstddef>
 #include <set>
 #include <string>
-#include <variant>
 #include <vector>
+
+#include "studies/data/data_table.h"
 
 struct lxw_workbook;
 struct lxw_worksheet;
@@ -19,16 +21,14 @@ struct lxw_format;
 
 namespace kurbel {
 
-// Nothing, a number (what is not finite is an empty cell), words.
-using XlsxCell = std::variant<std::monostate, double, std::string>;
-
 class XlsxSheet {
  public:
   static constexpr std::size_t most_rows = 1'048'576;  // the heading among them
 
   // The first row; it stays in view, and so do the leading columns.
   void headings(const std::vector<std::string>& texts, std::size_t leading_columns = 1);
-  void row(const std::vector<XlsxCell>& cells);
+  // Numbers that are not known, and no words, are empty cells.
+  void row(const std::vector<DataCell>& cells);
 
  private:
   friend class XlsxBook;
@@ -48,6 +48,8 @@ class XlsxBook {
 
   // Of a name that the format allows: at most 31 letters, none twice.
   XlsxSheet sheet(const std::string& name);
+  // A table, on as many sheets as its rows need.
+  void add(const std::string& name, const DataTable& table);
   void close();  // throws std::runtime_error where it could not be written
 
  private:

@@ -71,7 +71,7 @@ std::string said_of(const std::string& path, const MeasurementRequest& request) 
 
 TEST_F(Measured, ARunsOwnTrajectoryLeavesNothing) {
   Result r = ringing();
-  const std::string path = file(csv_text(trajectory_data("trajectory", r)));
+  const std::string path = file(csv_text(trajectory_data(r)));
   const Measurement m =
       read_measurement({path, {"torque.shaft=torque.shaft", "speed.b=speed.b"}, "", {}}, channels_of_run(*r.model));
   const Overlay o = lay_over(m, r);
@@ -195,7 +195,7 @@ TEST_F(Measured, ASteadyCycleTakesTheTimeModuloItsPeriod) {
       if (const Plot* plot = std::get_if<Plot>(&card))
         for (const Series& series : plot->series) measured += series.name == "measured";
   EXPECT_EQ(measured, 2) << "over the angle among the cycle's plots, and over time";
-  for (const TableFile& file : output.tables) EXPECT_EQ(csv_text(file.table()).find("measured"), std::string::npos);
+  for (const NamedTable& named : output.tables) EXPECT_EQ(csv_text(named.table()).find("measured"), std::string::npos);
 }
 
 // In the run's own plots, in its figures, in JSON, on the terminal in short and at length.

@@ -103,11 +103,11 @@ TEST(Thinning, ACloudsChoiceHasNoPatternOfItsOwn) {
   EXPECT_EQ(drawn_by_chance(5, 9).size(), 5u);
 }
 
-TEST(JsonString, ClosesNoScriptAndParsesBack) {
+TEST(JsonText, ClosesNoScriptAndParsesBack) {
   const std::string nasty = "</script><!-- \"quoted\" back\\slash\n\ttab \x01 µ·°";
-  const std::string json = json_string(nasty);
+  const std::string json = json_text({{"text", nasty}}, JsonForm::in_page);
   EXPECT_EQ(json.find('<'), std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(json).get<std::string>(), nasty);
+  EXPECT_EQ(nlohmann::json::parse(json).at("text").get<std::string>(), nasty);
 }
 
 // Terminal and page show one form of value and error, every figure's.

@@ -103,7 +103,7 @@ class Mat {
 
 TEST(TableFiles, ATableHoldsTheRunsNumbersToTheLastBit) {
   const TrajectoryRows rows = rows_of(*ringing().trajectory);
-  const DataTable table = trajectory_data("trajectory", ringing());
+  const DataTable table = trajectory_data(ringing());
   const std::vector<std::vector<double>> numbers = columns_of(table);
   const std::size_t columns = ringing().trajectory->channels().size();
   ASSERT_GT(numbers[0].size(), 5u) << "rows at peaks, too";
@@ -134,7 +134,7 @@ TEST(TableFiles, AMatFileHoldsTheTrajectoryInModelicasLayout) {
   EXPECT_EQ(names[0], "time");
   EXPECT_EQ(told(0, 0), 0);
   EXPECT_EQ(told(0, 1), 1);
-  const DataTable table = trajectory_data("trajectory", ringing());
+  const DataTable table = trajectory_data(ringing());
   const std::vector<std::vector<double>> numbers = columns_of(table);
   std::size_t quantities = 0, constants = 0;
   for (std::size_t i = 1; i < names.size(); ++i) {
@@ -207,7 +207,7 @@ TEST(TableFiles, EveryStudysTablesAreMade) {
   ASSERT_TRUE(files.contains("steady.elastic.mat"));
   Mat mat(files.at("steady.elastic.mat"));
   const DataTable table = output.tables.back().table();
-  ASSERT_EQ(table.name, "steady.elastic");
+  ASSERT_EQ(output.tables.back().name, "steady.elastic");
   const std::vector<std::vector<double>> numbers = columns_of(table);
   EXPECT_EQ(mat.texts("name").at(0), "angle");
   EXPECT_EQ(mat["data_2"].dims[0], table.columns.size());
@@ -220,7 +220,7 @@ TEST(TableFiles, EveryStudysTablesAreMade) {
   };
   const std::vector<Row> rows = {{1, "", 0.5}, {2, "rotor", HUGE_VAL}, {3, "shaft", 1 / 3.0}};
   DataTable mixed =
-      data_of("mixed", rows).column("n", {}, &Row::n).column("who", "s", &Row::who).column("x", "", &Row::x, 3).table();
+      data_of(rows).in_file("n", {}, &Row::n).in_file("who", "s", &Row::who).in_file("x", "", &Row::x, 3).data();
   mixed.remark = "a remark";
   EXPECT_EQ(csv_text(mixed), "# a remark\nn,who [s],x []\n1,,0.5\n2,rotor,\n3,shaft,0.333\n");
   Mat read(mat_file(mixed, {}).value());

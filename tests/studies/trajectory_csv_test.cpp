@@ -58,7 +58,7 @@ Result run_with(int samples) {
 
 TEST(TrajectoryCsv, HoldsThePeakBetweenItsRows) {
   const Result r = run_with(4);
-  const Csv csv = read_csv(csv_text(trajectory_data("trajectory", r)));
+  const Csv csv = read_csv(csv_text(trajectory_data(r)));
   const double omega = std::sqrt(400 * (1 + 1 / 3.0)), peak = 2 * 10 * 3 / 4.0;
   const Figure* figure = r.find(quantities::peak_torque, "shaft");
   ASSERT_TRUE(figure && figure->at);

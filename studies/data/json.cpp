@@ -1,0 +1,103 @@
+// json.cpp — the text of records.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "engine/scene/printable.h"
+#include "studies/data/value.h"
+
+namespace kurbel {
+namespace {
+
+class JsonWriter {
+ public:
+  explicit JsonWriter(JsonForm form) : form_(form) {}
+  std::string text;
+
+  void put(const Value& value) {
+    value.visit([&](const auto& v) { put(v); });
+  }
+  void put(const Record& record) {
+    items(record, "{}", [&](const Field& f) {
+      if (const Estimate* e = f.value.as<Estimate>()) {
+        put(f.key, e->value);
+        next();
+        put(f.key + "_error", e->error);
+      } else {
+        put(f.key, f.value);
+      }
+    });
+  }
+
+ private:
+  void put(std::monostate) { text += "null"; }
+  void put(bool v) { text += v ? "true" : "false"; }
+  void put(std::int64_t v) { fmt::format_to(std::back_inserter(text), "{}", v); }
+  // The shortest text that gives the same double again, and is seen to be none of a whole number.
+  void put(double v) {
+    if (!std::isfinite(v)) return put(std::monostate());
+    const std::size_t begin = text.size();
+    fmt::format_to(std::back_inserter(text), "{}", v);
+    if (text.find_first_of(".e", begin) == std::string::npos) text += ".0";
+  }
+  void put(const Rounded& v) {
+    if (!std::isfinite(v.number)) return put(std::monostate());
+    fmt::format_to(std::back_inserter(text), "{:.{}g}", v.number, v.digits);
+  }
+  void put(const RoundedList& v) {
+    items(v.numbers, "[]", [&](double number) { put(Rounded{number, v.digits}); });
+  }
+  void put(const Estimate& v) { put(estimate_record(v)); }
+  void put(const List& list) {
+    items(list, "[]", [&](const Value& item) { put(item); });
+  }
+  void put(const std::string& words) {
+    std::string escaped;
+    for (const char c : words)
+      if (c == '<' && form_ == JsonForm::in_page)
+        escaped += "\\u003c";
+      else if (c == '\n' || c == '\t')
+        escaped += c == '\n' ? "\\n" : "\\t";
+      else if (c == '"' || c == '\\')
+        escaped += {'\\', c};
+      else
+        escaped += c;
+    text += '"' + printable_json(escaped) + '"';
+  }
+  void put(const std::string& key, const Value& value) {
+    put(key);
+    text += form_ == JsonForm::indented ? ": " : ":";
+    put(value);
+  }
+
+  template <class Items, class Put>
+  void items(const Items& all, const char* brackets, Put put_item) {
+    text += brackets[0];
+    ++depth_;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      i == 0 ? line() : next();
+      put_item(all[i]);
+    }
+    --depth_;
+    if (!all.empty()) line();
+    text += brackets[1];
+  }
+  void next() { text += ',', line(); }
+  void line() {
+    if (form_ == JsonForm::indented) text += '\n', text.append(2 * depth_, ' ');
+  }
+
+  JsonForm form_;
+  std::size_t depth_ = 0;
+};
+
+}  // namespace
+
+std::string json_text(const Record& record, JsonForm form) {
+  JsonWriter writer(form);
+  writer.put(record);
+  return std::move(writer.text);
+}
+
+}  // namespace kurbel
