@@ -224,17 +224,17 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
 
 int present(StudyOutput output, const StudyOptions& options, bool all) {
   // What was set beside the scene stands in every summary.
-  if (!options.set.empty()) output.summary.push_back({"set", options.set});
+  if (!options.set.empty()) output.tell("set", options.set);
   // Asked once: what is decided here holds for the files as for the exit code.
   const bool stopped = interrupt_seen;
   if (options.json)
     say(output.json() + "\n");
   else if (options.quiet)
-    say(printable(output.conclusion) + "\n");
-  else if (all || output.brief.empty())
-    say_with_conclusion(output.table, output.conclusion);
+    say(printable(output.conclusion()) + "\n");
+  else if (all || !output.brief)
+    say_with_conclusion(output.text(), output.conclusion());
   else
-    say_with_conclusion(output.brief, output.headline);
+    say_with_conclusion(brief_text(output), headline_text(output));
   if (!options.no_files) write_files(output, options, stopped);
   if (output.complete && !stopped) {
     if (output.unconfirmed.empty()) {

@@ -71,13 +71,13 @@ StudyOutput alone(const GearsArguments& a, std::optional<double> speed) {
                   .module = d.module,
                   .shaft_angle = quantity_of("--shaft-angle", a.shaft_angle, "an angle > 0", "90 deg", positive)});
   if (!a.worm_diameter.empty())
-    return rendered(findings_of(WormPair{.starts = d.teeth[0],
-                                         .teeth = d.teeth[1],
-                                         .module = d.module,
-                                         .worm_diameter = length_of("--worm-diameter", a.worm_diameter, "50 mm"),
-                                         .friction = a.friction,
-                                         .pressure_angle = d.rack.pressure_angle},
-                                speed));
+    return {findings_of(WormPair{.starts = d.teeth[0],
+                                 .teeth = d.teeth[1],
+                                 .module = d.module,
+                                 .worm_diameter = length_of("--worm-diameter", a.worm_diameter, "50 mm"),
+                                 .friction = a.friction,
+                                 .pressure_angle = d.rack.pressure_angle},
+                        speed)};
   return output_of(single_pair(d, speed));
 }
 

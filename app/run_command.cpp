@@ -84,7 +84,7 @@ template <class Study>
 int present(const Study& study, const std::optional<Overlay>& overlay, const RunArguments& arguments) {
   Findings findings = findings_of(study);
   if (overlay) show(findings, *overlay);
-  return present(rendered(std::move(findings)), arguments.study, arguments.all);
+  return present({std::move(findings)}, arguments.study, arguments.all);
 }
 
 int run(const RunArguments& arguments) {

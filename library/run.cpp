@@ -101,11 +101,9 @@ Run run(const Machine& machine, const RunChoices& choices) {
     else
       told->tried.study = std::move(result);
     if (measurement) told->overlay = lay_over(*measurement, told->tried.study);
-    StudyOutput output = rendered(findings_of(*told));
-    output.study = told;
     const std::shared_ptr<const Result> run(told, &told->tried.study);
     return Run(std::make_shared<const RunParts>(
-        RunParts{run, study_of(std::move(output)), figures_of(*run), trajectory_of(*run)}));
+        RunParts{run, study_of({findings_of(*told), {}, {}, told}), figures_of(*run), trajectory_of(*run)}));
   });
 }
 

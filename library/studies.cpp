@@ -52,13 +52,13 @@ Study diff(const Machine& a, const Machine& b, const Options& given, const Watch
 
 std::vector<FigureValue> Study::figures() const {
   std::vector<FigureValue> all;
-  for (FigureRow& row : summary_tables(parts_->output.summary).figures)
+  for (FigureRow& row : summary_tables(summary_of(parts_->output)).figures)
     all.push_back({std::move(row.name), row.value, std::move(row.unit), row.error, row.at, std::move(row.of)});
   return all;
 }
 
-std::string Study::conclusion() const { return parts_->output.conclusion; }
-std::string Study::text() const { return parts_->output.table; }
+std::string Study::conclusion() const { return parts_->output.conclusion(); }
+std::string Study::text() const { return parts_->output.text(); }
 std::string Study::json() const { return parts_->output.json(); }
 std::string Study::html() const { return html_of(parts_->output.report()); }
 bool Study::complete() const { return parts_->output.complete; }

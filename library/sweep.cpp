@@ -122,9 +122,7 @@ SweepRows rows_in(const std::string& file, const std::function<void(const SweepL
 
 Study sweep_report(const std::string& file, const std::vector<std::string>& limits) {
   const auto kept = std::make_shared<const KeptSweep>(file, limits);
-  StudyOutput output = rendered(findings_of(kept->study));
-  output.study = kept;
-  return study_of(std::move(output));
+  return study_of({findings_of(kept->study), {}, {}, kept});
 }
 
 std::size_t merge(const std::vector<std::string>& files, const std::string& into) { return merge_sweeps(files, into); }

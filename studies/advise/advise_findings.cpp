@@ -18,15 +18,23 @@ std::string percent(double relative) {
 std::string or_dash(const std::string& figure) { return figure.empty() ? "—" : figure; }
 
 Rows effect_table(const Advice& a) {
-  return table_of("", "Each effect", numbers_below(std::min(a.units.size(), a.kept_because.size())))
+  return table_of("effects", "Each effect", numbers_below(std::min(a.units.size(), a.kept_because.size())))
       .text_in(3, 2)
       .always()
       .only_for_people("effect", [&](std::size_t k) { return a.units[k].words; })
-      .only_for_people("advice", [&](std::size_t k) { return a.kept_because[k]; })
-      .only_for_people("screens", [&](std::size_t k) {
-        std::string screens;
-        for (const Screen& s : a.screens[k]) screens += (screens.empty() ? "" : "; ") + s.verdict;
-        return screens.empty() ? "none applies" : screens;
+      .only_for_programs("effect", [&](std::size_t k) { return a.units[k].name; })
+      .only_for_programs("on", [&](std::size_t k) { return static_cast<bool>(a.tried[a.chosen].on[k]); })
+      .column("why", "advice", [&](std::size_t k) { return a.kept_because[k]; })
+      .only_for_people("screens",
+                       [&](std::size_t k) {
+                         std::string screens;
+                         for (const Screen& s : a.screens[k]) screens += (screens.empty() ? "" : "; ") + s.verdict;
+                         return screens.empty() ? "none applies" : screens;
+                       })
+      .only_for_programs("screens", [&](std::size_t k) {
+        return each(a.screens[k], [](const Screen& s) {
+          return Record{{"name", s.name}, {"number", s.number}, {"verdict", s.verdict}, {"needed", s.needed}};
+        });
       });
 }
 
@@ -62,15 +70,6 @@ Rows held_out_table(const Advice& a) {
       .only_for_people("within", [](const HeldOut& h) {
         return h.within ? "yes" : h.refused.empty() ? "no" : h.refused;
       });
-}
-
-Record effect_record(const Advice& a, std::size_t k) {
-  return {{"effect", a.units[k].name},
-          {"on", static_cast<bool>(a.tried[a.chosen].on[k])},
-          {"why", a.kept_because[k]},
-          {"screens", each(a.screens[k], [](const Screen& s) {
-             return Record{{"name", s.name}, {"number", s.number}, {"verdict", s.verdict}, {"needed", s.needed}};
-           })}};
 }
 
 Record tried_record(const Advice& a, const TriedSet& t) {
@@ -139,8 +138,6 @@ Findings findings_of(const Advice& a) {
   f.tell("within", a.tolerance);
   f.draw(advice, [&a] { return plane(a); });
   f.say(advice, effect_table(a));
-  f.tell("effects", each(numbers_below(std::min(a.units.size(), a.kept_because.size())),
-                         [&](std::size_t k) { return effect_record(a, k); }));
   f.say(runs, tried_table(a));
   f.tell("tried", each(a.tried, [&](const TriedSet& t) { return tried_record(a, t); }));
   f.say(advice, held_out_table(a));

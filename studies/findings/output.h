@@ -2,7 +2,6 @@
 #pragma once
 
 #include <concepts>
-#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -14,24 +13,6 @@
 
 namespace kurbel {
 
-struct StudyOutput {
-  std::string conclusion;          // one line
-  std::string table;               // for a terminal, ends with a newline; holds the conclusion
-  std::string brief = {};          // the same in short, the conclusion a sentence a line; empty: there is none
-  std::string headline = {};       // the conclusion as the short form has it
-  Record summary;                  // the same figures for programs: summary.json
-  std::function<Report()> report;  // made only when it is written
-  std::vector<NamedTable> tables = {};
-  std::vector<std::pair<std::string, std::string>> files = {};  // what is no table: name and text
-  bool complete = true;
-  std::string diagnosis = {};    // of a run that failed on its way
-  std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
-  std::string next = {};  // what to do with it, where files are written: {scene}, {summary} stand for their names
-  std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
-
-  std::string json() const;  // the summary as text
-};
-
 // The renderings of findings, each in its own file: render_terminal.cpp, render_json.cpp, render_page.cpp.
 std::string terminal_text(const Findings& findings);
 // In short: at most Brief::most_lines lines of Brief::width columns; empty where there is no short form.
@@ -42,7 +23,16 @@ std::string headline_text(const Findings& findings);
 Record summary_of(const Findings& findings);
 Report page_of(const Findings& findings);
 
-StudyOutput rendered(Findings findings);
+// What is handed out, with what belongs to it; rendered when it is asked for.
+struct StudyOutput : Findings {
+  std::vector<std::pair<std::string, std::string>> files = {};  // what is no table: name and text
+  std::string next = {};  // what to do with it, where files are written: {scene}, {summary} stand for their names
+  std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
+
+  std::string text() const { return terminal_text(*this); }
+  std::string json() const { return json_text(summary_of(*this)); }
+  Report report() const { return page_of(*this); }
+};
 
 // Of a study with a function findings_of. It must outlive the output; one that is handed over is kept by it.
 template <class Study>
@@ -51,12 +41,10 @@ requires requires(const std::remove_reference_t<Study>& s) {
 }
 StudyOutput output_of(Study&& study) {
   if constexpr (std::is_lvalue_reference_v<Study>) {
-    return rendered(findings_of(study));
+    return {findings_of(study)};
   } else {
     const auto kept = std::make_shared<const Study>(std::move(study));
-    StudyOutput output = rendered(findings_of(*kept));
-    output.study = kept;
-    return output;
+    return {findings_of(*kept), {}, {}, kept};
   }
 }
 

@@ -74,6 +74,4 @@ Record summary_of(const Findings& f) {
   return summary;
 }
 
-std::string StudyOutput::json() const { return json_text(summary); }
-
 }  // namespace kurbel

@@ -1,8 +1,7 @@
-// render_page.cpp — findings as a page: sections of cards; and all renderings together.
+// render_page.cpp — findings as a page: sections of cards.
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <set>
 
 #include "engine/scene/units.h"
@@ -153,20 +152,6 @@ Report page_of(const Findings& f) {
   }
   page.meanings = meanings_of(page);
   return page;
-}
-
-StudyOutput rendered(Findings findings) {
-  const auto kept = std::make_shared<const Findings>(std::move(findings));
-  return {.conclusion = kept->conclusion(),
-          .table = terminal_text(*kept),
-          .brief = brief_text(*kept),
-          .headline = headline_text(*kept),
-          .summary = summary_of(*kept),
-          .report = [kept] { return page_of(*kept); },
-          .tables = kept->tables,
-          .complete = kept->complete,
-          .diagnosis = kept->diagnosis,
-          .unconfirmed = kept->unconfirmed};
 }
 
 }  // namespace kurbel

@@ -177,13 +177,19 @@ Rows rainflow_table(const TorqueHistory& h) {
       });
 }
 
-// Sines in the simulated torque; `of` is Hz or an order.
-Rows spectral_table(const TorqueHistory& h, const char* key, const char* of, const std::vector<SpectralLine>& lines) {
+// Sines in the simulated torque, over Hz or over orders.
+Rows spectral_table(const TorqueHistory& h, bool of_orders) {
+  const std::string key = of_orders ? "order" : "frequency", of = of_orders ? "orders" : key,
+                    unit = of_orders ? "" : " [Hz]";
+  const std::vector<SpectralLine>& lines = of_orders ? h.strongest_orders : h.strongest;
   return table_of("", fmt::format("Strongest lines of the simulated {} over {}", h.channel, of), lines)
       .headed(fmt::format("strongest lines of the simulated {} over {}", h.channel, of))
       .text_in(0)
-      .only_for_people(key, [](const SpectralLine& l) { return with_error(l.frequency, ""); })
-      .only_for_people("amplitude", [](const SpectralLine& l) { return with_error(l.amplitude, "N*m"); });
+      .only_for_programs(key, [](const SpectralLine& l) { return l.frequency.value; })
+      .only_for_programs("error", [](const SpectralLine& l) { return l.frequency.error; })
+      .only_for_people(key + unit, [](const SpectralLine& l) { return with_error(l.frequency, ""); })
+      .column("amplitude", "amplitude", &SpectralLine::amplitude,
+              [](const Estimate& amplitude) { return with_error(amplitude, "N*m"); });
 }
 
 std::string point_text(const ModesStudy& m) {
@@ -216,19 +222,13 @@ List joint_list(const ModesStudy& m) {
   });
 }
 
-List spectral_list(const char* key, const std::vector<SpectralLine>& lines) {
-  return each(lines, [&](const SpectralLine& l) {
-    return Record{{key, l.frequency.value}, {"error", l.frequency.error}, {"amplitude", l.amplitude}};
-  });
-}
-
 Record history_record(const TorqueHistory& h) {
   return {{"channel", h.channel},
           {"greatest", h.greatest},
           {"least", h.least},
           {"equivalent_amplitude", h.equivalent_amplitude},
-          {"strongest_lines", spectral_list("frequency", h.strongest)},
-          {"strongest_orders", spectral_list("order", h.strongest_orders)}};
+          {"strongest_lines", spectral_table(h, false).list()},
+          {"strongest_orders", spectral_table(h, true).list()}};
 }
 
 DataTable shapes_data(const ModesStudy& m) {
@@ -338,8 +338,7 @@ void say_history(Findings& f, Chapter in, const ModesStudy& m) {
                                             with_error(h.greatest, "N*m"))},
                       .indent = "  ",
                       .apart = true});
-  if (!h.strongest.empty()) f.say(in, spectral_table(h, "frequency [Hz]", "frequency", h.strongest));
-  if (!h.strongest_orders.empty()) f.say(in, spectral_table(h, "order", "orders", h.strongest_orders));
+  for (const bool of_orders : {false, true}) f.say(in, spectral_table(h, of_orders));
   Rows rainflow = rainflow_table(h);
   rainflow.page = !h.lines.empty();
   f.say(in, std::move(rainflow));

@@ -111,17 +111,18 @@ Rows limits_table(const Result& r) {
   return table_of("", fmt::format("What kept the steps short, {} model", r.label), r.statistics.limits)
       .people_see_first(most)
       .text_in(3)
-      .only_for_people("element", [](const LimitedSteps& l) { return l.element.empty() ? "—" : l.element; })
-      .only_for_people("by", &LimitedSteps::by)
-      .only_for_people("states",
-                       [](const LimitedSteps& l) {
-                         std::string states;
-                         for (std::size_t k = 0; k < l.states.size() && k < most_states; ++k)
-                           states += (k ? ", " : "") + l.states[k];
-                         return states + (l.states.size() > most_states ? ", …" : "");
-                       })
-      .only_for_people("steps", &LimitedSteps::steps)
-      .only_for_people("share", [](const LimitedSteps& l) { return fmt::format("{:.1f} %", 100 * l.share); });
+      .column("element", "element", &LimitedSteps::element,
+              [](const std::string& element) { return element.empty() ? "—" : element; })
+      .column("by", "by", &LimitedSteps::by)
+      .column("states", "states", &LimitedSteps::states,
+              [](const std::vector<std::string>& all) {
+                std::string states;
+                for (std::size_t k = 0; k < all.size() && k < most_states; ++k) states += (k ? ", " : "") + all[k];
+                return states + (all.size() > most_states ? ", …" : "");
+              })
+      .column("steps", "steps", &LimitedSteps::steps)
+      .column("share", "share", &LimitedSteps::share,
+              [](double share) { return fmt::format("{:.1f} %", 100 * share); });
 }
 
 // --- for programs ---
@@ -184,10 +185,7 @@ Record statistics_record(const Result& r) {
           {"cpu_seconds", r.statistics.cpu_seconds},
           {"cpu_seconds_all_runs", r.cpu_total},
           {"runs", r.runs},
-          {"limits", each(r.statistics.limits, [](const LimitedSteps& l) {
-             return Record{
-                 {"element", l.element}, {"by", l.by}, {"states", l.states}, {"steps", l.steps}, {"share", l.share}};
-           })}};
+          {"limits", limits_table(r).list()}};
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TableFormats table_formats(std::string_view list) {
 
 void make_table_files(const StudyOutput& output, const TableFormats& formats,
                       const std::function<void(const std::string& name, const std::string& bytes)>& take) {
-  const SummaryTables summary = formats.mat || formats.xlsx ? summary_tables(output.summary) : SummaryTables{};
+  const SummaryTables summary = formats.mat || formats.xlsx ? summary_tables(summary_of(output)) : SummaryTables{};
   const MemoryFile memory;
   std::optional<XlsxBook> book;
   if (formats.xlsx) {

@@ -65,7 +65,7 @@ TEST(BeyondTables, AMotorsFallingCurveGoesOnAlongItsLastSlope) {
   ASSERT_NE(mean, nullptr);
   EXPECT_NEAR(mean->value, on_line, 1e-9 * on_line);
   EXPECT_FALSE(mean->error);
-  const StudyOutput output = rendered(findings_of(study));
+  const StudyOutput output{findings_of(study)};
   EXPECT_NE(output.json().find("outside its table, which ends at 1796 rpm"), std::string::npos);
 
   const Result r = run(scene);

@@ -114,12 +114,12 @@ bool prints_no_number(const std::string& text) {
 
 // What a study hands out, whatever it found.
 std::string fault_of(const StudyOutput& output) {
-  if (output.conclusion.empty()) return "an output without a conclusion";
+  if (output.conclusion().empty()) return "an output without a conclusion";
   if (!output.complete && output.diagnosis.empty()) return "incomplete, and no word why";
   if (!nlohmann::json::accept(output.json())) return "a summary that is no JSON";
   for (const NamedTable& named : output.tables) csv_text(named.table());
-  if (output.report) output.report();
-  if (output.complete && prints_no_number(output.table))
+  output.report();
+  if (output.complete && prints_no_number(output.text()))
     return "a number that is none in the table of a complete result";
   return {};
 }

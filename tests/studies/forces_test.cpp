@@ -308,7 +308,7 @@ TEST(ForcesStudy, OutputHoldsBothProblemsAndIsValidJson) {
   EXPECT_EQ(json["prescribed"]["positions"].size(), 13u);
   EXPECT_EQ(json["simulated"]["peaks"].size(), 7u);
   EXPECT_EQ(json["counterweights"].size(), 4u);
-  EXPECT_NE(output.table.find(output.conclusion), std::string::npos);
+  EXPECT_NE(output.text().find(output.conclusion()), std::string::npos);
   ASSERT_EQ(output.tables.size(), 3u);  // both problems, and the links of the one in front
   const std::string csv = csv_text(output.tables[0].table());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 722);

@@ -157,7 +157,7 @@ TEST(GearErrors, stand_beside_every_figure) {
         EXPECT_TRUE(of[key + "_error"].is_number()) << key;
       }
   for (const KeyFigure& figure : findings_of(gears).figures) EXPECT_TRUE(figure.error.has_value()) << figure.name;
-  EXPECT_NE(output.table.find("±"), std::string::npos);
+  EXPECT_NE(output.text().find("±"), std::string::npos);
 }
 
 TEST(GearErrors, of_a_stiffness_out_of_the_methods_range_are_not_known) {
@@ -184,7 +184,7 @@ TEST(GearErrors, of_bevel_and_worm_pairs_cover_the_difference_to_long_double) {
     const BevelPair b{.teeth = {static_cast<int>(between(10, 40)), static_cast<int>(between(10, 90))},
                       .module = between(0.001, 0.01),
                       .shaft_angle = between(0.3, 1.6)};
-    const Json bevel = Json::parse(rendered(findings_of(b)).json());
+    const Json bevel = Json::parse(json_text(summary_of(findings_of(b))));
     const Real sum = b.shaft_angle, u = static_cast<Real>(b.teeth[1]) / b.teeth[0];
     const Real one = std::atan2(std::sin(sum), u + std::cos(sum)), two = sum - one;
     const Real cone = static_cast<Real>(b.module) * b.teeth[0] / (2 * std::sin(one));
@@ -200,7 +200,7 @@ TEST(GearErrors, of_bevel_and_worm_pairs_cover_the_difference_to_long_double) {
                      .module = between(0.002, 0.01),
                      .worm_diameter = between(0.03, 0.1),
                      .friction = between(0, 0.2)};
-    const Json worm = Json::parse(rendered(findings_of(w)).json());
+    const Json worm = Json::parse(json_text(summary_of(findings_of(w))));
     const Real lead = std::atan(static_cast<Real>(w.starts) * w.module / w.worm_diameter);
     const Real friction = std::atan(w.friction / std::cos(static_cast<Real>(w.pressure_angle)));
     const Real back = std::tan(lead - friction) / std::tan(lead);

@@ -102,7 +102,7 @@ TEST(GearsStudy, ReportDrawsWholeWheelsAndSaysTheNumbers) {
   const StudyOutput output = output_of(g);
   const auto json = nlohmann::json::parse(output.json());
   EXPECT_NEAR(json["pairs"][0]["centre_distance"].get<double>(), 0.228, 1e-12);
-  EXPECT_NE(output.table.find(output.conclusion), std::string::npos);
+  EXPECT_NE(output.text().find(output.conclusion()), std::string::npos);
   const Report report = output.report();
   const GearView* view = nullptr;
   for (const ReportSection& section : report.sections)

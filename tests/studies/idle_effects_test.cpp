@@ -42,7 +42,7 @@ TEST(IdleEffects, the_study_of_effects_says_what_its_row_of_variable_inertia_too
   brief.measure_error = false;
   const EffectStudy study = study_effects(worn_pin(), brief);
   EXPECT_TRUE(tells(study.notes));
-  EXPECT_NE(output_of(study).table.find("variable inertia is off"), std::string::npos);
+  EXPECT_NE(output_of(study).text().find("variable inertia is off"), std::string::npos);
 }
 
 TEST(IdleEffects, no_set_that_names_what_does_nothing_is_advised) {

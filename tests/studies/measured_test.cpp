@@ -186,7 +186,7 @@ TEST_F(Measured, ASteadyCycleTakesTheTimeModuloItsPeriod) {
   EXPECT_TRUE(study.cycles.front().find("residual_rms.torque.main_coupling"));
   Findings f = findings_of(study);
   show(f, o);
-  const StudyOutput output = rendered(std::move(f));
+  const StudyOutput output{std::move(f)};
   const auto told = nlohmann::json::parse(output.json()).at("measured").at("models").at(0);
   EXPECT_NEAR(told.at("shift").get<double>(), -0.2 * period, 1e-5 * period);
   int measured = 0;
@@ -205,9 +205,10 @@ TEST_F(Measured, ARunTellsItEverywhere) {
   const Overlay o = lay_over(read_measurement({path, {"T1=torque.shaft"}, "", {}}, channels_of_run(*r.model)), r);
   Findings f = findings_of(r);
   show(f, o);
-  const StudyOutput output = rendered(std::move(f));
-  EXPECT_NE(output.brief.find("measured − simulated, torque.shaft: rms "), std::string::npos) << output.brief;
-  EXPECT_NE(output.table.find("T1 → torque.shaft"), std::string::npos);
+  const StudyOutput output{std::move(f)};
+  EXPECT_NE(brief_text(output).find("measured − simulated, torque.shaft: rms "), std::string::npos)
+      << brief_text(output);
+  EXPECT_NE(output.text().find("T1 → torque.shaft"), std::string::npos);
   const auto j = nlohmann::json::parse(output.json());
   EXPECT_EQ(j.at("measured").at("models").at(0).at("signals").at(0).at("points"), 4);
   int measured = 0;

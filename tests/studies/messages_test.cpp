@@ -41,8 +41,8 @@ TEST(Messages, SeriesMotorThatRunsAwayFromAFanIsNotSaidToBeWithoutALoad) {
   EXPECT_EQ(r.diagnosis.find("ithout a load"), std::string::npos) << r.diagnosis;
   EXPECT_NE(r.diagnosis.find("max_speed = 1193.66 rpm (by default 5 rated_speed)"), std::string::npos) << r.diagnosis;
   // Nor is what was not drawn up told as nothing.
-  EXPECT_EQ(output_of(r).table.find("nothing moves"), std::string::npos) << output_of(r).table;
-  EXPECT_EQ(output_of(r).table.find("closed to 0"), std::string::npos);
+  EXPECT_EQ(output_of(r).text().find("nothing moves"), std::string::npos) << output_of(r).text();
+  EXPECT_EQ(output_of(r).text().find("closed to 0"), std::string::npos);
 }
 
 TEST(Messages, RunThatDoesNothingProvesNoBalanceOfEnergy) {
@@ -54,15 +54,15 @@ run = {{ until = "1 s", start = {{ speed = "{} rad/s" }} }}
 )",
                                            speed));
     const StudyOutput output = output_of(r);
-    for (const std::string& text : {output.table, output.conclusion}) {
+    for (const std::string& text : {output.text(), output.conclusion()}) {
       EXPECT_EQ(text.find("closed to 0"), std::string::npos) << text;
       EXPECT_EQ(text.find("energy balance 0"), std::string::npos) << text;
     }
-    EXPECT_NE(output.table.find(speed == 0 ? "nothing moves" : "the kinetic energy stays 50 J"), std::string::npos);
+    EXPECT_NE(output.text().find(speed == 0 ? "nothing moves" : "the kinetic energy stays 50 J"), std::string::npos);
     EXPECT_EQ(html_of(output.report()).find("balance closes to 0"), std::string::npos);
   }
   const Result works = test::run(fan_motor(""));
-  EXPECT_NE(output_of(works).table.find("energy balance closed to"), std::string::npos);
+  EXPECT_NE(output_of(works).text().find("energy balance closed to"), std::string::npos);
 }
 
 // An engine by a table over two turns; its load as told, or none.

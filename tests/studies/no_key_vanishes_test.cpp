@@ -160,7 +160,7 @@ Seen run_of(const Scene& scene) {
 Seen modes_of(const Scene& scene) {
   Seen seen;
   try {
-    seen.words = output_of(find_modes(scene, scene.effects, {})).table;
+    seen.words = output_of(find_modes(scene, scene.effects, {})).text();
   } catch (const std::exception& refused) {
     seen.words = refused.what();
   }

@@ -110,13 +110,13 @@ TEST(Output, WhatHasNoValueInARunThatBrokeOffIsLeftOut) {
     const auto json = nlohmann::json::parse(output.json());
     for (const auto& figure : json["figures"]) EXPECT_TRUE(figure["value"].is_number()) << figure;
     const std::string page = html_of(output.report());
-    for (const std::string& text : {output.table, output.conclusion, page.substr(page.find("id=\"data\""))}) {
+    for (const std::string& text : {output.text(), output.conclusion(), page.substr(page.find("id=\"data\""))}) {
       EXPECT_EQ(text.find("nan"), std::string::npos)
           << text.substr(std::max<std::size_t>(text.find("nan"), 60) - 60, 99);
       EXPECT_EQ(text.find("inf "), std::string::npos);
     }
-    EXPECT_EQ(output.table.find(lost), std::string::npos);
-    EXPECT_NE(output.table.find(kept), std::string::npos);
+    EXPECT_EQ(output.text().find(lost), std::string::npos);
+    EXPECT_NE(output.text().find(kept), std::string::npos);
   }
 }
 

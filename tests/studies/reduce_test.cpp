@@ -109,7 +109,7 @@ TEST(Reduce, DeadCentresOfTheSliderAreLeftOutWithTheReason) {
   for (const ReducedPosition& p : r.positions) EXPECT_EQ(!p.singular.empty(), p.number == 0 || p.number == 6);
   ASSERT_FALSE(r.notes.empty());
   const StudyOutput output = output_of(r);
-  EXPECT_NE(output.table.find("position 0 (0°), 6 (180°): a dead centre"), std::string::npos) << output.table;
+  EXPECT_NE(output.text().find("position 0 (0°), 6 (180°): a dead centre"), std::string::npos) << output.text();
   const std::string csv = csv_text(output.tables.front().table());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 11);  // the heading and ten rows
   EXPECT_EQ(csv.find("—"), std::string::npos);

@@ -114,7 +114,7 @@ TEST(JsonText, ClosesNoScriptAndParsesBack) {
 TEST(Report, ShowsFiguresAsTheTerminalDoes) {
   const Result r = test::run(geared_train);
   const nlohmann::json data = data_of(html_of(output_of(r).report()));
-  const std::string table = output_of(r).table;
+  const std::string table = output_of(r).text();
   std::map<std::string, nlohmann::json> rows;
   for (const auto& section : data.at("sections"))
     for (const auto& card : section.at("cards"))
@@ -148,7 +148,7 @@ TEST(Report, LoadsNothingFromElsewhere) {
 TEST(Report, HoldsBothModelsAndTheMachine) {
   const Comparison c = compared(geared_train);
   const nlohmann::json data = data_of(html_of(output_of(c).report()));
-  EXPECT_EQ(data["conclusion"], output_of(c).conclusion);
+  EXPECT_EQ(data["conclusion"], output_of(c).conclusion());
   int plots = 0, machines = 0;
   for (const auto& section : data["sections"])
     for (const auto& card : section["cards"]) {

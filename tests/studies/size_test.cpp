@@ -217,9 +217,9 @@ TEST(Size, FlywheelThatIsNotNeededIsSaidSo) {
   const Sizing s = size_flywheel(test::scene_from(heavy), demand(1.5));
   EXPECT_FALSE(s.needed);
   EXPECT_LE(s.methods[0].flywheel, 0);
-  EXPECT_NE(output_of(s).conclusion.find("no flywheel is needed"), std::string::npos);
+  EXPECT_NE(output_of(s).conclusion().find("no flywheel is needed"), std::string::npos);
   const Sizing large = size_flywheel(test::scene_from(press(straight(1200, 9), "5000 kg*m2")), demand(0.1));
-  EXPECT_NE(output_of(large).table.find("already larger than needed"), std::string::npos);
+  EXPECT_NE(output_of(large).text().find("already larger than needed"), std::string::npos);
 }
 
 // By the work equation 356.8 kg·m² do, simulated elastic 438.1 are needed: what is to be built is the latter, and the
@@ -230,7 +230,7 @@ TEST(Size, DimensionsAreThoseOfTheFlywheelThatMeetsTheDemand) {
   ASSERT_LT(s.methods.front().flywheel, s.flywheel_now);
   ASSERT_GT(s.meeting->flywheel, s.flywheel_now);
   EXPECT_NEAR(s.dimensions->inertia, s.meeting->flywheel, 1e-9 * s.meeting->flywheel);
-  EXPECT_NE(output_of(s).table.find("it is too small"), std::string::npos);
+  EXPECT_NE(output_of(s).text().find("it is too small"), std::string::npos);
 }
 
 TEST(Size, RefusesInWords) {

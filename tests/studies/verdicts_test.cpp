@@ -124,8 +124,8 @@ TEST(Efficiency, IsNotMadeOfRounding) {
       EXPECT_TRUE(json["prescribed"]["efficiency"].is_null());
       EXPECT_NE(json["prescribed"]["no_efficiency"].get<std::string>().find("no "), std::string::npos);
       if (*friction) {
-        EXPECT_NE(output.conclusion.find("no efficiency of the cycle: no useful work"), std::string::npos)
-            << output.conclusion;
+        EXPECT_NE(output.conclusion().find("no efficiency of the cycle: no useful work"), std::string::npos)
+            << output.conclusion();
       }
     }
   }
