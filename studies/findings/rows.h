@@ -139,6 +139,13 @@ class RowsOf : public Rows {
                   [](const Estimate& e) { return with_error(e, ""); });
   }
 
+  // For people: `get` gives FigureText or FigureCells; a column of values, and one of their errors.
+  template <class Get>
+  RowsOf& value_and_error(std::string its_heading, const Get& get) {
+    only_for_people(std::move(its_heading), [&](const T& row) { return std::invoke(get, row).value; });
+    return only_for_people("error", [&](const T& row) { return std::invoke(get, row).error; });
+  }
+
   // The last column stands in a file, too, under its key. Digits: significant ones of numbers.
   RowsOf& also_in_file(std::optional<std::string> unit = {}, int digits = 12) {
     columns.back().in_file = {columns.back().key, std::move(unit), {digits}};

@@ -14,16 +14,14 @@ namespace {
 
 std::string number(double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : "∞"; }
 
-Findings made(std::string title, std::string conclusion, const Lines& lines, const FormulaCard& formula) {
+Findings made(std::string conclusion, Rows table, const FormulaCard& formula) {
   Findings f{.title = "",
              .subtitle = "Basic relations (theory 6)",
-             .page_title = title,
+             .page_title = table.title,
              .tells_complete = false,
              .footer = report_footer()};
   f.answer(Topic::figures, std::move(conclusion));
   const Chapter in = f.chapter("Geometry");
-  Rows table = words_table(title, lines.front(), {lines.begin() + 1, lines.end()});
-  table.text_columns = table.text_columns_on_terminal = 2;
   f.say(in, std::move(table));
   f.show(in, formula);
   return f;
@@ -72,8 +70,7 @@ Plot efficiency_plot(const WormPair& pair) {
 Findings findings_of(const BevelPair& b) {
   check(b);
   const BevelErrors e(b);
-  const Lines rows = {
-      {"of the wheels", "symbol", "1", "2", "±", "unit"},
+  const Lines lines = {
       {"teeth", "z", std::to_string(b.teeth[0]), std::to_string(b.teeth[1]), "0", ""},
       {"pitch cone angle", "δ", number(b.cone_angle(0) / degree), number(b.cone_angle(1) / degree),
        error_text(largest_error(e.cone_angle) / degree), "°"},
@@ -88,13 +85,14 @@ Findings findings_of(const BevelPair& b) {
       .symbols = "tan δ₁ = sin Σ/(u + cos Σ),   δ₂ = Σ − δ₁",
       .numbers = fmt::format("δ₁ = atan({:.6g}/({:.6g} + {:.6g})) = {:.5f}°,   δ₂ = {:.5f}°", std::sin(b.shaft_angle),
                              b.ratio(), std::cos(b.shaft_angle), b.cone_angle(0) / degree, b.cone_angle(1) / degree)};
+  Rows table = words_table("Bevel pair", {"of the wheels", "symbol", "1", "2", "±", "unit"}, lines);
+  table.text_columns = table.text_columns_on_terminal = 2;
   Findings f = made(
-      "Bevel pair",
       fmt::format("Bevel pair {}/{} at {:g}°: pitch cones {:.4f}° and {:.4f}°, R_e = {:.4f} mm; its teeth are "
                   "those of spur wheels with {:.1f} and {:.1f} teeth.",
                   b.teeth[0], b.teeth[1], b.shaft_angle / degree, b.cone_angle(0) / degree, b.cone_angle(1) / degree,
                   in_millimetres * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
-      rows, cones);
+      std::move(table), cones);
   f.tell("ratio", Estimate{b.ratio(), units_of_rounding * b.ratio()});
   f.tell("cone_angle", std::array{b.cone_angle(0), b.cone_angle(1)});
   f.tell("cone_angle_error", e.cone_angle);
@@ -106,44 +104,41 @@ Findings findings_of(const BevelPair& b) {
 
 Findings findings_of(const WormPair& w, std::optional<double> speed) {
   check(w);
+  using W = const WormPair&;
   const Moved<WormPair> near = moved(w);
-  const auto error = [&](const auto& get) { return error_by_rounding(w, near, get); };
-  const auto sliding = [&](const WormPair& p) { return p.sliding_speed(std::abs(speed.value_or(0))); };
-  const auto text = [&](const auto& get, double factor = 1) { return error_text(factor * error(get)); };
-  Lines rows = {
-      {"of the pair", "symbol", "value", "±", "unit"},
-      {"starts of the worm, teeth of the wheel", "z", fmt::format("{}/{}", w.starts, w.teeth), "0", ""},
-      {"ratio", "u", number(w.ratio()), text(&WormPair::ratio), ""},
-      {"lead angle", "γ", number(w.lead_angle() / degree), text(&WormPair::lead_angle, 1 / degree), "°"},
-      {"centre distance", "a", number(in_millimetres * w.centre_distance()),
-       text(&WormPair::centre_distance, in_millimetres), "mm"},
-      {"friction angle", "ρ′", number(w.friction_angle() / degree), text(&WormPair::friction_angle, 1 / degree), "°"},
-      {"efficiency, worm drives", "η", number(w.efficiency()), text(&WormPair::efficiency), ""},
-      {"efficiency, wheel drives", "η′", w.self_locking() ? "locks" : number(w.efficiency_back()),
-       text(&WormPair::efficiency_back), ""}};
-  if (speed) rows.push_back({"sliding speed", "v_g", number(sliding(w)), text(sliding), "m/s"});
+  const auto by_rounding = [&](std::size_t, const std::function<double(W)>& get) {
+    return error_by_rounding(w, near, get);
+  };
+  const auto angle = [](double v) { return number(v / degree); };
+  const auto length = [](double v) { return number(in_millimetres * v); };
+  MeasuredQuantities<WormPair> q("Worm pair", {"of the pair", "symbol", "value", "unit"}, std::span(&w, 1),
+                                 by_rounding);
+  q.quantity("", "starts of the worm, teeth of the wheel", "z", "",
+             [](W p) { return fmt::format("{}/{}", p.starts, p.teeth); })
+      .quantity("ratio", "ratio", "u", "", &WormPair::ratio, number)
+      .quantity("lead_angle", "lead angle", "γ", "°", &WormPair::lead_angle, angle)
+      .quantity("centre_distance", "centre distance", "a", "mm", &WormPair::centre_distance, length)
+      .quantity("friction_angle", "friction angle", "ρ′", "°", &WormPair::friction_angle, angle)
+      .quantity("efficiency", "efficiency, worm drives", "η", "", &WormPair::efficiency, number)
+      .quantity("efficiency_back", "efficiency, wheel drives", "η′", "", &WormPair::efficiency_back,
+                [&](double v) { return w.self_locking() ? "locks" : number(v); })
+      .only_for_programs("self_locking", &WormPair::self_locking);
+  if (speed)
+    q.quantity(
+        "sliding_speed", "sliding speed", "v_g", "m/s", [&](W p) { return p.sliding_speed(std::abs(*speed)); }, number);
   const FormulaCard efficiency{
       .title = "Efficiency in both directions (theory 6.15)",
       .symbols = "η = tan γ/tan(γ + ρ′),   η′ = tan(γ − ρ′)/tan γ,   tan γ = z₁ m/d₁,   tan ρ′ = μ/cos α_n",
       .numbers = fmt::format("γ = {:.4f}°, ρ′ = {:.4f}°:   η = {:.5f},   η′ = {:.5f}", w.lead_angle() / degree,
                              w.friction_angle() / degree, w.efficiency(), w.efficiency_back())};
   Findings f =
-      made("Worm pair",
-           fmt::format("Worm pair {}/{}: γ = {:.3f}°, ρ′ = {:.3f}°, η = {:.4f} with the worm driving; the wheel {}.",
+      made(fmt::format("Worm pair {}/{}: γ = {:.3f}°, ρ′ = {:.3f}°, η = {:.4f} with the worm driving; the wheel {}.",
                        w.starts, w.teeth, w.lead_angle() / degree, w.friction_angle() / degree, w.efficiency(),
                        w.self_locking() ? "cannot drive: self-locking (γ ≤ ρ′)"
                                         : fmt::format("can drive with η′ = {:.4f}", w.efficiency_back())),
-           rows, efficiency);
+           q.rows(), efficiency);
   f.draw(static_cast<Chapter>(0), [w] { return efficiency_plot(w); });
-  const auto tell = [&](const char* key, const auto& get) { f.tell(key, Estimate{std::invoke(get, w), error(get)}); };
-  tell("ratio", &WormPair::ratio);
-  tell("lead_angle", &WormPair::lead_angle);
-  tell("centre_distance", &WormPair::centre_distance);
-  tell("friction_angle", &WormPair::friction_angle);
-  tell("efficiency", &WormPair::efficiency);
-  tell("efficiency_back", &WormPair::efficiency_back);
-  f.tell("self_locking", w.self_locking());
-  if (speed) tell("sliding_speed", sliding);
+  for (const Field& field : q.records().front()) f.tell(field.key, field.value);
   return f;
 }
 

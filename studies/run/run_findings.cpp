@@ -41,8 +41,7 @@ Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_termi
                    .close()
                    .explained_by(&Figure::name)
                    .only_for_people("figure", &Figure::name)
-                   .only_for_people("value", [&](F f) { return cells(f).value; })
-                   .only_for_people("error", [&](F f) { return cells(f).error; })
+                   .value_and_error("value", cells)
                    .only_for_people("unit", [&](F f) { return cells(f).unit; });
   // The page's heading names the unit of the time.
   if (on_terminal) return table.not_on_page().only_for_people("at", at_time);
@@ -64,16 +63,12 @@ FigureCells cells_of(const std::optional<Estimate>& figure, const std::string& u
 Rows comparison_table(const Comparison& c) {
   using R = const ComparisonRow&;
   const SpeedUnit speed = speed_unit_of(c.b);
-  const auto in_a = [&](R row) { return cells_of(row.a, row.unit, speed); };
-  const auto in_b = [&](R row) { return cells_of(row.b, row.unit, speed); };
   auto table = table_of("comparison", "Every figure of both models", c.rows).always().not_on_terminal();
   table.explained_by(&ComparisonRow::name);
   table.column("name", "figure", &ComparisonRow::name);
   table.only_for_programs(c.a.label, &ComparisonRow::a).only_for_programs(c.b.label, &ComparisonRow::b);
-  table.only_for_people(c.a.label, [&](R row) { return in_a(row).value; })
-      .only_for_people("error", [&](R row) { return in_a(row).error; })
-      .only_for_people(c.b.label, [&](R row) { return in_b(row).value; })
-      .only_for_people("error", [&](R row) { return in_b(row).error; })
+  table.value_and_error(c.a.label, [&](R row) { return cells_of(row.a, row.unit, speed); })
+      .value_and_error(c.b.label, [&](R row) { return cells_of(row.b, row.unit, speed); })
       .column("unit", "unit", &ComparisonRow::unit,
               [&](const std::string& unit) { return cells_of({}, unit, speed).unit; })
       .only_for_programs("difference", &ComparisonRow::difference);

@@ -96,19 +96,18 @@ Rows methods_table(const Sizing& s) {
 }
 
 Rows reached_table(const Sizing& s) {
-  const auto at_motor = [&](const DeltaReached& r) { return figure_text(r.motor); };
   return table_of("reached", fmt::format("δ reached against δ = {:g} demanded", s.delta), s.reached)
       .text_in(2)
       .column("model", "model", [](const DeltaReached& r) { return name_of(r.model); })
       .column("sized_by", "flywheel sized by", &DeltaReached::sized_by)
       .column("flywheel", "flywheel [kg·m²]", &DeltaReached::flywheel)
       .only_for_programs("delta_crank", &DeltaReached::crank)
-      .only_for_people("δ at the crank", [](const DeltaReached& r) { return figure_text(r.crank).value; })
-      .only_for_people("error", [](const DeltaReached& r) { return figure_text(r.crank).error; })
+      .value_and_error("δ at the crank", [](const DeltaReached& r) { return figure_text(r.crank); })
       .only_for_programs("delta_motor", &DeltaReached::motor)
-      .only_for_people("δ at the motor",
-                       [&](const DeltaReached& r) { return s.motor.empty() ? "—" : at_motor(r).value; })
-      .only_for_people("error", [&](const DeltaReached& r) { return s.motor.empty() ? "" : at_motor(r).error; })
+      .value_and_error("δ at the motor",
+                       [&](const DeltaReached& r) {
+                         return s.motor.empty() ? FigureText{"—", ""} : figure_text(r.motor);
+                       })
       .column("mid_speed", fmt::format("mid speed [{}]", s.speed_unit.name), &DeltaReached::mid_speed,
               {.factor = s.speed_unit.of(1)})
       .only_for_programs("settled", [](const DeltaReached&) { return true; })  // a regime is nothing else

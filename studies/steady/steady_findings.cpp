@@ -43,16 +43,11 @@ Rows figure_table(const SteadyStudy& s) {
   auto table = table_of("", "Every figure of the steady cycle", names_of_figures(s)).fold();
   const SpeedUnit speed = speed_unit_of(s);
   table.explained_by(std::identity()).only_for_people("figure", std::identity());
-  for (const SteadyCycle& c : s.cycles) {
-    table.only_for_people(c.label, [&](const std::string& name) {
+  for (const SteadyCycle& c : s.cycles)
+    table.value_and_error(c.label, [&](const std::string& name) {
       const Figure* f = c.find(name);
-      return f ? figure_cells(*f, f->unit, speed).value : "—";
+      return f ? figure_cells(*f, f->unit, speed) : FigureCells{"—", "", ""};
     });
-    table.only_for_people("error", [&](const std::string& name) {
-      const Figure* f = c.find(name);
-      return f ? figure_cells(*f, f->unit, speed).error : "";
-    });
-  }
   return table.only_for_people("unit", [&](const std::string& name) {
     std::string unit;
     for (const SteadyCycle& c : s.cycles)
