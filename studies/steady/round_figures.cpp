@@ -280,7 +280,8 @@ class RoundFigures {
       add(work_per_cycle_of(kind), "", of_kind, energy_scale());
     }
     const auto [driving, useful, harmful, weight] = by_kind;
-    if (driving > 0 && useful < 0) add(Name{quantities::other, "", "machine_efficiency"}, -useful / driving, 1);
+    if (const auto efficiency = efficiency_of(driving, useful, weight, 0); efficiency && driving > 0)
+      add(Name{quantities::other, "", "machine_efficiency"}, *efficiency, 1);
     for (const MotorTorque& motor : m_.motors)
       add(Name::own("cycle_motor_power", motor.component), driving_work(m_, motor.component, work) / time(),
           std::abs(motor.rated_torque * motor.rated_speed));

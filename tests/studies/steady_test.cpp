@@ -407,6 +407,20 @@ TEST(SteadyOutput, JsonHoldsFiguresMultipliersAndOperatingPoints) {
   EXPECT_TRUE(csv_text(output.tables[0].table()).starts_with("speed [rad/s],drive_torque"));
 }
 
+// What weights take is not lost: a screw and a wedge that lift. As `run` has it (1.3).
+TEST(Steady, EfficiencyCountsWeightsWithTheDrivingWork) {
+  const Scene scene = scene_file("tests/agreement/swings/screw_wedge_slide.toml");
+  const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
+  ASSERT_TRUE(study.cycles.size() == 1 && study.cycles[0].found);
+  const SteadyCycle& cycle = study.cycles[0];
+  const double driving = value_of(cycle, "driving_work_per_cycle"), weight = value_of(cycle, "weight_work_per_cycle");
+  ASSERT_LT(weight, -0.1 * driving);
+  EXPECT_NEAR(value_of(cycle, "machine_efficiency"), -value_of(cycle, "useful_work_per_cycle") / (driving + weight),
+              1e-12);
+  const Result run = simulate(scene, scene.effects, "elastic", {});
+  EXPECT_NEAR(value_of(cycle, "machine_efficiency"), figure(run, "machine_efficiency"), 1e-8);
+}
+
 // Works over a cycle whose area is known in closed form: of a press 630 kN · 2.85 mm; of a compressor, with n = m = 1.3,
 // n/(n − 1) p₁ λ V (r^((n − 1)/n) − 1). What is stated as their error covers what they are off.
 TEST(Steady, WorksOfACycleAreWithinTheirErrors) {
