@@ -207,19 +207,6 @@ std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, 
 
 // --- peaks ---
 
-std::pair<Estimate, Estimate> speed_range(const std::vector<MotionSample>& samples) {
-  const auto with_step = [&](std::size_t step) {
-    std::pair range{HUGE_VAL, -HUGE_VAL};
-    for (std::size_t i = 0; i < samples.size(); i += step)
-      range = {std::min(range.first, samples[i].motion.omega), std::max(range.second, samples[i].motion.omega)};
-    return range;
-  };
-  const auto [least, greatest] = with_step(1);
-  const auto [least_of_half, greatest_of_half] = with_step(2);
-  const double rounding = rounding_of_forces * std::max(std::abs(least), std::abs(greatest));
-  return {estimate_from(least, least_of_half, rounding), estimate_from(greatest, greatest_of_half, rounding)};
-}
-
 Peak peak_of(const std::vector<double>& phi, const std::vector<double>& values,
              const std::function<double(double)>& value) {
   constexpr double same_peak = 1e-9;  // of its value
@@ -305,6 +292,24 @@ CrankMotion motion_between(const std::vector<MotionSample>& samples, double phi)
     z = z * (u - x[k]) + c[k];
   }
   return {std::copysign(std::sqrt(2 * std::max(0.0, z)), samples[i].motion.omega), slope / h, samples[i].motion.loads};
+}
+
+std::pair<Estimate, Estimate> speed_range(const std::vector<MotionSample>& samples) {
+  const auto by_speed = [](const MotionSample& a, const MotionSample& b) { return a.motion.omega < b.motion.omega; };
+  const auto [lowest, highest] = std::minmax_element(samples.begin(), samples.end(), by_speed);
+  const double low = lowest->motion.omega, high = highest->motion.omega;
+  const double scale = std::max(std::abs(low), std::abs(high));
+  std::vector<double> phi;
+  for (const MotionSample& s : samples) phi.push_back(s.phi);
+  // By how much the speed lies above `from`, in this sense, at the most.
+  const auto beyond = [&](double from, double sense) {
+    std::vector<double> values;
+    for (const MotionSample& s : samples) values.push_back(sense * (s.motion.omega - from));
+    return measured_peak_of(
+        phi, values, [&](double x) { return sense * (motion_between(samples, x).omega - from); }, scale);
+  };
+  const Peak above = beyond(low, 1), below = beyond(high, -1);
+  return {{high - below.value, below.error}, {low + above.value, above.error}};
 }
 
 // --- the machine ---

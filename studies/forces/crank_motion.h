@@ -102,7 +102,7 @@ struct MotionSample {
 // Motion between samples that ascend by angle.
 CrankMotion motion_between(const std::vector<MotionSample>& samples, double phi);
 
-// Least and greatest speed among samples [rad/s]; errors: what every other sample finds otherwise.
+// Least and greatest speed of the motion between samples that ascend by angle [rad/s]: its peaks, with their errors.
 std::pair<Estimate, Estimate> speed_range(const std::vector<MotionSample>& samples);
 
 // The largest magnitude of a function of the crank's angle. Local peaks of the samples near the largest one are

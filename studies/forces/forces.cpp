@@ -73,6 +73,9 @@ void add_missed(const Missed& missed, const SliderCrankData& d, ForceCycle& cycl
         std::pair{&ForceCycle::shaking_couple, moment}, std::pair{&ForceCycle::torque_orders, missed.torque}})
     for (ForceHarmonic& h : cycle.*orders) h.amplitude.widen(2 * by);  // 2/N Σ, each at most this
   cycle.torque_mean.widen(missed.torque);
+  for (CycleWork& w : cycle.work)
+    if (w.turnover > 0) w.work.widen(missed.torque * cycle.cycle);
+  judge_works(cycle);
 }
 
 std::string words_of(const Missed& missed, const ForceCycle& cycle) {

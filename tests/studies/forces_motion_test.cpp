@@ -8,9 +8,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "studies/forces/crank_motion.h"
 #include "studies/forces/forces_findings.h"
 #include "studies/forces/forces_plots.h"
 #include "studies/forces/linkage_cycle.h"
+#include "studies/steady/steady.h"
 #include "tests/agreement/agreement.h"
 #include "tests/support/scenes.h"
 
@@ -43,6 +45,52 @@ TEST(ForcesOfTheRegime, DoNotDependOnTheLengthOfTheRun) {
   for (std::size_t k = 0; k < joint_count; ++k)
     EXPECT_EQ(a.simulated->reaction[k].value, b.simulated->reaction[k].value);
   EXPECT_TRUE(a.notes.empty());
+}
+
+// Least and greatest speed are those of the motion, not of the samples: of ω = 30 + sin(φ − φ₀) rad/s,
+// whose top no sample meets.
+TEST(SpeedRange, IsThatOfTheMotionBetweenSamples) {
+  constexpr double mean = 30, swing = 1;
+  for (const double phase : {0.0, 0.003, 1.0})
+    for (const double sense : {1.0, -1.0}) {
+      std::vector<MotionSample> samples;
+      for (int i = 0; i <= 720; ++i) {
+        const double phi = 2 * std::numbers::pi * i / 720, omega = mean + swing * std::sin(phi - phase);
+        samples.push_back({phi, {sense * omega, omega * swing * std::cos(phi - phase)}});
+      }
+      const auto [least, greatest] = speed_range(samples);
+      EXPECT_NEAR(least.value, sense * mean - swing, 1e-11) << phase << ", " << sense;
+      EXPECT_NEAR(greatest.value, sense * mean + swing, 1e-11) << phase << ", " << sense;
+      EXPECT_LE(std::abs(greatest.value - sense * mean - swing), greatest.error.value());
+    }
+}
+
+// And they are those of the steady cycle, within both errors; so are the works of the loads, where a joint with clearance
+// moves otherwise than the ideal one that forces are found for.
+TEST(ForcesOfTheRegime, HaveTheSpeedsAndWorksOfTheSteadyCycle) {
+  const auto expect_steady = [](const std::string& name, const CycleOfForces& forces, const std::string& link) {
+    const Scene scene = test::scene_file(name);
+    const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
+    ASSERT_TRUE(study.cycles.size() == 1 && study.cycles[0].found) << name;
+    const auto expect = [&](const std::string& figure, const Estimate& here) {
+      const Figure* there = study.cycles[0].find(figure);
+      ASSERT_NE(there, nullptr) << name << ": " << figure;
+      EXPECT_LE(std::abs(here.value - there->value),
+                here.error.value() + there->error.value() + 1e-10 * std::abs(there->value))
+          << name << ": " << figure << ' ' << here.value << " ± " << *here.error << ", steady " << there->value;
+    };
+    expect("cycle_min_speed." + link, forces.least_speed);
+    expect("cycle_max_speed." + link, forces.greatest_speed);
+    for (const CycleWork& w : forces.work)
+      if (w.name == link + ".load") expect("work_per_cycle." + w.name + " (useful)", w.work);
+  };
+  for (const auto& [name, link] :
+       {std::pair("scenes/piston_pump.toml", "plunger1"), std::pair("scenes/steam_engine.toml", "engine"),
+        std::pair("tests/agreement/worn_pin_small.toml", "crank")})
+    expect_steady(name, *find_forces(test::scene_file(name), {}).simulated, link);
+  for (const auto& [name, link] :
+       {std::pair("scenes/shaper.toml", "shaper"), std::pair("scenes/four_bar_rocker.toml", "rocker")})
+    expect_steady(name, *find_linkage_forces(test::scene_file(name), {}).simulated, link);
 }
 
 // Behind an elastic machine's curves stand those of the rigid one: what the study says of it alone, to the last bit.
