@@ -29,6 +29,7 @@ class Command:
     left_out: frozenset = frozenset()
     scenes: tuple = ("*",)      # by pattern; names of components stand in the arguments, or the key is needed
     writes: bool = True         # has --out
+    then: tuple = ()            # arguments of what is asked next, in the same folder: STATE.0 and STATE.1 are files that all of them share
 
 
 # What accuracy chooses by processor time, and the words about it; errors and counts of each setting are compared.
@@ -73,11 +74,15 @@ class Cell:
     def name(self):
         return f"{self.command} {self.scene}"
 
+    @property
+    def asked(self):
+        return COMMANDS[self.command]
+
     def key(self):
         """Of all that the answer depends on but the program."""
         path = ROOT / self.scene
         text = path.read_bytes()
-        digest = hashlib.sha256(repr((FORM, COMMANDS[self.command].arguments)).encode() + text)
+        digest = hashlib.sha256(repr((FORM, self.asked.arguments, *self.asked.then)).encode() + text)
         for file in re.findall(rb'"([^"\n]+\.\w+)"', text):
             data = path.parent / os.fsdecode(file)
             if data.is_file():
@@ -108,35 +113,50 @@ def has_tolerances(scene):
 # --- one cell ---
 
 def run_cell(program, cell, limit):
-    """The answer; after `limit` seconds of processor time the program is stopped: {"cut": limit}."""
-    command, scene = COMMANDS[cell.command], (ROOT / cell.scene).resolve()
+    """The answer; after `limit` seconds of processor time the program is stopped: {"cut": limit}. "then": the answers to
+    what is asked next, up to the first that ends otherwise than with 0."""
     with tempfile.TemporaryDirectory(prefix="golden-") as folder:
-        out = Path(folder) / "out"
-        put = {"SCENE": str(scene), "OUT.db": f"{out}.db"}
-        arguments = [put.get(word, word) for word in command.arguments] + (["--out", str(out)] if command.writes else [])
-        with open(f"{folder}/stdout", "wb") as said, open(f"{folder}/stderr", "wb") as complained:
-            process = subprocess.Popen([str(program), *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=said,
-                                       stderr=complained, env={**os.environ, "NO_COLOR": "1", "LC_ALL": "C.UTF-8"})
-            cut, status, used = wait_for(process.pid, limit)
-            process.returncode = code = os.waitstatus_to_exitcode(status)
-        seconds = round(used.ru_utime + used.ru_stime, 3)
-        if cut:
-            return {"cut": limit, "seconds": seconds}
+        answer = run_once(program, cell, cell.asked.arguments, Path(folder) / "out", limit)
+        last = answer
+        for number, arguments in enumerate(cell.asked.then):
+            if last.get("exit") != 0:
+                break
+            last = run_once(program, cell, arguments, Path(folder) / f"out{number + 2}", limit - answer["seconds"])
+            seconds = round(answer["seconds"] + last["seconds"], 3)
+            if "cut" in last:
+                return {"cut": limit, "seconds": seconds}
+            answer = {**answer, "seconds": seconds, "then": [*answer.get("then", ()), last]}
+        return answer
 
-        def text(path):
-            words = path.read_text(errors="replace").replace(str(scene), cell.scene).replace(str(out), "OUT")
-            return words.replace(folder, "FOLDER").replace(str(program), "kurbel")
-        place = out if out.is_dir() else Path(f"{out}.incomplete")
-        summary = place / "summary.json"
-        return {"exit": code, "seconds": seconds, "stdout": text(Path(folder) / "stdout"),
-                "stderr": text(Path(folder) / "stderr"), "summary": json.loads(text(summary)) if summary.is_file() else None,
-                "csv": {file.name: text(file) for file in sorted(place.glob("*.csv"))}}
+
+def run_once(program, cell, arguments, out, limit):
+    """Of one process, which writes into the folder `out`."""
+    scene, folder = (ROOT / cell.scene).resolve(), out.parent
+    put = {"SCENE": str(scene), "OUT.db": f"{out}.db", "STATE.0": f"{folder}/state0.json", "STATE.1": f"{folder}/state1.json"}
+    arguments = [put.get(word, word) for word in arguments] + (["--out", str(out)] if cell.asked.writes else [])
+    with open(f"{folder}/stdout", "wb") as said, open(f"{folder}/stderr", "wb") as complained:
+        process = subprocess.Popen([str(program), *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=said,
+                                   stderr=complained, env={**os.environ, "NO_COLOR": "1", "LC_ALL": "C.UTF-8"})
+        cut, status, used = wait_for(process.pid, limit)
+        process.returncode = code = os.waitstatus_to_exitcode(status)
+    seconds = round(used.ru_utime + used.ru_stime, 3)
+    if cut:
+        return {"cut": limit, "seconds": seconds}
+
+    def text(path):
+        words = path.read_text(errors="replace").replace(str(scene), cell.scene).replace(str(out), "OUT")
+        return words.replace(str(folder), "FOLDER").replace(str(program), "kurbel")
+    place = out if out.is_dir() else Path(f"{out}.incomplete")
+    summary = place / "summary.json"
+    return {"exit": code, "seconds": seconds, "stdout": text(folder / "stdout"), "stderr": text(folder / "stderr"),
+            "summary": json.loads(text(summary)) if summary.is_file() else None,
+            "csv": {file.name: text(file) for file in sorted(place.glob("*.csv"))}}
 
 
 def wait_for(pid, limit):
     """(whether it was stopped, status, what it used). RLIMIT_CPU alone counts ticks, and too few on a shared machine."""
     resource.prlimit(pid, resource.RLIMIT_CORE, (0, 0))
-    resource.prlimit(pid, resource.RLIMIT_CPU, (int(2 * limit), int(2 * limit)))  # should this program be killed
+    resource.prlimit(pid, resource.RLIMIT_CPU, (max(1, int(2 * limit)),) * 2)  # should this program be killed
     processor_clock, pause, cut = (~pid << 3) | 2, 0.002, False
     while True:
         done, status, used = os.wait4(pid, os.WNOHANG)
