@@ -356,7 +356,7 @@ class Search {
     if (!point.found) return;
     for (std::size_t i = 0; i < std::min(point.multipliers.size(), out_.point.multipliers.size()); ++i)
       out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +
-                                       rounding_of_multipliers);
+                                       out_.point.multiplier_error + rounding_of_multipliers);
     const Round other = go_round(*loose, point, looser_tolerance);
     for (Figure& f : fine.figures)
       for (const Figure& g : other.figures)

@@ -80,7 +80,7 @@ struct SteadyCycle {
   double cycle_time = 0;                  // of one round [s]
   std::string stability;                  // in words
   std::optional<double> halving;          // cycles in which the slowest deviation halves
-  std::vector<double> multiplier_errors;  // against a looser search; empty: not known
+  std::vector<double> multiplier_errors;  // by a looser search, and what the derivative is good for; empty: not known
   bool neutral = false;                   // a multiplier of 1: one of a family
   bool uncertain = false;                 // the derivative of the map, and with it the stability
   std::vector<Figure> figures;            // with errors measured by a looser search
