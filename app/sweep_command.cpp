@@ -14,8 +14,10 @@
 #include "engine/tables/table_text.h"
 #include "studies/difference/difference.h"
 #include "studies/question/option_values.h"
-#include "studies/sweep/machine.h"
+#include "studies/sweep/sweep.h"
 #include "studies/sweep/sweep_findings.h"
+#include "studies/variants/in_threads.h"
+#include "studies/variants/machine.h"
 
 namespace kurbel::app::sweep_command {
 namespace {

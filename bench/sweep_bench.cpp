@@ -13,7 +13,8 @@
 
 #include "bench/benches.h"
 #include "studies/run/simulate.h"
-#include "studies/sweep/machine.h"
+#include "studies/sweep/sweep.h"
+#include "studies/variants/machine.h"
 
 namespace kurbel::bench {
 namespace {

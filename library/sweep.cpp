@@ -9,9 +9,10 @@
 
 #include "engine/numerics/deadline.h"
 #include "library/machine_parts.h"
-#include "studies/sweep/machine.h"
 #include "studies/sweep/sweep.h"
 #include "studies/sweep/sweep_findings.h"
+#include "studies/variants/in_threads.h"
+#include "studies/variants/machine.h"
 
 namespace kurbel {
 namespace {

@@ -30,34 +30,15 @@ bool FigureDifference::differs() const {
   return !by || std::abs(by->value) > by->error.value_or(0);
 }
 
-namespace {
-
-struct Answered {
-  MachineOfTwo machine;
-  MachineAnswer answer;
-};
-
-Answered answered(const MachineQuestion& question) {
-  // The answer first: where it throws, as when it is interrupted, g++ 12 takes down twice what a braced list has made.
-  MachineAnswer answer = answer_of(question);
-  Answered found{.machine = {.file = question.file}, .answer = std::move(answer)};
-  found.machine.title = found.answer.title;
-  found.machine.text = found.answer.text;
-  found.machine.done = found.answer.state == RowState::done;
-  found.machine.diagnosis = found.answer.diagnosis;
-  return found;
-}
-
-}  // namespace
-
 MachineDifference difference_between(const MachineQuestion& a, const MachineQuestion& b, const std::string& of) {
-  const Answered first = answered(a), second = answered(b);
-  MachineDifference d{.of = of, .a = first.machine, .b = second.machine, .speed_unit = first.answer.speed_unit};
-  for (const Figure& f : first.answer.figures) {
+  // The answers first: where one throws, as when it is interrupted, g++ 12 takes down twice what a braced list has made.
+  MachineAnswer first = answer_of(a), second = answer_of(b);
+  MachineDifference d{.of = of, .a = std::move(first), .b = std::move(second)};
+  for (const Figure& f : d.a.figures) {
     FigureDifference row{.name = f.name, .unit = f.unit, .a = f, .scale = f.scale, .telling = is_telling(f)};
     d.figures.push_back(std::move(row));
   }
-  for (const Figure& f : second.answer.figures) {
+  for (const Figure& f : d.b.figures) {
     auto row = std::find_if(d.figures.begin(), d.figures.end(), [&](const auto& r) { return r.name == f.name; });
     if (row == d.figures.end())
       row = d.figures.insert(row, {.name = f.name, .unit = f.unit, .scale = f.scale, .telling = is_telling(f)});

@@ -8,7 +8,7 @@
 #include "engine/base/estimate.h"
 #include "studies/difference/scene_changes.h"
 #include "studies/findings/findings.h"
-#include "studies/sweep/machine.h"
+#include "studies/variants/machine.h"
 
 namespace kurbel {
 
@@ -25,20 +25,14 @@ struct FigureDifference {
   bool differs() const;                    // by more than both errors; where none is known, at all
 };
 
-struct MachineOfTwo {
-  std::string file, text = {}, title = {};
-  bool done = true;
-  std::string diagnosis = {};  // of one that failed, or whose accuracy is not confirmed
-};
-
 struct MachineDifference {
   std::string of;  // "run", "steady", "modes", "size"
-  MachineOfTwo a, b;
-  SpeedUnit speed_unit;
+  MachineAnswer a, b;
   std::vector<FigureDifference> figures = {};  // in the order of the first machine, then those of the second alone
   std::vector<SceneChange> changes = {};
 
-  bool complete() const { return a.done && b.done; }
+  bool complete() const { return a.done() && b.done(); }
+  const SpeedUnit& speed_unit() const { return a.speed_unit; }
 };
 
 // Puts the same question to two scenes. Throws SceneError for either, and std::invalid_argument.

@@ -13,7 +13,7 @@ namespace kurbel {
 namespace {
 
 // Of files of one name the folders tell which is which.
-std::string name_of(const MachineOfTwo& m, const MachineOfTwo& other) {
+std::string name_of(const MachineAnswer& m, const MachineAnswer& other) {
   const std::filesystem::path path(m.file);
   if (path.stem() != std::filesystem::path(other.file).stem()) return path.stem().string();
   return m.file == other.file ? m.file : path.lexically_normal().string();
@@ -52,7 +52,7 @@ std::string keys_in_words(const MachineDifference& d) {
 std::string conclusion(const MachineDifference& d) {
   const Names names = names_of(d);
   for (const auto& [m, name] : {std::pair{&d.a, names.a}, std::pair{&d.b, names.b}})
-    if (!m->done) return fmt::format("\"{}\" has no sure answer: {}", name, m->diagnosis);
+    if (!m->done()) return fmt::format("\"{}\" has no sure answer: {}", name, m->diagnosis);
   const auto list = by_size(d);
   const auto count = std::count_if(d.figures.begin(), d.figures.end(), [](const auto& f) { return f.differs(); });
   if (count == 0)
@@ -61,19 +61,19 @@ std::string conclusion(const MachineDifference& d) {
   std::string text;
   for (std::size_t i = 0; i < list.size() && i < 3; ++i)
     text += fmt::format("{}{} {} → {} ({})", i ? ", " : "", list[i]->name,
-                        told_shortly(list[i]->a->value, list[i]->unit, d.speed_unit),
-                        told_shortly(list[i]->b->value, list[i]->unit, d.speed_unit), percent(*list[i]->relative()));
+                        told_shortly(list[i]->a->value, list[i]->unit, d.speed_unit()),
+                        told_shortly(list[i]->b->value, list[i]->unit, d.speed_unit()), percent(*list[i]->relative()));
   return fmt::format("\"{}\" against \"{}\": {}{}{} of {} figures differ by more than their errors; {}", names.b,
                      names.a, text, text.empty() ? "" : "; ", count, d.figures.size(), keys_in_words(d));
 }
 
 // In the unit that people read.
 Estimate read_in(const MachineDifference& d, const FigureDifference& f, const Estimate& figure) {
-  return f.unit == "rad/s" ? figure / d.speed_unit.size : figure;
+  return f.unit == "rad/s" ? figure / d.speed_unit().size : figure;
 }
 std::string cell(const MachineDifference& d, const FigureDifference& f, const std::optional<Estimate>& figure) {
   if (!figure) return "—";
-  const FigureCells cells = figure_cells(*figure, f.unit, d.speed_unit);
+  const FigureCells cells = figure_cells(*figure, f.unit, d.speed_unit());
   return cells.error.empty() ? cells.value : cells.value + " " + cells.error;
 }
 
@@ -89,7 +89,7 @@ Rows figure_table(const MachineDifference& d) {
       .only_for_people(names.a, [&d](F f) { return cell(d, f, f.a); })
       .only_for_people(names.b, [&d](F f) { return cell(d, f, f.b); })
       .column("unit", "unit", &FigureDifference::unit,
-              [&d](const std::string& unit) { return unit == "rad/s" ? d.speed_unit.name : pretty_unit(unit); })
+              [&d](const std::string& unit) { return unit == "rad/s" ? d.speed_unit().name : pretty_unit(unit); })
       .only_for_people("difference",
                        [&d](F f) {
                          if (!f.change()) return std::string(f.a ? "only the first has it" : "only the second has it");
@@ -142,16 +142,16 @@ Findings findings_of(const MachineDifference& d) {
   Findings f{.title = d.a.title == d.b.title ? d.a.title : d.a.title + " / " + d.b.title,
              .subtitle = fmt::format("Two machines side by side, figures of kurbel {}", d.of),
              .scene_file = d.a.file,
-             .speed_unit = d.speed_unit.name,
+             .speed_unit = d.speed_unit().name,
              .complete = d.complete(),
-             .diagnosis = d.a.done ? d.b.diagnosis : d.a.diagnosis};
+             .diagnosis = d.a.done() ? d.b.diagnosis : d.a.diagnosis};
   f.answer(d.complete() ? Topic::figures : Topic::runs, conclusion(d), d.complete() ? 0 : 1);
   for (const FigureDifference* figure : by_size(d))
     if (f.figures.size() < 5) {
       const Estimate b = read_in(d, *figure, *figure->b);
-      f.figures.push_back({figure->name, b.value, figure->unit == "rad/s" ? d.speed_unit.name : figure->unit, b.error,
+      f.figures.push_back({figure->name, b.value, figure->unit == "rad/s" ? d.speed_unit().name : figure->unit, b.error,
                            fmt::format("{} from {}", percent(*figure->relative()),
-                                       told_shortly(figure->a->value, figure->unit, d.speed_unit)),
+                                       told_shortly(figure->a->value, figure->unit, d.speed_unit())),
                            0, figure->name});
     }
   const Chapter figures = f.chapter("Figures"), scenes = f.chapter("Scenes");

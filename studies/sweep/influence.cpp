@@ -238,17 +238,6 @@ std::size_t place_in(const std::vector<double>& sorted, double value) {
   return static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
 }
 
-double value_in(const SweepRow& row, std::size_t figure) {
-  for (const RowFigure& f : row.figures)
-    if (f.figure == figure) return f.value;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-std::optional<double> error_in(const SweepRow& row, std::size_t figure) {
-  for (const RowFigure& f : row.figures)
-    if (f.figure == figure) return f.error;
-  return {};
-}
-
 FigureInfluence influence_on(std::size_t figure, const SweepIdentity& identity, const std::vector<SweepRow>& rows,
                              bool saltelli) {
   FigureInfluence found{.figure = figure};

@@ -38,10 +38,6 @@ struct FigureInfluence {
 FigureInfluence influence_on(std::size_t figure, const SweepIdentity& identity, const std::vector<SweepRow>& rows,
                              bool saltelli);
 
-// The figure's value in a row; not a number where it has none.
-double value_in(const SweepRow& row, std::size_t figure);
-std::optional<double> error_in(const SweepRow& row, std::size_t figure);
-
 // Each value once, from the least on; and the place of one among them.
 std::vector<double> distinct(std::vector<double> values);
 std::size_t place_in(const std::vector<double>& sorted, double value);

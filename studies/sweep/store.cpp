@@ -50,10 +50,6 @@ bool is_sweep(const Database& database) {
 
 }  // namespace
 
-std::string name_of(RowState state) {
-  return state == RowState::done ? "done" : state == RowState::unconfirmed ? "unconfirmed" : "failed";
-}
-
 std::string difference(const SweepIdentity& there, const SweepIdentity& asked) {
   for (const auto& [key, value] : asked.meta) {
     if (key == "scene file") continue;  // wherever it lies

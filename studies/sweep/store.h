@@ -15,18 +15,14 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "studies/experiments/parameter.h"
 #include "studies/sweep/database.h"
+#include "studies/variants/rows.h"
 
 namespace kurbel {
-
-struct SweptFigure {
-  std::string name, unit;
-};
 
 // What makes two sweeps one: equal in both, or they are not to be mixed.
 struct SweepIdentity {
@@ -41,24 +37,6 @@ struct SweepIdentity {
     const auto found = meta.find(key);
     return found == meta.end() ? "" : found->second;
   }
-};
-
-struct RowFigure {
-  std::size_t figure = 0;  // its number
-  double value = 0;
-  std::optional<double> error = {};
-};
-
-enum class RowState { done, unconfirmed, failed };
-std::string name_of(RowState state);
-
-struct SweepRow {
-  std::size_t row = 0;
-  RowState state = RowState::done;
-  double seconds = 0;  // processor time
-  std::string diagnosis = {};
-  std::vector<double> parameters = {};
-  std::vector<RowFigure> figures = {};
 };
 
 class SweepStore {

@@ -2,19 +2,18 @@
 #include "studies/sweep/sweep.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <condition_variable>
-#include <exception>
+#include <future>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 
+#include "engine/numerics/deadline.h"
 #include "engine/scene/messages.h"
 #include "studies/sweep/program_version.h"
+#include "studies/variants/in_threads.h"
 
 namespace kurbel {
 namespace {
@@ -23,12 +22,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds look{100}, between_commits{250};
 constexpr std::size_t most_in_batch = 20'000;
-
-double thread_time() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -46,63 +39,53 @@ class Sweeping {
   }
 
   SweepEnd run() {
-    const auto threads = std::clamp<std::size_t>(static_cast<std::size_t>(job_.jobs), 1,
-                                                 std::max<std::size_t>(end_.rows - end_.there, 1));
-    working_ = threads;
-    std::vector<std::jthread> workers;
-    for (std::size_t k = 0; k < threads; ++k) workers.emplace_back([this] { work(); });
+    const std::size_t most = std::max<std::size_t>(end_.rows - end_.there, 1);
+    const int threads = static_cast<int>(std::min(static_cast<std::size_t>(job_.jobs), most));
+    std::future<bool> work = std::async(
+        std::launch::async, [this, threads] { return in_threads(end_.rows, threads, [this] { return worker(); }); });
     try {
-      collect();
+      collect(work);
     } catch (...) {  // the disk is full: nobody computes on
       stop_ = true;
       throw;
     }
-    workers.clear();
-    if (thrown_) std::rethrow_exception(thrown_);
+    work.get();
     end_.seconds = seconds_since(begin_);
     return end_;
   }
 
  private:
-  void work() {
-    try {
-      const Evaluator evaluate = job_.evaluator();
-      for (std::size_t k = next_++; k < end_.rows && !stop_ && !job_.watch.stopped(); k = next_++) {
-        SweepRow row{.row = job_.shard - 1 + k * job_.shards};
-        if (there_[row.row]) continue;
-        row.parameters = job_.design->row(row.row);
-        const double begin = thread_time();
-        if (!evaluate(row)) break;
-        row.seconds = thread_time() - begin;
-        const std::scoped_lock lock(mutex_);
-        finished_.push_back(std::move(row));
-      }
-    } catch (...) {
+  Worker worker() {
+    return [this, evaluate = job_.evaluator()](std::size_t k) {
+      if (stop_ || job_.watch.stopped()) return false;
+      SweepRow row{.row = job_.shard - 1 + k * job_.shards};
+      if (there_[row.row]) return true;
+      row.parameters = job_.design->row(row.row);
+      const double begin = processor_time();
+      if (!evaluate(row)) return false;
+      row.seconds = processor_time() - begin;
       const std::scoped_lock lock(mutex_);
-      if (!thrown_) thrown_ = std::current_exception();
-      stop_ = true;
-    }
-    const std::scoped_lock lock(mutex_);
-    --working_;
-    ended_.notify_one();
+      finished_.push_back(std::move(row));
+      return true;
+    };
   }
 
-  void collect() {
+  void collect(const std::future<bool>& work) {
     Clock::time_point committed = Clock::now();
     for (bool at_work = true; at_work;) {
-      std::size_t ready = 0;
-      {
-        std::unique_lock lock(mutex_);
-        ended_.wait_for(lock, look, [&] { return working_ == 0; });
-        at_work = working_ > 0;
-        ready = finished_.size();
-      }
+      at_work = work.wait_for(look) != std::future_status::ready;
+      const std::size_t ready = count_finished();
       if (!at_work || Clock::now() - committed > between_commits || ready > most_in_batch) {
         commit();
         committed = Clock::now();
       }
       tell(ready);
     }
+  }
+
+  std::size_t count_finished() {
+    const std::scoped_lock lock(mutex_);
+    return finished_.size();
   }
 
   void commit() {
@@ -129,20 +112,12 @@ class Sweeping {
   SweepEnd end_;
   Clock::time_point begin_ = Clock::now();
   const std::vector<bool> there_;  // a bit a row: a million rows are no burden
-  std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
-  std::condition_variable ended_;
   std::vector<SweepRow> finished_;
-  std::size_t working_ = 0;
-  std::exception_ptr thrown_;
 };
 
 }  // namespace
-
-int threads_of(int asked) {
-  return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
 
 void read_shard(const std::string& option, const std::string& text, SweepJob& job) {
   const std::size_t slash = std::min(text.find('/'), text.size());

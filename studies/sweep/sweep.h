@@ -13,9 +13,6 @@
 
 namespace kurbel {
 
-// Of row i with these values of the parameters: state, diagnosis, figures. A row that was interrupted returns false.
-using Evaluator = std::function<bool(SweepRow& row)>;
-
 struct SweepJob {
   const Design* design = nullptr;
   std::size_t shard = 1, shards = 1;          // rows with row mod shards = shard − 1
@@ -24,8 +21,6 @@ struct SweepJob {
   Watch watch = {};
 };
 
-// One for each core, unless 1 or more are asked for.
-int threads_of(int asked);
 // Which rows: "3/64". Throws std::invalid_argument, told under the option's name.
 void read_shard(const std::string& option, const std::string& text, SweepJob& job);
 // Of a design and what its rows yield; meta: what else makes two sweeps one.

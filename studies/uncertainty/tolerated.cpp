@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
-#include "studies/sweep/machine.h"
+#include "studies/variants/machine.h"
 
 namespace kurbel {
 namespace {

@@ -4,14 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <stdexcept>
-#include <thread>
 
-#include "engine/numerics/deadline.h"
 #include "engine/scene/units.h"
 #include "studies/run/simulate.h"
 #include "studies/scenes/kinds.h"
@@ -69,36 +64,8 @@ class UncertaintyWork {
     return values;
   }
 
-  // In threads; each row a function of its values alone.
   std::vector<SweepRow> compute(const std::vector<std::vector<double>>& values) {
-    std::vector<SweepRow> rows(values.size());
-    std::atomic<std::size_t> next = 0, done = 0;
-    std::atomic<bool> interrupted = false;
-    std::mutex mutex;
-    std::exception_ptr thrown;
-    const auto work = [&] {
-      try {
-        const Evaluator evaluate = machine_evaluator(question_, *varied_, figures_);
-        for (std::size_t i = next++; i < values.size() && !interrupted; i = next++) {
-          rows[i].row = 0;  // errors are measured in all
-          rows[i].parameters = values[i];
-          if (!evaluate(rows[i])) interrupted = true;
-          rows[i].row = i;
-          ++done;
-        }
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        thrown = std::current_exception();
-        interrupted = true;
-      }
-    };
-    {
-      std::vector<std::jthread> threads;
-      for (int k = 1; k < options_.jobs; ++k) threads.emplace_back(work);
-      work();
-    }
-    if (thrown) std::rethrow_exception(thrown);
-    if (interrupted) throw OutOfTime(0);
+    std::vector<SweepRow> rows = rows_of(question_, *varied_, figures_, values, options_.jobs);
     options_.watch.at("uncertainty", 1);
     return rows;
   }

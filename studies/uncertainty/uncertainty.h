@@ -13,8 +13,8 @@
 #include "studies/findings/output.h"
 #include "studies/sweep/influence.h"
 #include "studies/sweep/limit.h"
-#include "studies/sweep/machine.h"
 #include "studies/uncertainty/tolerated.h"
+#include "studies/variants/machine.h"
 
 namespace kurbel {
 

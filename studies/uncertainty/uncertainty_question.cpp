@@ -1,7 +1,8 @@
 // uncertainty_question.cpp — kurbel uncertainty: what tolerances make of the figures.
 #include "studies/question/question.h"
-#include "studies/sweep/machine.h"
 #include "studies/uncertainty/uncertainty.h"
+#include "studies/variants/in_threads.h"
+#include "studies/variants/machine.h"
 
 namespace kurbel {
 namespace {

@@ -14,7 +14,7 @@
 #include <set>
 
 #include "studies/scenes/kinds.h"
-#include "studies/sweep/machine.h"
+#include "studies/variants/machine.h"
 #include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/sweep/sweep_plots.h"

@@ -1,5 +1,5 @@
-// machine.cpp — rows of a sweep put to the studies.
-#include "studies/sweep/machine.h"
+// machine.cpp — rows of variants put to the studies.
+#include "studies/variants/machine.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@
 #include "studies/scenes/kinds.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
+#include "studies/variants/in_threads.h"
 
 namespace kurbel {
 namespace {
@@ -145,20 +146,13 @@ const Scene& VariedScene::at(const std::vector<double>& values) {
 
 namespace {
 
-struct RowAnswer {
-  RowState state = RowState::done;
-  std::string diagnosis;
-  std::vector<Figure> figures;
-  bool interrupted = false;
-};
-
 Figure plain(std::string name, double value, std::string unit, std::optional<double> error) {
   Figure figure;
   figure.name = std::move(name), figure.value = value, figure.unit = std::move(unit), figure.error = error;
   return figure;
 }
 
-RowAnswer answer_of_run(const MachineQuestion& q, const Scene& scene, bool measure) {
+MachineAnswer answer_of_run(const MachineQuestion& q, const Scene& scene, bool measure) {
   SimulateOptions options;
   options.measure_error = measure;
   options.watch.interrupted = q.interrupted;
@@ -169,7 +163,7 @@ RowAnswer answer_of_run(const MachineQuestion& q, const Scene& scene, bool measu
           result.unconfirmed() ? result.accuracy_in_words() : "", std::move(result.figures)};
 }
 
-RowAnswer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool measure) {
+MachineAnswer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool measure) {
   SteadyOptions options;
   options.start_search = false;
   options.watch.interrupted = q.interrupted;
@@ -177,18 +171,18 @@ RowAnswer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool me
   if (study.cycles.empty()) return {RowState::failed, study.diagnosis, {}};
   const SteadyCycle& cycle = study.cycles.front();
   if (!cycle.found) return {RowState::failed, cycle.why.empty() ? study.diagnosis : cycle.why, {}};
-  RowAnswer answer{RowState::done, "", cycle.figures};
+  MachineAnswer answer{RowState::done, "", cycle.figures};
   if (!measure)
     for (Figure& f : answer.figures) f.error.reset();
   return answer;
 }
 
-RowAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
+MachineAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   ModesOptions options;
   options.watch.interrupted = q.interrupted;
   const ModesStudy study = find_modes(scene, effects_of_modes(scene), options);
   if (!study.complete) return {RowState::failed, study.diagnosis, {}};
-  RowAnswer answer;
+  MachineAnswer answer;
   for (const Mode& mode : study.modes) {
     const std::string number = std::to_string(mode.number);
     answer.figures.push_back(plain("natural_frequency." + number, mode.natural() / (2 * std::numbers::pi), "Hz",
@@ -198,14 +192,14 @@ RowAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   return answer;
 }
 
-RowAnswer answer_of_size(const MachineQuestion& q, const Scene& scene) {
+MachineAnswer answer_of_size(const MachineQuestion& q, const Scene& scene) {
   SizeOptions options;
   options.delta = q.delta;
   options.simulate = false;
   options.simulation.watch.interrupted = q.interrupted;
   const Sizing sizing = size_flywheel(scene, options);
   if (!sizing.complete) return {RowState::failed, sizing.diagnosis, {}};
-  RowAnswer answer;
+  MachineAnswer answer;
   for (const KeyFigure& f : findings_of(sizing).figures)
     if (!f.means.empty() && f.means != "delta_reached")
       answer.figures.push_back(plain(f.means, f.value, f.unit, f.error));
@@ -213,9 +207,9 @@ RowAnswer answer_of_size(const MachineQuestion& q, const Scene& scene) {
 }
 
 // What a variant cannot do is the row's own failure, and no end of the sweep.
-RowAnswer answer_of(const MachineQuestion& q, VariedScene& varied, const std::vector<double>& values, bool measure) {
-  const auto stopped = [&] { return q.interrupted && q.interrupted->load(); };
-  RowAnswer answer;
+MachineAnswer answer_of(const MachineQuestion& q, VariedScene& varied, const std::vector<double>& values,
+                        bool measure) {
+  MachineAnswer answer;
   try {
     const Deadline deadline(HUGE_VAL, q.interrupted);
     const Scene& scene = varied.at(values);
@@ -242,7 +236,15 @@ RowAnswer answer_of(const MachineQuestion& q, VariedScene& varied, const std::ve
   } catch (const std::exception& error) {
     answer = {RowState::failed, error.what(), {}};
   }
-  answer.interrupted = stopped();
+  return answer;
+}
+
+bool is_stopped(const MachineQuestion& q) { return q.interrupted && q.interrupted->load(); }
+
+// As it is.
+MachineAnswer answer_or_stop(const MachineQuestion& q, VariedScene& scene, bool measure) {
+  MachineAnswer answer = answer_of(q, scene, {}, measure);
+  if (is_stopped(q)) throw OutOfTime(0);
   return answer;
 }
 
@@ -259,8 +261,7 @@ std::vector<SweptFigure> figures_of(const MachineQuestion& question) {
     if (std::none_of(known.begin(), known.end(), [&](const SweptFigure& f) { return f.name == name; }))
       known.push_back({name, unit});
   };
-  const RowAnswer answer = answer_of(question, scene, {}, false);
-  if (answer.interrupted) throw OutOfTime(0);
+  const MachineAnswer answer = answer_or_stop(question, scene, false);
   for (const Figure& f : answer.figures) add(f.name, f.unit);
   if (question.of == SweepStudy::run) {
     const Scene& as_it_is = scene.at({});
@@ -292,11 +293,11 @@ std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std
 
 MachineAnswer answer_of(const MachineQuestion& question) {
   VariedScene varied(question, {});
-  RowAnswer answer = answer_of(question, varied, {}, question.errors_every > 0);
-  if (answer.interrupted) throw OutOfTime(0);
+  MachineAnswer answer = answer_or_stop(question, varied, question.errors_every > 0);
   const Scene& scene = varied.at({});
-  return {answer.state,    std::move(answer.diagnosis), std::move(answer.figures), scene.title, scene.text,
-          scene.speed_unit};
+  answer.file = question.file, answer.title = scene.title, answer.text = scene.text;
+  answer.speed_unit = scene.speed_unit;
+  return answer;
 }
 
 Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& scene,
@@ -305,8 +306,8 @@ Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& 
   for (std::size_t k = 0; k < figures.size(); ++k) numbers[figures[k].name] = k;
   return [question, numbers, varied = scene](SweepRow& row) mutable {
     const bool measure = question.errors_every > 0 && row.row % question.errors_every == 0;
-    RowAnswer answer = answer_of(question, varied, row.parameters, measure);
-    if (answer.interrupted) return false;
+    MachineAnswer answer = answer_of(question, varied, row.parameters, measure);
+    if (is_stopped(question)) return false;
     row.state = answer.state;
     row.diagnosis = std::move(answer.diagnosis);
     for (const Figure& f : answer.figures)
@@ -316,6 +317,20 @@ Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& 
               [](const RowFigure& a, const RowFigure& b) { return a.figure < b.figure; });
     return true;
   };
+}
+
+std::vector<SweepRow> rows_of(const MachineQuestion& question, const VariedScene& scene,
+                              const std::vector<SweptFigure>& figures, const std::vector<std::vector<double>>& values,
+                              int jobs) {
+  std::vector<SweepRow> rows(values.size());
+  const bool whole = in_threads(values.size(), jobs, [&]() -> Worker {
+    return [&, evaluate = machine_evaluator(question, scene, figures)](std::size_t i) {
+      rows[i].row = i, rows[i].parameters = values[i];
+      return evaluate(rows[i]);
+    };
+  });
+  if (!whole) throw OutOfTime(0);
+  return rows;
 }
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// machine.h — a row of a sweep as a machine: the scene with the row's values in it, and the figures that a study finds.
+// machine.h — a row of variants as a machine: the scene with the row's values in it, and the figures that a study finds.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 #include "studies/experiments/design.h"
 #include "studies/findings/result.h"
 #include "studies/question/question.h"
-#include "studies/sweep/sweep.h"
+#include "studies/variants/rows.h"
 
 namespace kurbel {
 
@@ -64,19 +64,26 @@ std::vector<SweptFigure> figures_of(const MachineQuestion& question);
 // Those asked for: whole names, or a quantity ("delta": of whatever has one); empty: all. Throws std::invalid_argument.
 std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std::vector<std::string>& asked);
 
-// What a study says of the scene as it is.
+// What a study says of a machine.
 struct MachineAnswer {
   RowState state = RowState::done;
-  std::string diagnosis;
-  std::vector<Figure> figures;
-  std::string title, text;  // of the scene, settings in it
-  SpeedUnit speed_unit;
+  std::string diagnosis = {};  // of one that failed, or whose accuracy is not confirmed
+  std::vector<Figure> figures = {};
+  // Of the scene as it is, not of rows: settings are in its text.
+  std::string file = {}, title = {}, text = {};
+  SpeedUnit speed_unit = {};
+
+  bool done() const { return state == RowState::done; }
 };
-// Throws SceneError, and OutOfTime where it is interrupted.
+// Of the scene as it is. Throws SceneError, and OutOfTime where it is interrupted.
 MachineAnswer answer_of(const MachineQuestion& question);
 
 // Computes rows: one for each thread.
 Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& scene,
                             const std::vector<SweptFigure>& figures);
+// All rows of these values, in their order. Throws OutOfTime where it is interrupted.
+std::vector<SweepRow> rows_of(const MachineQuestion& question, const VariedScene& scene,
+                              const std::vector<SweptFigure>& figures, const std::vector<std::vector<double>>& values,
+                              int jobs);
 
 }  // namespace kurbel
