@@ -159,23 +159,18 @@ ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& ef
   return pair;
 }
 
-Comparison compare(const Scene& scene, const Effects& a, const std::string& label_a, const Effects& b,
-                   const std::string& label_b, const SimulateOptions& options) {
+Comparison compare(const Scene& scene, const ModelPair& models, const SimulateOptions& options) {
   Comparison c;
   c.title = scene.heading();
   SimulateOptions timed = options;
   timed.timed = true;
-  c.a = simulate(scene, a, label_a, timed);
-  c.b = simulate(scene, b, label_b, timed);
-  c.in_both = in_both(a, b).describe();
+  c.a = simulate(scene, models.a, models.label_a, timed);
+  c.b = simulate(scene, models.b, models.label_b, timed);
+  c.in_both = in_both(models.a, models.b).describe();
   add_rows(c);
   if (c.a.trajectory && c.b.trajectory) note_sudden_loads(c);
   conclude(c);
   return c;
-}
-
-Comparison compare(const Scene& scene, const ModelPair& models, const SimulateOptions& options) {
-  return compare(scene, models.a, models.label_a, models.b, models.label_b, options);
 }
 
 }  // namespace kurbel

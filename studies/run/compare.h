@@ -48,8 +48,6 @@ struct Comparison {
   std::string conclusion;
 };
 
-Comparison compare(const Scene& scene, const Effects& a, const std::string& label_a, const Effects& b,
-                   const std::string& label_b, const SimulateOptions& options);
 Comparison compare(const Scene& scene, const ModelPair& models, const SimulateOptions& options);
 
 }  // namespace kurbel

@@ -161,7 +161,9 @@ const Verb verbs[] = {
       options.simulation = without_errors();
       return fault_of_answer(size_flywheel(s, options));
     },
-    [](const Scene& s) { return fault_of_answer(compare(s, {}, "rigid", s.effects, "elastic", without_errors())); },
+    [](const Scene& s) {
+      return fault_of_answer(compare(s, {{}, s.effects, "rigid", "elastic"}, without_errors()));
+    },
     [](const Scene& s) { return fault_of_answer(study_effects(s, without_errors())); },
     [](const Scene& s) {
       AdviseOptions options;

@@ -90,7 +90,7 @@ TEST(RigidLimit, UnderSmoothTorqueThePeakTorqueApproachesTheRigidOne) {
 }
 
 TEST(RigidLimit, ASmoothTorqueRaisesNoWarningOfSuddenLoads) {
-  const Comparison c = compare(test::scene_from(press_drive(10)), {}, "rigid", {true, {}}, "elastic", {});
+  const Comparison c = compare(test::scene_from(press_drive(10)), {{}, {true, {}}, "rigid", "elastic"}, {});
   for (const std::string& note : c.notes) EXPECT_EQ(note.find("sudden"), std::string::npos) << note;
 }
 
@@ -164,7 +164,7 @@ TEST(RigidLimit, TravelToCloseFirstRaisesThePeakWithTheRootOfTheStiffness) {
 }
 
 TEST(RigidLimit, ComparisonSaysThatAStepDoublesThePeakTorque) {
-  const Comparison c = compare(test::scene_from(two_inertias(1e5, 0.001)), {}, "rigid", {true, {}}, "elastic", {});
+  const Comparison c = compare(test::scene_from(two_inertias(1e5, 0.001)), {{}, {true, {}}, "rigid", "elastic"}, {});
   ASSERT_EQ(c.amplification.size(), 1u);
   EXPECT_NEAR(c.amplification[0].b->value, 2, 0.01);
   const bool said = std::any_of(c.notes.begin(), c.notes.end(), [](const std::string& note) {

@@ -27,7 +27,7 @@ Scene press_at_speed() {
 
 Comparison press_comparison() {
   const Scene scene = press_at_speed();
-  return compare(scene, Effects{}, "rigid", scene.effects, "elastic", SimulateOptions{});
+  return compare(scene, {{}, scene.effects, "rigid", "elastic"}, {});
 }
 
 TEST(Summary, HoldsModelFiguresFinalStatesEventsBalanceAndStatistics) {
@@ -133,7 +133,7 @@ TEST(Press, StartsFromRestOnADeadCentre) {
     Scene scene = test::scene_file("scenes/crank_press.toml");
     scene.run.start.angle = angle;
     scene.run.until = 3;
-    const Comparison c = compare(scene, Effects{}, "rigid", scene.effects, "elastic", SimulateOptions{});
+    const Comparison c = compare(scene, {{}, scene.effects, "rigid", "elastic"}, {});
     ASSERT_TRUE(c.a.complete) << c.a.diagnosis;
     ASSERT_TRUE(c.b.complete) << c.b.diagnosis;
     EXPECT_GT(figure(c.a, "final_speed.press"), 5);

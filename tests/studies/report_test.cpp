@@ -46,7 +46,7 @@ Comparison compared(const char* text) {
   options.traces = true;
   Effects elastic;
   elastic.all_elastic = true;
-  return compare(scene, {}, "rigid", elastic, "elastic", options);
+  return compare(scene, {{}, elastic, "rigid", "elastic"}, options);
 }
 
 TEST(Thinning, KeepsEndsAndExtremes) {

@@ -108,7 +108,7 @@ TEST(SummarySchema, HoldsForRunsAndComparisons) {
   SimulateOptions unsure;
   unsure.measure_error = false;
   expect_told("run", simulate(test::scene_file("scenes/stick_slip.toml"), {}, "rigid", unsure));
-  expect_told("compare", compare(scene, {}, "rigid", scene.effects, "elastic", unsure));
+  expect_told("compare", compare(scene, {{}, scene.effects, "rigid", "elastic"}, unsure));
 }
 
 TEST(SummarySchema, HoldsForStudiesOfTheCycle) {
