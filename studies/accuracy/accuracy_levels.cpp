@@ -17,8 +17,6 @@ namespace {
 
 // --- which levels there are ---
 
-const std::string elasticity = "elasticity:";
-
 class Rungs {
  public:
   explicit Rungs(const Scene& scene) : scene_(scene), units_(effect_units(scene)) {
@@ -53,10 +51,7 @@ class Rungs {
   void add_elasticity(bool of_scene) {
     std::size_t elastic = 0, on = 0;
     for (const EffectUnit& unit : units_)
-      if (unit.name.starts_with(elasticity)) {
-        ++elastic;
-        if (scene_.effects.is_elastic(unit.name.substr(elasticity.size()))) ++on;
-      }
+      if (!unit.component.empty()) ++elastic, on += scene_.effects.is_elastic(unit.component);
     if (of_scene ? on == 0 : on == elastic) return;
     Effects effects = rungs_.back().effects;
     effects.all_elastic = !of_scene || scene_.effects.all_elastic;

@@ -24,12 +24,8 @@ constexpr double same_time = 0.97;
 
 class Adviser {
  public:
-  Adviser(const Scene& scene, const AdviseOptions& options) : scene_(scene), options_(options) {
-    simulate_ = options.simulate;
-    simulate_.watch.progress = {};
-    simulate_.traces = false;
-    simulate_.timed = true;
-  }
+  Adviser(const Scene& scene, const AdviseOptions& options)
+      : scene_(scene), options_(options), runs_(VariantRuns::timed(options.simulate)) {}
 
   Advice run() {
     a_.title = scene_.heading();
@@ -42,18 +38,14 @@ class Adviser {
       throw std::invalid_argument("this scene has parameters for no effect, so there is nothing to choose between");
     say("all effects", 0);
     all_ = fullest_set(scene_, a_.units);
-    a_.full = simulate(scene_, effects_of(scene_, a_.units, all_), "full", simulate_);
-    a_.tried.push_back({.on = all_,
-                        .words = describe(a_.units, all_),
-                        .cpu_seconds = a_.full.statistics.cpu_seconds,
-                        .size = size_of(*a_.full.model),
-                        .within = true});
+    a_.full = must_run(all_, "full");
+    a_.tried.push_back({{}, all_, describe(a_.units, all_), a_.full.statistics.cpu_seconds, size_of(*a_.full.model)});
     if (!a_.full.complete) {
       a_.complete = false;
       a_.conclusion = "The full model did not run to the end: " + a_.full.diagnosis;
       return std::move(a_);
     }
-    if (a_.full.periods.steady) settled_ = settled(scene_, effects_of(scene_, a_.units, all_), simulate_.watch);
+    if (a_.full.periods.steady) settled_ = settled(scene_, effects(all_), runs_.options().watch);
     check_figures();
     a_.screens = screens_of(scene_, a_.units, a_.full, options_.within);
     if (std::count(all_.begin(), all_.end(), true) <= tried_completely)
@@ -85,23 +77,28 @@ class Adviser {
   }
 
   // --- runs ---
+  Effects effects(const EffectSet& on) const { return effects_of(scene_, a_.units, on); }
+  Result must_run(const EffectSet& on, const std::string& label) const {
+    return simulate(scene_, effects(on), label, runs_.options());
+  }
+  // Null: it was not run.
+  const TriedSet* known(const EffectSet& on) const {
+    const auto found = std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == on; });
+    return found == a_.tried.end() ? nullptr : &*found;
+  }
   const TriedSet& try_set(const EffectSet& on) {
-    const auto known = std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == on; });
-    if (known != a_.tried.end()) return *known;
-    TriedSet set{.on = on, .words = describe(a_.units, on)};
+    if (const TriedSet* before = known(on)) return *before;
+    TriedSet set{{}, on, describe(a_.units, on)};
     say("with " + set.words, progress());
-    try {
-      const Result r = simulate(scene_, effects_of(scene_, a_.units, on), set.words, simulate_);
+    const VariantRun run = runs_.run(set.words, scene_, effects(on));
+    set.refused = run.failed;
+    if (const Result& r = run.result; r.model) {
       set.size = size_of(*r.model);
       set.cpu_seconds = r.statistics.cpu_seconds;
-      if (!r.complete) set.refused = r.diagnosis;
       if (const std::vector<std::string> idle = idle_effects(*r.model); !idle.empty()) set.refused = idle.front();
-      Deviation d = judge(a_.full, r, options_.figures);
-      if (d.within && set.refused.empty()) d = with_settled(d, settled_, scene_, on, options_.figures);
-      set.deviation = d.of, set.error = d.error, set.figure = d.figure, set.within = d.within;
-      set.not_judged = d.not_judged;
-    } catch (const SceneError& error) {
-      set.refused = error.what();
+      Deviation& by = set;
+      by = judge(a_.full, r, options_.figures);
+      if (by.within && set.refused.empty()) by = with_settled(by, settled_, scene_, on, options_.figures);
     }
     set.within = set.within && set.refused.empty();
     a_.tried.push_back(std::move(set));
@@ -114,18 +111,19 @@ class Adviser {
     for (const Figure& f : full.figures)
       for (const std::string& name : figures)
         if (is_asked_for(f.name, name) && !other.find(f.name))
-          found.of = HUGE_VAL, found.error = 0, found.figure = f.name, found.within = false;
+          found.deviation = HUGE_VAL, found.error = 0, found.figure = f.name, found.within = false;
     return found;
   }
   // The motion that is kept, too, where the full model's run has come to it.
-  Deviation with_settled(const Deviation& by_run, const std::optional<Settled>& full, const Scene& scene,
+  Deviation with_settled(const Deviation& by_run, const std::optional<VariantRun>& full, const Scene& scene,
                          const EffectSet& on, const std::vector<std::string>& figures) const {
-    if (!full || !full->why.empty()) return by_run;
-    const Settled lean = settled(scene, effects_of(scene, a_.units, on), simulate_.watch);
-    if (lean.why.empty()) return worse_of(by_run, settled_deviation(*full, lean, figures, options_.within));
+    if (!full || !full->failed.empty()) return by_run;
+    const VariantRun lean = settled(scene, effects(on), runs_.options().watch);
+    if (lean.failed.empty())
+      return worse_of(by_run, settled_deviation(full->result, lean.result, figures, options_.within));
     Deviation none = by_run;
     none.within = false;
-    none.not_judged.push_back("the steady motion (" + lean.why + ")");
+    none.not_judged.push_back("the steady motion (" + lean.failed + ")");
     return none;
   }
   double progress() const {
@@ -152,9 +150,7 @@ class Adviser {
     std::vector<std::pair<double, std::size_t>> alone;
     for (std::size_t k = 0; k < n; ++k) {
       if (!all_[k]) continue;
-      EffectSet without = all_;
-      without[k] = false;
-      const TriedSet& t = try_set(without);
+      const TriedSet& t = try_set(without(all_, k));
       if (t.within) alone.emplace_back(t.deviation, k);
     }
     std::stable_sort(alone.begin(), alone.end());
@@ -185,9 +181,7 @@ class Adviser {
       const bool all_expect =
           std::all_of(a_.screens[k].begin(), a_.screens[k].end(), [](const Screen& s) { return s.needed; });
       if (!all_expect) continue;
-      EffectSet without = all_;
-      without[k] = false;
-      const TriedSet& alone = try_set(without);
+      const TriedSet& alone = try_set(without(all_, k));
       // A deviation that is small beside the tolerance settles the matter; one near it does not.
       if (alone.refused.empty() && alone.deviation + alone.error < 0.2 * options_.within) continue;
       on[k] = changed = true;
@@ -207,17 +201,14 @@ class Adviser {
     const TriedSet& chosen = a_.tried[a_.chosen];
     EffectSet other = chosen.on;
     other[k] = !other[k];
-    const auto found = std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == other; });
+    const TriedSet* const found = known(other);
     if (!all_[k]) return "does not go with the others: judged in their place";
     if (!chosen.on[k]) return "goes: the set without it was run and stays within";
     if (std::count(kept_by_screens_.begin(), kept_by_screens_.end(), k))
       return "stays: the screens expect it to matter, and no run settles that it does not";
-    if (found == a_.tried.end()) {  // the greedy search left it on after running everything but it
-      other = all_;
-      other[k] = false;
-      const auto alone =
-          std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == other; });
-      if (alone == a_.tried.end()) return "stays: no set without it was run";
+    if (!found) {  // the greedy search left it on after running everything but it
+      const TriedSet* const alone = known(without(all_, k));
+      if (!alone) return "stays: no set without it was run";
       return !alone->refused.empty() ? "stays: the full model does not run without it"
                                      : fmt::format("stays: the full model without it is {:.2g} % off in {}",
                                                    100 * alone->deviation, alone->figure);
@@ -231,13 +222,13 @@ class Adviser {
   void run_again() {
     TriedSet& chosen = a_.tried[a_.chosen];
     say("again with " + chosen.words, progress());
-    const Result again = simulate(scene_, effects_of(scene_, a_.units, chosen.on), "again", simulate_);
+    const Result again = must_run(chosen.on, "again");
     const double a = chosen.cpu_seconds, b = again.statistics.cpu_seconds;
     a_.time_spread = std::abs(a - b) / std::max({a, b, 1e-9});
     const Deviation d = judge(a_.full, again, options_.figures);
     if (!d.within || !again.complete)
-      a_.warnings.push_back(fmt::format("run again, the set advised deviates by {:.2g} ± {:.1g} % (in {})", 100 * d.of,
-                                        100 * d.error, d.figure));
+      a_.warnings.push_back(fmt::format("run again, the set advised deviates by {:.2g} ± {:.1g} % (in {})",
+                                        100 * d.deviation, 100 * d.error, d.figure));
     if (!chosen.not_judged.empty())
       a_.warnings.push_back(
           fmt::format("too uncertain to be judged at {:.3g} %: {}; a smaller run.accuracy judges them",
@@ -247,7 +238,7 @@ class Adviser {
   void judge_what_does_not_go_with_the_rest() {
     for (std::size_t k = 0; k < a_.units.size(); ++k) {
       if (all_[k]) continue;
-      const LeftOut left = study_in_place_of_others(scene_, a_.units, all_, k, simulate_);
+      const LeftOut left = study_in_place_of_others(scene_, a_.units, all_, k, runs_);
       const std::string what = a_.units[k].words + ", which does not go with " + left.in_place_of;
       std::vector<FigureChange> changes = left.changes;
       if (!options_.figures.empty())
@@ -256,13 +247,12 @@ class Adviser {
                               [&](const std::string& name) { return is_asked_for(c.figure, name); });
         });
       const Deviation d = deviation_of(changes, options_.within);
-      if (!left.refused.empty())
-        a_.warnings.push_back(what + ", could not be judged in their place: " + left.refused);
+      if (!left.failed.empty())
+        a_.warnings.push_back(what + ", could not be judged in their place: " + left.failed);
       else
         a_.warnings.push_back(fmt::format("{}, is in no set: in their place it changes {} by {:.2g} ± {:.1g} %, {}",
-                                          what, d.figure.empty() ? "no figure" : d.figure, 100 * d.of, 100 * d.error,
-                                          d.within ? "within the tolerance" : "beyond the tolerance"));
-      a_.in_place_of_others.push_back(left);
+                                          what, d.figure.empty() ? "no figure" : d.figure, 100 * d.deviation,
+                                          100 * d.error, d.within ? "within the tolerance" : "beyond the tolerance"));
     }
   }
 
@@ -270,13 +260,8 @@ class Adviser {
   void hold_out() {
     if (!options_.held_out || a_.chosen == 0) return;
     const EffectSet& on = a_.tried[a_.chosen].on;
-    if (!options_.figures.empty()) {
-      const Result lean = simulate(scene_, effects_of(scene_, a_.units, on), "lean", simulate_);
-      HeldOut h{.what = "all other telling figures"};
-      const Deviation d = judge(a_.full, lean, {});
-      h.deviation = d.of, h.error = d.error, h.figure = d.figure, h.within = d.within;
-      a_.held_out.push_back(h);
-    }
+    if (!options_.figures.empty())
+      a_.held_out.push_back({judge(a_.full, must_run(on, "lean"), {}), "all other telling figures"});
     const std::pair<const char*, std::string (*)(Scene&, double)> ways[] = {{"loads", scale_loads},
                                                                             {"speeds", scale_speeds}};
     for (const auto& [name, scale] : ways)
@@ -284,19 +269,15 @@ class Adviser {
         Scene scene = scene_;
         const std::string changed = scale(scene, 1 + step);
         if (changed.empty()) break;
-        HeldOut h{.what = fmt::format("{} {:+.0f} % ({})", name, 100 * step, changed)};
+        HeldOut h{{}, fmt::format("{} {:+.0f} % ({})", name, 100 * step, changed)};
         say(h.what, progress());
-        try {
-          const Result full = simulate(scene, effects_of(scene, a_.units, all_), "full", simulate_);
-          const Result lean = simulate(scene, effects_of(scene, a_.units, on), "lean", simulate_);
-          if (!full.complete || !lean.complete) h.refused = full.complete ? lean.diagnosis : full.diagnosis;
-          Deviation d = judge(full, lean, options_.figures);
-          if (full.periods.steady && h.refused.empty())
-            d = with_settled(d, settled(scene, effects_of(scene, a_.units, all_), simulate_.watch), scene, on,
-                             options_.figures);
-          h.deviation = d.of, h.error = d.error, h.figure = d.figure, h.within = d.within;
-        } catch (const SceneError& error) {
-          h.refused = error.what();
+        const VariantRun full = runs_.run("full", scene, effects(all_)), lean = runs_.run("lean", scene, effects(on));
+        h.refused = full.failed.empty() ? lean.failed : full.failed;
+        if (full.result.model && lean.result.model) {
+          Deviation& by = h;
+          by = judge(full.result, lean.result, options_.figures);
+          if (full.result.periods.steady && h.refused.empty())
+            by = with_settled(by, settled(scene, effects(all_), runs_.options().watch), scene, on, options_.figures);
         }
         h.within = h.within && h.refused.empty();
         a_.held_out.push_back(h);
@@ -333,9 +314,9 @@ class Adviser {
 
   const Scene& scene_;
   const AdviseOptions& options_;
-  SimulateOptions simulate_;
+  VariantRuns runs_;
   std::vector<std::size_t> kept_by_screens_;  // units that stay although a set without them is within
-  std::optional<Settled> settled_;            // of the full model; none: its run does not come to it
+  std::optional<VariantRun> settled_;         // of the full model; none: its run does not come to it
   EffectSet all_;                             // that go together: those of the full model
   Advice a_;
 };

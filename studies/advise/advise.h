@@ -20,26 +20,18 @@ struct AdviseOptions {
   bool held_out = true;              // check other figures and operating points too
 };
 
-// A set that was run against the full model.
-struct TriedSet {
+// A set that was run against the full model, and how far the figures asked for deviate.
+struct TriedSet : Deviation {
   EffectSet on = {};
   std::string words = {};
-  double deviation = 0;     // greatest of the figures asked for that can be judged, each over its own size
-  double error = 0;         // of the runs: no such figure deviates by more than deviation + error
-  std::string figure = {};  // where
   double cpu_seconds = 0;
   ModelSize size = {};
-  bool within = false;                       // deviation + error is
-  std::vector<std::string> not_judged = {};  // figures that are known less well than the tolerance
-  std::string refused = {};                  // why it did not run
+  std::string refused = {};  // why it did not run
 };
 
 // The recommended set at a point that took no part in the choice.
-struct HeldOut {
-  std::string what = {};  // "loads +20 % (load.torque)"
-  double deviation = 0, error = 0;
-  std::string figure = {}, refused = {};
-  bool within = false;
+struct HeldOut : Deviation {
+  std::string what = {}, refused = {};  // "loads +20 % (load.torque)"
 };
 
 struct Advice {
@@ -53,8 +45,7 @@ struct Advice {
   std::size_t chosen = 0;                    // among tried
   std::vector<std::string> kept_because;     // per unit: why it stays, or why it goes
   std::vector<HeldOut> held_out;
-  std::vector<LeftOut> in_place_of_others;  // effects that do not go with the full model's
-  double time_spread = 0;                   // of processor times: relative, between two runs of the chosen set
+  double time_spread = 0;  // of processor times: relative, between two runs of the chosen set
   std::vector<std::string> warnings;
   std::string conclusion, lean_scene;
   bool complete = true;

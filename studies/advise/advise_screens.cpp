@@ -15,8 +15,6 @@
 namespace kurbel {
 namespace {
 
-const std::string elasticity = "elasticity:";
-
 constexpr double near_a_mode = 0.3;    // of the mode's frequency: an order as near as that makes it swing
 constexpr double part_of_mode = 0.05;  // of its potential energy: a joint with more takes part in it
 constexpr double audible = 0.01;       // of the strongest order: weaker ones excite nothing
@@ -51,7 +49,7 @@ EnergyBase energy_base(const Result& r) {
 std::optional<ModesStudy> frequency_domain(const Scene& scene, const std::vector<EffectUnit>& units) {
   Effects effects;
   for (const EffectUnit& unit : units)
-    if (unit.name.starts_with(elasticity)) effects.elastic.push_back(unit.name.substr(elasticity.size()));
+    if (!unit.component.empty()) effects.elastic.push_back(unit.component);
   if (effects.elastic.empty()) return {};
   try {
     return find_modes(scene, effects, {});
@@ -70,7 +68,7 @@ class Screening {
   }
 
   std::vector<Screen> of(const EffectUnit& unit) {
-    if (unit.name.starts_with(elasticity)) return of_elasticity(unit.name.substr(elasticity.size()));
+    if (!unit.component.empty()) return of_elasticity(unit.component);
     if (unit.name == "backlash") return {reversals()};
     if (unit.name == "gear_losses" || unit.name == "bearing_friction" || unit.name == "joint_friction")
       return {losses()};

@@ -15,10 +15,10 @@ Deviation deviation_of(const std::vector<FigureChange>& changes, double toleranc
       found.not_judged.push_back(fmt::format("{} (known to {:.2g} %)", change.figure, 100 * change.error));
       continue;
     }
-    if (change.relative >= found.of) found.of = change.relative, found.figure = change.figure;
+    if (change.relative >= found.deviation) found.deviation = change.relative, found.figure = change.figure;
     bound = std::max(bound, change.relative + change.error);
   }
-  found.error = bound - found.of;
+  found.error = bound - found.deviation;
   found.within = bound <= tolerance;
   return found;
 }

@@ -14,8 +14,8 @@
 namespace kurbel {
 
 struct Deviation {
-  double of = 0;     // the greatest change of a figure that can be judged, over its own size
-  double error = 0;  // no figure that is judged deviates by more than of + error
+  double deviation = 0;  // the greatest change of a figure that can be judged, over its own size
+  double error = 0;      // of the runs: no figure that is judged deviates by more than deviation + error
   std::string figure = {};
   bool within = true;
   std::vector<std::string> not_judged = {};  // "peak_torque.pump (known to 3 %)"

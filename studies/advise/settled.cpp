@@ -26,8 +26,8 @@ bool is_asked(const Figure& figure, const std::vector<std::string>& figures) {
 
 }  // namespace
 
-Settled settled(const Scene& scene, const Effects& effects, const Watch& watch) {
-  Settled found;
+VariantRun settled(const Scene& scene, const Effects& effects, const Watch& watch) {
+  VariantRun found;
   SteadyOptions options;
   options.start_search = false;
   options.watch.interrupted = watch.interrupted;
@@ -35,25 +35,25 @@ Settled settled(const Scene& scene, const Effects& effects, const Watch& watch) 
     SteadyCycle cycle = search_cycle(scene, effects, options);
     found.result.figures = std::move(cycle.figures);
     found.result.tolerance = 1e-10;  // of the looser search
-    if (!cycle.found) found.why = cycle.why;
+    if (!cycle.found) found.failed = cycle.why;
   } catch (const std::invalid_argument& none) {
-    found.why = none.what();
+    found.failed = none.what();
   }
   return found;
 }
 
-Deviation settled_deviation(const Settled& full, const Settled& lean, const std::vector<std::string>& figures,
+Deviation settled_deviation(const Result& full, const Result& lean, const std::vector<std::string>& figures,
                             double tolerance) {
   std::vector<std::string> names;
-  for (const Figure& f : full.result.figures)
+  for (const Figure& f : full.figures)
     if (is_compared(f) && is_asked(f, figures)) names.push_back(f.name);
   if (names.empty()) return {};
-  return deviation_of(changes_between(full.result, lean.result, names), tolerance);
+  return deviation_of(changes_between(full, lean, names), tolerance);
 }
 
 Deviation worse_of(const Deviation& a, const Deviation& b) {
-  Deviation worse = b.of > a.of ? b : a;
-  worse.error = std::max(a.of + a.error, b.of + b.error) - worse.of;
+  Deviation worse = b.deviation > a.deviation ? b : a;
+  worse.error = std::max(a.deviation + a.error, b.deviation + b.error) - worse.deviation;
   worse.within = a.within && b.within;
   worse.not_judged = a.not_judged;
   worse.not_judged.insert(worse.not_judged.end(), b.not_judged.begin(), b.not_judged.end());

@@ -6,22 +6,16 @@
 #include <vector>
 
 #include "studies/advise/deviation.h"
-#include "studies/findings/result.h"
-#include "studies/findings/watch.h"
+#include "studies/variants/variant_runs.h"
 
 namespace kurbel {
 
-// One round of the motion that the scene's own start leads to (studies/steady).
-struct Settled {
-  Result result;    // figures alone, with their errors
-  std::string why;  // in words, why there are none; empty: there are
-};
-
-Settled settled(const Scene& scene, const Effects& effects, const Watch& watch);
+// One round of the motion that the scene's own start leads to (studies/steady): figures alone, with their errors.
+VariantRun settled(const Scene& scene, const Effects& effects, const Watch& watch);
 
 // Speeds, δ, peaks and RMS of torques over the round, against the fullest model's. `figures`: names or their beginnings,
 // as runs call them ("peak_torque" is cycle_peak_torque as well); empty: all of those.
-Deviation settled_deviation(const Settled& full, const Settled& lean, const std::vector<std::string>& figures,
+Deviation settled_deviation(const Result& full, const Result& lean, const std::vector<std::string>& figures,
                             double tolerance);
 
 // Both together: the greater change, and an error that bounds them both.

@@ -27,8 +27,8 @@ std::string beyond(const EffectStudy& s) {
   for (const LeftOut& l : s.left_out) {
     if (l.in_place_of.empty()) continue;
     text += fmt::format(" The full model is without {}, which does not go with {}", l.effect.words, l.in_place_of);
-    if (!l.refused.empty())
-      text += " and does not run: " + l.refused;
+    if (!l.failed.empty())
+      text += " and does not run: " + l.failed;
     else if (l.changes.empty() || !l.changes.front().told())
       text += "; in their place it changes no figure compared by more than the runs' errors";
     else
@@ -43,11 +43,11 @@ std::string conclusion_of(const EffectStudy& s) {
   if (!s.full.complete) return "The full model did not run to the end: " + s.full.diagnosis;
   std::string text;
   const auto strongest = std::find_if(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) {
-    return l.refused.empty() && !l.changes.empty() && l.in_place_of.empty();
+    return l.failed.empty() && !l.changes.empty() && l.in_place_of.empty();
   });
   if (strongest == s.left_out.end()) {
     const bool any_ran =
-        std::any_of(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) { return l.refused.empty(); });
+        std::any_of(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) { return l.failed.empty(); });
     return any_ran ? "No figure that is compared is other than zero, with or without an effect: nothing to rank by."
                    : "No effect of this scene can be left out: without any of them it does not run.";
   }
@@ -63,7 +63,7 @@ std::string conclusion_of(const EffectStudy& s) {
                            most.figure, told_shortly(most.without, most.unit), told_shortly(most.full, most.unit), off);
   std::vector<std::string> idle;
   for (const LeftOut& l : s.left_out)
-    if (l.refused.empty() && !l.changes.empty() && largest(l) < 1e-3) idle.push_back(l.effect.words);
+    if (l.failed.empty() && !l.changes.empty() && largest(l) < 1e-3) idle.push_back(l.effect.words);
   if (!idle.empty()) text += fmt::format("; less than 0.1 % in any figure compared: {}", listed(idle, "and"));
   const auto dearest = std::max_element(s.left_out.begin(), s.left_out.end(),
                                         [](const LeftOut& a, const LeftOut& b) { return a.time_ratio < b.time_ratio; });
@@ -81,32 +81,19 @@ void compare(LeftOut& left, const Result& with, const ModelSize& size) {
   left.time_ratio = with.statistics.cpu_seconds / std::max(left.result.statistics.cpu_seconds, 1e-9);
 }
 
-void run_without(LeftOut& left, const Scene& scene, const Effects& effects, const SimulateOptions& options) {
-  try {
-    left.result = simulate(scene, effects, "without " + left.effect.words, options);
-    if (!left.result.complete) left.refused = left.result.diagnosis;
-  } catch (const SceneError& error) {
-    left.refused = error.what();
-  }
-}
-
 }  // namespace
 
 LeftOut study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
-                                 std::size_t unit, const SimulateOptions& options) {
+                                 std::size_t unit, const VariantRuns& runs) {
   const InPlaceOf sets = in_place_of_others(scene, units, fullest, unit);
-  LeftOut left{.effect = units[unit]};
+  const std::string& words = units[unit].words;
+  VariantRun with{{}, "it goes with no other effect of this scene, nor alone"};
+  if (sets.with[unit]) with = runs.run("with " + words, scene, effects_of(scene, units, sets.with));
+  LeftOut left{{{}, with.failed}, units[unit]};
+  if (with.failed.empty())
+    left = {runs.run("without " + words, scene, effects_of(scene, units, sets.without)), units[unit]};
   left.in_place_of = sets.gives_way;
-  if (!sets.with[unit]) {
-    left.refused = "it goes with no other effect of this scene, nor alone";
-    return left;
-  }
-  const Result with = simulate(scene, effects_of(scene, units, sets.with), "with " + left.effect.words, options);
-  if (!with.complete)
-    left.refused = with.diagnosis;
-  else
-    run_without(left, scene, effects_of(scene, units, sets.without), options);
-  if (left.refused.empty()) compare(left, with, size_of(*with.model));
+  if (left.failed.empty()) compare(left, with.result, size_of(*with.result.model));
   return left;
 }
 
@@ -123,34 +110,29 @@ EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
   const auto say = [&](const std::string& what, std::size_t done) {
     options.watch.at(what, static_cast<double>(done) / (1.0 + static_cast<double>(study.units.size())));
   };
-  SimulateOptions quiet = options;
-  quiet.watch.progress = {};
-  quiet.traces = false;
-  quiet.timed = true;
-  EffectSet on = fullest_set(scene, study.units);
+  const VariantRuns runs = VariantRuns::timed(options);
+  const EffectSet on = fullest_set(scene, study.units);
   say("all effects", 0);
-  study.full = simulate(scene, effects_of(scene, study.units, on), "full", quiet);
+  study.full = simulate(scene, effects_of(scene, study.units, on), "full", runs.options());
   study.size = size_of(*study.full.model);
   study.notes = study.full.notes;
   for (std::size_t k = 0; k < study.units.size() && study.full.complete; ++k) {
-    say("without " + study.units[k].words, k + 1);
+    const std::string words = "without " + study.units[k].words;
+    say(words, k + 1);
     if (!on[k]) {
-      study.left_out.push_back(study_in_place_of_others(scene, study.units, on, k, quiet));
+      study.left_out.push_back(study_in_place_of_others(scene, study.units, on, k, runs));
       continue;
     }
-    LeftOut left{.effect = study.units[k]};
-    on[k] = false;
-    run_without(left, scene, effects_of(scene, study.units, on), quiet);
-    on[k] = true;
-    if (left.refused.empty()) compare(left, study.full, study.size);
+    LeftOut left{runs.run(words, scene, effects_of(scene, study.units, without(on, k))), study.units[k]};
+    if (left.failed.empty()) compare(left, study.full, study.size);
     if (left.result.model)
       for (const std::string& note : idle_effects(*left.result.model))
-        study.notes.push_back(fmt::format("without {}: {}", left.effect.words, note));
+        study.notes.push_back(fmt::format("{}: {}", words, note));
     study.left_out.push_back(std::move(left));
   }
   std::stable_sort(study.left_out.begin(), study.left_out.end(), [](const LeftOut& a, const LeftOut& b) {
     const auto most = [](const LeftOut& l) {
-      return !l.refused.empty() ? HUGE_VAL : l.changes.empty() ? 0 : l.changes.front().sure();
+      return !l.failed.empty() ? HUGE_VAL : l.changes.empty() ? 0 : l.changes.front().sure();
     };
     return most(a) > most(b);
   });

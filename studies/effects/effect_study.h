@@ -8,18 +8,17 @@
 #include "studies/effects/effect_units.h"
 #include "studies/findings/figure_changes.h"
 #include "studies/findings/output.h"
-#include "studies/run/simulate.h"
+#include "studies/variants/variant_runs.h"
 
 namespace kurbel {
 
-struct LeftOut {
+// The run without it; `failed`: why the machine cannot run without it.
+struct LeftOut : VariantRun {
   EffectUnit effect = {};
-  Result result = {};
   std::vector<FigureChange> changes = {};  // of the figures that both have, the greatest first
   ModelSize saved = {};                    // states, nonzeros, guards that the effect adds
   long events_added = 0;
-  double time_ratio = 0;     // processor time of the full model over that without
-  std::string refused = {};  // why the machine cannot run without it
+  double time_ratio = 0;  // processor time of the full model over that without
   // What it does not go with, in words: it is judged by the machine without those, with and without it. Empty: it is
   // part of the full model.
   std::string in_place_of = {};
@@ -37,7 +36,7 @@ struct EffectStudy {
 
 // Two runs, of the fullest machine that has the unit and of the same without it: for a unit that is off in `fullest`.
 LeftOut study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
-                                 std::size_t unit, const SimulateOptions& options);
+                                 std::size_t unit, const VariantRuns& runs);
 
 // Throws std::invalid_argument where the scene has no effect to leave out.
 EffectStudy study_effects(const Scene& scene, const SimulateOptions& options);

@@ -28,8 +28,8 @@ std::string words_of(const LeftOut& l) {
 Rows ranking(const EffectStudy& s) {
   Lines lines;
   for (const LeftOut& l : s.left_out) {
-    if (!l.refused.empty()) {
-      lines.push_back({words_of(l), "—", "—", "—", "", "", "", "", "", "does not run: " + l.refused});
+    if (!l.failed.empty()) {
+      lines.push_back({words_of(l), "—", "—", "—", "", "", "", "", "", "does not run: " + l.failed});
       continue;
     }
     const bool any = !l.changes.empty();
@@ -63,7 +63,7 @@ std::vector<std::string> figures_shown(const EffectStudy& s) {
 
 Rows matrix(const EffectStudy& s) {
   std::vector<LeftOut> ran = s.left_out;
-  std::erase_if(ran, [](const LeftOut& l) { return !l.refused.empty(); });
+  std::erase_if(ran, [](const LeftOut& l) { return !l.failed.empty(); });
   const std::vector<std::string> figures = figures_shown(s);
   auto table = table_of("", "Change of each figure", ran);
   table.even_if_empty = !figures.empty();
@@ -80,8 +80,8 @@ Rows matrix(const EffectStudy& s) {
 Record left_out_record(const LeftOut& l) {
   Record record = {{"effect", l.effect.name}};
   if (!l.in_place_of.empty()) record.push_back({"in_place_of", l.in_place_of});
-  if (!l.refused.empty()) {
-    record.push_back({"refused", l.refused});
+  if (!l.failed.empty()) {
+    record.push_back({"refused", l.failed});
     return record;
   }
   const Record told = {{"states", l.saved.states},
@@ -104,7 +104,7 @@ Plot plane(const EffectStudy& s) {
             .y = {"greatest change of a figure without it", "%", true}};
   std::size_t k = 0;
   for (const LeftOut& l : s.left_out) {
-    if (!l.refused.empty() || l.changes.empty()) continue;
+    if (!l.failed.empty() || l.changes.empty()) continue;
     plot.series.push_back({.name = words_of(l) + " (" + l.changes.front().figure + ")",
                            .role = further_role(k++),
                            .x = {l.time_ratio},
@@ -133,7 +133,7 @@ Findings findings_of(const EffectStudy& s) {
              .tells_diagnosis = false};
   f.answer(s.full.complete ? Topic::figures : Topic::runs, s.conclusion, s.full.complete ? 0 : 100);
   for (const LeftOut& l : s.left_out)
-    if (l.refused.empty() && !l.changes.empty() && f.figures.size() < 4)
+    if (l.failed.empty() && !l.changes.empty() && f.figures.size() < 4)
       f.figures.push_back({"without " + words_of(l), 100 * l.changes.front().relative, "%",
                            100 * l.changes.front().error, "off in " + l.changes.front().figure, 3, "change_without"});
   const Chapter ranked = f.chapter("Effects, ranked"), full = f.chapter("The full model");

@@ -14,13 +14,11 @@
 namespace kurbel {
 namespace {
 
-const std::string elasticity = "elasticity:";
-
 // The component of "gearbox.support".
 std::string base_name(const std::string& joint) { return joint.substr(0, joint.find('.')); }
 
 bool on_in(const Scene& scene, const EffectUnit& unit) {
-  if (unit.name.starts_with(elasticity)) return scene.effects.is_elastic(unit.name.substr(elasticity.size()));
+  if (!unit.component.empty()) return scene.effects.is_elastic(unit.component);
   const auto flags = effect_flags();
   return std::any_of(flags.begin(), flags.end(),
                      [&](const EffectFlag& flag) { return unit.name == flag.name && scene.effects.*(flag.flag); });
@@ -87,18 +85,22 @@ std::vector<EffectUnit> effect_units(const Scene& scene) {
     if (joint.element && joint.element->is.has_spring()) elastic.insert(base_name(joint.component));
   for (const Section& section : scene.components)
     if (section.kind->elastic && elastic.count(section.name))
-      units.push_back({elasticity + section.name, "elasticity of " + section.name});
+      units.push_back({"elasticity:" + section.name, "elasticity of " + section.name, section.name});
   for (const EffectFlag& effect : effect_flags())
     if (has_parameters(scene, effect) && (effect.flag != &Effects::multibody || scene.effects.multibody))
       units.push_back({effect.name, effect.words});
   return units;
 }
 
+EffectSet without(EffectSet set, std::size_t unit) {
+  set[unit] = false;
+  return set;
+}
+
 Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const EffectSet& on) {
   Effects effects;
   for (std::size_t k = 0; k < units.size(); ++k) {
-    if (on[k] && units[k].name.starts_with(elasticity))
-      effects.elastic.push_back(units[k].name.substr(elasticity.size()));
+    if (on[k] && !units[k].component.empty()) effects.elastic.push_back(units[k].component);
     for (const EffectFlag& effect : effect_flags())
       if (units[k].name == effect.name) effects.*(effect.flag) = on[k];
   }
@@ -127,8 +129,7 @@ EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, 
 InPlaceOf in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
                              std::size_t unit) {
   InPlaceOf found{.with = fullest_set(scene, units, unit), .without = {}, .gives_way = {}};
-  found.without = found.with;
-  found.without[unit] = false;
+  found.without = without(found.with, unit);
   EffectSet gone(units.size(), false);
   for (std::size_t k = 0; k < units.size(); ++k) gone[k] = fullest[k] && !found.with[k];
   found.gives_way = describe(units, gone);
@@ -179,8 +180,8 @@ std::string with_effects(const Scene& scene, const std::vector<EffectUnit>& unit
   }
   std::string elastic, flags;
   for (std::size_t k = 0; k < units.size(); ++k) {
-    if (units[k].name.starts_with(elasticity)) {
-      if (on[k]) elastic += (elastic.empty() ? "\"" : ", \"") + units[k].name.substr(elasticity.size()) + "\"";
+    if (!units[k].component.empty()) {
+      if (on[k]) elastic += (elastic.empty() ? "\"" : ", \"") + units[k].component + "\"";
     } else {
       flags += fmt::format("{} = {}\n", units[k].name, on[k] ? "true" : "false");
     }

@@ -13,8 +13,9 @@
 namespace kurbel {
 
 struct EffectUnit {
-  std::string name;   // as in --effects: "elasticity:main_coupling", "backlash"
-  std::string words;  // "elasticity of main_coupling"
+  std::string name;            // as in --effects: "elasticity:main_coupling", "backlash"
+  std::string words;           // "elasticity of main_coupling"
+  std::string component = {};  // "main_coupling", that twists with it; empty: it is of no component
 };
 
 // All that the scene has parameters for.
@@ -22,6 +23,7 @@ std::vector<EffectUnit> effect_units(const Scene& scene);
 
 // A set of units: on[k] belongs to units[k].
 using EffectSet = std::vector<bool>;
+EffectSet without(EffectSet set, std::size_t unit);
 Effects effects_of(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on);
 // As many of the units as one machine can have at once: what is part of the machine, then the scene's own effects,
 // then what else goes with them (ideal joints with friction do not go with clearance in the same mechanism). `keep`

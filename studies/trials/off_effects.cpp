@@ -5,14 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "studies/effects/effect_units.h"
 
 namespace kurbel {
 namespace {
-
-const std::string prefix = "elasticity:";
 
 // Those made elastic besides.
 Effects with_elastic(Effects effects, const std::vector<std::string>& components) {
@@ -32,7 +29,7 @@ std::vector<std::string> carriers(const Scene& scene, const EffectFlag& effect,
 }
 
 OffEffect elasticity_of(const std::vector<std::string>& components, const Effects& on) {
-  return {.name = fmt::format("{}{}", prefix, fmt::join(components, ",")),
+  return {.name = fmt::format("elasticity:{}", fmt::join(components, ",")),
           .words = "elasticity of " + joined_words(components),
           .effects = with_elastic(on, components)};
 }
@@ -66,7 +63,7 @@ std::vector<OffEffect> effects_that_are_off(const Scene& scene, const Effects& o
   std::vector<std::string> could_be_elastic, rigid;
   const std::vector<EffectUnit> units = effect_units(scene);
   for (const EffectUnit& unit : units)
-    if (unit.name.starts_with(prefix)) could_be_elastic.push_back(unit.name.substr(prefix.size()));
+    if (!unit.component.empty()) could_be_elastic.push_back(unit.component);
   for (const std::string& component : could_be_elastic)
     if (!on.is_elastic(component)) rigid.push_back(component);
   std::vector<OffEffect> list;
@@ -87,11 +84,9 @@ std::vector<OffEffect> effects_that_are_off(const Scene& scene, const Effects& o
 }
 
 std::shared_ptr<const Model> machine_with(const Scene& scene, const Effects& on, OffEffect& effect) {
-  std::optional<SceneError> refused;
   try {
     return compile(scene, effect.effects);
-  } catch (const SceneError& error) {
-    refused = error;
+  } catch (const SceneError&) {
   }
   // Without all that the run has, and then again with one after the other of it.
   Effects fits = effect.effects;
@@ -99,7 +94,7 @@ std::shared_ptr<const Model> machine_with(const Scene& scene, const Effects& on,
   for (const EffectFlag& flag : effect_flags())
     if (on.*(flag.flag) && flag.unsaid != EffectFlag::Unsaid::part_of_machine)
       fits.*(flag.flag) = false, dropped.push_back(&flag);
-  if (dropped.empty() || !makes_machine(scene, fits)) throw *refused;
+  if (dropped.empty() || !makes_machine(scene, fits)) return compile(scene, effect.effects);
   std::vector<std::string> gone;
   for (const EffectFlag* flag : dropped) {
     fits.*(flag->flag) = true;

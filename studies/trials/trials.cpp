@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/numerics/deadline.h"
 #include "studies/run/run_findings.h"
 
 namespace kurbel {
@@ -48,32 +47,30 @@ std::string in_one_line(const std::string& text) { return text.substr(0, text.fi
 class TrialRuns {
  public:
   TrialRuns(const Result& run, const std::vector<std::string>& key_figures, const SimulateOptions& options)
-      : run_(run), names_(key_figures), options_(options), end_(processor_time() + allowance(run)) {
-    options_.keep_state = false;
-    draws_ = std::exchange(options_.traces, false);
-  }
+      : run_(run),
+        names_(key_figures),
+        none_(why_none(run, options)),
+        draws_(options.traces),
+        runs_(options, allowance(run)) {}
 
   // The run's machine without elasticity, before all others.
   void compare_with_rigid() {
-    if (!is_elastic(*run_.model) || !why_none(run_, options_).empty()) return;
+    if (!is_elastic(*run_.model) || !none_.empty()) return;
+    OffEffect rigid{.name = "rigid", .words = "the rigid machine", .effects = {}};
     try {
-      const Effects rigid = models_to_compare(run_.model->scene, run_.model->effects).a;
-      trials_.rigid = Trial{.effect = {.name = "rigid", .words = "the rigid machine", .effects = rigid}};
+      rigid.effects = models_to_compare(run_.model->scene, run_.model->effects).a;
     } catch (const std::exception&) {  // it makes no machine: there is nothing to compare with
       return;
     }
-    SimulateOptions options = options_;
-    options.traces = draws_;
-    run(
-        *trials_.rigid, [&] { return compile(run_.model->scene, trials_.rigid->effect.effects); }, options);
-    if (stopped() || spent()) trials_.rigid.reset();
+    const auto machine = [&] { return compile(run_.model->scene, rigid.effects); };
+    VariantRun run = runs_.run("rigid", machine, draws_);
+    if (!runs_.over()) trials_.rigid = judged(std::move(run), std::move(rigid));
   }
 
   Trials all() {
     for (OffEffect& effect : effects_that_are_off(run_.model->scene, run_.model->effects)) {
-      const std::string none = why_none(run_, options_);
-      if (!none.empty() || stopped() || spent())
-        leave(effect, !none.empty() ? none : why_ended());
+      if (!none_.empty() || runs_.over())
+        leave(effect, !none_.empty() ? none_ : why_ended());
       else
         try_one(std::move(effect));
     }
@@ -81,45 +78,33 @@ class TrialRuns {
   }
 
  private:
-  bool stopped() const { return options_.watch.stopped(); }
-  bool spent() const { return processor_time() >= end_; }
   std::string why_ended() const {
-    return stopped() ? "interrupted"
-                     : fmt::format("the {:.2g} s of processor time for trials were spent", allowance(run_));
+    return runs_.stopped() ? "interrupted"
+                           : fmt::format("the {:.2g} s of processor time for trials were spent", allowance(run_));
   }
   void leave(const OffEffect& effect, std::string because) {
     trials_.not_tried.push_back({effect.name, effect.words, std::move(because)});
   }
 
   void try_one(OffEffect effect) {
-    Trial trial{.effect = std::move(effect)};
-    run(
-        trial, [&] { return machine_with(run_.model->scene, run_.model->effects, trial.effect); }, options_);
-    if (!trial.failed.empty() && (stopped() || spent())) return leave(trial.effect, why_ended());
-    trials_.tried.push_back(std::move(trial));
+    const auto machine = [&] { return machine_with(run_.model->scene, run_.model->effects, effect); };
+    VariantRun run = runs_.run("trial with " + effect.words, machine);
+    if (!run.failed.empty() && runs_.over()) return leave(effect, why_ended());
+    trials_.tried.push_back(judged(std::move(run), std::move(effect)));
   }
 
-  template <class Machine>
-  void run(Trial& trial, const Machine& machine, const SimulateOptions& options) {
-    const Deadline deadline(std::max(end_ - processor_time(), 1e-3), options.watch.interrupted);
-    try {
-      const std::shared_ptr<const Model> model = machine();
-      trial.result =
-          simulate(model, trial.effect.name == "rigid" ? "rigid" : "trial with " + trial.effect.words, options);
-      if (!trial.result.complete) trial.failed = in_one_line(trial.result.diagnosis);
-    } catch (const OutOfTime&) {
-      trial.failed = why_ended();
-    } catch (const std::exception& error) {
-      trial.failed = in_one_line(error.what());
-    }
+  Trial judged(VariantRun run, OffEffect effect) const {
+    Trial trial{std::move(run), std::move(effect)};
+    trial.failed = in_one_line(trial.failed);
     if (trial.failed.empty()) trial.changes = changes_of(run_, trial.result, names_);
+    return trial;
   }
 
   const Result& run_;
   const std::vector<std::string>& names_;
-  SimulateOptions options_;
-  bool draws_ = false;
-  double end_;  // processor time of the process [s]
+  std::string none_;  // why no trial is made at all; empty: they are
+  bool draws_;
+  VariantRuns runs_;
   Trials trials_;
 };
 

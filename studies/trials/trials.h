@@ -10,6 +10,7 @@
 #include "studies/findings/figure_changes.h"
 #include "studies/run/compare.h"
 #include "studies/trials/off_effects.h"
+#include "studies/variants/variant_runs.h"
 
 namespace kurbel {
 
@@ -21,11 +22,9 @@ struct TrialChange {
   bool gone = false;                    // the trial has no such figure: no run-up to its end, no swing
 };
 
-struct Trial {
+struct Trial : VariantRun {
   OffEffect effect;
-  Result result = {};
   std::vector<TrialChange> changes = {};  // of all key figures, the surely greatest first; what is gone before
-  std::string failed = {};                // why it did not run to its end
 };
 
 struct NotTried {

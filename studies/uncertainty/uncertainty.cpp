@@ -9,7 +9,6 @@
 
 #include "engine/scene/units.h"
 #include "studies/run/simulate.h"
-#include "studies/scenes/kinds.h"
 #include "studies/trials/trials.h"
 
 namespace kurbel {
@@ -24,10 +23,7 @@ constexpr double short_step = 0.2, long_step = 1, most_noise = 0.02;
 class UncertaintyWork {
  public:
   UncertaintyWork(const MachineQuestion& question, const UncertaintyOptions& options)
-      : question_(question),
-        options_(options),
-        scene_(
-            parse_scene(SettledText(question.text, question.file, question.settings), all_kinds(), question.allowed)) {
+      : question_(question), options_(options), scene_(VariedScene(question, {}).at({})) {
     study_.title = scene_.heading(), study_.scene_file = question.file, study_.scene_text = scene_.text;
     study_.parameters = tolerated_parameters(scene_);
     for (const Tolerated& t : study_.parameters) swept_.push_back(t.swept());

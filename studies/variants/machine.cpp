@@ -13,11 +13,11 @@
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
 #include "studies/modes/modes.h"
-#include "studies/run/simulate.h"
 #include "studies/scenes/kinds.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
 #include "studies/variants/in_threads.h"
+#include "studies/variants/variant_runs.h"
 
 namespace kurbel {
 namespace {
@@ -70,7 +70,7 @@ SweepStudy study_named(const std::string& of) {
 }
 
 VariedScene::VariedScene(const MachineQuestion& question, const std::vector<SweptParameter>& parameters)
-    : question_(question), parameters_(parameters), scene_(read_with(question.settings)) {
+    : question_(question), parameters_(parameters), scene_(read_with({})) {
   for (std::size_t k = 0; k < parameters_.size(); ++k) {
     for (std::size_t other = 0; other < k; ++other)
       if (parameters_[k].path == parameters_[other].path)
@@ -80,12 +80,14 @@ VariedScene::VariedScene(const MachineQuestion& question, const std::vector<Swep
   }
 }
 
-Scene VariedScene::read_with(const std::vector<std::string>& settings) const {
+Scene VariedScene::read_with(const std::vector<std::string>& further) const {
+  std::vector<std::string> settings = question_.settings;
+  settings.insert(settings.end(), further.begin(), further.end());
   return parse_scene(SettledText(question_.text, question_.file, settings), all_kinds(), question_.allowed);
 }
 
 Scene VariedScene::read(const std::vector<double>& values) const {
-  std::vector<std::string> settings = question_.settings;
+  std::vector<std::string> settings;
   for (std::size_t k = 0; k < parameters_.size(); ++k) settings.push_back(parameters_[k].setting(values[k]));
   return read_with(settings);
 }
@@ -100,16 +102,15 @@ void VariedScene::check_ends(std::size_t k) {
     ends = {*least, *most};
   }
   for (const double value : ends) {
-    std::vector<std::string> settings = question_.settings;
-    settings.push_back(p.setting(value));
+    const std::string setting = p.setting(value);
     try {
-      read_with(settings);
+      read_with({setting});
     } catch (SceneError& error) {
       std::vector<Message> messages = error.messages;
       const std::string asked = p.where.empty() ? fmt::format("--vary {}", in_quotes(p.given))
                                                 : fmt::format("{}: {}", p.where, in_quotes(p.given));
       for (Message& m : messages) {
-        if (m.file != fmt::format("--set {}", in_quotes(settings.back()))) continue;
+        if (m.file != fmt::format("--set {}", in_quotes(setting))) continue;
         m.file = asked;
         if (p.words.empty()) m.at = {}, m.text += fmt::format(" (at {})", p.text_of(value));
       }
@@ -125,9 +126,7 @@ bool VariedScene::found_in_place(std::size_t k, double low, double high) {
     Setting* const setting = quantity_at(patched.components, parameters_[k].path);
     if (!setting) return false;
     setting->number = in_si(parameters_[k], value);
-    std::vector<std::string> settings = question_.settings;
-    settings.push_back(parameters_[k].setting(value));
-    if (!same_machine(patched, read_with(settings))) return false;
+    if (!same_machine(patched, read_with({parameters_[k].setting(value)}))) return false;
   }
   return true;
 }
@@ -145,12 +144,6 @@ const Scene& VariedScene::at(const std::vector<double>& values) {
 }
 
 namespace {
-
-Figure plain(std::string name, double value, std::string unit, std::optional<double> error) {
-  Figure figure;
-  figure.name = std::move(name), figure.value = value, figure.unit = std::move(unit), figure.error = error;
-  return figure;
-}
 
 MachineAnswer answer_of_run(const MachineQuestion& q, const Scene& scene, bool measure) {
   SimulateOptions options;
@@ -185,9 +178,10 @@ MachineAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   MachineAnswer answer;
   for (const Mode& mode : study.modes) {
     const std::string number = std::to_string(mode.number);
-    answer.figures.push_back(plain("natural_frequency." + number, mode.natural() / (2 * std::numbers::pi), "Hz",
-                                   mode.error / (2 * std::numbers::pi)));
-    if (mode.lambda.imag() > 0) answer.figures.push_back(plain("damping_ratio." + number, mode.ratio, "", {}));
+    answer.figures.push_back({{mode.natural() / (2 * std::numbers::pi), mode.error / (2 * std::numbers::pi)},
+                              "natural_frequency." + number,
+                              "Hz"});
+    if (mode.lambda.imag() > 0) answer.figures.push_back({{mode.ratio}, "damping_ratio." + number});
   }
   return answer;
 }
@@ -201,41 +195,21 @@ MachineAnswer answer_of_size(const MachineQuestion& q, const Scene& scene) {
   if (!sizing.complete) return {RowState::failed, sizing.diagnosis, {}};
   MachineAnswer answer;
   for (const KeyFigure& f : findings_of(sizing).figures)
-    if (!f.means.empty() && f.means != "delta_reached")
-      answer.figures.push_back(plain(f.means, f.value, f.unit, f.error));
+    if (!f.means.empty() && f.means != "delta_reached") answer.figures.push_back({{f.value, f.error}, f.means, f.unit});
   return answer;
 }
 
-// What a variant cannot do is the row's own failure, and no end of the sweep.
 MachineAnswer answer_of(const MachineQuestion& q, VariedScene& varied, const std::vector<double>& values,
                         bool measure) {
   MachineAnswer answer;
-  try {
-    const Deadline deadline(HUGE_VAL, q.interrupted);
+  const auto compute = [&] {
     const Scene& scene = varied.at(values);
-    switch (q.of) {
-      case SweepStudy::run:
-        answer = answer_of_run(q, scene, measure);
-        break;
-      case SweepStudy::steady:
-        answer = answer_of_steady(q, scene, measure);
-        break;
-      case SweepStudy::modes:
-        answer = answer_of_modes(q, scene);
-        break;
-      case SweepStudy::size:
-        answer = answer_of_size(q, scene);
-        break;
-    }
-  } catch (const SceneError& error) {
-    answer = {RowState::failed, error.messages.empty() ? error.what() : error.messages.front().text, {}};
-  } catch (const OutOfTime& error) {
-    answer = {RowState::failed, error.what(), {}};
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    answer = {RowState::failed, error.what(), {}};
-  }
+    answer = q.of == SweepStudy::run      ? answer_of_run(q, scene, measure)
+             : q.of == SweepStudy::steady ? answer_of_steady(q, scene, measure)
+             : q.of == SweepStudy::modes  ? answer_of_modes(q, scene)
+                                          : answer_of_size(q, scene);
+  };
+  if (const auto failure = failure_of(compute, q.interrupted)) answer = {RowState::failed, failure->reason, {}};
   return answer;
 }
 

@@ -45,7 +45,7 @@ class VariedScene {
   bool is_in_place(std::size_t parameter) const { return in_place_[parameter]; }
 
  private:
-  Scene read_with(const std::vector<std::string>& settings) const;
+  Scene read_with(const std::vector<std::string>& further) const;
   void check_ends(std::size_t parameter);
   bool found_in_place(std::size_t parameter, double low, double high);
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
+
 namespace kurbel {
 
 struct SweptFigure {
@@ -36,16 +38,13 @@ struct SweepRow {
 // Of a row with these values of the parameters: state, diagnosis, figures. A row that was interrupted returns false.
 using Evaluator = std::function<bool(SweepRow& row)>;
 
-// The figure's value in a row; not a number where it has none.
-inline double value_in(const SweepRow& row, std::size_t figure) {
+// The figure in a row: not a number, without an error, where it has none.
+inline Estimate figure_in(const SweepRow& row, std::size_t figure) {
   for (const RowFigure& f : row.figures)
-    if (f.figure == figure) return f.value;
-  return std::numeric_limits<double>::quiet_NaN();
+    if (f.figure == figure) return {f.value, f.error};
+  return {std::numeric_limits<double>::quiet_NaN()};
 }
-inline std::optional<double> error_in(const SweepRow& row, std::size_t figure) {
-  for (const RowFigure& f : row.figures)
-    if (f.figure == figure) return f.error;
-  return {};
-}
+inline double value_in(const SweepRow& row, std::size_t figure) { return figure_in(row, figure).value; }
+inline std::optional<double> error_in(const SweepRow& row, std::size_t figure) { return figure_in(row, figure).error; }
 
 }  // namespace kurbel

@@ -33,9 +33,9 @@ TEST(Advise, AFigureIsWithinOnlyTogetherWithItsError) {
 TEST(Advise, DeviationAndErrorTogetherBoundEveryFigure) {
   const std::vector<FigureChange> changes = {change("a", 0.005, 0.0001), change("b", 0.003, 0.004)};
   const Deviation d = deviation_of(changes, 0.01);
-  EXPECT_EQ(d.of, 0.005);
+  EXPECT_EQ(d.deviation, 0.005);
   EXPECT_EQ(d.figure, "a");
-  for (const FigureChange& c : changes) EXPECT_LE(c.relative + c.error, d.of + d.error + 1e-15);
+  for (const FigureChange& c : changes) EXPECT_LE(c.relative + c.error, d.deviation + d.error + 1e-15);
 }
 
 // Ideal joints with friction and a joint with a gap exclude each other in one mechanism.
@@ -81,7 +81,7 @@ TEST(Effects, WhatDoesNotGoWithTheRestIsJudgedInTheirPlace) {
   const auto judged = std::find_if(study.left_out.begin(), study.left_out.end(),
                                    [](const LeftOut& l) { return l.effect.name == "joint_friction"; });
   ASSERT_NE(judged, study.left_out.end());
-  EXPECT_EQ(judged->refused, "");
+  EXPECT_EQ(judged->failed, "");
   EXPECT_EQ(judged->in_place_of, "joint clearance");
   ASSERT_FALSE(judged->changes.empty());
   EXPECT_TRUE(judged->changes.front().told());
