@@ -11,6 +11,7 @@
 #include "engine/analysis/family.h"
 #include "engine/analysis/link_speeds.h"
 #include "engine/analysis/sequence_ahead.h"
+#include "engine/analysis/settling.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
@@ -22,7 +23,6 @@ constexpr double enough = 1e-11;        // residual of the map, over the rated v
 constexpr double enough_by_run = 1e-8;  // where Newton does not apply
 constexpr double still = 1e-9;          // of the rated values, per radian of the link at rated speed
 constexpr double far_beyond = 30;       // rated speeds: that is no cycle but flight
-constexpr double no_edge = 1e299;
 // Events: several rounds of a sequence with some hundred events each (joints that move to and fro, gears that rattle).
 constexpr std::ptrdiff_t most_remembered = 20000;
 
@@ -67,66 +67,12 @@ class Search {
   }
   std::string link() const { return m_.node_label(m_.reduction_node); }
 
-  // Until when something is still to be switched that does not come again [s]; before: nothing.
-  double switched_until() const {
-    double until = period_.settled_from;
-    for (std::size_t i = 0; i < m_.network.elements.size(); ++i) {
-      const Network::ShaftElement& e = m_.network.elements[i];
-      for (const double edge : {e.window.start, e.window.stop})
-        if (edge < no_edge) until = std::max(until, edge);
-      if (e.element->is.starts_anew) until = std::max(until, state_.modes.on_since[i] + e.element->settled_from);
-    }
-    for (const PrescribedSpeed& given : m_.network.prescribed)
-      if (!given.time.empty()) until = std::max(until, given.time.back());
-    const Sequence& sequence = m_.scene.sequence;
-    for (const Command& c : state_.modes.command)  // a law that repeats is part of what comes again
-      if (!c.holds_still() && !(c.law >= 0 && sequence.steps[at(c.law)].law.period() > 0))
-        until = std::max(until, c.until);
-    if (state_.modes.next_step < sequence.steps.size() && state_.modes.armed_time < no_edge)
-      until = std::max(until, state_.modes.armed_time);
-    return until;
+  bool is_settled() const {
+    return m_.scene.sequence.repeat ||
+           (!waits_for_angle(m_, state_.modes) && state_.t >= switched_until(m_, period_, state_));
   }
-  bool waits_for_angle() const {
-    const Sequence& sequence = m_.scene.sequence;
-    return state_.modes.next_step < sequence.steps.size() &&
-           sequence.steps[state_.modes.next_step].when == SequenceStep::When::angle;
-  }
-  bool is_settled() const { return m_.scene.sequence.repeat || (!waits_for_angle() && state_.t >= switched_until()); }
-  // Nothing that depends on an angle or on time sets the pace: what swings, swings by itself; or a sequence goes round.
-  bool has_own_period() const {
-    const bool swings = std::any_of(m_.network.prescribed.begin(), m_.network.prescribed.end(),
-                                    [](const PrescribedSpeed& p) { return p.amplitude != 0; });
-    const bool driven = std::any_of(m_.network.elements.begin(), m_.network.elements.end(),
-                                    [](const Network::ShaftElement& e) { return e.element->time_period > 0; });
-    return m_.scene.sequence.repeat || (!period_.angle_matters && !swings && !driven);
-  }
-
-  // Greatest speed, and greatest rate of all that is no angle, of the rated values.
-  struct Pace {
-    double speed = 0, rate = 0;
-  };
-  Pace pace() {
-    Pace pace;
-    std::vector<double> y = state_.y, rate(equations_.size());
-    y.resize(equations_.size(), 0.0);
-    equations_.bind(state_.modes);
-    equations_.flow(state_.t, y, rate);
-    for (std::size_t s = 0; s < m_.shafts.size(); ++s)
-      pace.speed =
-          std::max(pace.speed, std::abs(equations_.snapshot(state_.t, y).now.speed[s]) / m_.shafts[s].speed_scale);
-    const auto consider = [&](std::size_t state, double scale) {
-      const double here = std::abs(rate[state]) / (scale * m_.speed_scale);
-      pace.rate = std::isfinite(here) ? std::max(pace.rate, here) : HUGE_VAL;  // no number where joints jam
-    };
-    for (std::size_t k = 0; k < m_.elastic.size(); ++k)
-      if (!m_.elastic[k].slips && !m_.elastic[k].springless)
-        consider(equations_.twist_index(static_cast<int>(k)), m_.elastic[k].twist_scale);
-    for (std::size_t s = 0; s < m_.free_shafts; ++s)
-      consider(equations_.speed_index(static_cast<int>(s)), m_.shafts[s].speed_scale);
-    for (std::size_t k = 0; k < m_.own_states.size(); ++k)
-      consider(equations_.own_begin() + k, m_.own_states[k].state.scale);
-    return pace;
-  }
+  bool has_own_period() const { return kurbel::has_own_period(m_, period_); }
+  Pace pace() { return pace_of(equations_, state_); }
 
   // --- one round ---
 
@@ -195,7 +141,7 @@ class Search {
   // The link did not come round.
   void wait(const Pace& now, const LinkSpeeds& speeds) {
     patience_factor_ = std::min(2 * patience_factor_, 64.0);
-    if (!is_settled() && state_.t < switched_until()) return;
+    if (!is_settled() && state_.t < switched_until(m_, period_, state_)) return;
     if (is_settled() && !m_.scene.sequence.repeat && swings_.as_before(speeds)) return vibrate();
     if (now.rate > still || period_.by_time) return;
     if (now.speed <= still) return end(Regime::Kind::at_rest, at_rest());

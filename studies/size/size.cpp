@@ -437,11 +437,6 @@ class Sizer {
 
 }  // namespace
 
-std::string slope_of_what(const Sizing& s) {
-  const bool drive = s.operating && std::abs(s.operating->drive_slope) >= 0.5 * std::abs(s.operating->slope);
-  return !drive ? "the load's slope" : s.motor.empty() ? "the drive's slope" : "the motor's slope";
-}
-
 Sizing size_flywheel(const Scene& scene, const SizeOptions& options) {
   const Deadline deadline(scene.run.budget);
   SizeOptions asked = options;

@@ -124,4 +124,9 @@ Formulas motor_formulas(const Sizing& s) {
   return list;
 }
 
+std::string slope_of_what(const Sizing& s) {
+  const bool drive = s.operating && std::abs(s.operating->drive_slope) >= 0.5 * std::abs(s.operating->slope);
+  return !drive ? "the load's slope" : s.motor.empty() ? "the drive's slope" : "the motor's slope";
+}
+
 }  // namespace kurbel

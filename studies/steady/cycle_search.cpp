@@ -362,9 +362,8 @@ class Search {
       for (const Figure& g : other.figures)
         if (f.name == g.name) {
           const double rounding = f.unit == "J" ? rounding_of_works : 8 * std::numeric_limits<double>::epsilon();
-          f.error = std::max(std::abs(f.value - g.value), rounding * std::abs(f.value));
-          // Below what the steps resolve of the rated quantity nothing is told from zero.
-          if (std::abs(f.value) <= map_tolerance * f.scale) f.error = std::max(*f.error, std::abs(f.value));
+          // What the steps resolve of the rated quantity both searches share.
+          f.error = std::max({std::abs(f.value - g.value), rounding * std::abs(f.value), map_tolerance * f.scale});
         }
     if (out_.model->has_continuous_shafts()) add_errors_of_shafts(fine);
   }
