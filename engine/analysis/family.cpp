@@ -38,6 +38,25 @@ Eigen::VectorXd loosely_reached(const ReturnMap& map) {
   return map.section().read(equations.modes(), outcome.state);
 }
 
+// Orthonormal columns that A takes to less than `unknown`, the least of them last. Of a space that inverse iteration spans.
+Eigen::MatrixXd null_vectors(const Eigen::MatrixXd& a, double unknown) {
+  constexpr double shift = 1e-14;
+  constexpr int iterations = 3;
+  constexpr Eigen::Index most = 8;
+  const Eigen::Index n = a.rows();
+  const Lu inverse(a + shift * Eigen::MatrixXd::Identity(n, n));
+  Eigen::MatrixXd space = Eigen::MatrixXd::NullaryExpr(n, std::min(n, most), [](Eigen::Index i, Eigen::Index j) {
+    return std::cos(static_cast<double>(i * (j + 1) + j));
+  });
+  for (int i = 0; i < iterations && space.allFinite(); ++i) {
+    space = inverse.solve_all(space);
+    if (space.allFinite()) space = orthonormalised(space);
+  }
+  if (!space.allFinite()) return Eigen::MatrixXd(n, 0);
+  const Svd images = thin_svd(product(a, space));
+  return product(space, images.v.rightCols((images.values.array() <= unknown).count()));
+}
+
 }  // namespace
 
 Eigen::VectorXd uncertainty_of_member(ReturnMap& map) {
@@ -58,22 +77,27 @@ std::string trial_ended(const NewtonOutcome& search, const std::string& why) {
 
 // By inverse iteration, of a matrix that rounding keeps from being singular.
 std::optional<Family> family_of(const Eigen::MatrixXd& derivative, double uncertain) {
-  constexpr double shift = 1e-14, least_slope = 1e-3;
-  constexpr int iterations = 3;
+  constexpr double least_slope = 1e-3;
   const Eigen::Index n = derivative.rows();
   if (n == 0 || !derivative.allFinite()) return {};
-  const Lu inverse(derivative + shift * Eigen::MatrixXd::Identity(n, n));
-  Family family{Eigen::VectorXd::Ones(n).normalized(), Eigen::VectorXd::Ones(n).normalized()};
-  for (int i = 0; i < iterations; ++i) {
-    family.tangent = inverse.solve(family.tangent).normalized();
-    family.quantity = inverse.solve_transposed(family.quantity).normalized();
-  }
-  if (!family.tangent.allFinite() || !family.quantity.allFinite()) return {};
-  const double slope = family.quantity.dot(family.tangent);
   const double unknown = 10 * uncertain * std::sqrt(static_cast<double>(n));
-  if ((derivative * family.tangent).norm() > unknown || std::abs(slope) < least_slope) return {};
-  family.quantity /= slope;
-  return family;
+  const Eigen::MatrixXd tangents = null_vectors(derivative, unknown),
+                        quantities = null_vectors(derivative.transpose(), unknown);
+  const Eigen::Index directions = std::min(tangents.cols(), quantities.cols());
+  if (directions == 0) return {};
+  const Svd slopes = thin_svd(transposed_product(quantities.rightCols(directions), tangents.rightCols(directions)));
+  const auto told = static_cast<Eigen::Index>((slopes.values.array() >= least_slope).count());
+  if (told == 0) return {};
+  return Family{product(tangents.rightCols(directions), slopes.v.leftCols(told)),
+                product(quantities.rightCols(directions), slopes.u.leftCols(told)) *
+                    slopes.values.head(told).cwiseInverse().asDiagonal()};
+}
+
+Family Family::kept(const Eigen::VectorXd& residual, double unchanged) const {
+  const Eigen::MatrixXd change = quantity.transpose() * residual;
+  if (change.norm() <= unchanged) return *this;
+  const Eigen::MatrixXd others = full_basis(change).rightCols(change.rows() - 1);
+  return {product(tangent, others), product(quantity, others)};
 }
 
 // To first order: a run that is nearer to the point says more.
@@ -84,9 +108,14 @@ bool is_member_of_run(const ReturnMap& map, SteadyPoint& point) {
   const std::optional<Family> family =
       family_of(point.derivative - Eigen::MatrixXd::Identity(n, n), point.multiplier_error);
   if (!family) return true;
-  const double beside = std::abs(family->quantity.dot(point.z));
-  point.to_come = family->tangent * (beside + std::abs(family->quantity.dot(loosely_reached(map))));
-  return beside * family->tangent.cwiseAbs().maxCoeff() <= same_member;
+  const auto along = [&](const Eigen::VectorXd& z) -> Eigen::VectorXd {
+    return family->tangent * (family->quantity.transpose() * z);
+  };
+  const Eigen::VectorXd beside = along(point.z), loosely = along(loosely_reached(map));
+  point.to_come = beside.cwiseAbs() + loosely.cwiseAbs();
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (loosely[i] < 0) point.to_come[i] = -point.to_come[i];
+  return beside.cwiseAbs().maxCoeff() <= same_member;
 }
 
 }  // namespace kurbel

@@ -8,13 +8,16 @@
 
 namespace kurbel {
 
-// Of a family x(s) of solutions of r(x) = 0: its tangent, and the slope of the quantity Q that tells its members apart and
-// that x ↦ x + r(x) keeps; scaled so that quantity · tangent = 1. Steps with quantity · Δx = 0 stay with one member.
+// Of a family x(s₁, s₂, …) of solutions of r(x) = 0: its tangents, and the slopes of the quantities Q that tell its members
+// apart and that x ↦ x + r(x) keeps, as many, in columns; scaled so that quantityᵀ tangent = 1. Steps with quantityᵀ Δx = 0
+// stay with one member.
 struct Family {
-  Eigen::VectorXd tangent, quantity;
+  Eigen::MatrixXd tangent, quantity;
+  // Without what r(x) changes by more than `unchanged` of the quantities.
+  Family kept(const Eigen::VectorXd& residual, double unchanged) const;
 };
-// Null vectors of a derivative ∂r/∂x whose entries are good to `uncertain`; none where it has none, or where Q is stationary
-// along them.
+// Null vectors of a derivative ∂r/∂x whose entries are good to `uncertain`, eight at most; none where it has none, or where
+// Q is stationary along them.
 std::optional<Family> family_of(const Eigen::MatrixXd& derivative, double uncertain);
 
 // solve(), where r may know a family: a member is kept, since Newton's own step along it is round-off. `uncertain`: what the

@@ -45,23 +45,21 @@ class Newton {
     return true;
   }
 
-  // Where r knows a family and does not leave its member, the member is kept: [A q; qᵀ 0].
+  // Where r knows a family and does not leave its member, the member is kept: [A Q; Qᵀ 0].
   void factorise(const Eigen::MatrixXd& derivative) {
     const Eigen::Index n = derivative.rows();
     const std::optional<Family> family = uncertain_ ? family_of(derivative, uncertain_()) : std::optional<Family>();
-    kept_ = family && std::abs(family->quantity.dot(residual_)) <= std::max(enough_, norm_ * norm_);
-    if (!kept_) {
-      solver_ = Lu(derivative);
-      return;
-    }
-    Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + 1, n + 1);
+    const Eigen::MatrixXd kept =
+        family ? family->kept(residual_, std::max(enough_, norm_ * norm_)).quantity : Eigen::MatrixXd(n, 0);
+    kept_ = kept.cols();
+    Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + kept_, n + kept_);
     bordered.topLeftCorner(n, n) = derivative;
-    bordered.col(n).head(n) = bordered.row(n).head(n) = family->quantity;
+    bordered.topRightCorner(n, kept_) = kept;
+    bordered.bottomLeftCorner(kept_, n) = kept.transpose();
     solver_ = Lu(bordered);
   }
   Eigen::VectorXd correction(const Eigen::VectorXd& residual) const {
-    if (!kept_) return solver_.solve(residual);
-    Eigen::VectorXd bordered = Eigen::VectorXd::Zero(residual.size() + 1);
+    Eigen::VectorXd bordered = Eigen::VectorXd::Zero(residual.size() + kept_);
     bordered.head(residual.size()) = residual;
     return solver_.solve(bordered).head(residual.size());
   }
@@ -147,7 +145,8 @@ class Newton {
   NewtonOutcome out_;
   double enough_, norm_ = 0;
   int run_on_ = 0;
-  bool valid_ = false, last_with_derivative_ = false, kept_ = false;
+  Eigen::Index kept_ = 0;  // quantities of a family
+  bool valid_ = false, last_with_derivative_ = false;
 };
 
 }  // namespace

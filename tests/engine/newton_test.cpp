@@ -6,6 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "engine/analysis/family.h"
+#include "engine/matrices/linear_algebra.h"
+
 namespace kurbel::newton_test {
 namespace {
 
@@ -54,6 +57,35 @@ TEST(Newton, ReachesAFarSolutionByLimitedSteps) {
   const NewtonOutcome out = solve(system, Eigen::VectorXd::Zero(1), 1e-12);
   ASSERT_TRUE(out.found) << out.why;
   EXPECT_NEAR(out.x[0], 3, 1e-7);
+}
+
+// x ↦ x + r(x) keeps one, two or three quantities, whatever the noise of its derivative: so does the solution.
+TEST(Newton, KeepsAllQuantitiesOfAFamily) {
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto some = [&](Eigen::Index rows, Eigen::Index columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(random); }));
+  };
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Index n = 4 + i % 3, kept = 1 + i % 3, rest = n - kept;
+    const Eigen::MatrixXd quantities = some(n, kept);
+    const Eigen::MatrixXd moves = full_basis(quantities).rightCols(rest);  // what no quantity sees
+    Eigen::MatrixXd reads = moves.transpose() + 0.3 * some(rest, n);
+    const double noise = 1e-10;
+    NewtonSystem system;
+    system.magnitude = 2;
+    system.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative) {
+      const Eigen::VectorXd u = reads * x - Eigen::VectorXd::Constant(rest, 0.2);
+      residual = moves * (-0.5 * u - 0.1 * u.cwiseAbs2());
+      for (double& r : residual) r += 1e-14 * uniform(random);
+      if (derivative) *derivative = moves * (-0.5 - 0.2 * u.array()).matrix().asDiagonal() * reads + noise * some(n, n);
+      return true;
+    };
+    const Eigen::VectorXd guess = 0.3 * some(n, 1);
+    const NewtonOutcome out = solve_in_family(system, guess, 1e-11, [&] { return noise; });
+    ASSERT_TRUE(out.found) << out.why;
+    EXPECT_LT((quantities.transpose() * (out.x - guess)).norm(), 1e-9) << n << " " << kept;
+  }
 }
 
 }  // namespace

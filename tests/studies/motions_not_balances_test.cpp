@@ -85,6 +85,39 @@ run = {{ start = {{ a = {{ speed = "{} rad/s" }} }}, until = "4 s" }}
   }
 }
 
+// Behind a differential whose outputs are free two quantities are kept: with T of a on the case each output gets i T/2, so that
+// J_a ω_a + 2 J_l ω_l/i and J_l ω_l − J_r ω_r stay.
+TEST(Family, AFreeDifferentialKeepsBothOfItsMomenta) {
+  std::mt19937 random(44);
+  for (int k = 0; k < 24; ++k) {
+    const double a = uniform(random, 0.2, 3), l = uniform(random, 0.2, 3), r = uniform(random, 0.2, 3), i = 1 + k % 3;
+    const double wa = uniform(random, 3, 30), wl = uniform(random, 0, 5), wr = uniform(random, -5, 5);
+    const double stiffness = std::pow(10, uniform(random, 1, 4)),
+                 damping = std::sqrt(stiffness) * uniform(random, 0.1, 6);
+    const std::string text = fmt::format(R"(
+line = ["a", "shaft", "axle", "left"]
+a = {{ kind = "flywheel", inertia = "{} kg*m2" }}
+shaft = {{ kind = "coupling", stiffness = "{} N*m/rad", damping = "{} N*m*s/rad" }}
+axle = {{ kind = "differential", ratio = {} }}
+left = {{ kind = "flywheel", inertia = "{} kg*m2" }}
+right = {{ kind = "flywheel", inertia = "{} kg*m2" }}
+effects = {{ elasticity = true }}
+run = {{ start = {{ a = {{ speed = "{} rad/s" }}, left = {{ speed = "{} rad/s" }}, right = {{ speed = "{} rad/s" }} }}, until = "4 s" }}
+[[branch]]
+from = "axle.second"
+line = ["right"]
+)",
+                                         a, stiffness, damping, i, l, r, wa, wl, wr);
+    const Scene scene = scene_from(text);
+    const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
+    ASSERT_TRUE(study.complete) << text << study.diagnosis;
+    // ω_a = i (ω_l + ω_r)/2 in the end.
+    const double sum = a * wa + 2 * l * wl / i, difference = l * wl - r * wr;
+    const double left = (sum + a * i * difference / (2 * r)) / (a * i / 2 * (1 + l / r) + 2 * l / i);
+    expect_stated(figure_of(study.cycles[0], "mean_speed." + study.link), (sum - 2 * l * left / i) / a, 1e-5);
+  }
+}
+
 // A free crank keeps its energy, which is no linear function of the state: T at the section is T at the start.
 TEST(Family, AFreeCrankKeepsTheEnergyOfItsStart) {
   const auto model = compile(scene_file("scenes/free_slider_crank.toml"), Effects{});
