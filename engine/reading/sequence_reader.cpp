@@ -62,6 +62,9 @@ class StepReader {
     } catch (const std::invalid_argument& error) {
       return refuse(error.what());
     }
+    if (step.law.beyond_first() == Beyond::line || step.law.beyond_last() == Beyond::line)
+      return refuse(
+          "beyond = \"line\" would leave −1 … 10, within which a command lies; allowed: \"hold\" or \"refuse\"");
     double least = std::min(step.law.before(), step.law.y().back());
     for (std::size_t i = 0; i + 1 < step.law.x().size(); ++i)
       for (int k = 0; k <= 100; ++k)

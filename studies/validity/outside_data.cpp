@@ -50,11 +50,33 @@ std::vector<double> angles_of(const RigidMachine& machine) {
   return angles;
 }
 
+// The step that set a command last; none: it is as at the start. Of a sequence that goes round perhaps before this round.
+std::optional<std::size_t> last_step_of(const Model& model, std::size_t command, const Modes& modes) {
+  const std::vector<SequenceStep>& steps = model.scene.sequence.steps;
+  for (std::size_t back = 1; back <= steps.size(); ++back) {
+    if (back > modes.next_step && !model.scene.sequence.repeat) return {};
+    const std::size_t step = (modes.next_step + steps.size() - back) % steps.size();
+    const std::vector<std::string>& set = steps[step].set;
+    if (std::find(set.begin(), set.end(), model.commands[command].component) != set.end()) return step;
+  }
+  return {};
+}
+
+// Where a command stands beside the range of this step's law [s]: before it, within, where it is not the one that is
+// followed, too, or beyond. One that has ended holds its last value (operating_sequence.cpp).
+double place_beside_law(const Model& model, std::size_t command, std::size_t step, const Modes& modes) {
+  const Curve& law = model.scene.sequence.steps[step].law;
+  const Command& now = modes.command[command];
+  if (now.law == static_cast<int>(step)) return now.piece < 0 ? law.x().front() - 1 : law.x().front();
+  const bool ended = now.holds_still() && now.value == law.y().back() && last_step_of(model, command, modes) == step;
+  return ended ? law.x().back() + 1 : law.x().front();
+}
+
 }  // namespace
 
 DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
   for (const DataRange& range : model.network.ranges) {
-    Watched watched{range, {}, {}, {}};
+    Watched watched{range, {}, {}, {}, {}};
     for (std::size_t e = 0; e < model.network.elements.size(); ++e)
       if (model.network.elements[e].component == range.component) watched.elements.push_back(e);
     const auto told = std::find_if(model.commands.begin(), model.commands.end(),
@@ -89,10 +111,34 @@ DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
             watched.value = [offset = range.offset, sign = range.sign,
                              of = std::move(channel.value)](const Snapshot& s) { return offset + sign * of(s); };
     }
-    if (!watched.value) continue;  // merged with others: it does not move
-    watched_.push_back(std::move(watched));
-    since_.push_back(never), least_.push_back(range.low), greatest_.push_back(range.high);
+    if (watched.value) watch(std::move(watched));  // else merged with others: it does not move
   }
+  watch_laws();
+}
+
+void DataRangeRecorder::watch(Watched watched) {
+  since_.push_back(never), least_.push_back(watched.range.low), greatest_.push_back(watched.range.high);
+  watched_.push_back(std::move(watched));
+}
+
+// A law over the time since its step ends, and the command goes on.
+void DataRangeRecorder::watch_laws() {
+  const std::vector<SequenceStep>& steps = model_.scene.sequence.steps;
+  for (std::size_t step = 0; step < steps.size(); ++step)
+    for (const std::string& component : steps[step].set) {
+      Network ranges;
+      ranges.limit(
+          {.component = component, .of = "law", .over = DataRange::Over::time, .unit = "s", .at = steps[step].at},
+          steps[step].law);
+      const auto told = std::find_if(model_.commands.begin(), model_.commands.end(),
+                                     [&](const CommandTarget& target) { return target.component == component; });
+      if (told == model_.commands.end()) continue;
+      const auto command = at(told - model_.commands.begin());
+      for (DataRange& range : ranges.ranges)
+        watch({std::move(range), {}, {}, {}, [&model = model_, command, step](const Modes& modes) {
+                 return place_beside_law(model, command, step, modes);
+               }});
+    }
 }
 
 bool DataRangeRecorder::is_in_force(const Watched& watched, const Snapshot& snapshot) const {
@@ -101,10 +147,11 @@ bool DataRangeRecorder::is_in_force(const Watched& watched, const Snapshot& snap
                                                  [&](std::size_t e) { return snapshot.now.active[e] != 0; });
 }
 
-void DataRangeRecorder::see(double t, const Snapshot& snapshot) {
+void DataRangeRecorder::see(double t, const Snapshot& snapshot, const Modes* modes) {
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const DataRange& range = watched_[i].range;
-    const double x = watched_[i].value(snapshot);
+    if (watched_[i].of_law && !modes) continue;
+    const double x = watched_[i].of_law ? watched_[i].of_law(*modes) : watched_[i].value(snapshot);
     if (!(is_left_below(range, x) || is_left_above(range, x)) || !is_in_force(watched_[i], snapshot)) continue;
     since_[i] = std::min(since_[i], t);
     least_[i] = std::min(least_[i], x), greatest_[i] = std::max(greatest_[i], x);
@@ -112,14 +159,15 @@ void DataRangeRecorder::see(double t, const Snapshot& snapshot) {
 }
 
 void DataRangeRecorder::begin(double t, std::span<const double> y, Equations& equations) {
-  if (!watched_.empty()) see(t, equations.snapshot(t, y));
+  if (!watched_.empty()) see(t, equations.snapshot(t, y), &equations.modes());
 }
 
 // Ends of tables are ends of steps: the first step beyond one begins there.
 void DataRangeRecorder::step(StepView& view) {
   if (watched_.empty()) return;
-  see(view.t_previous(), view.snapshot(0.5 * (view.t_previous() + view.t())));
-  see(view.t_previous(), view.snapshot(view.t()));
+  const Modes* const modes = &view.equations().modes();
+  see(view.t_previous(), view.snapshot(0.5 * (view.t_previous() + view.t())), modes);
+  see(view.t_previous(), view.snapshot(view.t()), modes);
 }
 
 std::optional<double> DataRangeRecorder::since() const {
@@ -134,6 +182,7 @@ std::vector<std::string> DataRangeRecorder::sentences() const {
   const SpeedUnit& unit = model_.scene.speed_unit;
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const DataRange& range = watched_[i].range;
+    const char* const allowed = watched_[i].of_law ? "\"hold\"" : "\"hold\" or \"line\"";
     for (const bool above : {false, true}) {
       const double end = above ? range.high : range.low, reached = above ? greatest_[i] : least_[i];
       if (reached == end || since_[i] == never) continue;
@@ -145,16 +194,17 @@ std::vector<std::string> DataRangeRecorder::sentences() const {
         refused.push_back({model_.scene.file, range.at,
                            fmt::format("\"{}\": its table of {} {} {}, and the motion is beyond it from {:.4g} s on: "
                                        "there is nothing to compute "
-                                       "with. Give more of it, or say how it goes on: beyond = \"hold\" or \"line\"",
+                                       "with. Give more of it, or say how it goes on: beyond = {}",
                                        range.component, range.of, above ? "ends at" : "begins at",
-                                       in_words(range, end, unit), since_[i])});
+                                       in_words(range, end, unit), since_[i], allowed)});
         continue;
       }
       std::string sentence = fmt::format(
           "the {} of \"{}\" is taken from outside its table, which {}; {}. No error is known of "
-          "what hangs on it; beyond = \"hold\" or \"line\" would make it part of the data",
+          "what hangs on it; beyond = {} would make it part of the data",
           range.of, range.component, where,
-          (above ? range.line_above : range.line_below) ? "its last slope goes on there" : "its end value holds there");
+          (above ? range.line_above : range.line_below) ? "its last slope goes on there" : "its end value holds there",
+          allowed);
       // Both branches of a table may end at one place.
       if (std::find(list.begin(), list.end(), sentence) == list.end()) list.push_back(std::move(sentence));
     }

@@ -23,7 +23,8 @@ class DataRangeRecorder final : public Observer {
   explicit DataRangeRecorder(const Model& model);
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
-  void see(double t, const Snapshot& snapshot);
+  // Without its modes: of a machine that follows no operating sequence.
+  void see(double t, const Snapshot& snapshot, const Modes* modes = nullptr);
   void remember(Tape& tape) override { tape(since_, least_, greatest_); }
   bool empty() const { return watched_.empty(); }
 
@@ -38,7 +39,10 @@ class DataRangeRecorder final : public Observer {
     std::vector<std::size_t> elements;   // whose torque it is; none: always in force
     std::optional<std::size_t> command;  // that a part of it has for itself
     std::function<double(const Snapshot&)> value;
+    std::function<double(const Modes&)> of_law = {};  // in its place, of a law of the operating sequence
   };
+  void watch(Watched watched);
+  void watch_laws();
   bool is_in_force(const Watched& watched, const Snapshot& snapshot) const;
 
   const Model& model_;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 #include "engine/scene/messages.h"
 #include "studies/forces/forces_findings.h"
@@ -239,6 +240,46 @@ TEST(BeyondTables, ReducedTorquesFromOutsideHaveNoErrors) {
     ReduceOptions given;
     given.speed = speed;
     EXPECT_EQ(reduce(press_known_over(held_on, table), given).outside_data.empty(), speed < 12) << speed;
+  }
+}
+
+// A law of the operating sequence that has ended, as the brake that gives way along it, is taken from outside: by the run from
+// there on, and by the steady motion that follows. One that is followed by another step is not.
+TEST(BeyondTables, ALawOfTheSequenceThatHasEndedIsTold) {
+  const auto scene = [](const std::string& how, const std::string& more = "") {
+    return scene_from(fmt::format(R"(
+line = ["motor", "brake"]
+motor = {{ kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "0.5 kg*m2" }}
+brake = {{ kind = "brake", torque = "100 N*m" }}
+run = {{ until = "4 s" }}
+[sequence]
+steps = [{{ at = "0.5 s", set = "brake", law = {{ over = "time", unit = ["s", "1"], points = [[0, 1], [1, 0.2]]{} }} }}{}]
+)",
+                                  how, more));
+  };
+  const std::string released = R"(, { at = "1.5 s", set = "brake", to = 0.2 })";
+  for (const auto& [how, more, outside] : {std::tuple("", "", true), std::tuple(", beyond = \"hold\"", "", false),
+                                           std::tuple("", released.c_str(), false)}) {
+    const Scene one = scene(how, more);
+    const Result r = run(one);
+    EXPECT_EQ(tells(r), outside) << how << more;
+    EXPECT_EQ(r.find("final_speed.motor")->error.has_value(), !outside) << how << more;
+    const SteadyStudy study = steady(one, {one.effects}, {.start_search = false});
+    ASSERT_TRUE(study.complete) << study.diagnosis;
+    const Figure* mean = study.cycles.front().find("mean_speed." + study.link);
+    ASSERT_NE(mean, nullptr);
+    EXPECT_NEAR(mean->value, 40 * (1 - 20 / 60.0), 1e-8);
+    EXPECT_EQ(mean->error.has_value(), !outside) << how << more;
+  }
+  EXPECT_EQ(refusal(scene(", beyond = \"refuse\"")).substr(0, 36), "7: \"brake\": its table of law ends at");
+  Scene brief = scene("");
+  brief.run.until = 1.4;
+  EXPECT_FALSE(tells(run(brief)));
+  try {
+    scene(", beyond = \"line\"");
+    FAIL() << "read";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("would leave −1 … 10"), std::string::npos) << error.what();
   }
 }
 
