@@ -158,11 +158,11 @@ class Study {
       for (const SimulatedMotion::Other& other : simulated->others)
         links.widen_to(linkage_cycle(out_.data, *loads_, other.motion), other.times);
     mark_unbounded(out_.unbounded, links);
+    tell_outside_data(out_, loads_->outside_data(prescribed_.motion.front().omega), *out_.prescribed, false);
     if (simulated) {
       tell_outside_data(out_, simulated->outside_data, *out_.simulated, true);
       tell_outside_data(out_, simulated->outside_data, links, true);
     }
-    tell_outside_data(out_, loads_->outside_data(prescribed_.motion.front().omega), *out_.prescribed, false);
     if (!out_.prescribed->torque.error)
       for (Counterweight& c : out_.counterweights) c.peak_bearing.error.reset();
     out_.links = std::make_shared<const LinkageCycle>(std::move(links));

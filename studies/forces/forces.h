@@ -181,12 +181,15 @@ struct Forces : StudyOfForces<ForceCycle, CyclePosition> {
   std::vector<Counterweight> counterweights;  // the first: as it is
 };
 
-// A problem under loads from outside of their data.
+// A problem under loads from outside of their data. Of a table that another problem left, too, that is told once, however far
+// either went.
 template <class Cycle>
 void tell_outside_data(AboutForces& about, const std::vector<std::string>& sentences, Cycle& cycle, bool simulated) {
   if (sentences.empty()) return;
+  const auto table = [](const std::string& told) { return told.substr(0, told.find(", and the motion goes to")); };
   for (const std::string& sentence : sentences)
-    if (std::find(about.outside_data.begin(), about.outside_data.end(), sentence) == about.outside_data.end())
+    if (std::none_of(about.outside_data.begin(), about.outside_data.end(),
+                     [&](const std::string& told) { return table(told) == table(sentence); }))
       about.outside_data.push_back(sentence);
   cycle.drop_errors(simulated);
 }
