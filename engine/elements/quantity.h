@@ -15,20 +15,26 @@ namespace kurbel {
 
 // What is made of a channel.
 enum class Functional {
-  none,      // the channel itself, or a figure whose word says all
-  peak,      // its value of greatest magnitude, with its sign
-  greatest,  // its largest value
-  least,     // its smallest
-  mid,       // the middle of those two
-  mean,      // over time
-  rms,       // root of the mean square over time
-  last       // at the end
+  none,        // the channel itself, or a figure whose word says all
+  peak,        // its value of greatest magnitude, with its sign
+  greatest,    // its largest value
+  least,       // its smallest
+  mid,         // the middle of those two
+  mean,        // over time
+  rms,         // root of the mean square over time
+  last,        // at the end
+  order,       // amplitude of what swings so many times in a turn of the reduction link
+  order_phase  // and its phase there
 };
 
 // What a name begins with for it.
 inline const char* prefix_of(Functional functional) {
-  constexpr const char* prefixes[] = {"", "peak_", "max_", "min_", "mid_", "mean_", "rms_", "final_"};
+  constexpr const char* prefixes[] = {"", "peak_", "max_", "min_", "mid_", "mean_", "rms_", "final_", "", ""};
   return prefixes[static_cast<std::size_t>(functional)];
+}
+// And what its quantity ends with; behind it stands which order: "torque_order.0.5.main_coupling".
+inline const char* suffix_of(Functional functional) {
+  return functional == Functional::order ? "_order" : functional == Functional::order_phase ? "_order_phase" : "";
 }
 
 struct QuantityKind {
@@ -106,13 +112,17 @@ inline constexpr QuantityKind useful_work_per_cycle{"useful_work_per_cycle", non
 inline constexpr QuantityKind harmful_work_per_cycle{"harmful_work_per_cycle", none, cycle};
 inline constexpr QuantityKind weight_work_per_cycle{"weight_work_per_cycle", none, cycle};
 inline constexpr QuantityKind work_per_cycle{"work_per_cycle", none, cycle};  // of one account
+inline constexpr QuantityKind speed_order{"speed", order, cycle};
+inline constexpr QuantityKind speed_order_phase{"speed", order_phase, cycle};
+inline constexpr QuantityKind torque_order{"torque", order, cycle};
+inline constexpr QuantityKind torque_order_phase{"torque", order_phase, cycle};
 }  // namespace quantities
 
 // "cycle_peak_torque"; empty: of an element's own.
 inline std::string word(const QuantityKind& what) {
   if (what.channel.empty()) return {};
   std::string text = what.window == QuantityKind::Window::steady_cycle ? "cycle_" : "";
-  return text.append(prefix_of(what.functional)).append(what.channel);
+  return text.append(prefix_of(what.functional)).append(what.channel).append(suffix_of(what.functional));
 }
 
 inline bool is_one_of(const QuantityKind& what, std::initializer_list<QuantityKind> kinds) {
@@ -141,6 +151,10 @@ struct Name {
   // An element's own: "current", "motor".
   static Name own(std::string_view words, const std::string& of) {
     return {quantities::other, of, std::string(words).append(".").append(of)};
+  }
+  // One of several of its kind: "torque_order", "0.5", "main_coupling".
+  static Name numbered(const QuantityKind& what, std::string_view number, const std::string& of) {
+    return {what, of, word(what).append(".").append(number).append(".").append(of)};
   }
   friend bool operator==(const Name& a, const Name& b) { return a.text == b.text; }
   friend bool operator==(const Name& a, std::string_view text) { return a.text == text; }

@@ -196,6 +196,28 @@ inline constexpr Definition of_a_cycle[] = {
     {"work_per_cycle", "work of one account over a cycle", "J", "COMPONENT (account)", "1.3", of_cycles,
      "work of one component in one account, over one steady cycle; positive into the machine", "A = ∮ M dφ",
      "the sum over a line of the balance"},
+    // what swings, over the link's angle
+    {"speed_order", "amplitude of an order of a speed", "rad/s", "ORDER.SHAFT", "11.10", of_cycles,
+     "amplitude of the part of a shaft's speed that swings ORDER times in a turn of the reduction link, in steady "
+     "motion, over the link's angle; a cycle of two turns has halves. Told are those of at least 1 % of the largest",
+     "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r)",
+     "half of what the speed goes from its least to its greatest value, which all orders make together"},
+    {"speed_order_phase", "phase of an order of a speed", "deg", "ORDER.SHAFT", "11.10", of_cycles,
+     "ψ_r of that part: it is greatest where ORDER times the angle of the reduction link is ψ_r; of amplitudes beyond "
+     "their error",
+     "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r), −180° < ψ_r ≤ 180°",
+     "an angle of the link, which is ψ_r over the order; a lead over some other order"},
+    {"torque_order", "amplitude of an order of a torque", "N*m", "ORDER.COMPONENT", "11.10", of_cycles,
+     "amplitude of the part of a torque that swings ORDER times in a turn of the reduction link, in steady motion, "
+     "over "
+     "the link's angle; a cycle of two turns has halves. Told are those of at least 1 % of the largest",
+     "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r)",
+     "of the linear forced response at a constant speed, which modes tells; the alternating torque of all orders"},
+    {"torque_order_phase", "phase of an order of a torque", "deg", "ORDER.COMPONENT", "11.10", of_cycles,
+     "ψ_r of that part: it is greatest where ORDER times the angle of the reduction link is ψ_r; of amplitudes beyond "
+     "their error",
+     "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r), −180° < ψ_r ≤ 180°",
+     "an angle of the link, which is ψ_r over the order; a lead over some other order"},
 };
 
 }  // namespace kurbel::entries

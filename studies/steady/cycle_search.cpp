@@ -322,7 +322,13 @@ class Search {
     out_.motors = std::move(fine.motors);
     out_.work_residual = fine.work_residual;
     out_.outside_data = std::move(fine.outside_data);
-    if (!out_.outside_data.empty()) drop_errors(out_.figures, -HUGE_VAL);
+    out_.orders = std::move(fine.orders.all);
+    if (!fine.orders.none.empty()) out_.notes.push_back(fine.orders.none);
+    if (!out_.outside_data.empty()) {
+      drop_errors(out_.figures, -HUGE_VAL);
+      for (OrdersOf& of : out_.orders) of.drop_errors();
+    }
+    tell_orders(out_.orders, options_.every_order, out_.figures);
     for (std::string& note : static_curve_notes(*map_, out_.point)) out_.notes.push_back(std::move(note));
     for (const std::string& note : substitutes(*out_.model)) out_.notes.push_back(note);
     find_loads();
@@ -365,7 +371,14 @@ class Search {
           // What the steps resolve of the rated quantity both searches share.
           f.error = std::max({std::abs(f.value - g.value), rounding * std::abs(f.value), map_tolerance * f.scale});
         }
+    widen(fine.orders.all, other.orders.all);
     if (out_.model->has_continuous_shafts()) add_errors_of_shafts(fine);
+  }
+
+  static void widen(std::vector<OrdersOf>& orders, const std::vector<OrdersOf>& others) {
+    for (OrdersOf& of : orders)
+      for (const OrdersOf& other : others)
+        if (of.channel == other.channel) of.widen_to(other, map_tolerance);
   }
 
   // The same search with continuous shafts cut finer: what changes is their part of the errors.
@@ -375,10 +388,12 @@ class Search {
     SteadyOptions options = options_;
     options.traces = false;
     const SteadyCycle other = Search(finer, effects_, options).run();
-    if (other.found)
+    if (other.found) {
       add_differences(fine.figures, other.figures);
-    else
+      widen(fine.orders.all, other.orders);
+    } else {
       out_.notes.push_back("what the cut of continuous shafts leaves open is not in the errors: " + other.why);
+    }
   }
 
   // Two rounds, so that one whole cycle from the link's zero is among them.

@@ -93,28 +93,6 @@ class DriveQuadratures final : public RunExtension {
   SparsityPattern pattern_;
 };
 
-struct NamedShaft {
-  std::string name;
-  int node;
-};
-std::vector<NamedShaft> shafts_of(const Model& m) {
-  std::vector<NamedShaft> shafts;
-  const int link = m.reduction_node;
-  for (const std::string& component : m.network.components) {
-    const Network::Ports& ports = m.network.ports.at(component);
-    if (m.network.components.size() > 60 && ports.in != link && component != m.network.components.front() &&
-        component != m.network.components.back())
-      continue;
-    if (ports.in == ports.out) {
-      shafts.push_back({component, ports.in});
-    } else {
-      shafts.push_back({component + ".in", ports.in});
-      shafts.push_back({component + ".out", ports.out});
-    }
-  }
-  return shafts;
-}
-
 // Of the angles of all shafts, two each.
 std::vector<ExtremeOf> angles_of(const Model& m) {
   std::vector<ExtremeOf> wanted;
@@ -168,6 +146,8 @@ class RoundFigures {
  public:
   RoundFigures(const ReturnMap& map, const SteadyPoint& point, double tolerance)
       : map_(map),
+        point_(point),
+        tolerance_(tolerance),
         m_(map.model()),
         extremes_(wanted_of(m_)),
         angles_(point.vibrates() ? angles_of(m_) : std::vector<ExtremeOf>{}),
@@ -188,6 +168,7 @@ class RoundFigures {
     add_works();
     add_drives();
     round_.outside_data = ranges_.sentences();
+    round_.orders = orders_of_round(map_, point_, tolerance_, turned_);
     return std::move(round_);
   }
 
@@ -293,6 +274,8 @@ class RoundFigures {
   }
 
   const ReturnMap& map_;
+  const SteadyPoint& point_;
+  double tolerance_;
   const Model& m_;
   ExtremeRecorder extremes_, angles_;
   DataRangeRecorder ranges_;
@@ -304,6 +287,24 @@ class RoundFigures {
 };
 
 }  // namespace
+
+std::vector<NamedShaft> shafts_of(const Model& m) {
+  std::vector<NamedShaft> shafts;
+  const int link = m.reduction_node;
+  for (const std::string& component : m.network.components) {
+    const Network::Ports& ports = m.network.ports.at(component);
+    if (m.network.components.size() > 60 && ports.in != link && component != m.network.components.front() &&
+        component != m.network.components.back())
+      continue;
+    if (ports.in == ports.out) {
+      shafts.push_back({component, ports.in});
+    } else {
+      shafts.push_back({component + ".in", ports.in});
+      shafts.push_back({component + ".out", ports.out});
+    }
+  }
+  return shafts;
+}
 
 Round go_round(const ReturnMap& map, const SteadyPoint& point, double tolerance) {
   return RoundFigures(map, point, tolerance).collect();

@@ -4,13 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "studies/steady/orders.h"
 #include "studies/steady/steady.h"
 
 namespace kurbel {
 
+struct NamedShaft {
+  std::string name;
+  int node;
+};
+// Of all components, at both ends; of a long machine those of the link and at its ends.
+std::vector<NamedShaft> shafts_of(const Model& model);
+
 // All that is told of one round of a fixed point.
 struct Round {
   std::vector<Figure> figures = {};
+  OrdersOfRound orders = {};
   std::vector<ShaftFluctuation> shafts = {};
   std::vector<MotorUse> motors = {};
   double work_residual = 0;

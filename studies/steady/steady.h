@@ -14,6 +14,7 @@
 #include "studies/limits/joint_loads.h"
 #include "studies/run/simulate.h"
 #include "studies/steady/operating_points.h"
+#include "studies/steady/orders.h"
 
 namespace kurbel {
 
@@ -28,6 +29,7 @@ struct SteadyOptions {
   int periods = 1;           // cycles after which the motion repeats
   bool traces = false;       // for plots
   bool start_search = true;  // start from rest and the gearbox ratio that starts fastest
+  bool every_order = false;  // figures of all orders, not of those alone that matter
   Watch watch = {};
   bool holds_speed() const { return mid_speed || mean_speed; }
   std::optional<double> held_speed() const { return mid_speed ? mid_speed : mean_speed; }
@@ -84,6 +86,7 @@ struct SteadyCycle {
   bool neutral = false;                   // a multiplier of 1: one of a family
   bool uncertain = false;                 // the derivative of the map, and with it the stability
   std::vector<Figure> figures;            // with errors measured by a looser search
+  std::vector<OrdersOf> orders;           // of speeds and torques; with their errors, too
   std::vector<ShaftFluctuation> shafts;
   std::vector<MotorUse> motors;
   SteadyLoads loads;                          // of its joints, where any has limits

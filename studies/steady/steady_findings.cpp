@@ -16,6 +16,7 @@
 #include "studies/findings/plots.h"
 #include "studies/findings/trace.h"
 #include "studies/limits/limits_findings.h"
+#include "studies/steady/order_findings.h"
 #include "studies/steady/steady_ratings.h"
 #include "studies/steady/steady_words.h"
 
@@ -34,11 +35,11 @@ std::vector<std::string> names_of_figures(const SteadyStudy& s) {
   std::vector<std::string> names;
   for (const SteadyCycle& c : s.cycles)
     for (const Figure& f : c.figures)
-      if (std::find(names.begin(), names.end(), f.name) == names.end()) names.push_back(f.name);
+      if (!is_of_order(f) && std::find(names.begin(), names.end(), f.name) == names.end()) names.push_back(f.name);
   return names;
 }
 
-// A row per figure, the models side by side.
+// A row per figure, the models side by side; orders have tables of their own.
 Rows figure_table(const SteadyStudy& s) {
   auto table = table_of("", "Every figure of the steady cycle", names_of_figures(s)).fold();
   const SpeedUnit speed = speed_unit_of(s);
@@ -124,6 +125,7 @@ Record cycle_record(const SteadyCycle& c) {
   tell("halving_cycles", c.halving);
   tell("multipliers", multiplier_table(c).list());
   tell("figures", each(c.figures, figure_record));
+  tell("orders", orders_for_programs(c));
   tell("drives", drive_list(c));
   if (!c.added_at.empty())
     tell("added_torque", Record{{"component", c.added_at}, {"value", c.added_torque}, {"unit", "N*m"}});
@@ -401,7 +403,8 @@ Findings findings_of(const SteadyStudy& s) {
   for (Answer& answer : rating_answers(ratings)) f.answers.push_back(std::move(answer));
   const Chapter cycle = f.chapter("Steady cycle");
   f.chapter(chapter_of_measurement);
-  const Chapter operation = f.chapter("Operating points (theory 4.15)"),
+  const Chapter orders = f.chapter("Orders of speeds and torques (theory 11.10)"),
+                operation = f.chapter("Operating points (theory 4.15)"),
                 stability = f.chapter("Stability (theory 11.4)"), figures = f.chapter("Figures"),
                 how = f.chapter("How it was found"), notes = f.chapter("Notes");
   const bool any = std::any_of(s.cycles.begin(), s.cycles.end(), [](const SteadyCycle& c) { return c.found; });
@@ -417,6 +420,7 @@ Findings findings_of(const SteadyStudy& s) {
   say_operation(f, operation, s);
   if (any) {
     f.draw(cycle, [&s] { return cycle_plots(s); });
+    say_orders(f, orders, s);
     // Of multipliers that are nearly zero a picture shows a dot.
     constexpr double seen = 0.05;
     if (std::any_of(s.cycles.begin(), s.cycles.end(),

@@ -58,6 +58,7 @@ MachineQuestion question_of(const Inquiry& inquiry, const std::string& of, bool 
           .of = study_named(of),
           .errors_every = measure_error ? 1u : 0u,
           .delta = {},
+          .every_order = false,
           .interrupted = inquiry.watch.interrupted};
 }
 
@@ -159,6 +160,7 @@ MachineAnswer answer_of_run(const MachineQuestion& q, const Scene& scene, bool m
 MachineAnswer answer_of_steady(const MachineQuestion& q, const Scene& scene, bool measure) {
   SteadyOptions options;
   options.start_search = false;
+  options.every_order = q.every_order;
   options.watch.interrupted = q.interrupted;
   const SteadyStudy study = steady(scene, {scene.effects}, options);
   if (study.cycles.empty()) return {RowState::failed, study.diagnosis, {}};
@@ -274,10 +276,11 @@ MachineAnswer answer_of(const MachineQuestion& question) {
   return answer;
 }
 
-Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& scene,
+Evaluator machine_evaluator(MachineQuestion question, const VariedScene& scene,
                             const std::vector<SweptFigure>& figures) {
   std::unordered_map<std::string, std::size_t> numbers;
   for (std::size_t k = 0; k < figures.size(); ++k) numbers[figures[k].name] = k;
+  question.every_order = true;  // one that matters in the machine as it is may be small in a row
   return [question, numbers, varied = scene](SweepRow& row) mutable {
     const bool measure = question.errors_every > 0 && row.row % question.errors_every == 0;
     MachineAnswer answer = answer_of(question, varied, row.parameters, measure);

@@ -25,6 +25,7 @@ struct MachineQuestion {
   SweepStudy of = SweepStudy::run;
   std::size_t errors_every = 1;  // errors are measured in rows 0, n, 2 n …; 0: in none
   std::optional<double> delta;   // of size
+  bool every_order = false;      // figures of all orders, not of those alone that matter in the machine
   const std::atomic<bool>* interrupted = nullptr;
 };
 // Throws std::invalid_argument for another study.
@@ -79,7 +80,7 @@ struct MachineAnswer {
 MachineAnswer answer_of(const MachineQuestion& question);
 
 // Computes rows: one for each thread.
-Evaluator machine_evaluator(const MachineQuestion& question, const VariedScene& scene,
+Evaluator machine_evaluator(MachineQuestion question, const VariedScene& scene,
                             const std::vector<SweptFigure>& figures);
 // All rows of these values, in their order. Throws OutOfTime where it is interrupted.
 std::vector<SweepRow> rows_of(const MachineQuestion& question, const VariedScene& scene,

@@ -88,7 +88,11 @@ TEST(Dictionary, EveryQuantityHasItsDefinition) {
                                    quantities::useful_work_per_cycle,
                                    quantities::harmful_work_per_cycle,
                                    quantities::weight_work_per_cycle,
-                                   quantities::work_per_cycle}) {
+                                   quantities::work_per_cycle,
+                                   quantities::speed_order,
+                                   quantities::speed_order_phase,
+                                   quantities::torque_order,
+                                   quantities::torque_order_phase}) {
     const Definition* d = definition_of(what);
     ASSERT_NE(d, nullptr) << word(what);
     EXPECT_EQ(d->name, word(what));

@@ -1,0 +1,129 @@
+// order_findings.cpp — orders as bars over the order, in tables and for programs.
+#include "studies/steady/order_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/numerics/angles.h"
+#include "studies/findings/figure_text.h"
+#include "studies/findings/plots.h"
+#include "studies/run/compare.h"
+
+namespace kurbel {
+namespace {
+
+constexpr std::size_t most_order_plots = 8;
+
+struct ToldOrder {
+  const OrdersOf* of = nullptr;
+  Order order;
+};
+
+// Shafts that turn as one are told once.
+std::vector<ToldOrder> told_orders(const SteadyCycle& c) {
+  std::vector<ToldOrder> rows;
+  for (const OrdersOf& of : c.orders)
+    if (!of.repeated)
+      for (Order& o : of.telling()) rows.push_back({&of, std::move(o)});
+  return rows;
+}
+
+Rows orders_table(const SteadyStudy& s, const SteadyCycle& c) {
+  const SpeedUnit speed = c.model->scene.speed_unit;
+  const auto cells = [speed](const ToldOrder& row) { return figure_cells(row.order.amplitude(), row.of->unit, speed); };
+  const auto phase = [](const ToldOrder& row) {
+    const std::optional<Estimate> found = row.order.phase();
+    return found ? std::optional(in_degrees * *found) : std::nullopt;
+  };
+  return table_of("", fmt::format("Orders per turn of {}, {} model", s.link, c.label), told_orders(c))
+      .fold()
+      .not_on_terminal()
+      .explained_by([](const ToldOrder& row) {
+        return fmt::format("{}_order.{:g}.{}", row.of->channel.what.channel, row.order.order, row.of->channel.of);
+      })
+      .only_for_people("quantity", [](const ToldOrder& row) { return row.of->channel.text; })
+      .only_for_people("order", [](const ToldOrder& row) { return row.order.order; })
+      .only_for_people("amplitude", [&](const ToldOrder& row) { return cells(row).value; })
+      .only_for_people("error", [&](const ToldOrder& row) { return cells(row).error; })
+      .only_for_people("unit", [&](const ToldOrder& row) { return cells(row).unit; })
+      .only_for_people(
+          "phase [°]",
+          [&](const ToldOrder& row) { return phase(row) ? figure_text(*phase(row)).value : std::string("—"); })
+      .only_for_people(
+          "error", [&](const ToldOrder& row) { return phase(row) ? figure_text(*phase(row)).error : std::string(); });
+}
+
+const OrdersOf* orders_named(const SteadyCycle& c, const std::string& name) {
+  const auto found =
+      std::find_if(c.orders.begin(), c.orders.end(), [&](const OrdersOf& o) { return o.channel == name; });
+  return found == c.orders.end() ? nullptr : &*found;
+}
+
+// All orders up to the highest that matters in one of the models; none: nothing swings.
+std::optional<Plot> bars_of_orders(const SteadyStudy& s, const std::string& name, const std::string& title) {
+  Plot plot{
+      .title = title, .x = {fmt::format("order (per turn of {})", s.link), ""}, .y = {"amplitude", ""}, .bars = true};
+  double last = 0;
+  for (const SteadyCycle& c : s.cycles)
+    if (const OrdersOf* of = orders_named(c, name))
+      for (const Order& o : of->telling()) last = std::max(last, o.order);
+  if (!(last > 0)) return {};
+  std::string unit;
+  for (const SteadyCycle& c : s.cycles)
+    if (const OrdersOf* of = orders_named(c, name)) {
+      Series& bars =
+          plot.series.emplace_back(Series{.name = c.label, .role = is_elastic(*c.model) ? Role::elastic : Role::rigid});
+      for (const Order& o : of->orders)
+        if (o.order <= last) bars.add(o.order, std::abs(o.wave));
+      unit = of->unit;
+      const FigureCells mean = figure_cells({of->mean}, unit, c.model->scene.speed_unit);
+      plot.note +=
+          fmt::format("{}{}: mean {} {}, orders that matter hold {:.6g} % of what swings",
+                      plot.note.empty() ? "" : "; ", c.label, mean.value, mean.unit, 100 * of->captured(of->telling()));
+    }
+  plot.note += ".";
+  return in_readable_unit(std::move(plot), unit, s.cycles.back().model->scene.speed_unit);
+}
+
+std::vector<Plot> order_plots(const SteadyStudy& s) {
+  std::vector<Plot> plots;
+  const auto add = [&](const std::string& name, const std::string& title) {
+    if (plots.size() < most_order_plots)
+      if (auto plot = bars_of_orders(s, name, title)) plots.push_back(std::move(*plot));
+  };
+  add("speed." + s.link, "Orders in the speed of " + s.link);
+  for (const OrdersOf& of : s.cycles.back().orders)
+    if (of.channel.what == quantities::torque) add(of.channel.text, "Orders in the torque of " + of.channel.of);
+  return plots;
+}
+
+}  // namespace
+
+List orders_for_programs(const SteadyCycle& c) {
+  return each(c.orders, [](const OrdersOf& of) {
+    const std::vector<Order> told = of.telling();
+    return Record{{"name", of.channel.text},
+                  {"unit", of.unit},
+                  {"mean", of.mean},
+                  {"captured_of_swing", of.captured(told)},
+                  {"orders", each(told, [](const Order& o) {
+                     const std::optional<Estimate> phase = o.phase();
+                     return Record{{"order", o.order},
+                                   {"amplitude", std::abs(o.wave)},
+                                   {"phase", phase ? Value(phase->value) : Value()},
+                                   {"error", o.error}};
+                   })}};
+  });
+}
+
+void say_orders(Findings& f, Chapter in, const SteadyStudy& s) {
+  f.draw(in, [&s] { return order_plots(s); });
+  for (const SteadyCycle& c : s.cycles)
+    if (c.found) f.say(in, orders_table(s, c));
+}
+
+}  // namespace kurbel
