@@ -17,6 +17,10 @@ struct PieceGuard {
     return q - curve.period() * std::round((q - middle) / curve.period());
   }
   static void guard(const Curve& curve, int piece, double q, double scale, double* g) {
+    if (curve.period() > 0 && piece + 1 >= static_cast<int>(curve.x().size())) {  // of a curve with more pieces
+      g[0] = g[1] = -1;
+      return;
+    }
     const double x = near_piece(curve, piece, q);
     g[0] = std::min(1.0, (x - curve.piece_begin(piece)) / scale);
     g[1] = std::min(1.0, (curve.piece_end(piece) - x) / scale);

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/base/gauss.h"
 
@@ -54,7 +56,144 @@ void check_ascending(const std::vector<double>& x, const std::vector<double>& y)
   if (x.front() == x.back()) throw std::invalid_argument("all points stand at one place");
 }
 
+// A cubic between two points of a curve, f = a + (b − a) u + u (1 − u) (p + q (2u − 1)) with u from 0 to 1. Of all p and q
+// the mean square of what it is off is least at
+//     p = 30 ∫ g u (1 − u) du,   q = 210 ∫ g u (1 − u) (2u − 1) du,   g the curve less a + (b − a) u
+struct CubicBetween {
+  double begin = 0, length = 1, a = 0, b = 0, p = 0, q = 0;
+
+  double value(double x) const {
+    const double u = (x - begin) / length;
+    return a + (b - a) * u + u * (1 - u) * (p + q * (2 * u - 1));
+  }
+};
+
+class FewerPieces {
+ public:
+  FewerPieces(const Curve& curve, double within) : curve_(curve), within_(within) {
+    const std::size_t points = curve.x().size();
+    left_.resize(points), right_.resize(points);
+    for (std::size_t i = 0; i < points; ++i) {
+      left_[i] = i == 0 ? curve.before() : curve.end_value(i - 1);
+      right_[i] = curve.y()[i];
+    }
+    lift_points();
+  }
+
+  std::vector<std::pair<std::size_t, CubicBetween>> run() {  // with the number of the point that each begins at
+    std::vector<std::pair<std::size_t, CubicBetween>> pieces;
+    std::size_t guess = 2;
+    for (std::size_t from = 0; from + 1 < left_.size();) {
+      const std::size_t to = farthest(from, guess);
+      pieces.emplace_back(from, between(from, to));
+      guess = (to - from) / 2, from = to;
+    }
+    return pieces;
+  }
+
+  // One interval of the curve stays what it is, but for its lifted ends.
+  double lift_at(std::size_t i, bool end) const { return (end ? left_[i] - given_end(i) : right_[i] - curve_.y()[i]); }
+
+ private:
+  static constexpr double jump = 1e-9;  // of the greatest value
+
+  double given_end(std::size_t i) const { return curve_.end_value(i - 1); }
+  bool jumps_at(std::size_t i) const { return std::abs(given_end(i) - curve_.y()[i]) > jump * curve_.max_abs(); }
+  double slope(std::size_t piece, bool end) const {
+    const std::vector<double>& x = curve_.x();
+    const int k = static_cast<int>(piece);
+    const double h = 1e-3 * (x[piece + 1] - x[piece]), at = end ? x[piece + 1] : x[piece];
+    return (curve_.value_in(k, at + (end ? 0 : h)) - curve_.value_in(k, at - (end ? h : 0))) / h;
+  }
+  // Straight lines between the points of a bent law lie on one side of it: about a point their mean is off by its kink
+  // times a twelfth of the way between points. By as much knots are lifted, where kinks beside each other are alike.
+  void lift_points() {
+    const std::size_t points = left_.size();
+    if (points < 5) return;
+    std::vector<double> kink(points, 0.0);
+    for (std::size_t i = 1; i + 1 < points; ++i) kink[i] = slope(i, false) - slope(i - 1, true);
+    const std::vector<double>& x = curve_.x();
+    for (std::size_t i = 2; i + 2 < points; ++i) {
+      const auto [least, most] = std::minmax({kink[i - 1], kink[i], kink[i + 1]});
+      if (least * most <= 0 || jumps_at(i)) continue;
+      const double lift = (least > 0 ? least : most) * 0.5 * (x[i + 1] - x[i - 1]) / 12;
+      if (std::abs(lift) > 0.5 * within_) continue;
+      left_[i] += lift, right_[i] += lift;
+    }
+  }
+
+  CubicBetween between(std::size_t from, std::size_t to) const {
+    const std::vector<double>& x = curve_.x();
+    CubicBetween f{x[from], x[to] - x[from], right_[from], left_[to]};
+    for (std::size_t i = from; i < to; ++i)
+      gauss<4>.over(x[i], x[i + 1] - x[i], [&](double at, double weight) {
+        const double u = (at - f.begin) / f.length;
+        const double off = curve_.value_in(static_cast<int>(i), at) - (f.a + (f.b - f.a) * u);
+        f.p += 30 * weight / f.length * off * u * (1 - u);
+        f.q += 210 * weight / f.length * off * u * (1 - u) * (2 * u - 1);
+      });
+    return f;
+  }
+  // The most that the cubic is off; beyond all bounds over a jump.
+  double off(std::size_t from, std::size_t to) const {
+    for (std::size_t i = from + 1; i < to; ++i)
+      if (jumps_at(i)) return HUGE_VAL;
+    const CubicBetween f = between(from, to);
+    const std::vector<double>& x = curve_.x();
+    double most = 0;
+    for (std::size_t i = from; i < to; ++i)
+      for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+        const double at = x[i] + part * (x[i + 1] - x[i]);
+        most = std::max(most, std::abs(f.value(at) - curve_.value_in(static_cast<int>(i), at)));
+      }
+    return most;
+  }
+  // The last point, but for a few, that a cubic from there on reaches.
+  std::size_t farthest(std::size_t from, std::size_t guess) const {
+    std::size_t good = from + 1, bad = left_.size();
+    for (std::size_t to = from + std::max<std::size_t>(guess, 2); to < bad; to += to - from)
+      (off(from, to) <= within_ ? good : bad) = to;
+    while (bad - good > 1 + (good - from) / 16) {
+      const std::size_t middle = good + (bad - good) / 2;
+      (off(from, middle) <= within_ ? good : bad) = middle;
+    }
+    return good;
+  }
+
+  const Curve& curve_;
+  double within_;
+  std::vector<double> left_, right_;  // values of the new knots, at either side of every point
+};
+
 }  // namespace
+
+Curve Curve::by_fewer_pieces(double within) const {
+  if (programs_ || x_.size() < 3) return *this;
+  FewerPieces search(*this, within);
+  const auto pieces = search.run();
+  if (pieces.size() + 1 >= x_.size()) return *this;
+  Curve made = *this;
+  made.form_ = Form::smooth;
+  made.x_.clear(), made.y_.clear(), made.c1_.clear(), made.c2_.clear(), made.c3_.clear();
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const auto& [from, f] = pieces[k];
+    const std::size_t to = k + 1 < pieces.size() ? pieces[k + 1].first : x_.size() - 1;
+    const double h = f.length;
+    made.x_.push_back(x_[from]);
+    made.y_.push_back(f.a);
+    if (to == from + 1) {  // as it was, its ends lifted
+      const double begin = search.lift_at(from, false), end = search.lift_at(to, true);
+      made.c1_.push_back(c1_[from] + (end - begin) / h), made.c2_.push_back(c2_[from]), made.c3_.push_back(c3_[from]);
+    } else {
+      made.c1_.push_back((f.b - f.a + f.p - f.q) / h);
+      made.c2_.push_back((3 * f.q - f.p) / (h * h));
+      made.c3_.push_back(-2 * f.q / (h * h * h));
+    }
+  }
+  made.x_.push_back(x_.back());
+  made.y_.push_back(y_.back());
+  return made;
+}
 
 Curve::Curve(const std::vector<double>& given_x, const std::vector<double>& given_y, Form form, double period)
     : form_(form), period_(period) {

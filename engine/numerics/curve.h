@@ -33,6 +33,11 @@ class Curve {
   // std::invalid_argument where a value or a slope at the end of a piece is not finite.
   Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, double period = 0);
 
+  // The same by fewer cubic pieces between some of its points, which are off by no more than `within` [unit of y] at the
+  // points and at quarters of what lies between, and of all cubics between their ends nearest in the mean square. Jumps and
+  // both ends stay; so does a formula, and what no fewer pieces come near.
+  Curve by_fewer_pieces(double within) const;
+
   // From here on; at first nothing is said, and the end values hold.
   void go_on(Beyond before, Beyond after);
   void say(Beyond before, Beyond after) { beyond_first_ = before, beyond_last_ = after; }  // its values stay

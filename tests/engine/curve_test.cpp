@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
@@ -105,6 +107,63 @@ TEST(Curve, UnfitPointsAreRefused) {
   EXPECT_THROW(Curve({0, std::nan("")}, {1, 2}, Form::linear), std::invalid_argument);
   EXPECT_THROW(Curve({0, 5}, {1, 2}, Form::linear, 4), std::invalid_argument);
   EXPECT_THROW(Curve({0, 4}, {1, 2}, Form::linear, 4), std::invalid_argument);
+}
+
+// --- fewer pieces ---
+
+// Two humps, a jump and a kink: what fewer pieces are off by at many places.
+double most_off(const Curve& a, const Curve& b) {
+  double most = 0;
+  for (int k = 0; k < 40000; ++k) {
+    const double x = a.x().front() + (a.x().back() - a.x().front()) * (k + 0.5) / 40000;
+    most = std::max(most, std::abs(a.value(x) - b.value(x)));
+  }
+  return most;
+}
+
+TEST(Curve, FewerPiecesAreNoFartherOffThanTheyMay) {
+  std::vector<double> x, y;
+  for (int k = 0; k <= 3000; ++k) {
+    x.push_back(k * 1e-3);
+    y.push_back(std::sin(3 * x.back()) + std::exp(-20 * (x.back() - 1) * (x.back() - 1)));
+  }
+  for (const Form form : {Form::linear, Form::smooth})
+    for (const double period : {0.0, 4.0})
+      for (const double within : {1e-3, 1e-5, 1e-6}) {
+        const Curve all(x, y, form, period), fewer = all.by_fewer_pieces(within);
+        EXPECT_LT(fewer.x().size(), 300u);
+        EXPECT_LE(most_off(all, fewer), 1.02 * within);
+        EXPECT_FALSE(fewer.jumps() && period == 0 && fewer.before() == fewer.y().front());
+        EXPECT_EQ(fewer.x().front(), all.x().front());
+        EXPECT_EQ(fewer.x().back(), all.x().back());
+        EXPECT_EQ(fewer.y().front(), all.y().front());
+        EXPECT_EQ(fewer.y().back(), all.y().back());
+        EXPECT_EQ(fewer.period(), period);
+        double area = 0;
+        for (std::size_t i = 0; i + 1 < fewer.x().size(); ++i)
+          area += fewer.area(static_cast<int>(i), fewer.x()[i], fewer.x()[i + 1]);
+        for (std::size_t i = 0; i + 1 < all.x().size(); ++i)
+          area -= all.area(static_cast<int>(i), all.x()[i], all.x()[i + 1]);
+        EXPECT_LT(std::abs(area), 0.3 * within);
+      }
+}
+
+TEST(Curve, FewerPiecesKeepJumpsAndKinksAndWhatIsRough) {
+  std::vector<double> x, y;
+  for (int k = 0; k <= 1000; ++k) {
+    x.push_back(k * 1e-3), y.push_back(k <= 500 ? 2 * x.back() : 1.5 - x.back());
+    if (k == 300) x.push_back(x.back()), y.push_back(y.back() + 0.25);
+  }
+  const Curve all(x, y, Form::linear), fewer = all.by_fewer_pieces(1e-9);
+  EXPECT_TRUE(fewer.jumps());
+  EXPECT_EQ(std::count(fewer.x().begin(), fewer.x().end(), 0.3), 1);
+  EXPECT_EQ(std::count(fewer.x().begin(), fewer.x().end(), 0.5), 1);
+  EXPECT_LT(fewer.x().size(), 12u);
+  EXPECT_LE(most_off(all, fewer), 1e-9);
+  std::mt19937 random(3);
+  for (double& v : y) v = std::uniform_real_distribution<>(-1, 1)(random);
+  const Curve rough(x, y, Form::linear);
+  EXPECT_EQ(rough.by_fewer_pieces(1e-6).x().size(), rough.x().size());
 }
 
 }  // namespace
