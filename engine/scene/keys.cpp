@@ -14,14 +14,14 @@ namespace kurbel {
 Curve CurveData::curve(double other_period) const {
   Curve curve = by_formula.empty() ? Curve(x, y, form, other_period > 0 ? other_period : period) : by_formula;
   curve.go_on(beyond, beyond);
-  return curve;
+  return within > 0 ? curve.by_fewer_pieces(within * curve.max_abs()) : curve;
 }
 
 Curve CurveData::back() const {
   if (x_back.empty()) return {};
   Curve curve = by_formula_back.empty() ? Curve(x_back, y_back, form) : by_formula_back;
   curve.go_on(beyond, beyond);
-  return curve;
+  return within > 0 ? curve.by_fewer_pieces(within * curve.max_abs()) : curve;
 }
 
 std::string Domain::describe(const std::string& unit) const {

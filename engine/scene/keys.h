@@ -106,6 +106,8 @@ struct CurveData {
   double period = 0;
   Beyond beyond = Beyond::unsaid;               // of both ends
   Curve by_formula = {}, by_formula_back = {};  // empty: by points
+  // Part of the greatest value that fewer pieces than points may be off; 0: as given. Set by studies (dense_tables.h).
+  double within = 0;
 
   // Throws std::invalid_argument in words; with another period than its own where one is given.
   Curve curve(double other_period = 0) const;

@@ -10,6 +10,7 @@
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/run/recorders.h"
+#include "engine/values/dense_tables.h"
 
 namespace kurbel {
 namespace {
@@ -130,13 +131,13 @@ SteadyLoads follow_loosely(const Regime& regime, const std::vector<LimitedJoint>
 constexpr std::array<Estimate JointLoad::*, 6> measured = {&JointLoad::mean,  &JointLoad::upper,    &JointLoad::lower,
                                                            &JointLoad::swing, &JointLoad::weighted, &JointLoad::power};
 
-void add_errors(const SteadyLoads& other, double still_changes, const std::vector<LimitedJoint>& joints,
-                SteadyLoads& loads) {
+// `open`: part of the rated torque that the search leaves open, or that dense tables are off by.
+void add_errors(const SteadyLoads& other, double open, const std::vector<LimitedJoint>& joints, SteadyLoads& loads) {
   for (std::size_t i = 0; i < loads.joints.size(); ++i)
     for (const auto what : measured) {
       Estimate& value = loads.joints[i].*what;
       const double scale = what == &JointLoad::power ? std::abs(value.value) : joints[i].rated;
-      value.error = (rounding + still_changes) * std::max(scale, std::abs(value.value));
+      value.error = (rounding + open) * std::max(scale, std::abs(value.value));
       // Without a second one the figure is only known as far as the search was asked to go.
       value.widen(other.found ? std::abs(value.value - (other.joints[i].*what).value) : 1e-4 * std::abs(value.value));
     }
@@ -180,7 +181,8 @@ SteadyLoads steady_loads(const Regime& regime, const std::shared_ptr<const Model
   if (regime.repeats()) {
     SteadyLoads loads = follow(*regime.map, regime.point, joints, fine);
     if (!loads.found) return loads;
-    add_errors(follow_loosely(regime, joints), regime.polished ? 0 : regime.still_changes, joints, loads);
+    add_errors(follow_loosely(regime, joints),
+               (regime.polished ? 0 : regime.still_changes) + tables_within(machine->scene), joints, loads);
     return loads;
   }
   // What comes to rest does its work before: that is no lasting load.

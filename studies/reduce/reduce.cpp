@@ -15,6 +15,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 #include "studies/cycle/classical.h"
 #include "studies/reduce/along_cycle.h"
 #include "studies/reduce/targets.h"
@@ -50,7 +51,7 @@ void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineRe
 class Reducer {
  public:
   Reducer(const Scene& scene, const ReduceOptions& options)
-      : scene_(as_of(scene, scene.effects, options.at)), options_(options) {
+      : scene_(as_of(with_tables_within(scene, scene.run.accuracy), scene.effects, options.at)), options_(options) {
     if (options.positions < 1 || options.positions > 100000)
       throw std::invalid_argument(fmt::format("--positions {}: must be 1 … 100000", options.positions));
     if (options.orders < 0 || options.orders > 1000)
@@ -289,9 +290,10 @@ class Reducer {
       Spectrum s = spectrum(named[i].first, named[i].second, fine[i], orders);
       if (loose) {
         const Spectrum other = spectrum(named[i].first, named[i].second, (*loose)[i], orders);
+        const double left = rounding * std::sqrt(s.mean_square) + (i > 0 ? within() : 0) * fine[i].largest();
         for (std::size_t n = 0; n < s.harmonics.size(); ++n)
-          s.harmonics[n].amplitude = estimate_from(s.harmonics[n].amplitude.value, other.harmonics[n].amplitude.value,
-                                                   rounding * std::sqrt(s.mean_square));
+          s.harmonics[n].amplitude =
+              estimate_from(s.harmonics[n].amplitude.value, other.harmonics[n].amplitude.value, left);
       }
       if (along_ && along_->cycle().sense < 0)
         for (Harmonic& h : s.harmonics) h.phase = -h.phase;
@@ -304,10 +306,11 @@ class Reducer {
     r_.mean_load.value = fine[2].mean();
     if (!loose) return;
     r_.inertia_error = largest_difference(fine[0], (*loose)[0]);
-    r_.drive_error = largest_difference(fine[1], (*loose)[1]);
-    r_.load_error = largest_difference(fine[2], (*loose)[2]);
-    r_.mean_drive = estimate_from(r_.mean_drive.value, (*loose)[1].mean(), rounding * fine[1].largest());
-    r_.mean_load = estimate_from(r_.mean_load.value, (*loose)[2].mean(), rounding * fine[2].largest());
+    const double drive = within() * fine[1].largest(), load = within() * fine[2].largest();
+    r_.drive_error = largest_difference(fine[1], (*loose)[1]) + drive;
+    r_.load_error = largest_difference(fine[2], (*loose)[2]) + load;
+    r_.mean_drive = estimate_from(r_.mean_drive.value, (*loose)[1].mean(), rounding * fine[1].largest() + drive);
+    r_.mean_load = estimate_from(r_.mean_load.value, (*loose)[2].mean(), rounding * fine[2].largest() + load);
   }
   // Of torques, and of inertia where it is that of the motion which they make.
   void drop_errors() {
@@ -317,6 +320,7 @@ class Reducer {
     for (std::size_t i = along_ ? 0 : 1; i < r_.spectra.size(); ++i)
       for (Harmonic& h : r_.spectra[i].harmonics) h.amplitude.error.reset();
   }
+  double within() const { return tables_within(scene_); }
   // Within pieces: at an edge either may be a hair late, so that the other is looked at on both sides of it.
   static double largest_difference(const Piecewise& f, const Piecewise& looser) {
     const double hair = 1e-6 * looser.length();
@@ -339,6 +343,7 @@ class Reducer {
 
   void add_notes() {
     for (const std::string& note : substitutes(model())) r_.notes.push_back(note);
+    if (const std::string words = words_of_dense_tables(scene_); !words.empty()) r_.notes.push_back(words);
     if (machine_ && machine_->uses_time())
       r_.notes.push_back("some torque depends on time; the torques are those at t = 0");
     if (machine_ && !machine_->periodic())

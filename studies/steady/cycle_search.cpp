@@ -14,6 +14,7 @@
 #include "engine/numerics/index.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
 #include "studies/response/held_cycle.h"
@@ -324,10 +325,7 @@ class Search {
     out_.outside_data = std::move(fine.outside_data);
     out_.orders = std::move(fine.orders.all);
     if (!fine.orders.none.empty()) out_.notes.push_back(fine.orders.none);
-    if (!out_.outside_data.empty()) {
-      drop_errors(out_.figures, -HUGE_VAL);
-      for (OrdersOf& of : out_.orders) of.drop_errors();
-    }
+    if (!out_.outside_data.empty()) drop_errors(out_.figures, -HUGE_VAL), drop_errors(out_.orders);
     tell_orders(out_.orders, options_.every_order, out_.figures);
     for (std::string& note : static_curve_notes(*map_, out_.point)) out_.notes.push_back(std::move(note));
     for (const std::string& note : substitutes(*out_.model)) out_.notes.push_back(note);
@@ -347,10 +345,17 @@ class Search {
     out_.loads = steady_loads(kept, out_.model, joints);
   }
 
-  // The same machine with its mechanisms extracted anew, where they work from tables.
+  // The same machine with its mechanisms extracted anew, where they work from tables, and its dense tables taken rougher.
   std::shared_ptr<const Model> model_elsewhere() const {
-    if (!has_tables(network_)) return out_.model;
-    const Network net = options_.holds_speed() ? network_with(held_) : network_;
+    constexpr double rougher = 4;
+    const double within = tables_within(scene_);
+    if (within == 0 && !has_tables(network_)) return out_.model;
+    Search other = *this;
+    if (within > 0) {
+      other.scene_ = with_tables_within(scene_, rougher * within);
+      other.network_ = network_as_of(other.scene_, options_.at);
+    }
+    const Network net = options_.holds_speed() ? other.network_with(held_) : other.network_;
     return compile_network(extracted_from(net, Extraction::second), scene_, effects_);
   }
 
@@ -371,14 +376,8 @@ class Search {
           // What the steps resolve of the rated quantity both searches share.
           f.error = std::max({std::abs(f.value - g.value), rounding * std::abs(f.value), map_tolerance * f.scale});
         }
-    widen(fine.orders.all, other.orders.all);
+    widen_errors(fine.orders.all, other.orders.all, map_tolerance);
     if (out_.model->has_continuous_shafts()) add_errors_of_shafts(fine);
-  }
-
-  static void widen(std::vector<OrdersOf>& orders, const std::vector<OrdersOf>& others) {
-    for (OrdersOf& of : orders)
-      for (const OrdersOf& other : others)
-        if (of.channel == other.channel) of.widen_to(other, map_tolerance);
   }
 
   // The same search with continuous shafts cut finer: what changes is their part of the errors.
@@ -390,7 +389,7 @@ class Search {
     const SteadyCycle other = Search(finer, effects_, options).run();
     if (other.found) {
       add_differences(fine.figures, other.figures);
-      widen(fine.orders.all, other.orders);
+      widen_errors(fine.orders.all, other.orders, map_tolerance);
     } else {
       out_.notes.push_back("what the cut of continuous shafts leaves open is not in the errors: " + other.why);
     }

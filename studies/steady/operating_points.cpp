@@ -13,6 +13,7 @@
 #include "engine/numerics/roots.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 #include "studies/validity/outside_data.h"
 
 namespace kurbel {
@@ -153,14 +154,16 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
 namespace {
 
 // What twice as many intervals say at the same speed; the speed is off by the rest of the balance over its slope.
-void measure_errors(const MeanTorques& here, const MeanTorques& finer, OperatingPoint& point) {
-  const double slope = std::abs(point.drive_slope - point.load_slope), rounding = 1e-14 * std::abs(here.load);
+// `within`: by which part dense tables are off.
+void measure_errors(const MeanTorques& here, const MeanTorques& finer, double within, OperatingPoint& point) {
+  const double slope = std::abs(point.drive_slope - point.load_slope),
+               rounding = 1e-14 * std::abs(here.load) + within * here.turnover;
   point.speed.error = slope > 0 ? (std::abs(finer.net() - here.net()) + rounding) / slope : 0;
   point.torque.error = std::abs(finer.load - here.load) + std::abs(point.load_slope) * *point.speed.error + rounding;
 }
 
-double error_of(MeanCharacteristic& finer, const MeanTorques& mean) {
-  return std::abs(finer.at(mean.omega).net() - mean.net()) + rounding_of_tables * mean.turnover;
+double error_of(MeanCharacteristic& finer, const MeanTorques& mean, double within) {
+  return std::abs(finer.at(mean.omega).net() - mean.net()) + (rounding_of_tables + within) * mean.turnover;
 }
 
 }  // namespace
@@ -200,13 +203,13 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
                                    left_by_golden_section * std::abs(strongest.drive));
   const auto greatest =
       std::max_element(result.curve.begin(), result.curve.end(), [](auto& a, auto& b) { return a.net() < b.net(); });
-  const double error = error_of(finer, result.curve.back());
+  const double within = tables_within(machine.model().scene), error = error_of(finer, result.curve.back(), within);
   // Losses by inertia torques know the speed, too.
   if (lossy && std::any_of(result.curve.begin(), result.curve.end(), [&](const MeanTorques& m) {
         return std::abs(m.net() - result.curve.back().net()) > 10 * error + 1e-9 * m.turnover;
       }))
     result.uses_speed = true;
-  result.balance_error = result.uses_speed ? error_of(finer, *greatest) : error;
+  result.balance_error = result.uses_speed ? error_of(finer, *greatest, within) : error;
   if (!result.uses_speed) return result;  // parallel lines: they meet nowhere, or everywhere
   for (std::size_t i = 0; i + 1 < result.curve.size(); ++i) {
     const double n0 = result.curve[i].net(), n1 = result.curve[i + 1].net();
@@ -220,7 +223,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
     point.drive_slope = (above.drive - below.drive) / (2 * h);
     point.load_slope = (above.load - below.load) / (2 * h);
     point.beyond_data = lies_beyond_a_table(machine.model(), here.omega);
-    if (!point.beyond_data) measure_errors(here, finer.at(here.omega), point);
+    if (!point.beyond_data) measure_errors(here, finer.at(here.omega), within, point);
     result.points.push_back(point);
   }
   return result;
@@ -278,7 +281,8 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
   if (result.reached && with_error) {
     run.tolerance *= 100;
     run.from = {0, equations.start(0, settings)};
-    result.time = estimate_from(outcome.t, integrate(equations, run, {}).t, 1e-12 * outcome.t);
+    result.time =
+        estimate_from(outcome.t, integrate(equations, run, {}).t, (1e-12 + tables_within(m.scene)) * outcome.t);
   }
   if (result.reached || !result.why.empty()) return result;
   result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),

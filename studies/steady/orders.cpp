@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/analysis/follow_period.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
@@ -171,14 +172,23 @@ double OrdersOf::captured(const std::vector<Order>& these) const {
   return all > 0 ? std::min(sum / all, 1.0) : 1;
 }
 
-void OrdersOf::widen_to(const OrdersOf& other, double resolved) {
+void widen_errors(std::vector<OrdersOf>& all, const std::vector<OrdersOf>& others, double resolved) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-  for (std::size_t n = 0; n < std::min(orders.size(), other.orders.size()); ++n) {
-    Order& o = orders[n];
-    const double size = std::abs(o.wave);
-    o.error = o.error.value_or(0) + std::max(std::abs(o.wave - other.orders[n].wave), rounding * std::abs(mean));
-    if (size <= resolved * scale) o.error = std::max(*o.error, size);
-  }
+  for (OrdersOf& of : all)
+    for (const OrdersOf& other : others) {
+      if (!(of.channel == other.channel)) continue;
+      for (std::size_t n = 0; n < std::min(of.orders.size(), other.orders.size()); ++n) {
+        Order& o = of.orders[n];
+        const double size = std::abs(o.wave);
+        o.error = o.error.value_or(0) + std::max(std::abs(o.wave - other.orders[n].wave), rounding * std::abs(of.mean));
+        if (size <= resolved * of.scale) o.error = std::max(*o.error, size);
+      }
+    }
+}
+
+void drop_errors(std::vector<OrdersOf>& all) {
+  for (OrdersOf& of : all)
+    for (Order& o : of.orders) o.error.reset();
 }
 
 OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, double tolerance, double turned) {
@@ -186,7 +196,7 @@ OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, do
   const std::string link = m.node_label(m.reduction_node);
   const std::string standing = fmt::format(
       "no orders: \"{}\" stands or turns back in the period of the motion, so that they have no angle", link);
-  if (!(std::abs(turned) > slowest_part)) return {.none = standing};
+  if (!(std::abs(turned) > slowest_part)) return {.none = point.vibrates() ? "" : standing};
   const std::optional<double> lowest = lowest_order(turned);
   if (!lowest)
     return {.none = fmt::format("no orders: in the period of the motion \"{}\" turns {:.6g} times, which is no whole "
@@ -195,17 +205,7 @@ OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, do
   const std::vector<OrderChannel> channels = channels_with_orders(m);
   OrderIntegrals integrals(m, channels, *lowest, turned);
   Equations equations(map.shared_model(), true);  // its quadratures keep steps short that torques alone would ask for
-  RunOptions run{.tolerance = tolerance,
-                 .method = "auto",
-                 .until = map.start_time() + point.time * (map.periodicity().by_time ? 1 : 1.5),
-                 .budget = 60,
-                 .interrupted = map.options().interrupted,
-                 .progress = {}};
-  std::vector<double> y = map.place(equations, point.z);
-  y.resize(equations.size(), 0.0);
-  run.stop = map.round_end(equations, y);
-  run.from = {map.start_time(), y};
-  const RunOutcome outcome = integrate(equations, run, {&integrals});
+  const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&integrals});
   if (!outcome.diagnosis.empty()) return {.none = "no orders: " + outcome.diagnosis};
   if (!(integrals.slowest() > slowest_part * m.speed_scale)) return {.none = standing};
   OrdersOfRound round;

@@ -40,11 +40,6 @@ struct OrdersOf {
   std::vector<Order> telling() const;
   // What these hold of the mean square of x − x̄: 1 of all that there are, Σ ½ a_r².
   double captured(const std::vector<Order>& orders) const;
-  // An error for every order: by the same found otherwise; all of it where the steps resolve no more.
-  void widen_to(const OrdersOf& other, double resolved);
-  void drop_errors() {
-    for (Order& o : orders) o.error.reset();
-  }
 };
 
 struct OrdersOfRound {
@@ -56,6 +51,11 @@ struct OrdersOfRound {
 // all joints, motors and loads that a run records. None where the link stands or turns back on its way, or where it turns
 // by no whole number of turns and by no whole part of two, so that its angle does not say where the motion is.
 OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, double tolerance, double turned);
+
+// Adds to the errors what others have found otherwise; an amplitude is its own error where the steps resolve no more than
+// that part of the rated quantity.
+void widen_errors(std::vector<OrdersOf>& all, const std::vector<OrdersOf>& others, double resolved);
+void drop_errors(std::vector<OrdersOf>& all);
 
 // "torque_order.0.5.main_coupling", "torque_order_phase.0.5.main_coupling" [deg]: of the orders that matter, or of all.
 void tell_orders(const std::vector<OrdersOf>& all, bool every_one, std::vector<Figure>& figures);
