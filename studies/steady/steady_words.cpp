@@ -98,4 +98,21 @@ std::vector<std::string> words_of_start(const SteadyStudy& s) {
   return words;
 }
 
+std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving,
+                           double error) {
+  if (halving) halving->reset();
+  const std::complex<double> slowest = multipliers.empty() ? 0 : multipliers.front();
+  const double size = std::abs(slowest);
+  const char* swinging = std::abs(slowest.imag()) > 1e-9 * size || slowest.real() < -1e-9 ? ", swinging" : "";
+  if (!multipliers.empty() && std::abs(size - 1) <= error)
+    return "neutral: a deviation neither fades nor grows (multiplier 1), the cycle is one of a family";
+  if (size > 1)
+    return fmt::format("unstable: a deviation doubles in {:.3g} cycles{}", std::log(2.0) / std::log(size), swinging);
+  if (size < 1e-3)
+    return fmt::format("stable: a cycle leaves less than {:.0e} of any deviation", std::max(size, 1e-12));
+  const double cycles = std::log(2.0) / -std::log(size);
+  if (halving) *halving = cycles;
+  return fmt::format("stable: the slowest deviation halves in {:.3g} cycles{}", cycles, swinging);
+}
+
 }  // namespace kurbel
