@@ -87,7 +87,8 @@ class OrderIntegrals final : public Observer {
   // Pieces so short that the highest order makes no more than a quarter of a turn in one.
   void step(StepView& view) override {
     const double a = view.t_previous(), h = view.t() - a;
-    const double way = std::abs(link_angle(view, view.at(view.t())) - link_angle(view, view.at(a)));
+    const double from = link_angle(view, view.at(a)), to = link_angle(view, view.at(view.t()));
+    const double way = std::abs(to - from);
     const int pieces = 1 + static_cast<int>(4 * static_cast<double>(waves_) * lowest_ * way / turn);
     for (int p = 0; p < pieces; ++p)
       gauss<6>.over(a + h * p / pieces, h / pieces, [&](double t, double weight) { add(view, t, weight); });
