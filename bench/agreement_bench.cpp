@@ -58,7 +58,7 @@ std::vector<std::string> scenes_named(const Half& half, const std::string& only)
 
 // What breaks the process says nothing: no worse answer.
 Row broken(const Half& half, const std::string& scene, const std::string& words) {
-  Row row{.scene = scene, .kind = Motion::none, .regime = words, .figures = {}, .cpu_seconds = 0};
+  Row row{.scene = scene, .kind = Motion::none, .orbit = words, .figures = {}, .cpu_seconds = 0};
   row.figures.push_back({static_cast<Topic>(half.begin), words, 0, 0, 0, Verdict::silent, words});
   return row;
 }
@@ -116,7 +116,7 @@ Table matrix_of(const Half& half, const std::vector<Row>& rows) {
       cells.push_back(mark_of(cell));
       tones.push_back(tone_of(cell));
     }
-    cells.push_back(row.regime);
+    cells.push_back(row.orbit);
     tones.push_back(Tone::none);
     table.rows.push_back(std::move(cells));
     table.tones.push_back(std::move(tones));

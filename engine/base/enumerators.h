@@ -10,7 +10,7 @@
 namespace kurbel {
 namespace enumerators_detail {
 
-// "at_rest" of Regime::Kind::at_rest, as characters that end in a zero, with what stands for its underscores.
+// "at_rest" of Orbit::Kind::at_rest, as characters that end in a zero, with what stands for its underscores.
 template <auto value, char underscore>
 constexpr auto text() {
   constexpr std::string_view told = __PRETTY_FUNCTION__;  // "… [with auto value = kurbel::Method::bdf; char …]"

@@ -77,7 +77,7 @@ BaseMotion::BaseMotion(std::shared_ptr<const Model> model, LinearisationPoint po
   find_inertia();
   find_coordinates();
   acceleration_ = Eigen::VectorXd::Zero(coordinates_.size());
-  const bool at_its_means = point_.regime && point_.speed == point_.regime->speed;
+  const bool at_its_means = point_.orbit && point_.speed == point_.orbit->speed;
   if (at_its_means) return;
   balance();
 }
@@ -109,15 +109,15 @@ void BaseMotion::choose_positions() {
   }
 }
 
-// The regime's; else everything turns as geared, clutches locked, and own states as they begin.
+// The steady motion's; else everything turns as geared, clutches locked, and own states as they begin.
 void BaseMotion::take_modes() {
   const double speed = point_.speed;
-  if (point_.regime) {
-    begin_ = point_.regime->state.y;
-    equations_.bind(point_.regime->state.modes);
-    begin_time_ = point_.regime->state.t;
-    const double scale = point_.regime->speed != 0 ? speed / point_.regime->speed : 1;
-    for (std::size_t i = m_.angle_count(); i < m_.state_count(); ++i) begin_[i] = point_.regime->mean[i];
+  if (point_.orbit) {
+    begin_ = point_.orbit->state.y;
+    equations_.bind(point_.orbit->state.modes);
+    begin_time_ = point_.orbit->state.t;
+    const double scale = point_.orbit->speed != 0 ? speed / point_.orbit->speed : 1;
+    for (std::size_t i = m_.angle_count(); i < m_.state_count(); ++i) begin_[i] = point_.orbit->mean[i];
     const std::vector<double> there = begin_;
     for (std::size_t s = 0; s < m_.free_shafts; ++s) begin_[equations_.speed_index(static_cast<int>(s))] *= scale;
     if (scale != 1) follow_pieces(equations_, begin_time_, there, begin_);
@@ -183,8 +183,8 @@ bool BaseMotion::joints_change() const {
 double BaseMotion::angle_rate(std::size_t tracked) const {
   const TrackedAngle& angle = m_.angles[tracked];
   const double geared = m_.node_ratio[kurbel::at(angle.node)];
-  if (!point_.regime || point_.regime->speed == 0 || kurbel::at(angle.shaft) >= m_.free_shafts) return geared;
-  const double mean = angle.gain * point_.regime->mean[equations_.speed_index(angle.shaft)] / point_.regime->speed;
+  if (!point_.orbit || point_.orbit->speed == 0 || kurbel::at(angle.shaft) >= m_.free_shafts) return geared;
+  const double mean = angle.gain * point_.orbit->mean[equations_.speed_index(angle.shaft)] / point_.orbit->speed;
   return std::abs(mean - geared) <= geared_within * std::max(1.0, std::abs(geared)) ? geared : 0;
 }
 
@@ -206,11 +206,11 @@ std::span<const double> BaseMotion::at(const Position& position) {
     for (std::size_t p = 0; p < modes.prescribed_piece.size(); ++p)
       modes.prescribed_piece[p] = m_.network.prescribed[p].piece(t);
   }
-  if (!point_.regime) {
+  if (!point_.orbit) {
     equations_.modes_at(time(position), y_);
     return y_;
   }
-  // Load edges by the angle; other laws keep the pieces that they have in the regime.
+  // Load edges by the angle; other laws keep the pieces that they have in the steady motion.
   for (const auto& pool : m_.pools)
     if (pool->guards_are_of_angle()) pool->first_modes(equations_.instant(time(position), y_), modes.piece.data());
   return y_;

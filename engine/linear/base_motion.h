@@ -1,7 +1,7 @@
 // base_motion.h — the motion about which a machine is linearised: uniform, with twists and own states at their means.
 //
-//     φ = φ₀ + Ω t,   ω = Z q̇,   θ = θ̄ + rest(φ),   z = z̄;   what sticks and what slips as in the regime
-// In the regime θ̄, z̄ and the mean speeds are those of its round. At another speed θ̄ and z̄ are what the mean of the full
+//     φ = φ₀ + Ω t,   ω = Z q̇,   θ = θ̄ + rest(φ),   z = z̄;   what sticks and what slips as in the steady motion
+// In the steady motion θ̄, z̄ and the mean speeds are those of its round. At another speed θ̄ and z̄ are what the mean of the full
 // equations over the cycle demands; what is then left over of the torques accelerates the machine as a whole:
 //     mean of Zᵀ (M − I ω̇) = 0,   mean of ż = 0
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace kurbel {
 
-// Of a regime: a state in it, whose modes hold, and the means of its round.
+// Of a steady motion: a state in it, whose modes hold, and the means of its round.
 struct MeanMotion {
   State state;                       // on the section
   double speed = 0;                  // mean, of the reduction link [rad/s]
@@ -29,7 +29,7 @@ struct LinearisationPoint {
   double speed = 0;                                   // of the reduction link [rad/s]; 0: at rest
   std::optional<double> angle = {};                   // of the reduction link [rad]; empty: averaged over the cycle
   int positions = 512;                                // of the average, a turn: piecewise loads have edges anywhere
-  std::shared_ptr<const MeanMotion> regime = {};      // null: all turns as geared, clutches locked, brakes released
+  std::shared_ptr<const MeanMotion> orbit = {};       // null: all turns as geared, clutches locked, brakes released
   std::shared_ptr<const Eigen::VectorXd> added = {};  // per coordinate: mean torque that the positions miss [N·m]
 };
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/analysis/follow_period.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/follow_period.h"
 
 namespace kurbel {
 namespace {
@@ -60,17 +60,17 @@ class Sampler final : public Observer {
 
 }  // namespace
 
-CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolerance) {
-  const ReturnMap& map = *regime.map;
+CycleSamples sample_cycle(const Orbit& orbit, std::size_t count, double tolerance) {
+  const ReturnMap& map = *orbit.map;
   const Model& m = map.model();
   Equations equations(map.shared_model(), false);
-  const std::vector<double> y = map.place(equations, regime.point.z);
+  const std::vector<double> y = map.place(equations, orbit.point.z);
   CycleSamples out;
-  out.time = regime.point.time;
+  out.time = orbit.point.time;
   out.link_angle = equations.angle_with_turns(at(m.reduction_angle), y);
   MeanMotion mean{.state = {map.start_time(), y, equations.modes()}, .speed = 0, .mean = {}, .joint_torque = {}};
   Sampler sampler(m, out, map.start_time(), count);
-  const RunOutcome outcome = follow_period(map, regime.point, equations, {.tolerance = tolerance}, {&sampler});
+  const RunOutcome outcome = follow_period(map, orbit.point, equations, {.tolerance = tolerance}, {&sampler});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   if (!sampler.is_full()) throw std::invalid_argument("the round of the steady motion ended before its period");
   out.events = outcome.events;

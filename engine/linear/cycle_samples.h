@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/analysis/regime.h"
 #include "engine/linear/base_motion.h"
+#include "engine/orbit/orbit.h"
 
 namespace kurbel {
 
@@ -18,8 +18,8 @@ struct CycleSamples {
   std::vector<Event> events;                // that the round goes through
 };
 
-// Of a regime that repeats; `count` samples. Throws std::invalid_argument in words where the round breaks down.
-CycleSamples sample_cycle(const Regime& regime, std::size_t count, double tolerance = 1e-11);
+// Of a steady motion that repeats; `count` samples. Throws std::invalid_argument in words where the round breaks down.
+CycleSamples sample_cycle(const Orbit& orbit, std::size_t count, double tolerance = 1e-11);
 
 // Of a state in which no speed changes: its own.
 std::shared_ptr<const MeanMotion> means_of_equilibrium(std::shared_ptr<const Model> model, const State& state);

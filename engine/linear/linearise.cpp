@@ -134,13 +134,13 @@ class Lineariser {
 
   void take_torques() {
     const Modes& modes = base_.equations().modes();
-    const std::shared_ptr<const MeanMotion>& regime = base_.point().regime;
-    const bool known = regime && regime->speed == base_.point().speed && !base_.point().angle;
+    const std::shared_ptr<const MeanMotion>& orbit = base_.point().orbit;
+    const bool known = orbit && orbit->speed == base_.point().speed && !base_.point().angle;
     const Eigen::VectorXd mean = known ? Eigen::VectorXd() : base_.mean_joint_torques();
     for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
       LinearDrive::Joint& joint = drive_.joints[j];
       const ConnectionTraits& is = m_.network.joints[at(m_.elastic[j].joint)].element->is;
-      joint.torque = known ? regime->joint_torque[j] : mean[static_cast<Index>(j)];
+      joint.torque = known ? orbit->joint_torque[j] : mean[static_cast<Index>(j)];
       joint.state = is.springless        ? LinearDrive::Joint::State::film
                     : !is.slips          ? LinearDrive::Joint::State::spring
                     : modes.slip[j] == 0 ? LinearDrive::Joint::State::sticks

@@ -67,7 +67,7 @@ struct LinearDrive {
 LinearDrive linearise(BaseMotion& base);
 LinearDrive linearise(std::shared_ptr<const Model> model, const LinearisationPoint& point);
 
-// The speed at which a scene is linearised where it has no regime and none is asked for: of its start, else the rated one
+// The speed at which a scene is linearised where it has no steady motion and none is asked for: of its start, else the rated one
 // of its elements.
 double usual_speed(const Model& model);
 

@@ -113,10 +113,10 @@ class BaseMotion::Balance {
 
   void find() {
     const std::vector<double> begin = b_.begin_;
-    if (!b_.point_.regime) guess_twists();
+    if (!b_.point_.orbit) guess_twists();
     if (!newton()) {
       b_.begin_ = begin;
-      if (!b_.point_.regime) guess_twists();
+      if (!b_.point_.orbit) guess_twists();
       const int held = hold_states_of_elements();
       const bool found = newton();
       if (held > 0)
@@ -312,12 +312,12 @@ class BaseMotion::Balance {
   std::vector<char> is_held_;  // per own state
 };
 
-// Without a regime it is found here which flanks of gears with losses carry.
+// Without a steady motion it is found here which flanks of gears with losses carry.
 void BaseMotion::balance() {
   constexpr int most_turns_of_flanks = 4;
   for (int i = 0; i < most_turns_of_flanks; ++i) {
     Balance(*this).find();
-    if (point_.regime || !turn_flanks()) return;
+    if (point_.orbit || !turn_flanks()) return;
   }
 }
 

@@ -1,4 +1,4 @@
-// rest_place.cpp — the state of a regime at rest, or a root of the torque left over at standstill, downhill from the start.
+// rest_place.cpp — the state of a steady motion at rest, or a root of the torque left over at standstill, downhill from the start.
 #include "engine/linear/rest_place.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ double within_a_cycle(double angle) {
   return std::abs(within) < 1e-9 ? 0 : within;
 }
 
-bool stands(const Regime& regime) { return regime.kind == Regime::Kind::at_rest; }
+bool stands(const Orbit& orbit) { return orbit.kind == Orbit::Kind::at_rest; }
 
 // What the weights and whatever else acts at standstill leave over on the link [N·m].
 double torque_at(const std::shared_ptr<const Model>& model, double angle) {
@@ -64,19 +64,19 @@ bool has_rocking_crank(const Model& model) {
                      [](const Network::ShaftElement& e) { return std::isinf(e.element->cycle); });
 }
 
-bool rests_by_its_angle(const Model& model, const Regime& regime) {
-  if (!stands(regime)) return false;
+bool rests_by_its_angle(const Model& model, const Orbit& orbit) {
+  if (!stands(orbit)) return false;
   const auto& elements = model.network.elements;
   const bool by_angle = std::any_of(elements.begin(), elements.end(), [](const Network::ShaftElement& e) {
     return e.element->is.uses_angle && e.element->cycle > 0;
   });
-  const std::vector<int>& sense = regime.state.modes.direction;  // 0: held
+  const std::vector<int>& sense = orbit.state.modes.direction;  // 0: held
   return by_angle && std::count(sense.begin(), sense.end(), 0) == 0;
 }
 
-RestPlace place_of_rest(const std::shared_ptr<const Model>& model, const Regime& regime) {
-  if (stands(regime)) {
-    MeanMotion rest = *means_of_equilibrium(model, regime.state);
+RestPlace place_of_rest(const std::shared_ptr<const Model>& model, const Orbit& orbit) {
+  if (stands(orbit)) {
+    MeanMotion rest = *means_of_equilibrium(model, orbit.state);
     rest.speed = 0;
     return {within_a_cycle(rest.state.y[at(model->reduction_angle)]),
             std::make_shared<const MeanMotion>(std::move(rest))};

@@ -6,11 +6,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/analysis/follow_period.h"
-#include "engine/analysis/sensitivities.h"
 #include "engine/matrices/linear_algebra.h"
 #include "engine/matrices/periodic_schur.h"
 #include "engine/numerics/angles.h"
+#include "engine/orbit/follow_period.h"
+#include "engine/orbit/sensitivities.h"
 
 namespace kurbel {
 namespace {

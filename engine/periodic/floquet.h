@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/return_map.h"
+#include "engine/orbit/return_map.h"
 #include "engine/periodic/mean_system.h"
 
 namespace kurbel {

@@ -1,4 +1,4 @@
-// settled.cpp — the regime's round, and what of it is compared.
+// settled.cpp — the steady motion's round, and what of it is compared.
 #include "studies/advise/settled.h"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "engine/analysis/periodicity.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/periodicity.h"
 
 namespace kurbel {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/moment.h"
 #include "engine/model/model.h"
+#include "engine/orbit/moment.h"
 
 namespace kurbel {
 

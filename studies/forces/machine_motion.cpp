@@ -1,4 +1,4 @@
-// machine_motion.cpp — the regime's round past the cycle's angles; else the last whole cycle of the scene's run.
+// machine_motion.cpp — the steady motion's round past the cycle's angles; else the last whole cycle of the scene's run.
 #include "studies/forces/machine_motion.h"
 
 #include <fmt/format.h>
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/analysis/follow_period.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
+#include "engine/orbit/follow_period.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/validity/outside_data.h"
@@ -147,10 +147,10 @@ double MachineMotion::rated_speed() const {
 
 std::optional<SimulatedMotion> MachineMotion::solve(OutputLoads& loads, Account out) const {
   std::string why_not;
-  const Regime found = regime();
+  const Orbit found = orbit();
   auto motion = kept_motion(loads, found, why_not);
-  if (!motion && found.kind != Regime::Kind::interrupted) motion = last_cycle(loads, why_not, out);
-  if (found.kind == Regime::Kind::interrupted) out.complete = false, out.diagnosis = found.words;
+  if (!motion && found.kind != Orbit::Kind::interrupted) motion = last_cycle(loads, why_not, out);
+  if (found.kind == Orbit::Kind::interrupted) out.complete = false, out.diagnosis = found.words;
   if (motion) motion->effects = effects_, motion->deforms = deforms();
   return motion;
 }
@@ -162,7 +162,7 @@ std::vector<double> MachineMotion::targets_of(const std::vector<Abscissa>& where
   return targets;
 }
 
-// --- the regime ---
+// --- the steady motion ---
 
 bool MachineMotion::is_driven() const {
   return !model_->network.prescribed.empty() ||
@@ -170,15 +170,15 @@ bool MachineMotion::is_driven() const {
                      [](const WorkAccount& a) { return a.kind == kurbel::Account::driving; });
 }
 
-Regime MachineMotion::regime() const {
-  RegimeOptions options = regime_options(settings_, options_.watch.interrupted);
+Orbit MachineMotion::orbit() const {
+  OrbitOptions options = orbit_options(settings_, options_.watch.interrupted);
   options.tolerance = map_tolerance;
   options.progress = [this](const std::string& what, double part) { options_.watch.at(what, part); };
   if (!is_driven()) options.most_rounds = rounds_undriven;
   try {
-    return find_regime(model_, options);
+    return find_orbit(model_, options);
   } catch (const std::invalid_argument& refused) {
-    Regime none;
+    Orbit none;
     none.words = refused.what();
     return none;
   }
@@ -190,23 +190,23 @@ struct MachineMotion::Sampled {
   std::vector<std::string> outside_data;  // of a run
 };
 
-std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, const Regime& regime,
+std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, const Orbit& orbit,
                                                           std::string& why_not) const {
-  why_not = regime.words;
-  if (!regime.repeats() || !(regime.point.time > 0)) return {};
+  why_not = orbit.words;
+  if (!orbit.repeats() || !(orbit.point.time > 0)) return {};
   try {
     SimulatedMotion motion;
-    Sampled tight = along_round(loads, *regime.map, regime.point.z, map_tolerance);
-    const auto [loose, other] = looser_twin(*regime.map, regime.point, looser_tolerance);
+    Sampled tight = along_round(loads, *orbit.map, orbit.point.z, map_tolerance);
+    const auto [loose, other] = looser_twin(*orbit.map, orbit.point, looser_tolerance);
     motion.others.push_back(
-        {along_round(loads, *loose, other.found ? other.z : regime.point.z, looser_tolerance).along, 1});
-    if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(regime.still_changes, enough)), 1});
+        {along_round(loads, *loose, other.found ? other.z : orbit.point.z, looser_tolerance).along, 1});
+    if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(orbit.still_changes, enough)), 1});
     const int cycles = static_cast<int>(std::lround(tight.along.cycle / loads.cycle()));
     motion.description = fmt::format("the machine as it keeps going ({}), crank's cycle of {:.0f}°{}",
                                      effects_ == "none" ? "rigid" : effects_, loads.cycle() * 360 / turn,
                                      cycles > 1 ? fmt::format(", {} of them until it comes again", cycles) : "");
     motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
-    motion.outside_data = kurbel::outside_data(*regime.map, regime.point);
+    motion.outside_data = kurbel::outside_data(*orbit.map, orbit.point);
     motion.kept = true;
     return motion;
   } catch (const std::invalid_argument& refused) {

@@ -1,6 +1,6 @@
 // machine_motion.h — the second problem's motion: how the compiled machine moves the crank in the cycle that it keeps.
 //
-// The machine is the scene's, with its effects, and the cycle that of its regime (engine/analysis/regime.h): where the
+// The machine is the scene's, with its effects, and the cycle that of its steady motion (engine/orbit/orbit.h): where the
 // scene's own start leads to. Where nothing comes again, the last whole cycle of the scene's run stands in for it, and by
 // how much its next cycles would differ is an error of every figure.
 #pragma once
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/regime.h"
 #include "engine/model/model.h"
+#include "engine/orbit/orbit.h"
 #include "studies/forces/crank_motion.h"
 #include "studies/forces/deformed_mechanism.h"
 
@@ -27,7 +27,7 @@ struct SimulatedMotion {
   std::vector<MachineForces> machine;  // at each of its abscissae, by the machine's own equations
   std::vector<Other> others;
   std::vector<std::string> outside_data;  // what it takes from beyond the ends of tables
-  bool kept = false;                      // by the machine: its regime
+  bool kept = false;                      // by the machine: its steady motion
   bool deforms = false;                   // the mechanism does
   std::string effects;                    // of the machine, in words
   std::string description;
@@ -61,9 +61,9 @@ class MachineMotion {
   struct Sampled;
   struct Window;
   static Crank crank_in(const Model& model, const std::string& component);
-  Regime regime() const;
+  Orbit orbit() const;
   bool is_driven() const;
-  std::optional<SimulatedMotion> kept_motion(OutputLoads& loads, const Regime& regime, std::string& why_not) const;
+  std::optional<SimulatedMotion> kept_motion(OutputLoads& loads, const Orbit& orbit, std::string& why_not) const;
   Window round_of(const ReturnMap& map, const Eigen::VectorXd& z, double tolerance, double cycle) const;
   Sampled along_round(OutputLoads& loads, const ReturnMap& map, const Eigen::VectorXd& z, double tolerance) const;
   std::optional<SimulatedMotion> last_cycle(OutputLoads& loads, const std::string& why, Account out) const;

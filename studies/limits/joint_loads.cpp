@@ -6,9 +6,9 @@
 #include <complex>
 #include <numbers>
 
-#include "engine/analysis/follow_period.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/follow_period.h"
 #include "engine/run/recorders.h"
 #include "engine/values/dense_tables.h"
 
@@ -101,8 +101,7 @@ SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
       wanted.push_back(torque_extreme(m, joint, which));
   ExtremeRecorder extremes(std::move(wanted));
   Integrals integrals(m, joints, map.start_time(), point.time);
-  const RunOutcome outcome =
-      follow_period(map, point, equations, {.tolerance = tolerance}, {&extremes, &integrals});
+  const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&extremes, &integrals});
   if (!outcome.diagnosis.empty()) return {.words = outcome.diagnosis};
   SteadyLoads loads{.found = true};
   const double time = loads.round = outcome.t - map.start_time();
@@ -123,8 +122,8 @@ SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
 }
 
 // The same with tolerances 100 × looser.
-SteadyLoads follow_loosely(const Regime& regime, const std::vector<LimitedJoint>& joints) {
-  const SteadyTwin twin = looser_twin(*regime.map, regime.point, loose);
+SteadyLoads follow_loosely(const Orbit& orbit, const std::vector<LimitedJoint>& joints) {
+  const SteadyTwin twin = looser_twin(*orbit.map, orbit.point, loose);
   return twin.point.found ? follow(*twin.map, twin.point, joints, loose) : SteadyLoads{};
 }
 
@@ -144,11 +143,11 @@ void add_errors(const SteadyLoads& other, double open, const std::vector<Limited
 }
 
 // All speeds keep, and nothing comes round: the torques of that moment.
-SteadyLoads constant_loads(const Regime& regime, const std::shared_ptr<const Model>& machine,
+SteadyLoads constant_loads(const Orbit& orbit, const std::shared_ptr<const Model>& machine,
                            const std::vector<LimitedJoint>& joints) {
   Equations equations(machine, false);
-  equations.bind(regime.state.modes);
-  const Snapshot& s = equations.snapshot(regime.state.t, regime.state.y);
+  equations.bind(orbit.state.modes);
+  const Snapshot& s = equations.snapshot(orbit.state.t, orbit.state.y);
   SteadyLoads loads{.found = true};
   loads.speed = link_speed(*machine, s), loads.slowest = std::abs(loads.speed);
   for (const LimitedJoint& joint : joints) {
@@ -176,18 +175,18 @@ ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, Functi
   return extreme;
 }
 
-SteadyLoads steady_loads(const Regime& regime, const std::shared_ptr<const Model>& machine,
+SteadyLoads steady_loads(const Orbit& orbit, const std::shared_ptr<const Model>& machine,
                          const std::vector<LimitedJoint>& joints) {
-  if (regime.repeats()) {
-    SteadyLoads loads = follow(*regime.map, regime.point, joints, fine);
+  if (orbit.repeats()) {
+    SteadyLoads loads = follow(*orbit.map, orbit.point, joints, fine);
     if (!loads.found) return loads;
-    add_errors(follow_loosely(regime, joints),
-               (regime.polished ? 0 : regime.still_changes) + tables_within(machine->scene), joints, loads);
+    add_errors(follow_loosely(orbit, joints),
+               (orbit.polished ? 0 : orbit.still_changes) + tables_within(machine->scene), joints, loads);
     return loads;
   }
   // What comes to rest does its work before: that is no lasting load.
-  if (regime.kind != Regime::Kind::equilibrium) return {.words = regime.words};
-  SteadyLoads loads = constant_loads(regime, machine, joints);
+  if (orbit.kind != Orbit::Kind::equilibrium) return {.words = orbit.words};
+  SteadyLoads loads = constant_loads(orbit, machine, joints);
   add_errors(loads, 1e-9, joints, loads);
   return loads;
 }

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/regime.h"
 #include "engine/base/estimate.h"
+#include "engine/orbit/orbit.h"
 #include "engine/run/recorders.h"
 #include "studies/limits/drive_limits.h"
 
@@ -43,7 +43,7 @@ struct SteadyLoads {
 
 // Of the motion that the machine keeps; none of one that comes to rest. Errors: against one found and followed with tolerances 100 × looser; of one
 // that is only as near as the run came, what still changes besides.
-SteadyLoads steady_loads(const Regime& regime, const std::shared_ptr<const Model>& machine,
+SteadyLoads steady_loads(const Orbit& orbit, const std::shared_ptr<const Model>& machine,
                          const std::vector<LimitedJoint>& joints);
 
 // What tells a joint's torque and its extremes while a machine runs: `functional`: which of them is looked for.

@@ -21,9 +21,9 @@ constexpr double longest = 20;                   // times what the search or the
 
 class Search {
  public:
-  Search(std::shared_ptr<const Model> machine, const Regime& regime, const SteadyLoads& loads,
+  Search(std::shared_ptr<const Model> machine, const Orbit& orbit, const SteadyLoads& loads,
          const std::vector<LimitedJoint>& joints, const Watch& watch)
-      : machine_(std::move(machine)), regime_(&regime), loads_(loads), joints_(joints), watch_(watch) {}
+      : machine_(std::move(machine)), orbit_(&orbit), loads_(loads), joints_(joints), watch_(watch) {}
 
   RunUp result() {
     if (!begins_at_rest()) {
@@ -31,8 +31,8 @@ class Search {
       if (!make_from_rest()) return out_;
     } else if (loads_.found) {
       if (!find_end()) return out_;
-    } else if (regime_->kind == Regime::Kind::drifting || regime_->kind == Regime::Kind::at_rest) {
-      out_.until = std::max(machine_->scene.run.until, regime_->state.t);  // all is switched by then
+    } else if (orbit_->kind == Orbit::Kind::drifting || orbit_->kind == Orbit::Kind::at_rest) {
+      out_.until = std::max(machine_->scene.run.until, orbit_->state.t);  // all is switched by then
     } else {
       return none("the scene's own start leads to no steady motion: " + loads_.words);
     }
@@ -72,11 +72,11 @@ class Search {
       machine_ = compile(scene, machine_->effects);
       if (!begins_at_rest()) return none("the scene prescribes a speed: there is no start from rest"), false;
       if (!find_end()) return false;
-      RegimeOptions options;
+      OrbitOptions options;
       options.budget = scene.run.budget;
       options.most_rounds = most_rounds;
       options.interrupted = watch_.interrupted;
-      made_ = find_regime(machine_, options);
+      made_ = find_orbit(machine_, options);
     } catch (const std::exception& error) {
       return none(fmt::format("from rest, which the scene does not tell: {}", error.what())), false;
     }
@@ -93,7 +93,7 @@ class Search {
   }
   std::string where_to() const {
     if (loads_.found) return "to " + speed_text(loads_.speed);
-    return regime_->kind == Regime::Kind::at_rest ? "until it stands" : "to a motion that does not repeat";
+    return orbit_->kind == Orbit::Kind::at_rest ? "until it stands" : "to a motion that does not repeat";
   }
   std::string speed_text(double speed) const { return machine_->scene.speed_unit.text(speed, 5); }
 
@@ -106,14 +106,14 @@ class Search {
             .progress = {}};
   }
 
-  // A link that stands in steady motion tells nothing; then it is where the search for the regime found it.
+  // A link that stands in steady motion tells nothing; then it is where the search for the steady motion found it.
   bool find_end() {
     const Model& m = *machine_;
-    out_.until = regime_->state.t;
+    out_.until = orbit_->state.t;
     if (loads_.slowest > 1e-6 * m.speed_scale) {
       Equations equations(machine_, false);
       const double sense = loads_.speed < 0 ? -1 : 1;
-      RunOptions run = run_options(longest * std::max({m.scene.run.until, regime_->state.t, 10 * loads_.round}));
+      RunOptions run = run_options(longest * std::max({m.scene.run.until, orbit_->state.t, 10 * loads_.round}));
       run.tolerance *= looser;
       run.stop = [&, sense](double t, std::span<const double> y) {
         return std::clamp(1 - sense * link_speed(m, equations, t, y) / (arrived * loads_.slowest), -1.0, 1.0);
@@ -172,19 +172,19 @@ class Search {
   }
 
   std::shared_ptr<const Model> machine_;
-  const Regime* regime_;
+  const Orbit* orbit_;
   const SteadyLoads& loads_;
   const std::vector<LimitedJoint>& joints_;
   const Watch& watch_;
-  Regime made_;
+  Orbit made_;
   RunUp out_;
 };
 
 }  // namespace
 
-RunUp find_run_up(const std::shared_ptr<const Model>& machine, const Regime& regime, const SteadyLoads& loads,
+RunUp find_run_up(const std::shared_ptr<const Model>& machine, const Orbit& orbit, const SteadyLoads& loads,
                   const std::vector<LimitedJoint>& joints, const Watch& watch) {
-  return Search(machine, regime, loads, joints, watch).result();
+  return Search(machine, orbit, loads, joints, watch).result();
 }
 
 }  // namespace kurbel

@@ -27,7 +27,7 @@ struct RunUp {
 // steady motion begins where the reduction link comes to 99 % of its least speed in it, and nothing is left to be
 // switched; two rounds are added. Errors: the larger of the differences to a run with 30 × looser tolerances, and of
 // twice that to a run by another method (engine/run, RunOptions::elsewhere).
-RunUp find_run_up(const std::shared_ptr<const Model>& machine, const Regime& regime, const SteadyLoads& loads,
+RunUp find_run_up(const std::shared_ptr<const Model>& machine, const Orbit& orbit, const SteadyLoads& loads,
                   const std::vector<LimitedJoint>& joints, const Watch& watch);
 
 }  // namespace kurbel

@@ -88,22 +88,22 @@ void find_barred_ranges(const Model& model, double factor, const std::function<S
   }
 }
 
-void judge_limits(const std::shared_ptr<const Model>& machine, const Regime& regime, bool at_regime, const Watch& watch,
+void judge_limits(const std::shared_ptr<const Model>& machine, const Orbit& orbit, bool at_orbit, const Watch& watch,
                   ModesStudy& found) {
   RunUp run_up;
   SteadyLoads loads;
   if (any_limits(found.limited)) {
     const std::vector<LimitedJoint> joints = joints_of(*machine, found.limited);
-    const SteadyLoads kept = steady_loads(regime, machine, joints);
-    run_up = find_run_up(machine, regime, kept, joints, watch);
+    const SteadyLoads kept = steady_loads(orbit, machine, joints);
+    run_up = find_run_up(machine, orbit, kept, joints, watch);
     loads = kept;
-    if (!at_regime || !kept.found) {
+    if (!at_orbit || !kept.found) {
       loads = {.found = true, .words = "the linear response at " + found.speed_unit.text(found.drive.at.speed, 5)};
-      if (at_regime) loads.words += "; " + kept.words;
+      if (at_orbit) loads.words += "; " + kept.words;
       loads.joints = loads_of(found.here), loads.speed = found.drive.at.speed;
     } else {
       loads.words = fmt::format("the motion that the machine keeps, at {}: {}", found.speed_unit.text(kept.speed, 5),
-                                regime.words);
+                                orbit.words);
     }
     found.verdicts = judge(found.limited, loads, run_up, passing_of(found), found.speed_unit);
   }

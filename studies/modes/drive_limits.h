@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/analysis/regime.h"
+#include "engine/orbit/orbit.h"
 #include "studies/modes/modes.h"
 
 namespace kurbel {
@@ -16,9 +16,9 @@ JointLoad load_of(const JointResponse& response);
 void find_barred_ranges(const Model& model, double factor, const std::function<SpeedResponse(double speed)>& at,
                         ModesStudy& found);
 
-// Fills `verdicts` of all joints with limits, and notes. `machine` with all its effects, `regime` where its own start
+// Fills `verdicts` of all joints with limits, and notes. `machine` with all its effects, `steady motion` where its own start
 // leads; `at_regime`: the study's operating point is that motion, else loads are those of the linear response `here`.
-void judge_limits(const std::shared_ptr<const Model>& machine, const Regime& regime, bool at_regime, const Watch& watch,
+void judge_limits(const std::shared_ptr<const Model>& machine, const Orbit& orbit, bool at_orbit, const Watch& watch,
                   ModesStudy& found);
 
 }  // namespace kurbel

@@ -195,11 +195,11 @@ class Exponents {
 
 }  // namespace
 
-void find_exponents(const Regime& regime, const CycleSamples& samples, ModesStudy& found) {
+void find_exponents(const Orbit& orbit, const CycleSamples& samples, ModesStudy& found) {
   const Model& m = *found.drive.model;
   const bool contacts_change = std::any_of(samples.events.begin(), samples.events.end(), changes_contact);
   if (!(varies_with_angle(m) || contacts_change) || m.state_count() > most_states_of_exponents) return;
-  const FloquetSpectrum spectrum = floquet_exponents(*regime.map, regime.point.z);
+  const FloquetSpectrum spectrum = floquet_exponents(*orbit.map, orbit.point.z);
   if (!spectrum.found())
     found.notes.push_back("no exponents of the periodic system beside the modes of the mean: " + spectrum.why);
   else

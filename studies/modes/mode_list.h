@@ -11,7 +11,7 @@ void list_modes(int count, ModesStudy& found);
 void find_frozen_range(int count, ModesStudy& found);
 // Fills `periodic` and `only_of_mean` of the modes of a small machine: exponents of the motions beside the cycle that belong
 // to them. Each mode that swings has one, two, or a note that says why none.
-void find_exponents(const Regime& regime, const CycleSamples& samples, ModesStudy& found);
+void find_exponents(const Orbit& orbit, const CycleSamples& samples, ModesStudy& found);
 // Locks or slips, touches or parts.
 bool changes_contact(const Event& event);
 // Notes contacts that lock and slip, touch and part within the round: the linear machine has them one way.

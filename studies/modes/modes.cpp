@@ -50,7 +50,7 @@ class Study {
       note_changes(*samples_, found_);
       find_rattles(*samples_, options_.count, found_);
     }
-    if (samples_ && !options_.speed && !options_.angle) find_exponents(*regime_, *samples_, found_);
+    if (samples_ && !options_.speed && !options_.angle) find_exponents(*orbit_, *samples_, found_);
     choose_range();
     say("excitation", 0.15);
     find_forcing();
@@ -87,34 +87,34 @@ class Study {
     if (options_.barred_factor <= 0) throw std::invalid_argument("--barred: must be > 0");
   }
 
-  // The regime that the scene's own start leads to, unless a speed is asked for of a machine that knows no contacts and
+  // The steady motion that the scene's own start leads to, unless a speed is asked for of a machine that knows no contacts and
   // no states of its own: then all turns as geared, whatever the speed.
   void find_operating_point() {
     const bool plain = !model_->has_contacts() && model_->own_states.empty() && scene_.sequence.steps.empty();
-    if (!(options_.speed && plain)) find_regime_cycle();
+    if (!(options_.speed && plain)) find_orbit_cycle();
     if (!options_.speed && !options_.angle) stay_at_rest();
     LinearisationPoint point{.speed = options_.speed.value_or(samples_ ? samples_->mean->speed : 0),
                              .angle = options_.angle};
-    if (samples_) point.regime = samples_->mean;
-    if (rest_ && !options_.speed) point.regime = rest_;
-    if (!options_.speed && !point.regime && !swings_about_rest()) point.speed = balanced_or_usual_speed();
+    if (samples_) point.orbit = samples_->mean;
+    if (rest_ && !options_.speed) point.orbit = rest_;
+    if (!options_.speed && !point.orbit && !swings_about_rest()) point.speed = balanced_or_usual_speed();
     BaseMotion base(model_, point);
-    if (!point.regime && base.equations().has_followers())
+    if (!point.orbit && base.equations().has_followers())
       throw std::invalid_argument(
           "its own start leads to no motion that repeats, and a joint with clearance or a rod that bends has no small "
           "motions about any other: leave those effects out, e.g. --effects elasticity, or look at kurbel run");
     found_.drive = linearise(base);
     if (!base.words().empty()) found_.notes.push_back("at this speed " + base.words());
     for (const std::string& note : substitutes(*model_)) found_.notes.push_back(note);
-    if (!options_.speed && regime_ && regime_->repeats() && regime_->map)
-      found_.outside_data = outside_data(*regime_->map, regime_->point);
+    if (!options_.speed && orbit_ && orbit_->repeats() && orbit_->map)
+      found_.outside_data = outside_data(*orbit_->map, orbit_->point);
     else if (lies_beyond_a_table(*model_, point.speed))
       found_.outside_data = {
           "this speed lies beyond the end of a table over the speed, whose slope there is not known"};
     note_unsteady_motion();
     if (!samples_ || options_.speed) return;
     found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);
-    if (regime_->kind == Regime::Kind::equilibrium) take_swings_away(*found_.cycle);
+    if (orbit_->kind == Orbit::Kind::equilibrium) take_swings_away(*found_.cycle);
     found_.cycle_order = 2 * pi / (samples_->time * std::abs(samples_->mean->speed));
   }
 
@@ -128,48 +128,48 @@ class Study {
     for (std::vector<Complex>& orders : response.orders) std::fill(orders.begin() + 1, orders.end(), Complex{});
   }
 
-  void look_for_regime() {
-    RegimeOptions options;
+  void look_for_orbit() {
+    OrbitOptions options;
     options.method = scene_.run.method == "work" ? "auto" : scene_.run.method;
     options.budget = scene_.run.budget;
     options.interrupted = options_.watch.interrupted;
     if (has_rocking_crank(*model_)) options.most_rounds = rounds_of_rocking;
     options.progress = [this](const std::string& what, double part) { options_.watch.at(what, 0.1 * part); };
-    regime_.emplace();
+    orbit_.emplace();
     try {
-      regime_ = find_regime(model_, options);
+      orbit_ = find_orbit(model_, options);
     } catch (const std::invalid_argument& refused) {
-      regime_->words = refused.what();
+      orbit_->words = refused.what();
     }
   }
 
-  void find_regime_cycle() {
-    look_for_regime();
-    found_.regime = regime_->words;
+  void find_orbit_cycle() {
+    look_for_orbit();
+    found_.orbit = orbit_->words;
     try {
-      if (regime_->repeats() && regime_->point.time > 0) samples_ = sample_cycle(*regime_, cycle_samples);
-      if (!samples_ && regime_->kind == Regime::Kind::equilibrium) rest_ = means_of_equilibrium(model_, regime_->state);
+      if (orbit_->repeats() && orbit_->point.time > 0) samples_ = sample_cycle(*orbit_, cycle_samples);
+      if (!samples_ && orbit_->kind == Orbit::Kind::equilibrium) rest_ = means_of_equilibrium(model_, orbit_->state);
     } catch (const std::invalid_argument& refused) {
-      found_.regime = refused.what();
+      found_.orbit = refused.what();
     }
     if (samples_ && samples_->mean->speed == 0) rest_ = samples_->mean, samples_.reset();  // the link stands
     if (!samples_ && !rest_ && !swings_about_rest())
       found_.notes.push_back(fmt::format(
           "no motion that repeats to linearise at: {}; instead everything turns as geared, clutches locked and brakes "
           "released, at the speed said",
-          found_.regime));
+          found_.orbit));
   }
 
   bool swings_about_rest() const {
-    return has_rocking_crank(*model_) || (regime_ && rests_by_its_angle(*model_, *regime_));
+    return has_rocking_crank(*model_) || (orbit_ && rests_by_its_angle(*model_, *orbit_));
   }
 
   // What never comes round, or rests by its weights, swings about a rest: there the link is held, not averaged.
   void stay_at_rest() {
-    if (!regime_ || !swings_about_rest()) return;
-    const RestPlace place = place_of_rest(model_, *regime_);
+    if (!orbit_ || !swings_about_rest()) return;
+    const RestPlace place = place_of_rest(model_, *orbit_);
     options_.angle = found_.rests_at = place.angle;
-    rest_ = place.regime;
+    rest_ = place.orbit;
     samples_.reset();
     found_.notes.push_back(fmt::format(
         "small swings about the rest at {:.4g}° of \"{}\": weights and loads that hang on the angle act as springs, "
@@ -187,7 +187,7 @@ class Study {
           found_.speed_unit.text(speed, 5), torque, found_.link));
   }
 
-  // Without a regime: where mean torques balance near the rated speed and a faster motion is braked, if they do.
+  // Without a steady motion: where mean torques balance near the rated speed and a faster motion is braked, if they do.
   double balanced_or_usual_speed() const {
     const double rated = usual_speed(*model_);
     if (model_->scene.run.start.speed != 0 || model_->free_shafts < model_->shafts.size()) return rated;
@@ -372,15 +372,15 @@ class Study {
     if (options_.spot_checks == 0 && options_.spots.empty()) return;
     const Network network = network_as_of(scene_, options_.at);
     check_spots(
-        {network, scene_, effects_, samples_ ? &*regime_ : nullptr},
+        {network, scene_, effects_, samples_ ? &*orbit_ : nullptr},
         [this](double speed) { return speed == std::abs(found_.drive.at.speed) ? found_.drive : drive_at(speed); },
         options_, found_);
   }
 
   // A speed that is asked for is judged by the linear response at it; peaks are those of a run-up all the same.
   void judge_all_limits() {
-    if (!regime_ && any_limits(found_.limited)) look_for_regime();
-    judge_limits(model_, regime_.value_or(Regime{}), !options_.speed && !options_.angle, options_.watch, found_);
+    if (!orbit_ && any_limits(found_.limited)) look_for_orbit();
+    judge_limits(model_, orbit_.value_or(Orbit{}), !options_.speed && !options_.angle, options_.watch, found_);
   }
 
   void find_stresses() {
@@ -407,7 +407,7 @@ class Study {
   Effects effects_;
   Scene scene_;
   std::shared_ptr<const Model> model_;
-  std::optional<Regime> regime_;
+  std::optional<Orbit> orbit_;
   std::shared_ptr<const MeanMotion> rest_;  // where the link stands and others turn
   std::optional<CycleSamples> samples_;
   ModesStudy found_;

@@ -1,6 +1,6 @@
 // modes.h — the drive in the frequency domain: modes, critical speeds, forced response, limits, a torque's spectrum.
 //
-// The machine is linearised at its regime (engine/linear), with everything that the scene's effects do.
+// The machine is linearised at its steady motion (engine/linear), with everything that the scene's effects do.
 //   K v = ω² M v;   (λ² M + λ C + K) v = 0;   critical where r Ω = ω_n (Campbell)
 // A mechanism's inertia enters by its mean; where it varies by ε in a mode, y″ + ω²(1 − ε cos νt) y = 0 is unstable in
 // first order for |ν/2ω − 1| < ½ √(ε²/4 − 4ζ²), ν = r Ω: around the speeds 2 ω/r.       (Mathieu; theory 12.8)
@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/moment.h"
 #include "engine/linear/cycle_samples.h"
 #include "engine/linear/eigen_modes.h"
+#include "engine/orbit/moment.h"
 #include "engine/scene/scene.h"
 #include "studies/findings/output.h"
 #include "studies/findings/watch.h"
@@ -29,7 +29,7 @@ namespace kurbel {
 
 struct ModesOptions {
   int count = 20;                    // of modes, rigid motion not counted
-  std::optional<double> speed = {};  // of the reduction link [rad/s]; default: that of the regime
+  std::optional<double> speed = {};  // of the reduction link [rad/s]; default: that of the steady motion
   Moment at = {};                    // as the machine is then; default: when all is switched
   std::optional<double> angle = {};  // holds the link there instead of averaging over the cycle [rad]
   double slowest = 0, fastest = 0;   // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
@@ -137,7 +137,7 @@ struct ModesStudy {
   SpeedResponse here;                  // at the operating point
   std::optional<SpeedResponse> cycle;  // what the joints really do there, from the full equations
   double cycle_order = 1;              // of its first harmonic
-  std::string regime;                  // what the scene's own start leads to, in words
+  std::string orbit;                   // what the scene's own start leads to, in words
   std::vector<Rattle> rattles;
   bool keeps_its_speed = true;        // nothing grows at the operating point
   std::vector<SpeedResponse> sweep;   // over the range

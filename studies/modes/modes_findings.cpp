@@ -209,7 +209,7 @@ Record operating_point(const ModesStudy& m) {
   return {{"speed", m.drive.at.speed},
           {"link", m.link},
           {"mode_set", m.drive.mode_set},
-          {"regime", m.regime},
+          {"regime", m.orbit},
           {"torque_left_over", m.drive.mean_torque}};
 }
 

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/analysis/moment.h"
+#include "engine/orbit/moment.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/keys.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/analysis/moment.h"
+#include "engine/orbit/moment.h"
 #include "engine/scene/keys.h"
 
 namespace kurbel {

@@ -8,7 +8,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/rigid/rigid_machine.h"
-#include "studies/cycle/regime_cycle.h"
+#include "studies/cycle/orbit_cycle.h"
 #include "studies/reduce/targets.h"
 
 namespace kurbel {
@@ -16,7 +16,7 @@ namespace kurbel {
 // `target`: node that all is reduced to, whose speed is the first of the cycle's others; −1: the link.
 class AlongCycle {
  public:
-  AlongCycle(const RegimeCycle& cycle, int target)
+  AlongCycle(const OrbitCycle& cycle, int target)
       : c_(cycle), slope_(cycle.inertia.derivative()), speed_slope_(cycle.speed.derivative()) {
     if (target < 0) return;
     const Piecewise& speed = c_.speed;
@@ -52,10 +52,10 @@ class AlongCycle {
     return {c_.sense * speed, c_.sense * speed * speed_slope_.value(s)};
   }
   double mean_ratio() const { return ratio_ ? ratio_->mean() : 1; }
-  const RegimeCycle& cycle() const { return c_; }
+  const OrbitCycle& cycle() const { return c_; }
 
  private:
-  const RegimeCycle c_;
+  const OrbitCycle c_;
   Piecewise slope_, speed_slope_;
   std::optional<Piecewise> ratio_, ratio_slope_;
   std::vector<double> share_;

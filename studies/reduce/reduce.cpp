@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "engine/analysis/kept_moment.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "studies/cycle/classical.h"
@@ -105,12 +105,12 @@ class Reducer {
     else
       model_ = compile_at(scene_, scene_.effects, options_.at);
   }
-  Regime regime_of(std::shared_ptr<const Model> model, int most_rounds) const {
-    RegimeOptions options = regime_options(scene_.run);
+  Orbit orbit_of(std::shared_ptr<const Model> model, int most_rounds) const {
+    OrbitOptions options = orbit_options(scene_.run);
     options.most_rounds = most_rounds;
-    Regime regime = find_regime(std::move(model), options);
+    Orbit orbit = find_orbit(std::move(model), options);
     Deadline::check();
-    return regime;
+    return orbit;
   }
   void find_cycle() {
     if (options_.speed)
@@ -118,17 +118,17 @@ class Reducer {
           fmt::format("--speed: the torques hang on more than angle and speed ({}), so they are those along the steady "
                       "cycle, which has its own speed; leave the option out, or take --basis classical",
                       fmt::join(beyond_, ", ")));
-    const Regime regime = regime_of(model_, RegimeOptions{}.most_rounds);
-    if (!regime.repeats()) return without_a_cycle(regime.words);
+    const Orbit orbit = orbit_of(model_, OrbitOptions{}.most_rounds);
+    if (!orbit.repeats()) return without_a_cycle(orbit.words);
     const bool other = target_node_ != model().reduction_node;
     const std::vector<int> nodes = other ? std::vector<int>{target_node_} : std::vector<int>{};
     try {
-      along_.emplace(regime_cycle(regime, nodes), other ? target_node_ : -1);
+      along_.emplace(orbit_cycle(orbit, nodes), other ? target_node_ : -1);
     } catch (const std::invalid_argument& error) {  // the link turns back
       return without_a_cycle(error.what());
     }
-    looser_ = looser_regime_cycle(regime, nodes);
-    r_.outside_data = outside_data(*regime.map, regime.point);
+    looser_ = looser_orbit_cycle(orbit, nodes);
+    r_.outside_data = outside_data(*orbit.map, orbit.point);
     r_.cycle = along_->cycle().way();
     r_.sense = along_->cycle().sense;
     r_.to_ratio = along_->mean_ratio();
@@ -268,7 +268,7 @@ class Reducer {
 
   // I_r, M_d and M_c over the cycle.
   using Functions = std::array<Piecewise, 3>;
-  Functions functions_of(const RegimeCycle& c) const { return {c.inertia, c.cycle.drive, c.cycle.load}; }
+  Functions functions_of(const OrbitCycle& c) const { return {c.inertia, c.cycle.drive, c.cycle.load}; }
   Functions functions_at(double sampling) {
     const MachineCycle c = machine_cycle(*machine_, r_.speed, sampling);
     return {c.mechanism.value + c.mechanism.value.constant(machine_->constant_inertia()), c.drive, c.load};
@@ -358,17 +358,13 @@ class Reducer {
       for (const ReducedPosition& p : r_.positions)
         if (!p.singular.empty())
           left_out += fmt::format("{}{} ({:.4g}°)", left_out.empty() ? "" : ", ", p.number, p.phi * 360 / turn);
-      if (!left_out.empty()) {
+      if (!left_out.empty())
         r_.notes.push_back(fmt::format(
-            "the motion itself is not integrated over the way of {}: at a dead centre x′ = 0 while \"{}\" turns on, so "
-            "that no equation of motion in x goes through it; kurbel run integrates over time or angle and tells x, v "
-            "and a",
-            r_.to, r_.link));
-        r_.notes.push_back(fmt::format(
-            "left out: position {}: a dead centre, where {} stands still; {} are infinite there", left_out, r_.to,
+            "left out: position {}: a dead centre, where {} stands still; {} are infinite there, so that no motion is "
+            "integrated over its way but over time or angle",
+            left_out, r_.to,
             r_.to_rocker ? "reduced inertia I_r/x′² and torque M/x′"
                          : "reduced mass m_r = I_r/x′² and force F_r = M/x′"));
-      }
     }
   }
 
@@ -385,9 +381,9 @@ class Reducer {
     if (!machine_->uses_speed() || !machine_->periodic() || !has_cycle_ || options_.speed) return;
     constexpr int enough_rounds = 40;
     try {
-      const Regime regime = regime_of(compile_at(scene_, scene_.effects, options_.at), enough_rounds);
-      if (!regime.repeats()) return;
-      const RegimeCycle c = regime_cycle(regime);
+      const Orbit orbit = orbit_of(compile_at(scene_, scene_.effects, options_.at), enough_rounds);
+      if (!orbit.repeats()) return;
+      const OrbitCycle c = orbit_cycle(orbit);
       double off = 0;
       for (int k = 0; k < 64; ++k) {
         const double s = c.way() * (k + 0.5) / 64;
@@ -430,9 +426,9 @@ class Reducer {
   const Scene scene_;
   const ReduceOptions& options_;
   std::optional<RigidMachine> machine_;  // of the classical basis
-  std::shared_ptr<const Model> model_;   // of the regime's
+  std::shared_ptr<const Model> model_;   // of the steady motion's
   std::optional<AlongCycle> along_;
-  std::optional<RegimeCycle> looser_;
+  std::optional<OrbitCycle> looser_;
   std::vector<std::string> beyond_;  // what the rigid machine cannot carry
   MachineReduction r_;
   int target_node_ = 0;
@@ -446,7 +442,7 @@ class Reducer {
 MachineReduction reduce(const Scene& scene, const ReduceOptions& options) {
   const Deadline deadline(scene.run.budget);
   ReduceOptions asked = options;
-  const std::string later = choose_kept_moment(scene, scene.effects, regime_options(scene.run), asked.at);
+  const std::string later = choose_kept_moment(scene, scene.effects, orbit_options(scene.run), asked.at);
   MachineReduction reduction = Reducer(scene, asked).run();
   if (!later.empty()) reduction.notes.push_back(later);
   return reduction;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/moment.h"
 #include "engine/base/estimate.h"
+#include "engine/orbit/moment.h"
 #include "studies/cycle/machine_cycle.h"
 #include "studies/findings/output.h"
 

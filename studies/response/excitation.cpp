@@ -144,7 +144,7 @@ class SourceSearch {
     const double turns = cycle.angle / (2 * pi);
     while (samples_ < 8 * found_.harmonics || (samples_ < most_samples && static_cast<double>(samples_) < 1024 * turns))
       samples_ *= 2;
-    const bool stands = drive_.at.regime ? drive_.at.regime->speed == 0 : drive_.at.angle && drive_.at.speed == 0;
+    const bool stands = drive_.at.orbit ? drive_.at.orbit->speed == 0 : drive_.at.angle && drive_.at.speed == 0;
     if (base.turns() && !stands) find_orders(base, cycle.periodic);
     if (base.time_period() > 0) find_frequencies(base);
     find_meshes();

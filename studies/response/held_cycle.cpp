@@ -66,8 +66,8 @@ class LinearMotion {
   }
 
   State state() {
-    const MeanMotion* regime = base_.point().regime.get();
-    const double angle = regime ? regime->state.y[link_] : 0;
+    const MeanMotion* orbit = base_.point().orbit.get();
+    const double angle = orbit ? orbit->state.y[link_] : 0;
     add_orders(angle);
     const BaseMotion::Position position{angle, 0};
     const std::span<const double> base = base_.at(position);
@@ -82,9 +82,9 @@ class LinearMotion {
       if (!base_.has_spring(at(j))) continue;
       const std::size_t i = equations.twist_index(static_cast<int>(j));
       y[i] += twist_[j];
-      apart[j] = y[i] - (regime ? regime->state.y[i] : 0);
+      apart[j] = y[i] - (orbit ? orbit->state.y[i] : 0);
     }
-    turn_angles(apart, y, regime ? &regime->state.y : nullptr);
+    turn_angles(apart, y, orbit ? &orbit->state.y : nullptr);
     y.resize(m_.state_count());
     return {base_.time(position), std::move(y), equations.modes()};
   }
@@ -161,7 +161,7 @@ class CycleSearch {
 
   bool is_free() {
     const Periodicity period = periodicity_of(m_);
-    const bool own_period = machine_.regime && machine_.regime->map->periodicity().by_time && !period.by_time;
+    const bool own_period = machine_.orbit && machine_.orbit->map->periodicity().by_time && !period.by_time;
     free_ = free_motions(base_);
     if (free_.cols() == 0)
       out_.why = "a prescribed speed drives the machine, so that its mean speed cannot be held at another";
@@ -232,7 +232,7 @@ class CycleSearch {
       x << guess.z, a;
       if (solve_at(1, x)) return settle(x);
     }
-    if (image_.end != ReturnMap::End::interrupted && machine_.regime) along_the_speeds();
+    if (image_.end != ReturnMap::End::interrupted && machine_.orbit) along_the_speeds();
   }
 
   VectorXd first_acceleration() const {
@@ -243,15 +243,15 @@ class CycleSearch {
 
   // From the motion that the machine keeps, in steps.
   void along_the_speeds() {
-    const Regime& regime = *machine_.regime;
-    const double from = drive_.at.regime->speed / drive_.at.speed;  // of the speeds to be held
+    const Orbit& orbit = *machine_.orbit;
+    const double from = drive_.at.orbit->speed / drive_.at.speed;  // of the speeds to be held
     const auto model = model_with(VectorXd::Zero(free_.cols()));
     map_ = std::make_unique<ReturnMap>(model, map_options());
-    const PoincareSection& section = regime.map->section();
-    map_->go_through(on(*model, section.state()), section.options().sticks_throughout, drive_.at.regime->speed);
+    const PoincareSection& section = orbit.map->section();
+    map_->go_through(on(*model, section.state()), section.options().sticks_throughout, drive_.at.orbit->speed);
     if (section.size() != map_->size()) return;
-    VectorXd x = VectorXd::Zero(regime.point.z.size() + free_.cols());
-    x.head(regime.point.z.size()) = regime.point.z;
+    VectorXd x = VectorXd::Zero(orbit.point.z.size() + free_.cols());
+    x.head(orbit.point.z.size()) = orbit.point.z;
     double way = 0;
     for (double part = first_part; way < 1;) {
       VectorXd next = x;
@@ -335,8 +335,8 @@ class CycleSearch {
   void settle(const VectorXd& x) {
     const Index k = free_.cols(), n = x.size() - k;
     const auto model = model_with(x.tail(k));
-    Regime held;
-    held.kind = Regime::Kind::cycle;
+    Orbit held;
+    held.kind = Orbit::Kind::cycle;
     held.map = std::make_shared<ReturnMap>(model, map_options());
     held.map->follow(*map_);
     held.point.found = true;

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/regime.h"
 #include "engine/linear/cycle_samples.h"
+#include "engine/orbit/orbit.h"
 #include "studies/response/forced_response.h"
 
 namespace kurbel {
@@ -39,7 +39,7 @@ struct HeldMachine {
   const Network& network;
   const Scene& scene;
   const Effects& effects;
-  const Regime* regime = nullptr;  // one that repeats; null: none is known
+  const Orbit* orbit = nullptr;  // one that repeats; null: none is known
 };
 
 struct HeldCycleOptions {

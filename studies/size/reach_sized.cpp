@@ -1,4 +1,4 @@
-// reach_sized.cpp — asks the sized machine's regime what δ it has, and seeks the flywheel that meets the demanded one.
+// reach_sized.cpp — asks the sized machine's steady motion what δ it has, and seeks the flywheel that meets the demanded one.
 #include "studies/size/reach_sized.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ class Reach {
         options_(options),
         others_(s_.motor_inertia + s_.gearbox_inertia + s_.other_inertia),
         start_speed_(start_speed),
-        regimes_(scene, parts(sizing, options), options.simulation.watch) {}
+        orbits_(scene, parts(sizing, options), options.simulation.watch) {}
 
   void run() {
     if (!s_.needed) return look_without();
@@ -36,8 +36,8 @@ class Reach {
 
  private:
   // One of a family is there at once, or never: what is elastic takes of a drive that balances the rigid load alone.
-  static SizedRegimes::Parts parts(const Sizing& s, const SizeOptions& options) {
-    SizedRegimes::Parts parts{s.flywheel, s.link, s.motor, options.at};
+  static SizedOrbits::Parts parts(const Sizing& s, const SizeOptions& options) {
+    SizedOrbits::Parts parts{s.flywheel, s.link, s.motor, options.at};
     constexpr int few_rounds = 40;
     if ((s.basis == SizeBasis::classical && !s.operating) || s.held) parts.most_rounds = few_rounds;
     if (s.held) parts.held = s.mid_speed;
@@ -49,14 +49,14 @@ class Reach {
     Effects effects = scene_.effects;
     const SizedModel as =
         is_elastic(*compile_at(scene_, effects, options_.at)) ? SizedModel::elastic : SizedModel::rigid;
-    SizedRegime regime = regimes_.at(0, effects, {}, options_.simulation.measure_error);
-    if (!regime.found && s_.flywheel_now > 0)  // a shaft between couplings needs some inertia
-      regime = regimes_.at(s_.flywheel_now, effects, {}, options_.simulation.measure_error);
+    SizedOrbit orbit = orbits_.at(0, effects, {}, options_.simulation.measure_error);
+    if (!orbit.found && s_.flywheel_now > 0)  // a shaft between couplings needs some inertia
+      orbit = orbits_.at(s_.flywheel_now, effects, {}, options_.simulation.measure_error);
     constexpr double missed = 0.01;
-    if (!regime.found || regime.crank.value <= s_.delta * (1 + missed)) return;
-    s_.reached.push_back({regime, as, SizedBy::constant_drive, "no flywheel"});
-    note(regime, as);
-    meet(as, regime, effects);
+    if (!orbit.found || orbit.crank.value <= s_.delta * (1 + missed)) return;
+    s_.reached.push_back({orbit, as, SizedBy::constant_drive, "no flywheel"});
+    note(orbit, as);
+    meet(as, orbit, effects);
     s_.needed = true;
   }
 
@@ -75,7 +75,7 @@ class Reach {
     reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, &family);
   }
 
-  // By the work equation with the torques as they are over the speed, where there is such a cycle; then the regimes.
+  // By the work equation with the torques as they are over the speed, where there is such a cycle; then the steady motions.
   void reach(SizedBy by, const std::string& sized_by, double flywheel, const SteadyRigidCycle* cycle) {
     if (cycle) {
       DeltaReached exact;
@@ -99,28 +99,28 @@ class Reach {
   void ask(SizedModel as, SizedBy by, const std::string& sized_by, double flywheel, const Effects& effects) {
     const std::string name = name_of(as);
     options_.simulation.watch.at(name + ", " + sized_by, 0);
-    const SizedRegime regime = regimes_.at(flywheel, effects, start_speed_, options_.simulation.measure_error);
-    if (!regime.found) {
+    const SizedOrbit orbit = orbits_.at(flywheel, effects, start_speed_, options_.simulation.measure_error);
+    if (!orbit.found) {
       if (s_.operating || (s_.basis == SizeBasis::regime && !s_.held)) {
         s_.complete = false;
-        s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, regime.why);
+        s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, orbit.why);
       } else {
-        s_.notes.push_back(fmt::format("{} ({}): {}", name, sized_by, regime.why));
+        s_.notes.push_back(fmt::format("{} ({}): {}", name, sized_by, orbit.why));
       }
       return;
     }
-    s_.reached.push_back({regime, as, by, sized_by});
-    note(regime, as);
+    s_.reached.push_back({orbit, as, by, sized_by});
+    note(orbit, as);
     const bool last = as == SizedModel::elastic || !is_elastic(*compile_at(scene_, scene_.effects, options_.at));
-    const double off = regime.crank.value / s_.delta - 1;
+    const double off = orbit.crank.value / s_.delta - 1;
     constexpr double missed = 0.01, far_smoother = -0.5;
     const bool heavier = off > missed;
     const bool lighter = s_.basis == SizeBasis::regime && off < -missed && off > far_smoother;
-    if (by == SizedBy::constant_drive && last && !s_.meeting && (heavier || lighter)) meet(as, regime, effects);
+    if (by == SizedBy::constant_drive && last && !s_.meeting && (heavier || lighter)) meet(as, orbit, effects);
   }
   // What a model found at several flywheels is said once.
-  void note(const SizedRegime& regime, SizedModel as) {
-    for (const std::string& what : regime.notes) {
+  void note(const SizedOrbit& orbit, SizedModel as) {
+    for (const std::string& what : orbit.notes) {
       const std::string which = fmt::format("{}: ", name_of(as));
       if (std::none_of(s_.notes.begin(), s_.notes.end(), [&](const std::string& n) {
             return n.starts_with(which + "the drive ") && what.starts_with("the drive ");
@@ -130,29 +130,31 @@ class Reach {
   }
 
   // The flywheel with which the machine as it is has the demanded δ.
-  void meet(SizedModel as, const SizedRegime& first, const Effects& effects) {
-    const SizedRegimes::Meeting found = regimes_.meeting(s_.delta, first, others_, effects);
+  void meet(SizedModel as, const SizedOrbit& first, const Effects& effects) {
+    const SizedOrbits::Meeting found = orbits_.meeting(s_.delta, first, others_, effects);
     const char* which = as == SizedModel::elastic ? "elastic" : "rigid";
-    if (!found.regime && first.crank.value <= s_.delta) return;  // it is smooth enough as it is
-    if (!found.regime) {
+    if (!found.orbit && first.crank.value <= s_.delta) return;  // it is smooth enough as it is
+    if (!found.orbit) {
       s_.meeting_words = fmt::format(
           "no flywheel was found with which the {} machine has δ = {:g}: the least of {} regimes is {:.5g}, with "
           "{:.6g} kg·m²",
-          which, s_.delta, found.regimes, found.least, found.least_at);
+          which, s_.delta, found.orbits, found.least, found.least_at);
       if (!found.unknown.empty())
         s_.meeting_words += "; the search failed, which does not say that there is none: " + found.unknown;
       return;
     }
-    const double on_shaft = found.regime->flywheel + others_;
-    s_.meeting =
-        SizeMethod{fmt::format("regime, {}", which), on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
-                   found.regime->flywheel,           flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
-                   found.regime->crank.value,        found.error};
+    const double on_shaft = found.orbit->flywheel + others_;
+    s_.meeting = SizeMethod{fmt::format("regime, {}", which),
+                            on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
+                            found.orbit->flywheel,
+                            flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
+                            found.orbit->crank.value,
+                            found.error};
     s_.meeting_words =
-        fmt::format("a flywheel of {:.6g} kg·m² meets δ = {:g} with {} ({}{})", found.regime->flywheel, s_.delta,
+        fmt::format("a flywheel of {:.6g} kg·m² meets δ = {:g} with {} ({}{})", found.orbit->flywheel, s_.delta,
                     effects.describe() == scene_.effects.describe() ? "the scene's effects" : "all of its elasticity",
                     which, effects.describe() == "none" ? std::string() : ": " + effects.describe());
-    s_.reached.push_back({*found.regime, as, SizedBy::regime, s_.meeting->name});
+    s_.reached.push_back({*found.orbit, as, SizedBy::regime, s_.meeting->name});
   }
 
   Sizing& s_;
@@ -160,7 +162,7 @@ class Reach {
   const SizeOptions& options_;
   double others_;  // what turns with the flywheel, on its shaft [kg·m²]
   std::optional<double> start_speed_;
-  SizedRegimes regimes_;
+  SizedOrbits orbits_;
 };
 
 }  // namespace
@@ -176,10 +178,10 @@ void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive) (r.model == SizedModel::elastic ? elastic : rigid) = &r;
   constexpr double varies = 1e-9;  // less is rounding
-  if (s.delta_of_regime && *s.delta_of_regime < varies) {
+  if (s.delta_of_orbit && *s.delta_of_orbit < varies) {
     s.notes.push_back("in its steady motion the speed does not vary");
-  } else if (s.delta_of_regime) {
-    const double least = *s.delta_of_regime, by_work = s.delta_now;
+  } else if (s.delta_of_orbit) {
+    const double least = *s.delta_of_orbit, by_work = s.delta_now;
     s.notes.push_back(
         fmt::format("the work equation of the rigid machine leaves out {}: at the scene's own inertia it gives {}, the "
                     "steady cycle has δ = {:.5g}",

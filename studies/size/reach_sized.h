@@ -1,4 +1,4 @@
-// reach_sized.h — δ that the sized machine reaches, rigid and elastic, by its regime; and what the work equation left out.
+// reach_sized.h — δ that the sized machine reaches, rigid and elastic, by its steady motion; and what the work equation left out.
 #pragma once
 
 #include <optional>

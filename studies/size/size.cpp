@@ -7,10 +7,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/analysis/kept_moment.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
+#include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
 #include "studies/cycle/classical.h"
 #include "studies/size/reach_sized.h"
@@ -49,7 +49,7 @@ class Sizer {
       find_speed();
       find_cycle();
     } else {
-      find_regime_cycle();
+      find_orbit_cycle();
     }
     if (s_.basis == SizeBasis::classical && machine_->uses_time())
       s_.notes.push_back("some torque depends on time; the torques are those at t = 0");
@@ -190,28 +190,28 @@ class Sizer {
 
   // Torques along the steady cycle that the scene's own start leads to. A machine that stalls for want of inertia is
   // looked at with more of it.
-  void find_regime_cycle() {
-    const RegimeOptions options = regime_options(scene_.run, options_.simulation.watch.interrupted);
-    Regime regime = find_regime(model_, options);
+  void find_orbit_cycle() {
+    const OrbitOptions options = orbit_options(scene_.run, options_.simulation.watch.interrupted);
+    Orbit orbit = find_orbit(model_, options);
     Deadline::check();
-    const std::string as_it_is = regime.words;
+    const std::string as_it_is = orbit.words;
     double tried = s_.flywheel_now;
-    for (int k = 0; k < 3 && regime.kind == Regime::Kind::at_rest; ++k) {
+    for (int k = 0; k < 3 && orbit.kind == Orbit::Kind::at_rest; ++k) {
       tried = std::max(10 * tried, 10 * others());
-      regime = find_regime(compile_at(with_flywheel(scene_, s_.flywheel, tried, s_.link), scene_.effects, options_.at),
-                           options);
+      orbit = find_orbit(compile_at(with_flywheel(scene_, s_.flywheel, tried, s_.link), scene_.effects, options_.at),
+                         options);
       Deadline::check();
     }
-    if (!regime.repeats() && options_.mid_speed && !options_.basis) regime = hold(*options_.mid_speed, as_it_is, tried);
-    if (!regime.repeats()) return without_a_cycle(as_it_is);
-    const RegimeCycle found = regime_cycle(regime);
+    if (!orbit.repeats() && options_.mid_speed && !options_.basis) orbit = hold(*options_.mid_speed, as_it_is, tried);
+    if (!orbit.repeats()) return without_a_cycle(as_it_is);
+    const OrbitCycle found = orbit_cycle(orbit);
     s_.cycle = found.cycle;
-    if (const auto looser = looser_regime_cycle(regime)) looser_ = looser->cycle;
+    if (const auto looser = looser_orbit_cycle(orbit)) looser_ = looser->cycle;
     s_.engine = drive_varies_with_angle();
     s_.diagram = balanced(s_.cycle);
     take_speed(found);
     if (tried == s_.flywheel_now) {
-      s_.delta_of_regime = found.delta();
+      s_.delta_of_orbit = found.delta();
     } else {
       s_.notes.push_back(fmt::format("as the scene is, {}; the torques are those with {:.6g} kg·m² on \"{}\"", as_it_is,
                                      tried, s_.flywheel));
@@ -219,18 +219,18 @@ class Sizer {
     start_speed_ = found.sense * found.speed.value(0);
   }
   // The mid speed that is given, kept by a torque beside the drive, with as much inertia as that takes.
-  Regime hold(double mid_speed, const std::string& as_it_is, double& tried) try {
+  Orbit hold(double mid_speed, const std::string& as_it_is, double& tried) try {
     tried = s_.flywheel_now;
     for (int k = 0; k < 3; ++k, tried = std::max(10 * tried, 10 * others())) {
-      HeldRegime held = held_regime(with_flywheel(scene_, s_.flywheel, tried, s_.link), scene_.effects, mid_speed,
-                                    options_.at, options_.simulation.watch);
+      HeldOrbit held = held_orbit(with_flywheel(scene_, s_.flywheel, tried, s_.link), scene_.effects, mid_speed,
+                                  options_.at, options_.simulation.watch);
       Deadline::check();
-      if (!held.regime.repeats()) continue;
+      if (!held.orbit.repeats()) continue;
       s_.held = true;
       s_.notes.push_back(fmt::format("{}; the mid speed given is held by {} {} than the drive gives at \"{}\"",
                                      as_it_is, with_unit(std::abs(held.added_torque), "N*m", 4),
                                      held.added_torque < 0 ? "less" : "more", held.added_at));
-      return std::move(held.regime);
+      return std::move(held.orbit);
     }
     return {};
   } catch (const std::invalid_argument&) {  // time drives it
@@ -250,7 +250,7 @@ class Sizer {
     find_speed();
     find_cycle();
   }
-  void take_speed(const RegimeCycle& found) {
+  void take_speed(const OrbitCycle& found) {
     s_.mid_speed = options_.mid_speed.value_or(found.mid_speed());
     s_.mid_speed_source = options_.mid_speed ? "given" : "of the steady cycle that the scene's own start leads to";
     if (options_.mid_speed && std::abs(found.mid_speed() / s_.mid_speed - 1) > 0.01)
@@ -427,7 +427,7 @@ class Sizer {
   const SizeOptions& options_;
   Scene scene_;
   std::optional<RigidMachine> machine_;  // of the classical basis
-  std::shared_ptr<const Model> model_;   // of the regime's
+  std::shared_ptr<const Model> model_;   // of the steady motion's
   std::vector<std::string> beyond_;      // what the rigid machine cannot carry
   std::optional<MachineCycle> looser_;
   double constant_inertia_ = 0;        // on the link [kg·m²]
@@ -441,7 +441,7 @@ Sizing size_flywheel(const Scene& scene, const SizeOptions& options) {
   const Deadline deadline(scene.run.budget);
   SizeOptions asked = options;
   const std::string later = choose_kept_moment(
-      scene, scene.effects, regime_options(scene.run, options.simulation.watch.interrupted), asked.at);
+      scene, scene.effects, orbit_options(scene.run, options.simulation.watch.interrupted), asked.at);
   Sizing sizing = Sizer(scene, asked).run();
   if (!later.empty()) sizing.notes.push_back(later);
   return sizing;

@@ -1,4 +1,4 @@
-// size.h — flywheel for a demanded δ: by Wittenbauer, Mertsalov and without I_em; with the real motor; by the regime.
+// size.h — flywheel for a demanded δ: by Wittenbauer, Mertsalov and without I_em; with the real motor; by the steady motion.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 #include "studies/findings/output.h"
 #include "studies/run/simulate.h"
 #include "studies/size/flywheel.h"
-#include "studies/size/sized_regimes.h"
+#include "studies/size/sized_orbits.h"
 
 namespace kurbel {
 
@@ -31,7 +31,7 @@ struct SizeOptions {
   std::string material = "grey cast iron";
   double diameter = 0, rim_speed = 0;  // [m], [m/s]; 0: by proportion, by the material
   std::optional<double> sheet;         // length of the diagrams' angle axis [m]
-  bool simulate = true;                // look for the regime of the sized machine
+  bool simulate = true;                // look for the steady motion of the sized machine
   SimulateOptions simulation = {};
 };
 
@@ -41,7 +41,7 @@ struct SizeMethod {
   double drive_inertia = 0;      // I₀, on the reduction link [kg·m²]
   double flywheel = 0;           // less everything else that turns at constant ratio, on its own shaft [kg·m²]
   double flywheel_by_parts = 0;  // (theory 3.1)
-  // Reached at constant driving torque, exact, or by the regime; empty: the machine would stop.
+  // Reached at constant driving torque, exact, or by the steady motion; empty: the machine would stop.
   std::optional<double> delta;
   std::optional<double> error = {};  // of the flywheel [kg·m²]
 };
@@ -53,7 +53,7 @@ constexpr const char* name_of(SizedModel model) {
          : model == SizedModel::rigid       ? "rigid, simulated"
                                             : "elastic, simulated";
 }
-// Which flywheel: by the sizing that takes the drive as constant, or counts the motor's slope, or by the regime's δ.
+// Which flywheel: by the sizing that takes the drive as constant, or counts the motor's slope, or by the steady motion's δ.
 enum class SizedBy { constant_drive, slope, regime };
 
 // The sized machine with its real motor, in steady motion.
@@ -88,9 +88,10 @@ struct Sizing {
   double flywheel_now = 0;                                           // in the scene, on its own shaft [kg·m²]
   double motor_inertia = 0, gearbox_inertia = 0, other_inertia = 0;  // on the flywheel's shaft [kg·m²]
   std::vector<std::pair<std::string, double>> other_parts;           // on the flywheel's shaft
-  double delta_now = 0;                   // of the scene as it is, at constant driving torque; NaN: it stops
-  std::optional<double> delta_of_regime;  // of the scene as it is, with its effects; where the basis is the regime
-  bool needed = true;                     // a flywheel with I > 0
+  double delta_now = 0;  // of the scene as it is, at constant driving torque; NaN: it stops
+  std::optional<double>
+      delta_of_orbit;  // of the scene as it is, with its effects; where the basis is the steady motion
+  bool needed = true;  // a flywheel with I > 0
 
   // The motor's slope counted.
   std::string motor;  // first driving component; empty: none
@@ -100,7 +101,7 @@ struct Sizing {
   std::optional<SteadyRigidCycle> soft_cycle;
   std::string soft_why;  // there is none
 
-  // The inertia whose regime has the demanded δ, where the flywheel of the work equation misses it.
+  // The inertia whose steady motion has the demanded δ, where the flywheel of the work equation misses it.
   std::optional<SizeMethod> meeting;
   std::string meeting_words;  // what it meets, or the least δ that was found; empty: nothing was sought
 

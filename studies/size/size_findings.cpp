@@ -110,7 +110,7 @@ Rows reached_table(const Sizing& s) {
                        })
       .column("mid_speed", fmt::format("mid speed [{}]", s.speed_unit.name), &DeltaReached::mid_speed,
               {.factor = s.speed_unit.of(1)})
-      .only_for_programs("settled", [](const DeltaReached&) { return true; })  // a regime is nothing else
+      .only_for_programs("settled", [](const DeltaReached&) { return true; })  // a steady motion is nothing else
       .only_for_programs("cycles", &DeltaReached::cycles)
       .only_for_people("cycles", [](const DeltaReached& r) {
         return r.cycles ? fmt::format("{}", r.cycles) : std::string("exact");
@@ -276,7 +276,7 @@ void tell_basis(Findings& f, const Sizing& s) {
                             {"in_scene", s.flywheel_now},
                             {"speed_ratio", s.flywheel_ratio},
                             {"delta_in_scene", s.delta_now},
-                            {"delta_of_regime_in_scene", s.delta_of_regime}});
+                            {"delta_of_regime_in_scene", s.delta_of_orbit}});
   f.tell("work_diagram", Record{{"work", s.diagram.work},
                                 {"mean_torque", s.diagram.mean_torque()},
                                 {"fluctuation", s.diagram.fluctuation()},

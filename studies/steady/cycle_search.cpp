@@ -8,10 +8,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "engine/analysis/family.h"
-#include "engine/analysis/follow_period.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/family.h"
+#include "engine/orbit/follow_period.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
@@ -32,7 +32,7 @@ constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10;
 constexpr double enough = 1e-11;  // residual of the map, over the rated values
 constexpr double rounding_of_multipliers = 1e-12;
 constexpr double rounding_of_works = 1e-13;  // a quadrature adds up that of all its steps, which both searches share
-constexpr double regime_cost_limit = 40;     // cycles
+constexpr double orbit_cost_limit = 40;      // cycles
 
 // (ω_max + ω_min)/2 of the link over a round, as an observer.
 class LinkSpeed {
@@ -78,18 +78,18 @@ class Search {
     return std::move(out_);
   }
 
-  HeldRegime held() {
-    HeldRegime held;
+  HeldOrbit held() {
+    HeldOrbit held;
     at_speed(*options_.held_speed());
-    held.regime.kind = out_.found                                ? Regime::Kind::cycle
-                       : out_.end == ReturnMap::End::interrupted ? Regime::Kind::interrupted
-                                                                 : Regime::Kind::failed;
-    held.regime.words = out_.found ? "the mid speed is held by a torque added to the drive" : out_.why;
-    held.regime.cost = cost_;
+    held.orbit.kind = out_.found                                ? Orbit::Kind::cycle
+                      : out_.end == ReturnMap::End::interrupted ? Orbit::Kind::interrupted
+                                                                : Orbit::Kind::failed;
+    held.orbit.words = out_.found ? "the mid speed is held by a torque added to the drive" : out_.why;
+    held.orbit.cost = cost_;
     held.added_torque = out_.added_torque, held.added_at = added_to_;
     if (!out_.found) return held;
-    held.regime.polished = true;
-    held.regime.map = map_, held.regime.point = out_.point;
+    held.orbit.polished = true;
+    held.orbit.map = map_, held.orbit.point = out_.point;
     return held;
   }
 
@@ -114,18 +114,18 @@ class Search {
   // Where the scene's own start leads to.
   void freely() {
     describe_model(compile_network(network_, scene_, effects_));
-    Regime regime = find_regime(out_.model, regime_options(scene_, options_.periods, options_.watch));
-    out_.kind = regime.kind;
-    out_.regime = regime.words;
-    out_.rounds = regime.rounds;
-    out_.cost = regime.cost;
-    out_.cost_limit = regime_cost_limit * options_.periods;
-    out_.found = regime.repeats();
-    out_.why = regime.words;
-    out_.uncertain = !regime.stable;
-    out_.point = std::move(regime.point);
-    map_ = regime.map;
-    polished_ = regime.polished, still_changes_ = regime.still_changes;
+    Orbit orbit = find_orbit(out_.model, orbit_options(scene_, options_.periods, options_.watch));
+    out_.kind = orbit.kind;
+    out_.orbit = orbit.words;
+    out_.rounds = orbit.rounds;
+    out_.cost = orbit.cost;
+    out_.cost_limit = orbit_cost_limit * options_.periods;
+    out_.found = orbit.repeats();
+    out_.why = orbit.words;
+    out_.uncertain = !orbit.stable;
+    out_.point = std::move(orbit.point);
+    map_ = orbit.map;
+    polished_ = orbit.polished, still_changes_ = orbit.still_changes;
   }
 
   // --- a speed is demanded: a torque beside the drive, or a quantity of the scene, is one more unknown ---
@@ -218,15 +218,15 @@ class Search {
     ReturnMap::Image guess;
     const bool switches = !scene_.sequence.steps.empty() || is_switched(network_);
     if (switches) {
-      Regime regime = find_regime(out_.model, regime_options(scene_, options_.periods, options_.watch));
-      cost_ += regime.cost;
-      guess.why = "its own start does not lead to a cycle: " + regime.words;
-      if (!regime.repeats()) return guess;
-      if (regime.map->periodicity().by_time)
+      Orbit orbit = find_orbit(out_.model, orbit_options(scene_, options_.periods, options_.watch));
+      cost_ += orbit.cost;
+      guess.why = "its own start does not lead to a cycle: " + orbit.words;
+      if (!orbit.repeats()) return guess;
+      if (orbit.map->periodicity().by_time)
         throw std::invalid_argument(option() + ": a sequence that repeats gives the period, so the speed is not free");
-      map_ = regime.map;
+      map_ = orbit.map;
       guess.end = ReturnMap::End::returned;
-      guess.z = regime.point.z;
+      guess.z = orbit.point.z;
       return guess;
     }
     for (const double faster : {1.0, 1.2, 1.5}) {
@@ -337,8 +337,8 @@ class Search {
   void find_loads() {
     const std::vector<LimitedJoint> joints = limited_joints(*out_.model);
     if (!any_limits(joints)) return;
-    Regime kept;
-    kept.kind = Regime::Kind::cycle;
+    Orbit kept;
+    kept.kind = Orbit::Kind::cycle;
     kept.polished = polished_, kept.still_changes = still_changes_;
     kept.map = map_;
     kept.point = out_.point;
@@ -408,7 +408,7 @@ class Search {
   const SteadyOptions& options_;
   Network network_;
   std::shared_ptr<ReturnMap> map_;
-  bool polished_ = true;  // Regime's, of what the scene's own start leads to
+  bool polished_ = true;  // Orbit's, of what the scene's own start leads to
   double still_changes_ = 0;
   SteadyCycle out_;
   int added_node_ = 0;
@@ -419,8 +419,8 @@ class Search {
 
 }  // namespace
 
-RegimeOptions regime_options(const Scene& scene, int periods, const Watch& watch) {
-  RegimeOptions options = regime_options(scene.run, watch.interrupted);
+OrbitOptions orbit_options(const Scene& scene, int periods, const Watch& watch) {
+  OrbitOptions options = orbit_options(scene.run, watch.interrupted);
   options.tolerance = map_tolerance;
   options.cycles = periods;
   options.progress = [watch](const std::string& what, double part) { watch.at(what, part); };
@@ -431,8 +431,8 @@ SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const Stead
   return Search(scene, effects, options).run();
 }
 
-HeldRegime held_regime(const Scene& scene, const Effects& effects, double mid_speed, const Moment& at,
-                       const Watch& watch) {
+HeldOrbit held_orbit(const Scene& scene, const Effects& effects, double mid_speed, const Moment& at,
+                     const Watch& watch) {
   SteadyOptions options;
   options.mid_speed = mid_speed, options.at = at, options.watch = watch;
   return Search(scene, effects, options).held();

@@ -6,17 +6,17 @@
 namespace kurbel {
 
 // Of a search as the scene's run asks for it: its budget, and its method unless that is one over the angle.
-RegimeOptions regime_options(const Scene& scene, int periods, const Watch& watch);
+OrbitOptions orbit_options(const Scene& scene, int periods, const Watch& watch);
 
 SteadyCycle search_cycle(const Scene& scene, const Effects& effects, const SteadyOptions& options);
 
 // The cycle at a mid speed that is demanded, which a torque added to the drive keeps.
-struct HeldRegime {
-  Regime regime;            // as a machine of its own start has it; failed: its words say what was tried
+struct HeldOrbit {
+  Orbit orbit;              // as a machine of its own start has it; failed: its words say what was tried
   double added_torque = 0;  // [N·m] …
   std::string added_at;     // … on this component's shaft
 };
-HeldRegime held_regime(const Scene& scene, const Effects& effects, double mid_speed, const Moment& at,
-                       const Watch& watch);
+HeldOrbit held_orbit(const Scene& scene, const Effects& effects, double mid_speed, const Moment& at,
+                     const Watch& watch);
 
 }  // namespace kurbel

@@ -11,10 +11,10 @@
 #include <span>
 #include <utility>
 
-#include "engine/analysis/follow_period.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/follow_period.h"
 #include "engine/run/recorders.h"
 #include "studies/steady/round_figures.h"
 

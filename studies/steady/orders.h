@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/return_map.h"
 #include "engine/base/estimate.h"
+#include "engine/orbit/return_map.h"
 #include "studies/findings/result.h"
 
 namespace kurbel {

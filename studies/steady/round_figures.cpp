@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "drivetrain/shared/rating_keys.h"
-#include "engine/analysis/follow_period.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/follow_period.h"
 #include "studies/duty/motor_figures.h"
 #include "studies/duty/work_periods.h"
 #include "studies/findings/report.h"

@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/analysis/kept_moment.h"
-#include "engine/analysis/link_speeds.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/kept_moment.h"
+#include "engine/orbit/link_speeds.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
@@ -89,7 +89,7 @@ class Study {
  public:
   Study(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options)
       : scene_(scene), effects_(effects), options_(options) {
-    const RegimeOptions search = regime_options(scene, options.periods, options.watch);
+    const OrbitOptions search = orbit_options(scene, options.periods, options.watch);
     out_.later = choose_kept_moment(scene, effects.back(), search, options_.at);
   }
 
@@ -207,7 +207,7 @@ class Study {
 
   // The mean torques tell why there can be none; else what the machine did.
   std::string diagnose(const SteadyCycle& cycle) const {
-    const bool stands = cycle.kind == Regime::Kind::at_rest || cycle.kind == Regime::Kind::equilibrium;
+    const bool stands = cycle.kind == Orbit::Kind::at_rest || cycle.kind == Orbit::Kind::equilibrium;
     if (stands && !scene_.sequence.steps.empty() && !options_.at.any())
       return fmt::format(
           "{}. All steps of the sequence are done then; --at \"step N\" asks for the motion that the machine would "
@@ -216,7 +216,7 @@ class Study {
     if (is_interrupted(cycle) || !out_.diagram || options_.holds_speed()) return cycle.why;
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
     const OperatingPoint* p = out_.diagram->working_point();
-    if (p && cycle.kind == Regime::Kind::at_rest)
+    if (p && cycle.kind == Orbit::Kind::at_rest)
       return fmt::format(
           "stall: in the mean the drive would hold {} ({}), but from the scene's own start {}. More inertia, a faster "
           "start, or a drive with a steeper characteristic is needed",
@@ -224,7 +224,7 @@ class Study {
     return cycle.why;
   }
   static bool is_interrupted(const SteadyCycle& cycle) {
-    return cycle.end == ReturnMap::End::interrupted || cycle.kind == Regime::Kind::interrupted;
+    return cycle.end == ReturnMap::End::interrupted || cycle.kind == Orbit::Kind::interrupted;
   }
 
   // Several times what the mean torques would need; where they do not suffice, or hardly, what the rated torque would.
@@ -245,7 +245,7 @@ class Study {
   void find_start() {
     const SteadyCycle* rigid = nullptr;
     for (const SteadyCycle& c : out_.cycles)
-      if (c.found && c.kind != Regime::Kind::vibrating && !is_elastic(*c.model)) rigid = &c;
+      if (c.found && c.kind != Orbit::Kind::vibrating && !is_elastic(*c.model)) rigid = &c;
     if (!rigid || !out_.diagram || options_.holds_speed()) return;
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;
@@ -272,11 +272,11 @@ class Study {
     }
     std::string text;
     for (const SteadyCycle& c : out_.cycles) {
-      const char* begin = c.kind == Regime::Kind::equilibrium ? "Equilibrium, "
-                          : c.kind == Regime::Kind::vibrating ? "Vibration about a place, "
-                                                              : "Steady cycle, ";
+      const char* begin = c.kind == Orbit::Kind::equilibrium ? "Equilibrium, "
+                          : c.kind == Orbit::Kind::vibrating ? "Vibration about a place, "
+                                                             : "Steady cycle, ";
       text += fmt::format("{}{}: {}, {}", text.empty() ? begin : "; ", c.label,
-                          c.kind == Regime::Kind::vibrating ? vibration_text(c) : speed_text(c), c.stability);
+                          c.kind == Orbit::Kind::vibrating ? vibration_text(c) : speed_text(c), c.stability);
       if (c.held_quantity)
         text += fmt::format(", with {} = {} in place of {}", c.held_quantity->key,
                             with_unit(c.held_quantity->value, c.held_quantity->unit, 6),

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/moment.h"
-#include "engine/analysis/regime.h"
+#include "engine/orbit/moment.h"
+#include "engine/orbit/orbit.h"
 #include "studies/findings/output.h"
 #include "studies/findings/watch.h"
 #include "studies/limits/joint_loads.h"
@@ -70,8 +70,8 @@ struct SteadyCycle {
   std::shared_ptr<const Model> model;
   bool found = false;
   std::string why;  // in words, unless it was found
-  Regime::Kind kind = Regime::Kind::failed;
-  std::string regime;  // in words: what the scene's own start leads to, and what decides that
+  Orbit::Kind kind = Orbit::Kind::failed;
+  std::string orbit;  // in words: what the scene's own start leads to, and what decides that
   ReturnMap::End end = ReturnMap::End::returned;
   Periodicity periodicity;
   double section = 0;  // angle of the link where the map is taken [rad]

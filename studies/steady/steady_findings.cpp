@@ -113,8 +113,8 @@ List drive_list(const SteadyCycle& c) {
 
 Record cycle_record(const SteadyCycle& c) {
   Record r = {{"label", c.label}, {"effects", c.effects}, {"found", c.found}};
-  if (!c.regime.empty())
-    r.push_back({"regime", Record{{"kind", name_of(c.kind)}, {"words", c.regime}, {"rounds", c.rounds}}});
+  if (!c.orbit.empty())
+    r.push_back({"regime", Record{{"kind", name_of(c.kind)}, {"words", c.orbit}, {"rounds", c.rounds}}});
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   if (!c.found) {
     tell("why", c.why);

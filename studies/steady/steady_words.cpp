@@ -32,7 +32,7 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   std::vector<std::string> words;
   if (!c.found) return {fmt::format("NOT found: {}", c.why)};
   words.push_back(c.stability);
-  if (!c.regime.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.regime));
+  if (!c.orbit.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.orbit));
   words.push_back(fmt::format(
       "{} unknown{} on the section at {:.4g}°; {}{} round{} of Newton's method ({} with derivative), {:.3g} cycles' "
       "worth ({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/return_map.h"
 #include "engine/model/model.h"
+#include "engine/orbit/return_map.h"
 #include "engine/rigid/rigid_machine.h"
 #include "engine/run/run.h"
 #include "studies/findings/result.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "drivetrain/induction/induction_law.h"
-#include "engine/analysis/follow_period.h"
+#include "engine/orbit/follow_period.h"
 #include "engine/run/run.h"
 #include "studies/findings/trace.h"
 

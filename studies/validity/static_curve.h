@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/return_map.h"
 #include "engine/model/model.h"
+#include "engine/orbit/return_map.h"
 #include "engine/run/recorders.h"
 
 namespace kurbel {

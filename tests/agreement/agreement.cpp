@@ -11,9 +11,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/analysis/periodicity.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/periodicity.h"
 #include "studies/reduce/reduce.h"
 #include "studies/run/compare.h"
 #include "studies/size/size.h"
@@ -95,7 +95,7 @@ class Comparison {
     const double begin = processor_time();
     run_ = settle(scene_, scene_.effects, settings_);
     row_.kind = run_.kind;
-    row_.regime = run_.words;
+    row_.orbit = run_.words;
     if (run_.kind != Motion::none) {
       if (questions_.steady) refusable(steady_topics(), [this] { ask_steady(); });
       if (questions_.reduce && run_.kind == Motion::repeats)

@@ -61,7 +61,7 @@ struct Compared {
 struct Row {
   std::string scene;
   Motion kind = Motion::none;
-  std::string regime;  // of the run, in words
+  std::string orbit;  // of the run, in words
   std::vector<Compared> figures;
   double cpu_seconds = 0;
 

@@ -87,7 +87,7 @@ Row compare_advice(const Scene& scene, double within, const SettleSettings& sett
     options.within = within;
     options.simulate.accuracy = std::min(scene.run.accuracy, 0.1 * within);
     const Advice advice = advise(scene, options);
-    row.regime = advice.chosen == 0 ? "everything is recommended" : advice.tried[advice.chosen].words;
+    row.orbit = advice.chosen == 0 ? "everything is recommended" : advice.tried[advice.chosen].words;
     if (advice.chosen == 0) return row;
     const EffectSet& on = advice.tried[advice.chosen].on;
     for (const double step : load_steps) {

@@ -196,11 +196,11 @@ class ForcesComparison {
       run_ = settle(scene_, effects, settings_);
       driven_ = driven_mechanism(*run_.model);
       row_.kind = run_.kind;
-      row_.regime = run_.words;
+      row_.orbit = run_.words;
       if (run_.kind == Motion::repeats) ask(effects);
     } else {
       row_.kind = Motion::repeats;
-      row_.regime = "no mechanism, or several";
+      row_.orbit = "no mechanism, or several";
     }
     row_.cpu_seconds = processor_time() - begin;
     return std::move(row_);

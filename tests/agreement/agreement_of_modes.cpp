@@ -111,10 +111,10 @@ class ModesComparison {
     const Effects effects = effects_of_modes(scene_);
     run_ = settle(scene_, effects, settings_);
     row_.kind = run_.kind;
-    row_.regime = run_.words;
+    row_.orbit = run_.words;
     if (run_.kind == Motion::repeats && has_springs()) {
       free_ = free_swings_of(run_);
-      if (!free_.measured) row_.regime += "; swings are not measured: " + free_.why;
+      if (!free_.measured) row_.orbit += "; swings are not measured: " + free_.why;
       harmonics_ = most_harmonics;
       forced_ = joint_swings_of(run_, harmonics_);
       ask(effects);

@@ -6,7 +6,7 @@
 // matrix that holds A_k as blocks below its diagonal, A_N in its corner: no product of them is ever formed, so that
 // what dies away within a period is found as well. Of the frequencies ω + 2πk/T that a swing has, the one with most energy counts.
 //
-// Nothing of engine/analysis and studies finds anything here; how fast the machine may swing, which only chooses the
+// Nothing of engine/orbit and studies finds anything here; how fast the machine may swing, which only chooses the
 // sub-intervals, comes from differences of the right-hand side.
 #pragma once
 

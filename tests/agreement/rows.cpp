@@ -85,7 +85,7 @@ std::vector<std::string> columns_of(const std::string& line) {
 
 std::string lines_of(const Row& row) {
   std::string text =
-      fmt::format("{}\t{}\t{}\t{}\n", plain(row.scene), static_cast<int>(row.kind), plain(row.regime), row.cpu_seconds);
+      fmt::format("{}\t{}\t{}\t{}\n", plain(row.scene), static_cast<int>(row.kind), plain(row.orbit), row.cpu_seconds);
   for (const Compared& c : row.figures)
     text += fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\n", static_cast<int>(c.topic), plain(c.figure), c.run, c.study,
                         c.allowed, static_cast<int>(c.verdict), plain(c.words));
@@ -100,7 +100,7 @@ Row read_row(const std::string& lines) {
   if (head.size() != 4) throw std::runtime_error("the head of a row of the agreement has other columns");
   Row row{.scene = head[0],
           .kind = static_cast<Motion>(std::stoi(head[1])),
-          .regime = head[2],
+          .orbit = head[2],
           .figures = {},
           .cpu_seconds = std::stod(head[3])};
   while (std::getline(in, line)) {

@@ -1,7 +1,7 @@
 // settled_run.h — a machine run from its own start until its motion repeats, and what is measured of it then: what all
 // studies must agree with.
 //
-// Nothing of engine/analysis and studies/steady finds anything here but still_to_come(): the motion is integrated, and
+// Nothing of engine/orbit and studies/steady finds anything here but still_to_come(): the motion is integrated, and
 // looked at where something comes again, which is the first of these that does:
 //   angle   the link passes a multiple of its cycle's angle (2π where there is none)
 //   time    a law over time begins anew

@@ -1,13 +1,13 @@
 // newton_test.cpp — Newton's method with damping: closed solutions, and what it promises to have evaluated last.
-#include "engine/analysis/newton.h"
+#include "engine/orbit/newton.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "engine/analysis/family.h"
 #include "engine/matrices/linear_algebra.h"
+#include "engine/orbit/family.h"
 
 namespace kurbel::newton_test {
 namespace {

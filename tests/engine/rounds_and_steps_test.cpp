@@ -7,9 +7,9 @@
 #include <functional>
 #include <numbers>
 
-#include "engine/analysis/return_map.h"
-#include "engine/analysis/sensitivities.h"
 #include "engine/numerics/curve.h"
+#include "engine/orbit/return_map.h"
+#include "engine/orbit/sensitivities.h"
 #include "engine/rigid/work_equation.h"
 #include "engine/run/recorders.h"
 #include "studies/modes/modes.h"

@@ -1,4 +1,4 @@
-// forced_chain_test.cpp — linear chains under a harmonic torque: a transient through a gear, and the periodic regime
+// forced_chain_test.cpp — linear chains under a harmonic torque: a transient through a gear, and the periodic steady motion
 // against the closed form (tests/cases/el04_forced_chain.toml).
 #include <fmt/format.h>
 

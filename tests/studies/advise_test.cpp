@@ -137,7 +137,7 @@ TEST(Advise, CoversTheSettledMotionAndNotTheStartAlone) {
   for (const char* file :
        {"tests/agreement/swings/differential_shafts.toml", "tests/agreement/belt_elastic_crank.toml"}) {
     const agreement::Row row = agreement::compare_advice(test::scene_file(file), 0.05, {});
-    EXPECT_FALSE(row.figures.empty() && row.regime != "everything is recommended") << file;
+    EXPECT_FALSE(row.figures.empty() && row.orbit != "everything is recommended") << file;
     for (const auto& cell : row.figures)
       EXPECT_NE(cell.verdict, agreement::Verdict::silent) << file << ": " << cell.figure;
   }

@@ -108,12 +108,12 @@ TEST(AgreementCell, NoteThatLeavesOutCountsOnlyWithAnAmount) {
 }
 
 TEST(AgreementCell, RowReadsBackAsWritten) {
-  Row row{.scene = "press", .kind = Motion::rests, .regime = "at\trest", .figures = {}, .cpu_seconds = 0.25};
+  Row row{.scene = "press", .kind = Motion::rests, .orbit = "at\trest", .figures = {}, .cpu_seconds = 0.25};
   row.figures.push_back({Topic::works, "work_per_cycle.x (useful)", -0.1, 1e-300, 3e-7, Verdict::told, "so\nmuch"});
   const Row read = read_row(lines_of(row));
   EXPECT_EQ(read.scene, "press");
   EXPECT_EQ(read.kind, Motion::rests);
-  EXPECT_EQ(read.regime, "at rest");
+  EXPECT_EQ(read.orbit, "at rest");
   ASSERT_EQ(read.figures.size(), 1u);
   EXPECT_EQ(read.figures[0].run, -0.1);
   EXPECT_EQ(read.figures[0].study, 1e-300);
@@ -124,7 +124,7 @@ TEST(AgreementCell, RowReadsBackAsWritten) {
 
 void expect_agreement(const std::string& name, const Questions& questions) {
   const Row row = compare_verbs(scene_named(name), questions);
-  EXPECT_NE(row.kind, Motion::none) << name << ": " << row.regime;
+  EXPECT_NE(row.kind, Motion::none) << name << ": " << row.orbit;
   EXPECT_FALSE(row.figures.empty()) << name;
   std::string wrong;
   for (const Compared& c : row.figures)

@@ -21,21 +21,21 @@ namespace {
 
 constexpr double same_physics = 1e-10;  // of the largest torque: what tables of the mechanism leave
 
-// Reactions and crank torque of the regime are those of a long settled run, within their errors: friction of bearings,
+// Reactions and crank torque of the steady motion are those of a long settled run, within their errors: friction of bearings,
 // losses of gears, currents, elastic shafts, slipping brakes, and a rod that bends.
 TEST(ForcesOfTheRegime, AreThoseOfALongSettledRun) {
   for (const char* name : {"exact_bearing", "dc_with_current", "slender_rod_small", "swings/drag_and_bearing",
                            "swings/worm_losses_shaft", "swings/two_axis_motor_shaft"}) {
     const agreement::Row row =
         agreement::compare_forces(test::scene_file(fmt::format("tests/agreement/{}.toml", name)));
-    ASSERT_FALSE(row.figures.empty()) << name << ": " << row.regime;
+    ASSERT_FALSE(row.figures.empty()) << name << ": " << row.orbit;
     for (const agreement::Compared& c : row.figures)
       EXPECT_EQ(c.verdict, agreement::Verdict::agrees)
           << name << ", " << c.figure << ": run " << c.run << ", study " << c.study << " ± " << c.allowed << c.words;
   }
 }
 
-// The regime does not know for how long the scene would have run.
+// The steady motion does not know for how long the scene would have run.
 TEST(ForcesOfTheRegime, DoNotDependOnTheLengthOfTheRun) {
   Scene scene = test::scene_file("tests/agreement/exact_bearing.toml");
   const Forces a = find_forces(scene, {});

@@ -150,7 +150,7 @@ TEST(KnownSteadyMotions, OfVibrationsAboutAPlace) {
         chain.line(), chain.tables(), stiffness, damping);
     const SteadyCycle cycle = steady_of(text);
     if (!cycle.found) continue;
-    EXPECT_EQ(cycle.kind, Regime::Kind::vibrating) << text;
+    EXPECT_EQ(cycle.kind, Orbit::Kind::vibrating) << text;
     const Eigen::VectorXcd x = chain.response(stiffness, damping);
     const double largest = x.cwiseAbs().maxCoeff();
     expect_within(cycle, "vibration_amplitude.source", std::abs(x[0]), largest, text);

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "engine/analysis/regime.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/orbit.h"
 #include "studies/forces/forces_findings.h"
 #include "studies/modes/modes.h"
 #include "studies/run/run_findings.h"
@@ -121,13 +121,13 @@ line = ["right"]
 // A free crank keeps its energy, which is no linear function of the state: T at the section is T at the start.
 TEST(Family, AFreeCrankKeepsTheEnergyOfItsStart) {
   const auto model = compile(scene_file("scenes/free_slider_crank.toml"), Effects{});
-  const Regime regime = find_regime(model, {});
-  ASSERT_TRUE(regime.repeats()) << regime.words;
+  const Orbit orbit = find_orbit(model, {});
+  ASSERT_TRUE(orbit.repeats()) << orbit.words;
   Equations equations(model, false);
   const std::vector<double> start = equations.start(0);
   const double before = equations.kinetic_energy(0, start);
-  const std::vector<double> now = regime.map->place(equations, regime.point.z);
-  EXPECT_NEAR(equations.kinetic_energy(regime.state.t, now), before, 1e-7 * before);
+  const std::vector<double> now = orbit.map->place(equations, orbit.point.z);
+  EXPECT_NEAR(equations.kinetic_energy(orbit.state.t, now), before, 1e-7 * before);
 }
 
 // --- 5: losses by the load are in every number ---
@@ -275,7 +275,7 @@ TEST(RoundOff, OfAConservativeMachineIsNoVerdict) {
   EXPECT_TRUE(study.complete) << study.diagnosis;
   EXPECT_FALSE(has(study.conclusion, "slows down") || has(study.conclusion, "accelerates")) << study.conclusion;
   // Between 94.87° and 364.87°, where its energy is that of the start.
-  ASSERT_EQ(study.cycles.at(0).kind, Regime::Kind::vibrating) << study.conclusion;
+  ASSERT_EQ(study.cycles.at(0).kind, Orbit::Kind::vibrating) << study.conclusion;
   EXPECT_NEAR(figure_of(study.cycles[0], "vibration_amplitude.bar").value, 0.75 * pi, 1e-4);
 }
 
@@ -294,7 +294,7 @@ run = {{ start = {{ angle = "{8} deg", speed = "3 rad/s" }}, until = "10 s" }}
     const Scene scene = scene_from(text);
     SteadyStudy study;
     const std::string why = refused([&] { study = steady(scene, {scene.effects}, {.start_search = false}); });
-    EXPECT_TRUE(has(why, "family") || (study.complete && study.cycles.at(0).kind == Regime::Kind::vibrating))
+    EXPECT_TRUE(has(why, "family") || (study.complete && study.cycles.at(0).kind == Orbit::Kind::vibrating))
         << text << why << study.conclusion;
     EXPECT_FALSE(has(why, "slows down") || has(why, "accelerates")) << text << why;
   }
@@ -325,7 +325,7 @@ TEST(SwingsAboutZero, AreASteadyMotion) {
   EXPECT_TRUE(study.complete) << study.diagnosis;
   const double w = 2 * pi * 13, amplitude = 100 / std::hypot(1e4 - w * w, 40 * w);
   const SteadyCycle& cycle = study.cycles.at(0);
-  EXPECT_EQ(cycle.kind, Regime::Kind::vibrating) << cycle.regime;
+  EXPECT_EQ(cycle.kind, Orbit::Kind::vibrating) << cycle.orbit;
   EXPECT_NEAR(figure_of(cycle, "cycle_max_speed.disc").value, w * amplitude, 1e-8);
   EXPECT_NEAR(figure_of(cycle, "vibration_amplitude.disc").value, amplitude, 1e-10);
   EXPECT_NEAR(figure_of(cycle, "vibration_frequency").value, 13, 1e-12);

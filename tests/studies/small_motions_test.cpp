@@ -1,4 +1,4 @@
-// small_motions_test.cpp — what modes says of machines at their regime, against matrices and formulas by hand: what slips
+// small_motions_test.cpp — what modes says of machines at their steady motion, against matrices and formulas by hand: what slips
 // is a damper, circuits are states, prescribed speeds and universal joints excite, gears of three shafts keep both motions.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -206,7 +206,7 @@ TEST(AgreementOfSwings, EveryKindOccursInSomeMachine) {
 // --- verbs ---
 
 void expect_agreement(const Row& row, const std::string& name) {
-  EXPECT_NE(row.kind, Motion::none) << name << ": " << row.regime;
+  EXPECT_NE(row.kind, Motion::none) << name << ": " << row.orbit;
   EXPECT_FALSE(row.figures.empty()) << name;
   std::string wrong;
   for (const Compared& c : row.figures)

@@ -1,5 +1,5 @@
 // moment.cpp — steps and windows that come after a moment never come.
-#include "engine/analysis/moment.h"
+#include "engine/orbit/moment.h"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/analysis/family.h"
-#include "engine/analysis/return_map.h"
 #include "engine/matrices/linear_algebra.h"
+#include "engine/orbit/family.h"
+#include "engine/orbit/return_map.h"
 
 namespace kurbel {
 

@@ -1,8 +1,8 @@
 // settling.h — what a motion still waits for before it can come again, and how fast it changes.
 #pragma once
 
-#include "engine/analysis/periodicity.h"
 #include "engine/events/equations.h"
+#include "engine/orbit/periodicity.h"
 
 namespace kurbel {
 

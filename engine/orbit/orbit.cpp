@@ -1,5 +1,5 @@
-// regime.cpp — the run round by round, and Newton's method where it comes near.
-#include "engine/analysis/regime.h"
+// orbit.cpp — the run round by round, and Newton's method where it comes near.
+#include "engine/orbit/orbit.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/analysis/family.h"
-#include "engine/analysis/link_speeds.h"
-#include "engine/analysis/sequence_ahead.h"
-#include "engine/analysis/settling.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/family.h"
+#include "engine/orbit/link_speeds.h"
+#include "engine/orbit/sequence_ahead.h"
+#include "engine/orbit/settling.h"
 
 namespace kurbel {
 namespace {
@@ -28,7 +28,7 @@ constexpr std::ptrdiff_t most_remembered = 20000;
 
 class Search {
  public:
-  Search(std::shared_ptr<const Model> model, const RegimeOptions& options)
+  Search(std::shared_ptr<const Model> model, const OrbitOptions& options)
       : shared_(std::move(model)),
         m_(*shared_),
         options_(options),
@@ -37,14 +37,14 @@ class Search {
         period_(map_->periodicity()),
         last_motion_(m_, still) {}
 
-  Regime run() {
+  Orbit run() {
     state_.t = 0;
     state_.y = equations_.start(0);
     state_.modes = equations_.modes();
     try {
       while (!done_ && out_.rounds < options_.most_rounds) go_on();
     } catch (const std::runtime_error& error) {  // an element that knows no answer, such as joints that jam
-      end(Regime::Kind::failed, error.what());
+      end(Orbit::Kind::failed, error.what());
     }
     if (!done_) drift();
     out_.cost += map_->cost();
@@ -53,7 +53,7 @@ class Search {
   }
 
  private:
-  void end(Regime::Kind kind, std::string words) {
+  void end(Orbit::Kind kind, std::string words) {
     out_.kind = kind;
     out_.words = std::move(words);
     done_ = true;
@@ -122,7 +122,7 @@ class Search {
     const State before = std::exchange(state_, {outcome.t, outcome.state, equations_.modes()});
     if (!outcome.complete) {
       const bool stopped = options_.interrupted && options_.interrupted->load();
-      return end(stopped ? Regime::Kind::interrupted : Regime::Kind::failed, outcome.diagnosis);
+      return end(stopped ? Orbit::Kind::interrupted : Orbit::Kind::failed, outcome.diagnosis);
     }
     const bool round = outcome.stopped || by_time;
     out_.cost += round && !aligning ? options_.cycles : cycles_of(state_.t - before.t, begin);
@@ -144,10 +144,10 @@ class Search {
     if (!is_settled() && state_.t < switched_until(m_, period_, state_)) return;
     if (is_settled() && !m_.scene.sequence.repeat && swings_.as_before(speeds)) return vibrate();
     if (now.rate > still || period_.by_time) return;
-    if (now.speed <= still) return end(Regime::Kind::at_rest, at_rest());
+    if (now.speed <= still) return end(Orbit::Kind::at_rest, at_rest());
     const double omega = std::abs(link_speed());
     if (omega > still * m_.speed_scale) return;  // it creeps
-    end(Regime::Kind::equilibrium,
+    end(Orbit::Kind::equilibrium,
         with_holders(fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link())));
   }
   std::string at_rest() {
@@ -165,7 +165,7 @@ class Search {
     return text;
   }
   void run_away(double speed) {
-    end(Regime::Kind::runaway,
+    end(Orbit::Kind::runaway,
         fmt::format("it runs away: at {:.4g} s a shaft turns at {:.3g} times its rated speed, and nothing ends the "
                     "acceleration",
                     state_.t, speed));
@@ -316,7 +316,7 @@ class Search {
     state_ = map->section().state();
     SteadyPoint point = find_steady(*map, way.z, enough);
     spend(*map);
-    if (point.end == ReturnMap::End::interrupted) return end(Regime::Kind::interrupted, "interrupted");
+    if (point.end == ReturnMap::End::interrupted) return end(Orbit::Kind::interrupted, "interrupted");
     if (!point.found) {
       why_not_ = point.why;
       return;
@@ -362,8 +362,8 @@ class Search {
     out_.cost -= map->cost();  // counted at the end
     state_ = out_.state;
     const bool nothing_swings = !period_.angle_matters && !period_.by_time && pace().rate <= 100 * still;
-    if (nothing_swings) return end(Regime::Kind::equilibrium, "all speeds keep: no law depends on an angle or on time");
-    end(point.vibrates() ? Regime::Kind::vibrating : Regime::Kind::cycle, cycle_words());
+    if (nothing_swings) return end(Orbit::Kind::equilibrium, "all speeds keep: no law depends on an angle or on time");
+    end(point.vibrates() ? Orbit::Kind::vibrating : Orbit::Kind::cycle, cycle_words());
   }
   std::string cycle_words() const {
     if (period_.by_time)
@@ -376,20 +376,20 @@ class Search {
   void drift() {
     const std::string where = fmt::format("after {} rounds, at {:.4g} s, ", out_.rounds, state_.t);
     if (settled_rounds_ == 0 && is_settled())
-      return end(Regime::Kind::drifting,
+      return end(Orbit::Kind::drifting,
                  where + fmt::format("\"{}\" has neither come round nor come to rest: it swings to and fro", link()));
     if (settled_rounds_ == 0)
-      return end(Regime::Kind::drifting,
+      return end(Orbit::Kind::drifting,
                  where + (m_.scene.sequence.repeat ? "the operating sequence still goes round without coming again"
                                                    : "something is still being switched"));
     if (grows()) return run_away(speeds_.back());
     if (period_.by_time && angle_changes_most_)
       return end(
-          Regime::Kind::drifting,
+          Orbit::Kind::drifting,
           where + fmt::format("nothing has come again: what repeats after {:.6g} s and what hangs on the {} have no "
                               "common period",
                               period_.time, changes_most_));
-    end(Regime::Kind::drifting,
+    end(Orbit::Kind::drifting,
         where +
             fmt::format("the motion still changes by {:.2g} of the rated values from round to round, most of all the "
                         "{}{}",
@@ -406,12 +406,12 @@ class Search {
 
   std::shared_ptr<const Model> shared_;
   const Model& m_;
-  const RegimeOptions& options_;
+  const OrbitOptions& options_;
   Equations equations_;
   std::shared_ptr<ReturnMap> map_;
   Periodicity period_;
   State state_;
-  Regime out_;
+  Orbit out_;
   bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // the latter of its own, at the last look [s]
   int settled_rounds_ = 0, next_trial_ = 1;
@@ -425,11 +425,11 @@ class Search {
 
 }  // namespace
 
-RegimeOptions regime_options(const RunSettings& run, const std::atomic<bool>* interrupted) {
+OrbitOptions orbit_options(const RunSettings& run, const std::atomic<bool>* interrupted) {
   return {.method = run.method == "work" ? "auto" : run.method, .budget = run.budget, .interrupted = interrupted};
 }
 
-Regime find_regime(std::shared_ptr<const Model> model, const RegimeOptions& options) {
+Orbit find_orbit(std::shared_ptr<const Model> model, const OrbitOptions& options) {
   return Search(std::move(model), options).run();
 }
 

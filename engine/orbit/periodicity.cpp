@@ -1,5 +1,5 @@
 // periodicity.cpp — common multiples of the periods of a machine's elements.
-#include "engine/analysis/periodicity.h"
+#include "engine/orbit/periodicity.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/analysis/return_map.h"
+#include "engine/orbit/return_map.h"
 
 namespace kurbel {
 

@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "engine/analysis/moment.h"
-#include "engine/analysis/regime.h"
+#include "engine/orbit/moment.h"
+#include "engine/orbit/orbit.h"
 
 namespace kurbel {
 
 // Where `at` is no moment: of a machine that rests when all is switched, `at` becomes the last step of its sequence, or else
 // the last time between the edges of its sources' windows, at which its motion repeats; then the words say so: "the machine
 // comes to rest at 21.2 s …". Of any other machine `at` stays the end of all switching, and there are no words. Searches as
-// find_regime() does, and only where something is switched. Throws as find_regime() does.
-std::string choose_kept_moment(const Scene& scene, const Effects& effects, const RegimeOptions& options, Moment& at);
+// find_orbit() does, and only where something is switched. Throws as find_orbit() does.
+std::string choose_kept_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at);
 
 }  // namespace kurbel

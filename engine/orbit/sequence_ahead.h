@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/analysis/return_map.h"
+#include "engine/orbit/return_map.h"
 
 namespace kurbel {
 

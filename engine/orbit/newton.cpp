@@ -1,5 +1,5 @@
 // newton.cpp — steps that are halved until they pay, a derivative that is kept while it serves.
-#include "engine/analysis/family.h"
+#include "engine/orbit/family.h"
 
 #include <fmt/format.h>
 

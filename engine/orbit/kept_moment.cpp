@@ -1,5 +1,5 @@
 // kept_moment.cpp — the motion at the end of all switching, and before one step after the other of it.
-#include "engine/analysis/kept_moment.h"
+#include "engine/orbit/kept_moment.h"
 
 #include <fmt/format.h>
 
@@ -26,21 +26,21 @@ std::vector<Moment> earlier_moments(const Scene& scene) {
   return moments;
 }
 
-Regime regime_at(const Scene& scene, const Effects& effects, const Moment& moment, const RegimeOptions& options) {
+Orbit orbit_at(const Scene& scene, const Effects& effects, const Moment& moment, const OrbitOptions& options) {
   const Scene then = as_of(scene, effects, moment);
-  return find_regime(compile_network(network_as_of(then, moment), then, effects), options);
+  return find_orbit(compile_network(network_as_of(then, moment), then, effects), options);
 }
 
 }  // namespace
 
-std::string choose_kept_moment(const Scene& scene, const Effects& effects, const RegimeOptions& options, Moment& at) {
+std::string choose_kept_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at) {
   if (at.any()) return {};
   const std::vector<Moment> earlier = earlier_moments(scene);
   if (earlier.empty()) return {};
-  const Regime last = regime_at(scene, effects, {}, options);
-  if (last.repeats() || (last.kind != Regime::Kind::at_rest && last.kind != Regime::Kind::equilibrium)) return {};
+  const Orbit last = orbit_at(scene, effects, {}, options);
+  if (last.repeats() || (last.kind != Orbit::Kind::at_rest && last.kind != Orbit::Kind::equilibrium)) return {};
   for (const Moment& moment : earlier) {
-    if (!regime_at(scene, effects, moment, options).repeats()) continue;
+    if (!orbit_at(scene, effects, moment, options).repeats()) continue;
     at = moment;
     return fmt::format("{}; shown is the motion that it keeps {}", last.words.substr(0, last.words.find(';')),
                        moment.describe());

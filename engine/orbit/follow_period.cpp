@@ -1,5 +1,5 @@
 // follow_period.cpp — a run from the section to the period's end.
-#include "engine/analysis/follow_period.h"
+#include "engine/orbit/follow_period.h"
 
 namespace kurbel {
 

@@ -1,4 +1,4 @@
-// regime.h — where the scene's own start leads to: the motion that the machine keeps, found once for all studies.
+// orbit.h — where the scene's own start leads to: the motion that the machine keeps, found once for all studies.
 //
 // The machine runs as the scene says, sequence, contacts and own states included, round by round (a round: the common
 // period of all that reads an angle or time), until nothing is left that is to be switched. Where rounds come near to each
@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/return_map.h"
 #include "engine/base/enumerators.h"
+#include "engine/orbit/return_map.h"
 
 namespace kurbel {
 
-struct RegimeOptions {
+struct OrbitOptions {
   double tolerance = 1e-12;  // of the return map; the run's is 1e-9 at the least
   std::string method = "auto";
   int cycles = 1;       // of the machine in one round
@@ -27,9 +27,9 @@ struct RegimeOptions {
 };
 
 // As a scene's run asks for it: its budget, and its method unless that goes over the angle, where no round is one of time.
-RegimeOptions regime_options(const RunSettings& run, const std::atomic<bool>* interrupted = nullptr);
+OrbitOptions orbit_options(const RunSettings& run, const std::atomic<bool>* interrupted = nullptr);
 
-struct Regime {
+struct Orbit {
   enum class Kind {
     equilibrium,  // all speeds keep; the reduction link may stand
     cycle,        // everything comes again after a round
@@ -47,16 +47,16 @@ struct Regime {
   double still_changes = 0;        // from round to round, of the rated values
   int rounds = 0;                  // that the run took
   double cost = 0;                 // of all, in cycles
-  State state;                     // in the regime: on the section of a cycle
+  State state;                     // in the steady motion: on the section of a cycle
   SteadyPoint point;               // of a cycle or an equilibrium that turns: the fixed point and its multipliers
   std::shared_ptr<ReturnMap> map;  // of it; null where nothing comes round
   bool repeats() const { return map && (kind == Kind::cycle || kind == Kind::vibrating || kind == Kind::equilibrium); }
 };
-inline const char* name_of(Regime::Kind kind) {
-  return kind == Regime::Kind::runaway ? "running away" : enumerator_words<Regime::Kind::interrupted>(kind);
+inline const char* name_of(Orbit::Kind kind) {
+  return kind == Orbit::Kind::runaway ? "running away" : enumerator_words<Orbit::Kind::interrupted>(kind);
 }
 
 // Throws std::invalid_argument in words where nothing can have a period in common.
-Regime find_regime(std::shared_ptr<const Model> model, const RegimeOptions& options);
+Orbit find_orbit(std::shared_ptr<const Model> model, const OrbitOptions& options);
 
 }  // namespace kurbel

@@ -1,5 +1,5 @@
 // settling.cpp — edges of windows, sequences and laws ahead of a state; rates over rated values.
-#include "engine/analysis/settling.h"
+#include "engine/orbit/settling.h"
 
 #include <algorithm>
 #include <cmath>

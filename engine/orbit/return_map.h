@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/newton.h"
-#include "engine/analysis/periodicity.h"
-#include "engine/analysis/poincare_section.h"
+#include "engine/orbit/newton.h"
+#include "engine/orbit/periodicity.h"
+#include "engine/orbit/poincare_section.h"
 #include "engine/run/run.h"
 
 namespace kurbel {

@@ -1,4 +1,4 @@
-// sized_regimes.h — the steady motion of the machine with a flywheel of this or that inertia: its δ, and the inertia that
+// sized_orbits.h — the steady motion of the machine with a flywheel of this or that inertia: its δ, and the inertia that
 // meets a demanded one.
 #pragma once
 
@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/analysis/moment.h"
 #include "engine/base/estimate.h"
+#include "engine/orbit/moment.h"
 #include "engine/scene/scene.h"
-#include "studies/cycle/regime_cycle.h"
+#include "studies/cycle/orbit_cycle.h"
 #include "studies/findings/watch.h"
 
 namespace kurbel {
@@ -31,7 +31,7 @@ struct SizedRound {
   std::vector<double> phi, speed, motor_speed;  // [rad], [rad/s]; the motor's reduced to the link
 };
 
-struct SizedRegime : SizedRound {
+struct SizedOrbit : SizedRound {
   bool found = false;
   std::string why;  // in words, unless it was found
   bool interrupted = false;
@@ -40,31 +40,31 @@ struct SizedRegime : SizedRound {
   std::vector<std::string> notes;  // how far the model holds in this motion
 };
 
-class SizedRegimes {
+class SizedOrbits {
  public:
   struct Parts {
     std::string flywheel, on, motor;  // component; link that it is put on if it is not there; empty: no motor
     Moment moment;                    // that the scene is as of
-    int most_rounds = RegimeOptions{}.most_rounds;
+    int most_rounds = OrbitOptions{}.most_rounds;
     std::optional<double> held = {};  // mid speed that is kept where its own start leads to no cycle [rad/s]
   };
-  SizedRegimes(const Scene& scene, Parts parts, const Watch& watch)
+  SizedOrbits(const Scene& scene, Parts parts, const Watch& watch)
       : scene_(scene), parts_(std::move(parts)), watch_(watch) {}
 
   // From the scene's own start; a machine without a sequence begins at `start_speed` of the link, if given, in quasi-static
   // equilibrium, as it would get there anyway. The error costs another search.
-  SizedRegime at(double flywheel, const Effects& effects, std::optional<double> start_speed, bool with_error) const;
+  SizedOrbit at(double flywheel, const Effects& effects, std::optional<double> start_speed, bool with_error) const;
 
   struct Meeting {
-    std::optional<SizedRegime> regime;  // whose δ is the demanded one to 1e-5 of it; empty: none
-    double error = 0;                   // of its flywheel [kg·m²]
-    double least = 0, least_at = 0;     // the smallest δ that was found, and its flywheel [kg·m²]
-    int regimes = 0;                    // asked
-    std::string unknown;                // why nothing is known of the motion with one of the inertias asked; else empty
+    std::optional<SizedOrbit> orbit;  // whose δ is the demanded one to 1e-5 of it; empty: none
+    double error = 0;                 // of its flywheel [kg·m²]
+    double least = 0, least_at = 0;   // the smallest δ that was found, and its flywheel [kg·m²]
+    int orbits = 0;                   // asked
+    std::string unknown;              // why nothing is known of the motion with one of the inertias asked; else empty
   };
-  // By secants over the logarithms of δ and of the inertia, at most eight regimes. `others`: what turns with the flywheel,
+  // By secants over the logarithms of δ and of the inertia, at most eight steady motions. `others`: what turns with the flywheel,
   // on its shaft [kg·m²].
-  Meeting meeting(double delta, const SizedRegime& first, double others, const Effects& effects) const;
+  Meeting meeting(double delta, const SizedOrbit& first, double others, const Effects& effects) const;
 
  private:
   const Scene& scene_;

@@ -1,5 +1,5 @@
-// regime_cycle.cpp — a round is run once more and recorded step by step, then cut into pieces between its events.
-#include "studies/cycle/regime_cycle.h"
+// orbit_cycle.cpp — a round is run once more and recorded step by step, then cut into pieces between its events.
+#include "studies/cycle/orbit_cycle.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/analysis/follow_period.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
+#include "engine/orbit/follow_period.h"
 
 namespace kurbel {
 namespace {
@@ -134,8 +134,7 @@ std::vector<double> edges_of_round(const RoundRecorder& recorder, double length)
   return result;
 }
 
-RegimeCycle assembled(const Model& m, const RoundRecorder& recorder, double sense, double tolerance,
-                      std::size_t nodes) {
+OrbitCycle assembled(const Model& m, const RoundRecorder& recorder, double sense, double tolerance, std::size_t nodes) {
   const std::vector<Piecewise> raw = recorder.functions();
   const double begin = recorder.begin_way(), length = raw.front().length();
   const std::size_t accounts = m.accounts.size(), own = raw.size();
@@ -150,7 +149,7 @@ RegimeCycle assembled(const Model& m, const RoundRecorder& recorder, double sens
   };
   std::vector<Piecewise> all = Piecewise::sample(
       edges_of_round(recorder, length), own + 4, sampler, [](double) { Deadline::check(); }, tolerance);
-  RegimeCycle c;
+  OrbitCycle c;
   c.sense = sense;
   c.cycle.drive = all[own], c.cycle.load = all[own + 1];
   c.cycle.mechanism = {all[own + 2], all[own + 3]};
@@ -163,7 +162,7 @@ RegimeCycle assembled(const Model& m, const RoundRecorder& recorder, double sens
   return c;
 }
 
-RegimeCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::vector<int>& nodes, double tolerance) {
+OrbitCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::vector<int>& nodes, double tolerance) {
   const Model& m = map.model();
   Equations equations(map.shared_model(), true);
   const std::vector<double> y = map.place(equations, point.z);
@@ -181,21 +180,21 @@ RegimeCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
         fmt::format("{}: its angle does not tell where the machine is in its cycle, and torques reduced to it are "
                     "infinite there; look at the machine with kurbel run",
                     recorder.singular()));
-  RegimeCycle c = assembled(m, recorder, sense, sampled_within * tolerance, nodes.size());
+  OrbitCycle c = assembled(m, recorder, sense, sampled_within * tolerance, nodes.size());
   c.time = outcome.t - map.start_time();
   return c;
 }
 
 }  // namespace
 
-RegimeCycle regime_cycle(const Regime& regime, const std::vector<int>& nodes) {
-  if (!regime.repeats()) throw std::invalid_argument(regime.words);
-  return follow(*regime.map, regime.point, nodes, map_tolerance);
+OrbitCycle orbit_cycle(const Orbit& orbit, const std::vector<int>& nodes) {
+  if (!orbit.repeats()) throw std::invalid_argument(orbit.words);
+  return follow(*orbit.map, orbit.point, nodes, map_tolerance);
 }
 
-std::optional<RegimeCycle> looser_regime_cycle(const Regime& regime, const std::vector<int>& nodes) {
+std::optional<OrbitCycle> looser_orbit_cycle(const Orbit& orbit, const std::vector<int>& nodes) {
   try {
-    const SteadyTwin twin = looser_twin(*regime.map, regime.point, looser_tolerance);
+    const SteadyTwin twin = looser_twin(*orbit.map, orbit.point, looser_tolerance);
     if (!twin.point.found) return {};
     return follow(*twin.map, twin.point, nodes, looser_tolerance);
   } catch (const std::invalid_argument&) {

@@ -1,6 +1,6 @@
 // regime_cycle_test.cpp — size and reduce by the steady cycle that a machine really has: closed forms, agreement with
-// the rigid machine where nothing goes beyond it, and the demanded δ in the regime of the sized machine.
-#include "studies/cycle/regime_cycle.h"
+// the rigid machine where nothing goes beyond it, and the demanded δ in the steady motion of the sized machine.
+#include "studies/cycle/orbit_cycle.h"
 
 #include <fmt/format.h>
 
@@ -9,20 +9,20 @@
 #include <filesystem>
 #include <numbers>
 
-#include "engine/analysis/periodicity.h"
+#include "engine/orbit/periodicity.h"
 #include "studies/cycle/classical.h"
 #include "studies/reduce/reduce.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
 #include "tests/published/published.h"
 
-namespace kurbel::regime_cycle_test {
+namespace kurbel::orbit_cycle_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-RegimeCycle cycle_of_scene(const Scene& scene, const std::vector<int>& nodes = {}) {
-  return regime_cycle(find_regime(compile(scene, scene.effects), {}), nodes);
+OrbitCycle cycle_of_scene(const Scene& scene, const std::vector<int>& nodes = {}) {
+  return orbit_cycle(find_orbit(compile(scene, scene.effects), {}), nodes);
 }
 
 // A motor drives a fan through a limiter that slips for ever: each side has a speed of its own.
@@ -34,7 +34,7 @@ fan     = { kind = "load", quadratic = "0.05 N*m*s2/rad2", inertia = "0.6 kg*m2"
 )";
 
 // The motor: 60 (1 − ω/40) = 9, the fan: 0.05 ω² = 9.
-TEST(RegimeCycle, LoadBehindASlippingLimiterIsItsLimit) {
+TEST(OrbitCycle, LoadBehindASlippingLimiterIsItsLimit) {
   const MachineReduction r = reduce(test::scene_from(slipping), {});
   EXPECT_EQ(r.basis, ReduceBasis::regime);
   const double motor = 34, fan = std::sqrt(9 / 0.05);
@@ -55,14 +55,14 @@ TEST(RegimeCycle, LoadBehindASlippingLimiterIsItsLimit) {
 
 // A press on a motor, all rigid: along its cycle the reduced inertia is that of the rigid machine, and the works of
 // drive and load are equal.
-TEST(RegimeCycle, OfARigidMachineHasItsInertiaAndItsLoad) {
+TEST(OrbitCycle, OfARigidMachineHasItsInertiaAndItsLoad) {
   const Scene scene = test::scene_from(R"(
 line  = ["motor", "press"]
 motor = { kind = "dc shunt motor", stall_torque = "1200 N*m", no_load_speed = "9 rad/s", inertia = "40 kg*m2" }
 press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "1 kg*m2", rod_mass = "8 kg", rod_com = "70 mm", rod_inertia = "0.05 kg*m2", slider_mass = "80 kg", load = { kind = "press", nominal_force = "60 kN", nominal_travel = "10 mm", rise = "2 mm" } }
 )");
   EXPECT_TRUE(beyond_the_rigid_machine(scene).empty());
-  const RegimeCycle c = cycle_of_scene(scene);
+  const OrbitCycle c = cycle_of_scene(scene);
   EXPECT_NEAR(c.way(), 2 * pi, 1e-12);
   RigidMachine machine(scene);
   for (const double phi : {0.1, 1.3, 2.9, 3.6, 5.2, 6.1}) {
@@ -84,7 +84,7 @@ press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia
 
 // Either basis gives the same flywheel where the motor's slope is next to nothing: a rectangular load over angle needs
 // ΔA/(ω² δ) with ΔA = (M_1 − M_m) φ_1.
-TEST(RegimeCycle, RectangularLoadNeedsTheFlywheelOfItsArea) {
+TEST(OrbitCycle, RectangularLoadNeedsTheFlywheelOfItsArea) {
   const double high = 300, low = 60, part = 1.0, mean = (high * part + low * (2 * pi - part)) / (2 * pi);
   const std::string text = fmt::format(R"(
 line   = ["motor", "wheel", "work"]
@@ -104,8 +104,8 @@ work   = {{ kind = "load", table = {{ over = "angle", unit = ["rad", "N*m"], poi
   EXPECT_LT(*s.methods.front().error, 1e-5 * s.exact.inertia);
 }
 
-// What is said to meet the demanded δ has it: the regime of the scene with that flywheel, from the scene's own start.
-TEST(RegimeCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
+// What is said to meet the demanded δ has it: the steady motion of the scene with that flywheel, from the scene's own start.
+TEST(OrbitCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
   for (const char* name : {"gearbox_losses_crank", "rubber_branches_crank", "governor_crank"}) {
     const Scene scene = test::scene_file(fmt::format("tests/agreement/{}.toml", name));
     SizeOptions options;
@@ -115,7 +115,7 @@ TEST(RegimeCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
     ASSERT_TRUE(s.meeting) << name << s.meeting_words;
     ASSERT_TRUE(s.meeting->error && s.reached.back().crank.error) << name;
     const Scene sized = with_flywheel(scene, s.flywheel, s.meeting->flywheel, s.link);
-    const RegimeCycle c = cycle_of_scene(sized);
+    const OrbitCycle c = cycle_of_scene(sized);
     EXPECT_NEAR(c.delta(), 0.012, 2e-5 * 0.012) << name;
     EXPECT_NEAR(c.delta(), *s.meeting->delta, *s.reached.back().crank.error + 1e-8 * 0.012) << name;
     // What the work equation leaves out is said with its size.
@@ -124,7 +124,7 @@ TEST(RegimeCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
 }
 
 // The swing of an elastic belt is none of the work equation's, which asks for no flywheel.
-TEST(RegimeCycle, FlywheelThatOnlyTheElasticMachineNeedsIsProposed) {
+TEST(OrbitCycle, FlywheelThatOnlyTheElasticMachineNeedsIsProposed) {
   const Scene scene = test::scene_file("tests/agreement/belt_elastic_crank.toml");
   SizeOptions options;
   options.delta = 0.0317775;
@@ -138,7 +138,7 @@ TEST(RegimeCycle, FlywheelThatOnlyTheElasticMachineNeedsIsProposed) {
 }
 
 // A crank far behind a soft shaft swings however heavy the flywheel at the motor is.
-TEST(RegimeCycle, DemandThatNoFlywheelMeetsIsToldWithTheLeast) {
+TEST(OrbitCycle, DemandThatNoFlywheelMeetsIsToldWithTheLeast) {
   Scene scene = test::scene_from(R"(
 line  = ["motor", "wheel", "shaft", "press"]
 motor = { kind = "dc shunt motor", stall_torque = "1200 N*m", no_load_speed = "9 rad/s", inertia = "2 kg*m2" }
@@ -156,25 +156,25 @@ effects = { elasticity = true }
 }
 
 // Where no search comes to an end, nothing is known of any flywheel, and none of them counts as too light.
-TEST(RegimeCycle, ASearchThatFailsProvesNothingOfAFlywheel) {
+TEST(OrbitCycle, ASearchThatFailsProvesNothingOfAFlywheel) {
   const Scene scene = test::scene_file("tests/agreement/rubber_branches_crank.toml");
   SizeOptions options;
   options.delta = 0.012;
   const Sizing s = size_flywheel(scene, options);
-  SizedRegimes::Parts parts{s.flywheel, s.link, s.motor, {}};
+  SizedOrbits::Parts parts{s.flywheel, s.link, s.motor, {}};
   const Watch watch = {};
-  const SizedRegime first = SizedRegimes(scene, parts, watch).at(s.methods.front().flywheel, scene.effects, {}, false);
+  const SizedOrbit first = SizedOrbits(scene, parts, watch).at(s.methods.front().flywheel, scene.effects, {}, false);
   ASSERT_TRUE(first.found) << first.why;
   parts.most_rounds = 0;
-  const SizedRegimes::Meeting m =
-      SizedRegimes(scene, parts, watch).meeting(0.5 * first.crank.value, first, s.motor_inertia, scene.effects);
-  EXPECT_FALSE(m.regime);
+  const SizedOrbits::Meeting m =
+      SizedOrbits(scene, parts, watch).meeting(0.5 * first.crank.value, first, s.motor_inertia, scene.effects);
+  EXPECT_FALSE(m.orbit);
   EXPECT_NE(m.unknown.find("kg·m²: after 0 rounds"), std::string::npos) << m.unknown;
   EXPECT_EQ(m.least, first.crank.value);
 }
 
 // A press that is declutched in the end: while the clutch is in, it has a cycle, which is taken where none is asked for.
-TEST(RegimeCycle, PressWithItsClutchInIsSizedAsItIsThen) {
+TEST(OrbitCycle, PressWithItsClutchInIsSizedAsItIsThen) {
   const Scene scene = test::scene_file("scenes/press_drive.toml");
   SizeOptions sizing;
   sizing.delta = 0.03, sizing.simulate = false;
@@ -192,7 +192,7 @@ TEST(RegimeCycle, PressWithItsClutchInIsSizedAsItIsThen) {
   EXPECT_NEAR(r.mean_drive.value, r.mean_load.value, 1e-6 * r.mean_load.value);
 }
 
-TEST(RegimeCycle, RefusalsAreOfPhysics) {
+TEST(OrbitCycle, RefusalsAreOfPhysics) {
   // Held by nothing: the fan's brake is stronger than the motor.
   const std::string held = test::with(slipping, "quadratic = \"0.05 N*m*s2/rad2\"", "torque = \"20 N*m\"");
   const Scene stands =
@@ -218,7 +218,7 @@ TEST(RegimeCycle, RefusalsAreOfPhysics) {
 }
 
 // The classical basis is one option, and says what it leaves out.
-TEST(RegimeCycle, ClassicalBasisSaysWhatItLeavesOut) {
+TEST(OrbitCycle, ClassicalBasisSaysWhatItLeavesOut) {
   const Scene scene = test::scene_file("tests/agreement/gearbox_losses_crank.toml");
   SizeOptions options;
   options.delta = 0.012, options.basis = SizeBasis::classical;
@@ -233,7 +233,7 @@ TEST(RegimeCycle, ClassicalBasisSaysWhatItLeavesOut) {
 
 // Four cylinders without a mechanism, rigid: what run tells of its last cycle is what steady finds by Newton's method. Mean
 // speed by the governor: 1500 1/min where nothing is left to regulate.
-TEST(RegimeCycle, OfAnEngineWithoutAMechanismIsThatOfTheRun) {
+TEST(OrbitCycle, OfAnEngineWithoutAMechanismIsThatOfTheRun) {
   Scene scene = test::scene_file("docs/tasks/genset.toml");
   scene.effects = without_elasticity(scene.effects);
   scene.run.until = 20;
@@ -254,7 +254,7 @@ TEST(RegimeCycle, OfAnEngineWithoutAMechanismIsThatOfTheRun) {
 }
 
 // A machine has a cycle where, and only where, some law of it depends on an angle.
-TEST(RegimeCycle, IsThatOfTheLawsOverAnAngleInEveryScene) {
+TEST(OrbitCycle, IsThatOfTheLawsOverAnAngleInEveryScene) {
   int with = 0, without = 0;
   for (const auto& entry : std::filesystem::directory_iterator(test::source_path("scenes"))) {
     if (entry.path().extension() != ".toml") continue;
@@ -278,4 +278,4 @@ TEST(RegimeCycle, IsThatOfTheLawsOverAnAngleInEveryScene) {
 }
 
 }  // namespace
-}  // namespace kurbel::regime_cycle_test
+}  // namespace kurbel::orbit_cycle_test

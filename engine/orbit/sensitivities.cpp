@@ -1,5 +1,5 @@
 // sensitivities.cpp — the variational equations as an extension of a run.
-#include "engine/analysis/sensitivities.h"
+#include "engine/orbit/sensitivities.h"
 
 #include <algorithm>
 #include <cmath>

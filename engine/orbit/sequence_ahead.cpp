@@ -1,8 +1,8 @@
 // sequence_ahead.cpp — the armed step of a sequence against a round of the motion.
-#include "engine/analysis/sequence_ahead.h"
+#include "engine/orbit/sequence_ahead.h"
 
-#include "engine/analysis/follow_period.h"
 #include "engine/events/operating_sequence.h"
+#include "engine/orbit/follow_period.h"
 
 namespace kurbel {
 

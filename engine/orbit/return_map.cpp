@@ -1,5 +1,5 @@
 // return_map.cpp — one round from section to section, and its derivative.
-#include "engine/analysis/return_map.h"
+#include "engine/orbit/return_map.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/analysis/sensitivities.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/period.h"
+#include "engine/orbit/sensitivities.h"
 
 namespace kurbel {
 namespace {

@@ -1,5 +1,5 @@
-// regime_test.cpp — where a machine's own start leads to, against closed forms: what slips, what is switched, what stands.
-#include "engine/analysis/regime.h"
+// orbit_test.cpp — where a machine's own start leads to, against closed forms: what slips, what is switched, what stands.
+#include "engine/orbit/orbit.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,25 +9,25 @@
 
 #include "tests/support/scenes.h"
 
-namespace kurbel::test::regime_test {
+namespace kurbel::test::orbit_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Regime regime_of(const Scene& scene, RegimeOptions options = {}) {
-  return find_regime(compile(scene, scene.effects), options);
+Orbit orbit_of(const Scene& scene, OrbitOptions options = {}) {
+  return find_orbit(compile(scene, scene.effects), options);
 }
-Regime regime_of(const std::string& text) { return regime_of(scene_from(text)); }
+Orbit orbit_of(const std::string& text) { return orbit_of(scene_from(text)); }
 
-// Of a component's shaft, at the regime's state [rad/s].
-double speed_of(const Scene& scene, const Regime& regime, const std::string& component, bool out = false) {
+// Of a component's shaft, at the steady motion's state [rad/s].
+double speed_of(const Scene& scene, const Orbit& orbit, const std::string& component, bool out = false) {
   const auto model = compile(scene, scene.effects);
   Equations equations(model, false);
-  equations.bind(regime.state.modes);
+  equations.bind(orbit.state.modes);
   const Network::Ports& ports = model->network.ports.at(component);
   const auto node = static_cast<std::size_t>(out ? ports.out : ports.in);
   return model->gain_of_node[node] *
-         equations.snapshot(regime.state.t, regime.state.y).now.speed[model->shaft_of_node[node]];
+         equations.snapshot(orbit.state.t, orbit.state.y).now.speed[model->shaft_of_node[node]];
 }
 
 const char* const dc_motor =
@@ -35,56 +35,56 @@ const char* const dc_motor =
     "kg*m2\" }\n";
 
 // A limiter of 10 N·m before a load of 15: the load stands, the motor turns at ω₀ (1 − 10/60).
-TEST(Regime, TorqueLimiterThatSlipsLeavesItsLoadStanding) {
+TEST(Orbit, TorqueLimiterThatSlipsLeavesItsLoadStanding) {
   const Scene scene = scene_from(std::string("line = [\"motor\", \"limiter\", \"load\"]\n") + dc_motor +
                                  "limiter = { kind = \"torque limiter\", torque = \"10 N*m\" }\n"
                                  "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n");
-  const Regime regime = regime_of(scene);
-  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
-  EXPECT_NEAR(speed_of(scene, regime, "motor"), 40 * (1 - 10 / 60.0), 1e-7);
-  EXPECT_EQ(speed_of(scene, regime, "load"), 0);
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::equilibrium) << orbit.words;
+  EXPECT_NEAR(speed_of(scene, orbit, "motor"), 40 * (1 - 10 / 60.0), 1e-7);
+  EXPECT_EQ(speed_of(scene, orbit, "load"), 0);
 }
 
 // A fan behind it turns where 10 N·m = k ω².
-TEST(Regime, SlippingLimiterDrivesAFanAtItsTorque) {
+TEST(Orbit, SlippingLimiterDrivesAFanAtItsTorque) {
   const Scene scene =
       scene_from(std::string("line = [\"motor\", \"limiter\", \"fan\"]\n") + dc_motor +
                  "limiter = { kind = \"torque limiter\", torque = \"10 N*m\" }\n"
                  "fan = { kind = \"load\", quadratic = \"0.04 N*m*s2/rad2\", inertia = \"0.3 kg*m2\" }\n");
-  const Regime regime = regime_of(scene);
-  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
-  EXPECT_NEAR(speed_of(scene, regime, "fan"), std::sqrt(10 / 0.04), 1e-7);
-  EXPECT_NEAR(speed_of(scene, regime, "motor"), 40 * (1 - 10 / 60.0), 1e-7);
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::equilibrium) << orbit.words;
+  EXPECT_NEAR(speed_of(scene, orbit, "fan"), std::sqrt(10 / 0.04), 1e-7);
+  EXPECT_NEAR(speed_of(scene, orbit, "motor"), 40 * (1 - 10 / 60.0), 1e-7);
 }
 
 // The brake holds until 0.5 s; then the motor runs as if it had never been.
-TEST(Regime, SequenceIsCarriedOut) {
+TEST(Orbit, SequenceIsCarriedOut) {
   const Scene scene = scene_from(std::string("line = [\"motor\", \"brake\", \"load\"]\n") + dc_motor +
                                  "brake = { kind = \"brake\", torque = \"100 N*m\" }\n"
                                  "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n"
                                  "[sequence]\nsteps = [{ at = \"0.5 s\", set = \"brake\", to = 0 }]\n");
-  const Regime regime = regime_of(scene);
-  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
-  EXPECT_NEAR(speed_of(scene, regime, "motor"), 30, 1e-8);
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::equilibrium) << orbit.words;
+  EXPECT_NEAR(speed_of(scene, orbit, "motor"), 30, 1e-8);
 }
 
 // The brake gives way along a law, to a fifth: the motor runs at ω₀ (1 − 20/60), not as the law's first instant leaves it.
-TEST(Regime, LawOfACommandIsFollowedToItsEnd) {
+TEST(Orbit, LawOfACommandIsFollowedToItsEnd) {
   const Scene scene = scene_from(std::string("line = [\"motor\", \"brake\"]\n") + dc_motor +
                                  "brake = { kind = \"brake\", torque = \"100 N*m\" }\n"
                                  "[sequence]\nsteps = [{ at = \"0.5 s\", set = \"brake\", law = { over = \"time\", "
                                  "formula = \"1 - 0.4*t/(1 s)\", range "
                                  "= [\"0 s\", \"2 s\"] } }]\n");
-  const Regime regime = regime_of(scene);
-  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
-  EXPECT_GE(regime.state.t, 2.5);
-  EXPECT_NEAR(speed_of(scene, regime, "motor"), 40 * (1 - 20 / 60.0), 1e-8);
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::equilibrium) << orbit.words;
+  EXPECT_GE(orbit.state.t, 2.5);
+  EXPECT_NEAR(speed_of(scene, orbit, "motor"), 40 * (1 - 20 / 60.0), 1e-8);
 }
 
 // A step waits for a speed of the run-up, the next one for a time after it: what Newton's method finds on the way, with
 // steps still to come, is not kept. In the end half the voltage drives against nothing: ω₀/2.
-TEST(Regime, StepsThatWaitForTheMotionAreCarriedOut) {
-  const Regime regime = regime_of(
+TEST(Orbit, StepsThatWaitForTheMotionAreCarriedOut) {
+  const Orbit orbit = orbit_of(
       std::string("line = [\"motor\", \"crank\"]\n") + dc_motor +
       "brake = { kind = \"brake\", on = \"crank\", torque = \"20 N*m\" }\n"
       "[crank]\nkind = \"slider-crank\"\nradius = \"50 mm\"\nrod = \"0.2 m\"\nslider_mass = \"2 kg\"\ncrank_inertia = "
@@ -92,51 +92,51 @@ TEST(Regime, StepsThatWaitForTheMotionAreCarriedOut) {
       "[sequence]\nsteps = [{ at = \"0 s\", set = \"brake\", to = 0 }, { speed_above = \"39 rad/s\", of = \"motor\", "
       "set = "
       "\"brake\" }, { after = \"1 s\", set = \"brake\", to = 0 }, { after = \"0 s\", set = \"motor\", to = 0.5 }]\n");
-  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
-  EXPECT_NEAR(regime.point.time, 2 * pi / 20, 1e-5 * 2 * pi / 20);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_NEAR(orbit.point.time, 2 * pi / 20, 1e-5 * 2 * pi / 20);
 }
 
 // One that repeats sets the period: J ω̇ = 60 (c(t) − ω/40) − 15 with c = 1 + 0.1 sin(2π t/T), by its mean and phasor.
-TEST(Regime, LawThatRepeatsSetsThePeriod) {
-  const Regime regime = regime_of(std::string("line = [\"motor\", \"load\"]\n") + dc_motor +
-                                  "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n"
-                                  "[sequence]\nsteps = [{ at = \"0.25 s\", set = \"motor\", law = { over = \"time\", "
-                                  "formula = \"1 + 0.1*sin(2*pi*t/T)\", "
-                                  "period = \"0.4 s\", with = { T = \"0.4 s\" } } }]\n");
-  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
-  EXPECT_NEAR(regime.point.time, 0.4, 1e-12);
+TEST(Orbit, LawThatRepeatsSetsThePeriod) {
+  const Orbit orbit = orbit_of(std::string("line = [\"motor\", \"load\"]\n") + dc_motor +
+                               "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n"
+                               "[sequence]\nsteps = [{ at = \"0.25 s\", set = \"motor\", law = { over = \"time\", "
+                               "formula = \"1 + 0.1*sin(2*pi*t/T)\", "
+                               "period = \"0.4 s\", with = { T = \"0.4 s\" } } }]\n");
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_NEAR(orbit.point.time, 0.4, 1e-12);
 }
 
-TEST(Regime, LoadThatActsForAWhileActsNoMore) {
+TEST(Orbit, LoadThatActsForAWhileActsNoMore) {
   const Scene scene =
       scene_from(std::string("line = [\"motor\", \"load\", \"blow\"]\n") + dc_motor +
                  "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n"
                  "blow = { kind = \"load\", torque = \"20 N*m\", start = \"1 s\", stop = \"1.2 s\" }\n");
-  const Regime regime = regime_of(scene);
-  ASSERT_EQ(regime.kind, Regime::Kind::equilibrium) << regime.words;
-  EXPECT_GT(regime.state.t, 1.2);
-  EXPECT_NEAR(speed_of(scene, regime, "motor"), 30, 1e-8);
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::equilibrium) << orbit.words;
+  EXPECT_GT(orbit.state.t, 1.2);
+  EXPECT_NEAR(speed_of(scene, orbit, "motor"), 30, 1e-8);
 }
 
-TEST(Regime, MotorThatIsSwitchedOffComesToRest) {
-  const Regime regime = regime_of(
+TEST(Orbit, MotorThatIsSwitchedOffComesToRest) {
+  const Orbit orbit = orbit_of(
       "line = [\"motor\", \"load\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = "
       "\"40 rad/s\", inertia = \"0.5 kg*m2\", stop = \"2 s\" }\n"
       "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n");
-  EXPECT_EQ(regime.kind, Regime::Kind::at_rest) << regime.words;
-  EXPECT_NE(regime.words.find("held"), std::string::npos) << regime.words;
+  EXPECT_EQ(orbit.kind, Orbit::Kind::at_rest) << orbit.words;
+  EXPECT_NE(orbit.words.find("held"), std::string::npos) << orbit.words;
 }
 
-TEST(Regime, DriveThatAlwaysWinsRunsAway) {
-  const Regime regime = regime_of(
+TEST(Orbit, DriveThatAlwaysWinsRunsAway) {
+  const Orbit orbit = orbit_of(
       "line = [\"turbine\", \"load\"]\n"
       "turbine = { kind = \"torque source\", torque = \"20 N*m\", inertia = \"1 kg*m2\" }\n"
       "load = { kind = \"load\", torque = \"5 N*m\" }\n");
-  EXPECT_EQ(regime.kind, Regime::Kind::runaway) << regime.words;
+  EXPECT_EQ(orbit.kind, Orbit::Kind::runaway) << orbit.words;
 }
 
 // The scene's own start decides which of two motions is kept: a Kloss motor under a constant load that it cannot start.
-TEST(Regime, TheStartDecidesWhatIsKept) {
+TEST(Orbit, TheStartDecidesWhatIsKept) {
   const auto scene = [](const char* speed) {
     return scene_from(
         std::string("line = [\"motor\", \"load\"]\nmotor = { kind = \"induction motor\", rated_power = \"4 kW\", "
@@ -144,42 +144,42 @@ TEST(Regime, TheStartDecidesWhatIsKept) {
                     "inertia = \"0.5 kg*m2\" }\nload = { kind = \"load\", torque = \"80 N*m\" }\n") +
         "[run]\nstart = { speed = \"" + speed + "\" }\n");
   };
-  const Regime running = regime_of(scene("95 rad/s"));
-  EXPECT_EQ(running.kind, Regime::Kind::equilibrium) << running.words;
-  const Regime standing = regime_of(scene("0 rad/s"));
-  EXPECT_EQ(standing.kind, Regime::Kind::at_rest) << standing.words;
+  const Orbit running = orbit_of(scene("95 rad/s"));
+  EXPECT_EQ(running.kind, Orbit::Kind::equilibrium) << running.words;
+  const Orbit standing = orbit_of(scene("0 rad/s"));
+  EXPECT_EQ(standing.kind, Orbit::Kind::at_rest) << standing.words;
 }
 
 // Every example scene: what is found comes again, and the run does not leave it.
-TEST(Regime, OfExampleScenesComesAgain) {
+TEST(Orbit, OfExampleScenesComesAgain) {
   for (const char* name : {"crank_press", "compressor", "single_cylinder_engine", "piston_pump"}) {
     SCOPED_TRACE(name);
     const Scene scene = scene_file(std::string("scenes/") + name + ".toml");
-    const Regime regime = regime_of(scene);
-    ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
-    EXPECT_TRUE(regime.polished);
-    EXPECT_LT(regime.point.largest(), 1);
-    const ReturnMap::Image again = regime.map->image(regime.point.z, false);
-    EXPECT_LT((again.z - regime.point.z).cwiseAbs().maxCoeff(), 1e-10);
+    const Orbit orbit = orbit_of(scene);
+    ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+    EXPECT_TRUE(orbit.polished);
+    EXPECT_LT(orbit.point.largest(), 1);
+    const ReturnMap::Image again = orbit.map->image(orbit.point.z, false);
+    EXPECT_LT((again.z - orbit.point.z).cwiseAbs().maxCoeff(), 1e-10);
   }
 }
 
 // From where a machine starts decides no more than on which cycle it ends: here there is one.
-TEST(Regime, IsTheSameFromDifferentStarts) {
+TEST(Orbit, IsTheSameFromDifferentStarts) {
   Scene scene = scene_file("scenes/crank_press.toml");
   const double rated = scene.run.start.speed;
   double time = 0;
   for (const double part : {1.0, 0.7, 0.95, 1.05}) {
     scene.run.start.speed = part * rated;
-    const Regime regime = regime_of(scene);
-    ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
-    if (time == 0) time = regime.point.time;
-    EXPECT_NEAR(regime.point.time, time, 1e-9 * time) << part;
+    const Orbit orbit = orbit_of(scene);
+    ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+    if (time == 0) time = orbit.point.time;
+    EXPECT_NEAR(orbit.point.time, time, 1e-9 * time) << part;
   }
 }
 
 // Rubber's branches are states: their creep is among the unknowns, with the multiplier that a disturbed round has.
-TEST(Regime, OwnStatesAreAmongTheUnknowns) {
+TEST(Orbit, OwnStatesAreAmongTheUnknowns) {
   const Scene scene = scene_from(std::string("line = [\"motor\", \"rubber\", \"crank\"]\n") + dc_motor +
                                  "rubber = { kind = \"rubber coupling\", stiffness = \"2 kN*m/rad\", branches = [{ "
                                  "stiffness = \"0.8 kN*m/rad\", relaxation_time = \"20 ms\" }] }\n"
@@ -187,39 +187,39 @@ TEST(Regime, OwnStatesAreAmongTheUnknowns) {
                                  "crank_inertia = \"0.5 kg*m2\", slider_mass = \"3 kg\" }\n"
                                  "[effects]\nelasticity = true\nrelaxation = true\n"
                                  "[run]\nstart = { speed = \"30 rad/s\" }\n");
-  const Regime regime = regime_of(scene);
-  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
-  EXPECT_EQ(regime.map->size(), 4u);  // twist, creep, two speeds
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_EQ(orbit.map->size(), 4u);  // twist, creep, two speeds
   constexpr double h = 1e-4;
   const Eigen::VectorXd step = h * Eigen::VectorXd::Ones(4);
-  const Eigen::VectorXd above = regime.map->image(regime.point.z + step, false).z;
-  const Eigen::VectorXd below = regime.map->image(regime.point.z - step, false).z;
-  EXPECT_LT(((above - below) / 2 - regime.point.derivative * step).cwiseAbs().maxCoeff(), 3e-5 * h);
+  const Eigen::VectorXd above = orbit.map->image(orbit.point.z + step, false).z;
+  const Eigen::VectorXd below = orbit.map->image(orbit.point.z - step, false).z;
+  EXPECT_LT(((above - below) / 2 - orbit.point.derivative * step).cwiseAbs().maxCoeff(), 3e-5 * h);
 }
 
 // A load that comes and goes by a repeated sequence: the run alone comes to it, each round by a ratio nearer. What it has
 // still to go is told.
-TEST(Regime, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
-  const Regime regime = regime_of(
+TEST(Orbit, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
+  const Orbit orbit = orbit_of(
       "line = [\"motor\", \"clutch\", \"load\"]\n"
       "motor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = \"40 rad/s\", inertia = \"6 "
       "kg*m2\" }\nclutch = { kind = \"clutch\", torque = \"30 N*m\" }\n"
       "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n[sequence]\nrepeat = true\nsteps = [{ "
       "after = \"0.5 s\", set = \"clutch\", to = 0 }, { after = \"0.5 s\", set = \"clutch\", to = 1 }]\n");
-  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
-  EXPECT_FALSE(regime.polished);
-  ASSERT_EQ(regime.point.to_come.size(), regime.point.z.size());
-  Eigen::VectorXd z = regime.point.z;
-  for (int i = 0; i < 200; ++i) z = regime.map->image(z, false).z;
-  const double off = (z - regime.point.z).cwiseAbs().maxCoeff();
-  EXPECT_GT(off, 2 * regime.point.residual);  // a round's change is not the error
-  EXPECT_LT(off, 1.2 * regime.point.still_to_come() + 1e-11);
-  EXPECT_LT((z - regime.point.z - regime.point.to_come).cwiseAbs().maxCoeff(), 0.2 * off + 1e-11);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_FALSE(orbit.polished);
+  ASSERT_EQ(orbit.point.to_come.size(), orbit.point.z.size());
+  Eigen::VectorXd z = orbit.point.z;
+  for (int i = 0; i < 200; ++i) z = orbit.map->image(z, false).z;
+  const double off = (z - orbit.point.z).cwiseAbs().maxCoeff();
+  EXPECT_GT(off, 2 * orbit.point.residual);  // a round's change is not the error
+  EXPECT_LT(off, 1.2 * orbit.point.still_to_come() + 1e-11);
+  EXPECT_LT((z - orbit.point.z - orbit.point.to_come).cwiseAbs().maxCoeff(), 0.2 * off + 1e-11);
 }
 
 // However many events a round holds: a brake of 5 N·m grips 150 times a round of 3.1 s, 10 ms on, 10 ms off, and 0.1 s
 // off at its end. A DC motor behind it is linear, so its periodic speed is a sum of exponentials.
-TEST(Regime, ASequenceOfManyStepsComesAgain) {
+TEST(Orbit, ASequenceOfManyStepsComesAgain) {
   constexpr int strokes = 150;
   constexpr double pulse = 0.01, pause = 0.1, fades = 60.0 / 40 / 6, gripped = 40 * (1 - 5 / 60.0);
   std::string steps;
@@ -232,10 +232,10 @@ TEST(Regime, ASequenceOfManyStepsComesAgain) {
       "\"40 rad/s\", inertia = \"6 kg*m2\" }\nbrake = { kind = \"brake\", torque = \"5 N*m\" }\n[sequence]\nrepeat = "
       "true\nsteps = [" +
       steps + "]\n");
-  const Regime regime = regime_of(scene);
-  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
-  EXPECT_NEAR(regime.point.time, strokes * 2 * pulse + pause, 1e-9);
-  EXPECT_LT(regime.rounds, 390);  // turns until e^(-κ t) is 1e-7
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_NEAR(orbit.point.time, strokes * 2 * pulse + pause, 1e-9);
+  EXPECT_LT(orbit.rounds, 390);  // turns until e^(-κ t) is 1e-7
   // Speed at the section, in the middle of the widest gap: of its round from there on, in which every interval brings it
   // nearer to where the motor balances, e^(-κ t).
   double factor = 1, offset = 0;
@@ -245,7 +245,7 @@ TEST(Regime, ASequenceOfManyStepsComesAgain) {
   };
   go((pause + pulse) / 2, 40);
   for (int i = 0; i < strokes; ++i) go(pulse, gripped), go(i + 1 < strokes ? pulse : (pause + pulse) / 2, 40);
-  EXPECT_NEAR(speed_of(scene, regime, "motor"), offset / (1 - factor), 1e-7);
+  EXPECT_NEAR(speed_of(scene, orbit, "motor"), offset / (1 - factor), 1e-7);
 }
 
 // Steps that wait for the motion: a brake grips over each turn's first quarter. A DC motor is linear, so each part is an
@@ -261,7 +261,7 @@ std::string gripped_each_turn(const std::string& shaft) {
          "angle = \"0 deg\", of = \"motor\", set = \"brake\", to = 1 }, { angle = \"90 deg\", of = \"motor\", set = "
          "\"brake\", to = 0 }]\n";
 }
-TEST(Regime, ASequenceThatWaitsForTheMotionHasItsShortestPeriod) {
+TEST(Orbit, ASequenceThatWaitsForTheMotionHasItsShortestPeriod) {
   const Scene rigid = scene_from(gripped_each_turn(""));
   constexpr long double rate = 60.0L / 40 / 0.5L;
   long double speed = 30, period = 0;
@@ -278,15 +278,15 @@ TEST(Regime, ASequenceThatWaitsForTheMotionHasItsShortestPeriod) {
     go(static_cast<long double>(pi) / 2, 40 * (1 - 8.0L / 60));
     go(3 * static_cast<long double>(pi) / 2, 40);
   }
-  const Regime regime = regime_of(rigid);
-  ASSERT_EQ(regime.kind, Regime::Kind::cycle) << regime.words;
-  EXPECT_NEAR(regime.point.time, static_cast<double>(period), 1e-9);
+  const Orbit orbit = orbit_of(rigid);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_NEAR(orbit.point.time, static_cast<double>(period), 1e-9);
 
   const Scene elastic =
       scene_from(gripped_each_turn("shaft = { kind = \"shaft\", stiffness = \"2 kN*m/rad\", damping_ratio = 0.05 "
                                    "}\neffects = { elasticity = true }\n"));
-  const Regime twisted = regime_of(elastic);
-  ASSERT_EQ(twisted.kind, Regime::Kind::cycle) << twisted.words;
+  const Orbit twisted = orbit_of(elastic);
+  ASSERT_EQ(twisted.kind, Orbit::Kind::cycle) << twisted.words;
   const auto model = compile(elastic, elastic.effects);
   Equations equations(model, false);
   RunOptions run;
@@ -301,29 +301,29 @@ TEST(Regime, ASequenceThatWaitsForTheMotionHasItsShortestPeriod) {
 }
 
 // A flywheel so heavy that a turn takes off 1e-7 of a deviation: that is slow, not a family of motions.
-TEST(Regime, AMachineThatIsMerelySlowIsNoFamily) {
-  const Regime regime = regime_of(
+TEST(Orbit, AMachineThatIsMerelySlowIsNoFamily) {
+  const Orbit orbit = orbit_of(
       "line = [\"motor\", \"load\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = "
       "\"40 rad/s\", inertia = \"4e6 kg*m2\" }\nload = { kind = \"load\", damping = \"0.5 N*m*s/rad\" }\n"
       "[run]\nstart = { speed = \"30.01 rad/s\" }\n");
-  ASSERT_TRUE(regime.repeats()) << regime.words;
+  ASSERT_TRUE(orbit.repeats()) << orbit.words;
   const double steady = 30, fades = (60 / 40.0 + 0.5) / 4e6 * 2 * pi / steady;  // κ T
   EXPECT_LT(fades, 1.1e-7);
-  EXPECT_FALSE(regime.point.neutral());
-  EXPECT_NEAR(1 - regime.point.largest(), fades, 0.05 * fades);
-  EXPECT_NEAR(regime.point.time, 2 * pi / steady, 1e-5);
+  EXPECT_FALSE(orbit.point.neutral());
+  EXPECT_NEAR(1 - orbit.point.largest(), fades, 0.05 * fades);
+  EXPECT_NEAR(orbit.point.time, 2 * pi / steady, 1e-5);
 }
 
 // While the link waits for a speed to be reached, no cycles are run through.
-TEST(Regime, WaitingIsNoCycle) {
-  const Regime regime = regime_of(
+TEST(Orbit, WaitingIsNoCycle) {
+  const Orbit orbit = orbit_of(
       "line = [\"motor\", \"brake\", \"load\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", "
       "no_load_speed = \"40 rad/s\", inertia = \"0.5 kg*m2\" }\nbrake = { kind = \"brake\", torque = \"100 N*m\" }\n"
       "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\", stop = \"200 s\" }\n");
-  EXPECT_EQ(regime.kind, Regime::Kind::at_rest) << regime.words;
-  EXPECT_GT(regime.rounds, 1);
-  EXPECT_LT(regime.cost, 1);
+  EXPECT_EQ(orbit.kind, Orbit::Kind::at_rest) << orbit.words;
+  EXPECT_GT(orbit.rounds, 1);
+  EXPECT_LT(orbit.cost, 1);
 }
 
 }  // namespace
-}  // namespace kurbel::test::regime_test
+}  // namespace kurbel::test::orbit_test

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "engine/analysis/return_map.h"
+#include "engine/orbit/return_map.h"
 
 namespace kurbel {
 

@@ -1,5 +1,5 @@
 // family.cpp — null vectors of a derivative, and the member of a family that a run comes to.
-#include "engine/analysis/family.h"
+#include "engine/orbit/family.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// sized_regimes.cpp — asks the regime of the sized machine, and seeks the inertia by it.
-#include "studies/size/sized_regimes.h"
+// sized_orbits.cpp — asks the steady motion of the sized machine, and seeks the inertia by it.
+#include "studies/size/sized_orbits.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 namespace kurbel {
 namespace {
 
-constexpr int most_regimes = 8;
+constexpr int most_orbits = 8;
 constexpr double met = 1e-5;          // of the demanded δ
 constexpr double least_error = 1e-9;  // that sampling leaves in δ, over itself
 const Kind& flywheel_kind() {
@@ -32,7 +32,7 @@ double delta_of(const Piecewise& speed) {
   return (most - least) / std::abs(0.5 * (most + least));
 }
 
-void fill(SizedRegime& r, const RegimeCycle& c, double motor_ratio) {
+void fill(SizedOrbit& r, const OrbitCycle& c, double motor_ratio) {
   r.found = true;
   r.crank.value = c.delta();
   r.motor.value = delta_of(c.others.front());
@@ -86,41 +86,41 @@ Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, co
   return scene;
 }
 
-SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optional<double> start_speed,
-                             bool with_error) const {
+SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optional<double> start_speed,
+                           bool with_error) const {
   Scene sized = with_flywheel(scene_, parts_.flywheel, flywheel, parts_.on);
   if (start_speed && sized.sequence.steps.empty()) {
     sized.run.start = {};
     sized.run.start.speed = *start_speed;
     sized.run.start.equilibrium = true;
   }
-  SizedRegime r;
+  SizedOrbit r;
   r.flywheel = flywheel;
   try {
     const auto model = compile_at(sized, effects, parts_.moment);
     const int motor = parts_.motor.empty() ? model->reduction_node : model->network.ports.at(parts_.motor).out;
-    const RegimeOptions options{.method = sized.run.method == "work" ? "auto" : sized.run.method,
-                                .budget = sized.run.budget,
-                                .most_rounds = parts_.most_rounds,
-                                .interrupted = watch_.interrupted,
-                                .progress = [this](const std::string& what, double part) { watch_.at(what, part); }};
-    Regime regime = find_regime(model, options);
+    const OrbitOptions options{.method = sized.run.method == "work" ? "auto" : sized.run.method,
+                               .budget = sized.run.budget,
+                               .most_rounds = parts_.most_rounds,
+                               .interrupted = watch_.interrupted,
+                               .progress = [this](const std::string& what, double part) { watch_.at(what, part); }};
+    Orbit orbit = find_orbit(model, options);
     Deadline::check();
-    if (!regime.repeats() && parts_.held && regime.kind != Regime::Kind::interrupted)
-      regime = held_regime(sized, effects, *parts_.held, parts_.moment, watch_).regime;
+    if (!orbit.repeats() && parts_.held && orbit.kind != Orbit::Kind::interrupted)
+      orbit = held_orbit(sized, effects, *parts_.held, parts_.moment, watch_).orbit;
     watch_.say(fmt::format("flywheel of {:.6g} kg·m², effects {}: {}: {}", flywheel, effects.describe(),
-                           name_of(regime.kind), regime.words));
-    r.cycles = static_cast<int>(std::lround(regime.cost));
-    r.interrupted = regime.kind == Regime::Kind::interrupted;
-    r.stops = regime.kind == Regime::Kind::at_rest;
-    r.why = regime.words;
-    if (!regime.repeats()) return r;
-    fill(r, regime_cycle(regime, {motor}), model->node_ratio[kurbel::at(motor)]);
-    r.notes = static_curve_notes(*regime.map, regime.point);
-    for (std::string& sentence : outside_data(*regime.map, regime.point)) r.notes.push_back(std::move(sentence));
+                           name_of(orbit.kind), orbit.words));
+    r.cycles = static_cast<int>(std::lround(orbit.cost));
+    r.interrupted = orbit.kind == Orbit::Kind::interrupted;
+    r.stops = orbit.kind == Orbit::Kind::at_rest;
+    r.why = orbit.words;
+    if (!orbit.repeats()) return r;
+    fill(r, orbit_cycle(orbit, {motor}), model->node_ratio[kurbel::at(motor)]);
+    r.notes = static_curve_notes(*orbit.map, orbit.point);
+    for (std::string& sentence : outside_data(*orbit.map, orbit.point)) r.notes.push_back(std::move(sentence));
     if (!with_error) return r;
-    if (const auto looser = looser_regime_cycle(regime, {motor})) {
-      const double left = regime.point.still_to_come();  // what the run has still to settle
+    if (const auto looser = looser_orbit_cycle(orbit, {motor})) {
+      const double left = orbit.point.still_to_come();  // what the run has still to settle
       for (const auto& [delta, other] :
            {std::pair{&r.crank, looser->delta()}, std::pair{&r.motor, delta_of(looser->others.front())}}) {
         *delta = estimate_from(delta->value, other, least_error * delta->value);
@@ -135,8 +135,8 @@ SizedRegime SizedRegimes::at(double flywheel, const Effects& effects, std::optio
   return r;
 }
 
-SizedRegimes::Meeting SizedRegimes::meeting(double delta, const SizedRegime& first, double others,
-                                            const Effects& effects) const {
+SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first, double others,
+                                          const Effects& effects) const {
   Meeting m;
   m.least = first.crank.value, m.least_at = first.flywheel;
   constexpr double flattest = -0.05, furthest = 1.5;
@@ -144,15 +144,15 @@ SizedRegimes::Meeting SizedRegimes::meeting(double delta, const SizedRegime& fir
   double u = std::log(std::max(first.flywheel + others, 1e-300)), v = std::log(first.crank.value / delta), slope = -1;
   double heavy_enough = HUGE_VAL, too_light = -HUGE_VAL;
   (v > 0 ? too_light : heavy_enough) = u;
-  SizedRegime last = first;
+  SizedOrbit last = first;
   int in_vain = 0;
-  while (m.regimes < most_regimes && in_vain < 2) {
+  while (m.orbits < most_orbits && in_vain < 2) {
     double next = u + std::clamp(-v / slope, -furthest, furthest);
     if (next <= too_light || next >= heavy_enough) next = 0.5 * (too_light + heavy_enough);
     if (!std::isfinite(next)) break;
     const double flywheel = std::max(0.0, std::exp(next) - others);
-    SizedRegime r = at(flywheel, effects, last.start_speed, false);
-    ++m.regimes;
+    SizedOrbit r = at(flywheel, effects, last.start_speed, false);
+    ++m.orbits;
     if (!r.found) {
       if (r.interrupted) break;
       if (r.stops && next < u)
@@ -170,11 +170,11 @@ SizedRegimes::Meeting SizedRegimes::meeting(double delta, const SizedRegime& fir
     u = next, v = now, last = std::move(r);
     if (last.crank.value < m.least) m.least = last.crank.value, m.least_at = last.flywheel;
     if (std::abs(last.crank.value / delta - 1) <= met) {
-      m.regime = at(last.flywheel, effects, last.start_speed, true);
-      ++m.regimes;
+      m.orbit = at(last.flywheel, effects, last.start_speed, true);
+      ++m.orbits;
       m.error = (last.flywheel + others) *
-                (std::abs(m.regime->crank.value / delta - 1) + m.regime->crank.error.value_or(0) / delta) / -slope;
-      if (!m.regime->found) m.regime.reset();
+                (std::abs(m.orbit->crank.value / delta - 1) + m.orbit->crank.error.value_or(0) / delta) / -slope;
+      if (!m.orbit->found) m.orbit.reset();
       break;
     }
     (v > 0 ? too_light : heavy_enough) = u;
