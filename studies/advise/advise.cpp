@@ -107,11 +107,9 @@ class Adviser {
   Deviation judge(const Result& full, const Result& other, const std::vector<std::string>& figures) const {
     Deviation found = deviation_of(changes_between(full, other, figures), options_.within);
     // A figure of the full model that the other does not have counts as lost, unless nobody asked for it.
-    if (figures.empty()) return found;
     for (const Figure& f : full.figures)
-      for (const std::string& name : figures)
-        if (is_asked_for(f.name, name) && !other.find(f.name))
-          found.deviation = HUGE_VAL, found.error = 0, found.figure = f.name, found.within = false;
+      if (is_asked_for(f.name, figures) && !other.find(f.name))
+        found.deviation = HUGE_VAL, found.error = 0, found.figure = f.name, found.within = false;
     return found;
   }
   // The motion that is kept, too, where the full model's run has come to it.
@@ -242,10 +240,7 @@ class Adviser {
       const std::string what = a_.units[k].words + ", which does not go with " + left.in_place_of;
       std::vector<FigureChange> changes = left.changes;
       if (!options_.figures.empty())
-        std::erase_if(changes, [&](const FigureChange& c) {
-          return std::none_of(options_.figures.begin(), options_.figures.end(),
-                              [&](const std::string& name) { return is_asked_for(c.figure, name); });
-        });
+        std::erase_if(changes, [&](const FigureChange& c) { return !is_asked_for(c.figure, options_.figures); });
       const Deviation d = deviation_of(changes, options_.within);
       if (!left.failed.empty())
         a_.warnings.push_back(what + ", could not be judged in their place: " + left.failed);

@@ -20,8 +20,7 @@ bool is_compared(const Figure& figure) {
 bool is_asked(const Figure& figure, const std::vector<std::string>& figures) {
   const std::string in_cycle = "cycle_";
   const std::string plain = figure.name.starts_with(in_cycle) ? figure.name.substr(in_cycle.size()) : figure.name;
-  return figures.empty() ||
-         std::any_of(figures.begin(), figures.end(), [&](const std::string& f) { return is_asked_for(plain, f); });
+  return figures.empty() || is_asked_for(plain, figures);
 }
 
 }  // namespace

@@ -55,9 +55,7 @@ std::vector<FigureChange> changes_between(const Result& full, const Result& othe
                                           const std::vector<std::string>& wanted) {
   std::vector<FigureChange> changes;
   for (const Figure& figure : full.figures) {
-    const bool asked = std::any_of(wanted.begin(), wanted.end(),
-                                   [&](const std::string& name) { return is_asked_for(figure.name, name); });
-    if (wanted.empty() ? !is_telling(figure) : !asked) continue;
+    if (wanted.empty() ? !is_telling(figure) : !is_asked_for(figure.name, wanted)) continue;
     const Figure* same = like_in(other, figure);
     if (!same) continue;
     const double nothing = floor_of(figure, full);

@@ -1,7 +1,9 @@
 // figure_changes.h — how far the figures of two runs are apart, and which of them are worth comparing.
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "studies/findings/result.h"
@@ -35,6 +37,10 @@ bool measure_the_same(const Figure& a, const Figure& b);
 double apart(const Figure& a, const Figure& b);
 // What in a run measures the same as a figure of another one; null: nothing.
 const Figure* like_in(const Result& run, const Figure& figure);
+// By any of these.
+inline bool is_asked_for(std::string_view name, const std::vector<std::string>& asked) {
+  return std::any_of(asked.begin(), asked.end(), [&](const std::string& by) { return is_asked_for(name, by); });
+}
 // Figures worth comparing: peaks, speeds, fluctuation, periods, works; not those of single angles or of rounding.
 bool is_telling(const Figure& figure);
 // Changes of the telling figures of `other` against `full`, the surely greatest first; only `wanted`, unless empty (names or their beginnings).

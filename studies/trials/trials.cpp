@@ -124,18 +124,17 @@ double allowance(const Result& run) {
   return std::clamp(times_the_run * run.cpu_total, least_allowance, most_allowance);
 }
 
-Trials try_effects(const Result& run, const std::vector<std::string>& key_figures, const SimulateOptions& options) {
+Trials try_effects(const Result& run, const std::vector<std::string>& key_figures, const SimulateOptions& options,
+                   bool rigid) {
   if (!run.complete || !run.model) return {};
-  return TrialRuns(run, key_figures, options).all();
+  TrialRuns trials(run, key_figures, options);
+  if (rigid) trials.compare_with_rigid();
+  return trials.all();
 }
 
 WithTrials<Result> with_trials(Result run, const SimulateOptions& options) {
-  if (!run.complete || !run.model) return {std::move(run), {}};
-  const std::vector<std::string> names = names_of(key_figures_of(run), run);
-  TrialRuns trials(run, names, options);
-  trials.compare_with_rigid();
-  Trials all = trials.all();
-  return {std::move(run), std::move(all)};
+  Trials trials = try_effects(run, names_of(key_figures_of(run), run), options, true);
+  return {std::move(run), std::move(trials)};
 }
 
 WithTrials<Comparison> with_trials(Comparison comparison, const SimulateOptions& options) {

@@ -44,7 +44,8 @@ double allowance(const Result& run);
 
 // Of the run's model, with the options that made the run. Key figures by their names. Nothing of a run that did not come
 // to its end. An interrupt ends the trials; what was not tried then says so.
-Trials try_effects(const Result& run, const std::vector<std::string>& key_figures, const SimulateOptions& options);
+Trials try_effects(const Result& run, const std::vector<std::string>& key_figures, const SimulateOptions& options,
+                   bool rigid = false);  // the rigid machine before all others
 
 // A study and the trials of it; of two models compared those of the second.
 template <class Study>
