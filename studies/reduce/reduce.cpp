@@ -350,10 +350,9 @@ class Reducer {
       r_.notes.push_back("the machine has no cycle, its parts never come back together; there are no harmonics");
     add_note_on_basis();
     add_note_on_peaks();
-    if (slider_)
+    if (slider_) {
       r_.notes.push_back(
           fmt::format("forces on {} count along its way: they drive where they have the sign of its speed x′", r_.to));
-    if (slider_) {
       std::string left_out;
       for (const ReducedPosition& p : r_.positions)
         if (!p.singular.empty())
