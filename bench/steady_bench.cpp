@@ -10,7 +10,7 @@
 
 #include "bench/benches.h"
 #include "bench/machines.h"
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 
 using namespace kurbel;
 using namespace kurbel::bench;

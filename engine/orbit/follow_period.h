@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 
 namespace kurbel {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/base/enumerators.h"
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 
 namespace kurbel {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 
 namespace kurbel {
 

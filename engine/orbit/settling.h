@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/events/equations.h"
-#include "engine/orbit/periodicity.h"
+#include "engine/return_map/periodicity.h"
 
 namespace kurbel {
 

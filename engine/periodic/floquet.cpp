@@ -10,7 +10,7 @@
 #include "engine/matrices/periodic_schur.h"
 #include "engine/numerics/angles.h"
 #include "engine/orbit/follow_period.h"
-#include "engine/orbit/sensitivities.h"
+#include "engine/return_map/sensitivities.h"
 
 namespace kurbel {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/orbit/return_map.h"
 #include "engine/periodic/mean_system.h"
+#include "engine/return_map/return_map.h"
 
 namespace kurbel {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "engine/numerics/index.h"
-#include "engine/orbit/periodicity.h"
+#include "engine/return_map/periodicity.h"
 
 namespace kurbel {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/orbit/family.h"
 #include "engine/orbit/follow_period.h"
+#include "engine/return_map/family.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"

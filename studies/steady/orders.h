@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/base/estimate.h"
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 #include "studies/findings/result.h"
 
 namespace kurbel {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/model/model.h"
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 #include "engine/rigid/rigid_machine.h"
 #include "engine/run/run.h"
 #include "studies/findings/result.h"

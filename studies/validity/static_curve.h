@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/model/model.h"
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 #include "engine/run/recorders.h"
 
 namespace kurbel {

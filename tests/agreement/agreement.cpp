@@ -13,7 +13,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/orbit/periodicity.h"
+#include "engine/return_map/periodicity.h"
 #include "studies/reduce/reduce.h"
 #include "studies/run/compare.h"
 #include "studies/size/size.h"

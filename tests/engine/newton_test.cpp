@@ -1,5 +1,5 @@
 // newton_test.cpp — Newton's method with damping: closed solutions, and what it promises to have evaluated last.
-#include "engine/orbit/newton.h"
+#include "engine/return_map/newton.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "engine/matrices/linear_algebra.h"
-#include "engine/orbit/family.h"
+#include "engine/return_map/family.h"
 
 namespace kurbel::newton_test {
 namespace {

@@ -1,5 +1,5 @@
 // Steady motion as a fixed point of the return map: against closed forms, differences, and waiting for it.
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 
 #include <gtest/gtest.h>
 

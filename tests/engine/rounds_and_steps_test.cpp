@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "engine/numerics/curve.h"
-#include "engine/orbit/return_map.h"
-#include "engine/orbit/sensitivities.h"
+#include "engine/return_map/return_map.h"
+#include "engine/return_map/sensitivities.h"
 #include "engine/rigid/work_equation.h"
 #include "engine/run/recorders.h"
 #include "studies/modes/modes.h"

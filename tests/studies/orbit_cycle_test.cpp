@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "engine/orbit/periodicity.h"
+#include "engine/return_map/periodicity.h"
 #include "studies/cycle/classical.h"
 #include "studies/reduce/reduce.h"
 #include "studies/size/size.h"

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 
 namespace kurbel {
 

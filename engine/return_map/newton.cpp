@@ -1,5 +1,5 @@
 // newton.cpp — steps that are halved until they pay, a derivative that is kept while it serves.
-#include "engine/orbit/family.h"
+#include "engine/return_map/family.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // return_map.cpp — one round from section to section, and its derivative.
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/return_map.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "engine/numerics/index.h"
 #include "engine/numerics/period.h"
-#include "engine/orbit/sensitivities.h"
+#include "engine/return_map/sensitivities.h"
 
 namespace kurbel {
 namespace {

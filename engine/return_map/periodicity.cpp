@@ -1,5 +1,5 @@
 // periodicity.cpp — common multiples of the periods of a machine's elements.
-#include "engine/orbit/periodicity.h"
+#include "engine/return_map/periodicity.h"
 
 #include <fmt/format.h>
 

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/orbit/newton.h"
-#include "engine/orbit/periodicity.h"
-#include "engine/orbit/poincare_section.h"
+#include "engine/return_map/newton.h"
+#include "engine/return_map/periodicity.h"
+#include "engine/return_map/poincare_section.h"
 #include "engine/run/run.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // sensitivities.cpp — the variational equations as an extension of a run.
-#include "engine/orbit/sensitivities.h"
+#include "engine/return_map/sensitivities.h"
 
 #include <algorithm>
 #include <cmath>

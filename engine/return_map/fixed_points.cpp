@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "engine/matrices/linear_algebra.h"
-#include "engine/orbit/family.h"
-#include "engine/orbit/return_map.h"
+#include "engine/return_map/family.h"
+#include "engine/return_map/return_map.h"
 
 namespace kurbel {
 

@@ -1,5 +1,5 @@
 // poincare_section.cpp — the coordinates of a section: independent angles and twists, speeds, own states.
-#include "engine/orbit/poincare_section.h"
+#include "engine/return_map/poincare_section.h"
 
 #include <fmt/format.h>
 

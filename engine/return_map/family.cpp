@@ -1,5 +1,5 @@
 // family.cpp — null vectors of a derivative, and the member of a family that a run comes to.
-#include "engine/orbit/family.h"
+#include "engine/return_map/family.h"
 
 #include <fmt/format.h>
 
