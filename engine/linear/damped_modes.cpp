@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/linear/eigen_modes.h"
 #include "engine/matrices/linear_algebra.h"
@@ -78,7 +79,7 @@ DampedMode normalised(std::complex<double> lambda, Eigen::VectorXcd shape) {
   Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
   shape /= shape[largest];
-  return {lambda, std::move(shape), 0, 0};
+  return {.lambda = lambda, .shape = std::move(shape)};
 }
 
 void sort_modes(std::vector<DampedMode>& modes) {
@@ -89,9 +90,8 @@ void sort_modes(std::vector<DampedMode>& modes) {
   });
 }
 
-// Of each eigenvalue: its condition number times the backward error of its pair and of the solver.
-VectorXd eigenvalue_errors(const MatrixXd& a, const Eigenpairs& pairs) {
-  const Eigen::MatrixXcd left = ComplexLu(pairs.vectors).inverse();  // rows
+// Of each eigenvalue: its condition number times the backward error of its pair and of the solver. `left`: rows.
+VectorXd eigenvalue_errors(const MatrixXd& a, const Eigenpairs& pairs, const Eigen::MatrixXcd& left) {
   const double backward = 4 * std::numeric_limits<double>::epsilon() *
                           std::sqrt(a.cwiseAbs().rowwise().sum().maxCoeff() * a.cwiseAbs().colwise().sum().maxCoeff());
   VectorXd error(a.rows());
@@ -104,12 +104,24 @@ VectorXd eigenvalue_errors(const MatrixXd& a, const Eigenpairs& pairs) {
   return error;
 }
 
+// Where eigenvectors are parallel, and no left one is known, by the right one alone.
+EnergyParts energy_parts(const FirstOrder& system, const Eigen::VectorXcd& left, const Eigen::VectorXcd& right) {
+  VectorXd part = left.cwiseProduct(right).cwiseAbs();
+  if (!part.allFinite() || part.sum() == 0) part = right.cwiseAbs2();
+  part /= part.sum();
+  const VectorXd own = part.tail(part.size() - system.own);
+  return {.springs = part.head(system.speeds).sum(),
+          .inertias = part.segment(system.speeds, system.own - system.speeds).sum(),
+          .own = std::vector<double>(own.begin(), own.end())};
+}
+
 std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
   const FirstOrder system = first_order(drive);
   const MatrixXd& a = system.a;
   const Eigenpairs pairs = eigenpairs(a);
   const double noise = 1e-12 * a.norm();
-  const VectorXd error = eigenvalue_errors(a, pairs), scale = drive.inertia.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXcd left = ComplexLu(pairs.vectors).inverse();  // rows
+  const VectorXd error = eigenvalue_errors(a, pairs, left), scale = drive.inertia.cwiseSqrt().cwiseInverse();
   std::vector<DampedMode> modes;
   for (Index i = 0; i < a.rows(); ++i) {
     std::complex<double> lambda = pairs.values[i];
@@ -121,6 +133,7 @@ std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
         normalised(lambda, scale.cast<std::complex<double>>().cwiseProduct(v.segment(system.speeds, drive.size())));
     mode.error = error[i];
     mode.in_own_states = v.tail(drive.own_states()).squaredNorm() / v.squaredNorm();
+    mode.energy = energy_parts(system, left.row(i).transpose(), v);
     modes.push_back(std::move(mode));
   }
   sort_modes(modes);
@@ -222,6 +235,8 @@ std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedMo
 }
 
 }  // namespace
+
+double EnergyParts::in_own() const { return std::accumulate(own.begin(), own.end(), 0.0); }
 
 std::vector<DampedMode> damped_modes(const LinearDrive& drive, const UndampedModes& undamped,
                                      const ModesWanted& wanted) {

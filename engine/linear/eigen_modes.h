@@ -37,11 +37,21 @@ UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted
 // Number of modes with ω < omega, rigid ones included.
 int modes_below(const LinearDrive& drive, double omega);
 
+// Where a mode's energy is. Of state i the share is |w_i v_i|/Σ |w_k v_k|, w and v the left and the right eigenvector: it
+// does not depend on the states' units. Springs, inertias, windings, dampers and resistors are reciprocal; there w_i is
+// ± v_i in units of √(2 E_i), and the share is that of the stored energy E_i itself: ½ k θ², ½ J ω², ½ L i².
+struct EnergyParts {
+  double springs = 0, inertias = 0;  // with the link held at an angle `springs` are weights, too
+  std::vector<double> own;           // per own state; all of it together is 1; empty: not known, or there are none
+  double in_own() const;             // Σ of `own`
+};
+
 struct DampedMode {
   std::complex<double> lambda;  // [1/s], Im ≥ 0; Im = 0: does not swing
   Eigen::VectorXcd shape;       // per coordinate; largest entry 1
   double error = 0;             // of λ [1/s]
   double in_own_states = 0;     // share of its vector in the elements' own states: 1 where the machine hardly moves
+  EnergyParts energy = {};      // by the dense solver
   double natural() const { return std::abs(lambda); }                      // [rad/s]
   double ratio() const { return (0 - lambda.real()) / std::abs(lambda); }  // ζ, never −0; < 0: grows by itself
 };
