@@ -79,8 +79,20 @@ inline constexpr Definition of_one_study[] = {
      "(1/Φ) ∮ M_c dφ", "a mean over time"},
     // modes
     {"natural_frequency", "natural frequency of a mode", "Hz", "", "12.2", "modes, sweep, uncertainty",
-     "undamped natural frequency of the drive, linearised at the operating point", "K v = ω_n² M v",
-     "the damped frequency ω_n √(1 − ζ²)"},
+     "undamped natural frequency of the drive, linearised at the operating point: of inertias and springs, ascending, "
+     "motor windings, controllers and other internal states of elements as they are",
+     "K v = ω_n² M v",
+     "the damped frequency ω_n √(1 − ζ²), nor a frequency that a winding or a controller brings about"},
+    {"damped_frequency", "damped frequency of a mode", "Hz", "MODE", "12.3", "sweep, uncertainty",
+     "frequency at which a mode dies out or grows, by its eigenvalue at the operating point, with all damping, slopes "
+     "of "
+     "motors and loads and internal states of elements; told of modes that swing",
+     "ω_d = Im λ", "the natural frequency, which is undamped"},
+    {"internal_frequency", "frequency of a mode of internal states", "Hz", "MODE", "12.3", "modes, sweep, uncertainty",
+     "magnitude of the eigenvalue of a mode that grows out of no natural frequency: a motor's winding against inertia, "
+     "a "
+     "controller; its number follows those of the natural frequencies",
+     "|λ|", "a natural frequency of the drive, which springs and inertias alone have"},
     {"damping_ratio", "damping ratio of a mode", "", "MODE", "12.3", "modes, sweep, uncertainty",
      "share of critical damping with which a mode dies out, by its eigenvalue at the operating point: what is left "
      "after a cycle is exp(−2πζ/√(1 − ζ²)); told of modes that swing",

@@ -15,6 +15,7 @@ namespace kurbel::modes {
 namespace {
 
 constexpr std::size_t critical_shown = 16, rays_shown = 10, modes_named = 12;
+constexpr double mostly = 0.9;         // of a mode's energy in own states: what moves is beside the point
 constexpr double least_circle = 1e-3;  // of the severest critical speed's share
 constexpr double least_ray = 0.02;     // of the strongest order's torque
 
@@ -79,7 +80,7 @@ std::vector<std::size_t> orders_shown(const ModesStudy& m) {
 
 // Up to the highest mode that one of the severe critical speeds belongs to, and never below the first mode [Hz].
 double top_of(const ModesStudy& m) {
-  double top = m.modes.empty() ? 0 : hertz(m.modes.front().natural());
+  double top = m.modes.empty() ? 0 : hertz(m.modes.front().magnitude());
   const std::vector<std::size_t> severe = severest_critical(m, 16);
   for (const std::size_t i : severe)
     if (m.critical[i].share > 0.05 * m.critical[severe.front()].share)
@@ -193,9 +194,8 @@ Windows windows_by(const std::vector<double>& place, const TorqueHistory& h, std
   return rows;
 }
 
-}  // namespace
-
-std::string name_of(const ModesStudy& m, const Mode& mode) {
+// What swings against what.
+std::string moving_parts(const ModesStudy& m, const Mode& mode) {
   const Eigen::VectorXd shape = shaft_shape(m, mode);
   const std::vector<double>& energy = mode.shares.shaft;
   int one = -1, other = -1;
@@ -214,6 +214,16 @@ std::string name_of(const ModesStudy& m, const Mode& mode) {
   const auto name = [&](int i) { return readable(m.shaft_names[static_cast<std::size_t>(i)]); };
   if (other < 0 || energy[static_cast<std::size_t>(other)] < 0.03) return name(one);
   return name(one) + " against " + name(other);
+}
+
+}  // namespace
+
+std::string name_of(const ModesStudy& m, const Mode& mode) {
+  if (!mode.of_own_states) return moving_parts(m, mode);
+  for (const EnergyStore& store : energy_stores(m, mode))
+    if (store.name.find(" of ") != std::string::npos)
+      return mode.energy.in_own() > mostly ? store.name : fmt::format("{} and {}", store.name, moving_parts(m, mode));
+  return moving_parts(m, mode);
 }
 
 std::vector<std::size_t> severest_critical(const ModesStudy& m, std::size_t count) {
@@ -308,7 +318,7 @@ Plot waterfall_plot(const ModesStudy& m, const TorqueHistory& h) {
             .wide = true,
             .map = ColourMap{"amplitude", "N·m", frequency, windows.at, windows.amplitude}};
   for (const Mode& mode : m.modes)
-    if (const double f = hertz(mode.natural()); f <= end)
+    if (const double f = hertz(mode.magnitude()); f <= end)
       plot.bands.push_back({f, f, fmt::format("mode {}", mode.number), Role::orange});
   if (!over_speed) return plot;
   for (const std::size_t r : orders_shown(m)) {

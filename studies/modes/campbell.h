@@ -11,7 +11,8 @@
 namespace kurbel::modes {
 
 // What swings against what: "generator against engine", the shafts with the largest shares of the kinetic energy on
-// either side of the node; "damper ring" alone where no other shaft has 3 % of it.
+// either side of the node; "damper ring" alone where no other shaft has 3 % of it. Of a mode of internal states first of all
+// whose they are: "current of motor and fan".
 std::string name_of(const ModesStudy& study, const Mode& mode);
 
 // The `count` severest critical speeds by their places in the list, the severest first: by what the joint may bear.

@@ -95,7 +95,7 @@ class OrderCurve {
 }  // namespace
 
 double frequency_of_resonance(const LinearDrive& drive, const Mode& mode) {
-  return drive.own_states() > 0 ? mode.natural() : mode.omega;
+  return drive.own_states() > 0 ? mode.magnitude() : mode.omega;
 }
 
 void find_critical_speeds(ModesStudy& found) {
@@ -127,7 +127,7 @@ void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& a
     c.joint = joint_of(mode);
     std::optional<SpeedResponse> peak;
     // A force's swing is largest at √(1 − 2ζ²) of |λ|, and what a joint passes on at less below it.
-    const double damped = mode.natural() / c.order, width = (2 * mode.ratio * mode.ratio + 0.02) * damped;
+    const double damped = mode.magnitude() / c.order, width = (2 * mode.ratio * mode.ratio + 0.02) * damped;
     if (mode.ratio < hardly_swings) peak = OrderCurve(c, found.sweep).peak(damped, width, at);
     const SpeedResponse& there = peak ? *peak : found.sweep[nearest];
     if (peak) c.peak = peak->speed;

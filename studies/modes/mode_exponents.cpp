@@ -30,7 +30,11 @@ bool varies_with_angle(const Model& m) {
 class Exponents {
  public:
   Exponents(const FloquetSpectrum& spectrum, bool contacts_change, ModesStudy& found)
-      : spectrum_(spectrum), contacts_change_(contacts_change), found_(found), used_(spectrum.exponents.size(), 0) {}
+      : spectrum_(spectrum), contacts_change_(contacts_change), found_(found), used_(spectrum.exponents.size(), 0) {
+    for (Mode& mode : found.modes) slowest_first_.push_back(&mode);
+    std::stable_sort(slowest_first_.begin(), slowest_first_.end(),
+                     [](const Mode* a, const Mode* b) { return a->magnitude() < b->magnitude(); });
+  }
 
   void hand_out() {
     give_own();
@@ -98,11 +102,11 @@ class Exponents {
                     mode.number, 1 / spectrum_.time));
   }
   void give_own() {
-    for (Mode& mode : found_.modes) {
-      if (!(mode.lambda.imag() > 0)) continue;
-      const std::vector<Candidate> own = near(mode, false);
+    for (Mode* mode : slowest_first_) {
+      if (!(mode->lambda.imag() > 0)) continue;
+      const std::vector<Candidate> own = near(*mode, false);
       if (own.empty()) continue;
-      give(mode, own.front());
+      give(*mode, own.front());
       use_conjugate_of(own.front().number);
     }
   }
@@ -114,7 +118,8 @@ class Exponents {
 
   // Two real multipliers in place of a swing: it is locked to the round. One alone is a slow change of speed.
   void give_pairs() {
-    for (Mode& mode : found_.modes) {
+    for (Mode* place : slowest_first_) {
+      Mode& mode = *place;
       if (!(mode.lambda.imag() > 0) || !mode.periodic.empty()) continue;
       const std::vector<Candidate> own = near(mode, true);
       if (own.size() < 2) continue;
@@ -190,6 +195,7 @@ class Exponents {
   const FloquetSpectrum& spectrum_;
   bool contacts_change_;
   ModesStudy& found_;
+  std::vector<Mode*> slowest_first_;
   std::vector<char> used_;
 };
 

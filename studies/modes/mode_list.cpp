@@ -19,10 +19,15 @@ namespace {
 
 constexpr int frozen_angles = 24;
 constexpr double hardly_moves = 0.999;    // share of a mode in own states
+constexpr double like_enough = 0.3;       // of two shapes: less is another motion
 constexpr double carried = 0.1;           // of the frequency: an element that is off by more carries no such mode
 constexpr Eigen::Index most_frozen = 60;  // coordinates
 
-// The damped mode whose shape is most like the undamped one's, each used once; shapes are compared with M.
+// Held at rest.
+bool stands(const LinearDrive& drive) { return drive.at.angle && drive.at.speed == 0; }
+
+// The damped mode whose shape is most like the undamped one's and whose energy is mechanical, each used once; shapes are
+// compared with M.
 std::vector<char> pair_damped(ModesStudy& found) {
   std::vector<char> used(found.damped.size(), 0);
   // A mode that the slopes of motors and loads move far away still has its shape.
@@ -38,13 +43,15 @@ std::vector<char> pair_damped(ModesStudy& found) {
         const double norm = std::sqrt((found.drive.inertia.array() * d.shape.array().abs2()).sum());
         const double off = std::min(1.0, std::abs(std::abs(d.lambda) - mode.omega) / mode.omega);
         const double like = std::abs(moved.dot(d.shape)) / norm * (near ? 1 - off : 1);
-        if (like > best) best = like, which = i;
+        const double mechanical = like * (1 - d.energy.in_own());
+        if (like >= like_enough && mechanical > best) best = mechanical, which = i;
       }
-      if (best < 0.3) continue;
+      if (which == found.damped.size()) continue;
       used[which] = 1;
       mode.lambda = found.damped[which].lambda;
       mode.ratio = found.damped[which].ratio();
-      mode.error = found.damped[which].error;
+      mode.lambda_error = found.damped[which].error;
+      mode.energy = found.damped[which].energy;
     }
   return used;
 }
@@ -59,17 +66,55 @@ Eigen::VectorXd principal_shape(const LinearDrive& drive, const Eigen::VectorXcd
   return real / std::copysign(std::sqrt(drive.inertia.dot(real.cwiseAbs2())), real[heaviest]);
 }
 
+// Of springs and inertias.
+std::vector<Mode> modes_of_springs(int count, const ModesStudy& found) {
+  std::vector<Mode> modes;
+  const UndampedModes& u = found.undamped;
+  for (Eigen::Index i = u.rigid; i < u.omega.size() && i < u.rigid + count; ++i) {
+    Mode& mode = modes.emplace_back();
+    mode.omega = mode.least = mode.greatest = u.omega[i];
+    mode.shape = u.shapes.col(i);
+    mode.shares = energy_shares(found.drive, mode.shape);
+    mode.error = u.error[i];
+  }
+  return modes;
+}
+
+// Of springs, weights and inertias, K = −∂M/∂φ among the stiffnesses: what is left without damping and own states.
+std::vector<Mode> modes_at_rest(int count, const ModesStudy& found) {
+  LinearDrive undamped = found.drive;
+  undamped.damping.setZero();
+  undamped.own_scale.resize(0);
+  std::vector<Mode> modes;
+  for (const DampedMode& d : damped_modes(undamped, found.undamped)) {
+    if (modes.size() == at(count)) break;
+    if (d.lambda.imag() <= 1e-6 * std::abs(d.lambda)) continue;
+    Mode& mode = modes.emplace_back();
+    mode.omega = mode.least = mode.greatest = std::abs(d.lambda);
+    mode.shape = principal_shape(found.drive, d.shape);
+    mode.shares = energy_shares(found.drive, mode.shape);
+    mode.error = d.error;
+  }
+  return modes;
+}
+
+void number_in_order(std::vector<Mode>& modes) {
+  for (std::size_t k = 0; k < modes.size(); ++k) modes[k].number = static_cast<int>(k) + 1;
+}
+
 // What swings by states of elements, and what springs and states of elements do so differently together that it grows
-// out of no undamped mode.
+// out of no undamped mode. By |λ|, as damped modes are.
 void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStudy& found) {
+  const std::size_t most = found.modes.size() + at(count);
   for (std::size_t i = 0; i < found.damped.size(); ++i) {
     const DampedMode& d = found.damped[i];
-    if (used[i] || d.lambda.imag() <= 1e-6 * std::abs(d.lambda)) continue;
+    if (used[i] || d.lambda.imag() <= 1e-6 * std::abs(d.lambda) || found.modes.size() == most) continue;
     Mode mode;
     mode.omega = std::abs(d.lambda);
     mode.lambda = d.lambda;
     mode.ratio = std::abs(d.lambda.real()) > d.error ? d.ratio() : 0;
-    mode.error = d.error;
+    mode.error = mode.lambda_error = d.error;
+    mode.energy = d.energy;
     mode.of_own_states = true;
     mode.least = mode.greatest = mode.omega;
     mode.shape = principal_shape(found.drive, d.shape);
@@ -79,10 +124,7 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
         std::fill(shares->begin(), shares->end(), 0.0);
     found.modes.push_back(std::move(mode));
   }
-  std::stable_sort(found.modes.begin(), found.modes.end(),
-                   [](const Mode& a, const Mode& b) { return a.natural() < b.natural(); });
-  if (found.modes.size() > at(count)) found.modes.resize(at(count));
-  for (std::size_t k = 0; k < found.modes.size(); ++k) found.modes[k].number = static_cast<int>(k) + 1;
+  number_in_order(found.modes);
 }
 
 // Within how much of ω the drive with continuous shafts has a mode: one step of Newton's method, and where the exact
@@ -113,11 +155,13 @@ void add_wave_errors(ModesStudy& found) {
     const std::optional<double> within =
         distance_of_wave_mode(found, mode, countable && found.drive.size() <= most_confirmed);
     if (!within && !kept.empty()) continue;
-    mode.error += within.value_or(std::max(carried * mode.omega, wave_error(found.drive, mode.shape, mode.omega)));
+    const double open =
+        within.value_or(std::max(carried * mode.omega, wave_error(found.drive, mode.shape, mode.omega)));
+    mode.error += open, mode.lambda_error += open;
     kept.push_back(std::move(mode));
   }
   found.modes = std::move(kept);
-  for (std::size_t k = 0; k < found.modes.size(); ++k) found.modes[k].number = static_cast<int>(k) + 1;
+  number_in_order(found.modes);
   if (found.modes.empty() || !countable || found.drive.size() > most_counted) return;
   const Mode& last = found.modes.back();
   const double above = last.omega + last.error + 1e-9 * last.omega;
@@ -135,17 +179,8 @@ void list_modes(int count, ModesStudy& found) {
   const ModesWanted wanted{.count = count};
   found.undamped = undamped_modes(found.drive, wanted);
   found.damped = damped_modes(found.drive, found.undamped, wanted);
-  const UndampedModes& u = found.undamped;
-  for (Eigen::Index i = u.rigid; i < u.omega.size() && i < u.rigid + count; ++i) {
-    Mode mode;
-    mode.number = static_cast<int>(i) - u.rigid + 1;
-    mode.omega = u.omega[i];
-    mode.shape = u.shapes.col(i);
-    mode.shares = energy_shares(found.drive, mode.shape);
-    mode.error = u.error[i];
-    mode.least = mode.greatest = mode.omega;
-    found.modes.push_back(std::move(mode));
-  }
+  const bool held_at_rest = stands(found.drive) && found.drive.size() <= wanted.dense_below;
+  found.modes = held_at_rest ? modes_at_rest(count, found) : modes_of_springs(count, found);
   const std::vector<char> used = pair_damped(found);
   add_swings_of_own_states(count, used, found);
   if (found.drive.model->has_continuous_shafts()) add_wave_errors(found);

@@ -1,4 +1,8 @@
 // mode_list.h — the modes of a linearised drive, listed for people: undamped and damped in pairs, and how far they hold.
+//
+// Natural frequencies are those of the undamped drive, springs and inertias with internal states as they are; where the link is
+// held at rest, weights are springs, too. To each belongs the damped mode whose shape is most like its own and whose energy
+// is in springs and inertias, not in windings. What vibrates and belongs to none is a mode of internal states.
 #pragma once
 
 #include "studies/modes/modes.h"

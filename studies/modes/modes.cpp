@@ -228,8 +228,9 @@ class Study {
     found_.fastest = options_.fastest > 0 ? options_.fastest : 1.25 * (speed > 0 ? speed : model_->speed_scale);
     found_.slowest = options_.slowest > 0 ? options_.slowest : 0.05 * found_.fastest;
     found_.highest_order = options_.orders > 0 ? options_.orders : 12;
-    if (options_.orders == 0 && found_.modes.size() > 0) {
-      const double second = found_.modes[std::min<std::size_t>(1, found_.modes.size() - 1)].omega;
+    if (options_.orders == 0 && !found_.modes.empty()) {
+      const std::size_t natural = std::max<std::size_t>(1, natural_modes(found_));
+      const double second = found_.modes[std::min<std::size_t>(1, natural - 1)].omega;
       found_.highest_order = std::clamp(std::ceil(second / std::max(speed, 0.2 * found_.fastest)), 12.0, 24.0);
     }
   }
@@ -274,8 +275,8 @@ class Study {
 
   void find_zones() {
     const auto& elements = model_->network.elements;
-    if (std::none_of(elements.begin(), elements.end(),
-                     [](const Network::ShaftElement& e) { return e.element->cycle > 0; }))
+    if (found_.rests_at || std::none_of(elements.begin(), elements.end(),
+                                        [](const Network::ShaftElement& e) { return e.element->cycle > 0; }))
       return;
     for (const Mode& mode : found_.modes) {
       if (mode.of_own_states) continue;  // no spring holds it
@@ -308,7 +309,7 @@ class Study {
       speeds.push_back(std::min(found_.slowest + (found_.fastest - found_.slowest) * i / sweep_points, found_.fastest));
     for (const CriticalSpeed& c : found_.critical) {
       const Mode& mode = found_.modes[at(c.mode - 1)];
-      const double zeta = std::clamp(mode.ratio, 1e-4, 0.2), damped = mode.natural() / c.order;
+      const double zeta = std::clamp(mode.ratio, 1e-4, 0.2), damped = mode.magnitude() / c.order;
       for (const double factor : {1 - 2 * zeta, 1 - zeta, 1 - 0.4 * zeta, 1.0, 1 + 0.4 * zeta, 1 + zeta, 1 + 2 * zeta})
         speeds.push_back(damped * factor);
       speeds.push_back(c.speed);
@@ -395,7 +396,8 @@ class Study {
     Watch watch = options_.watch;
     watch.progress = [this](const std::string& what, double f) { options_.watch.at(what, 0.8 + 0.2 * f); };
     const std::string& link = model_->network.nodes[at(model_->reduction_node)].component;
-    const double highest = found_.modes.empty() ? 0 : found_.modes.back().natural();
+    double highest = 0;
+    for (const Mode& mode : found_.modes) highest = std::max(highest, mode.magnitude());
     found_.history = simulate_torque(scene_, effects_,
                                      {.torque = options_.torque, .link = link, .highest = highest, .watch = watch});
     if (found_.history->complete) return;
@@ -420,6 +422,11 @@ Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode) { return 
 double parametric_half_width(double variation, double damping_ratio) {
   const double rest = variation * variation / 16 - damping_ratio * damping_ratio;
   return rest > 0 ? std::sqrt(rest) : 0;
+}
+
+std::size_t natural_modes(const ModesStudy& study) {
+  return static_cast<std::size_t>(
+      std::count_if(study.modes.begin(), study.modes.end(), [](const Mode& mode) { return !mode.of_own_states; }));
 }
 
 Effects effects_of_modes(const Scene& scene) {

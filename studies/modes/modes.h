@@ -53,15 +53,16 @@ struct PeriodicSwing {
 };
 
 struct Mode {
-  int number = 0;         // 0: rigid motion
-  double omega = 0;       // undamped [rad/s]; of a swing of own states, |λ|
+  int number = 0;         // natural frequencies from 1 on, ascending; behind them those of internal states, likewise
+  double omega = 0;       // ω_n of K v = ω_n² M v, undamped [rad/s]; of one of internal states, |λ|
   Eigen::VectorXd shape;  // per coordinate, M-orthonormal
   EnergyShares shares;
   std::complex<double> lambda;  // of the damped mode that grows out of it; 0 where none was found
   double ratio = 1;             // ζ; 1: does not swing
-  double error = 0;             // of λ, of ω where none was found [rad/s]
-  bool of_own_states =
-      false;  // it grows out of no undamped mode: states of elements, slopes of motors, weights at rest
+  double error = 0;             // of ω [rad/s]
+  double lambda_error = 0;      // of λ [1/s]
+  EnergyParts energy = {};      // of the damped mode
+  bool of_own_states = false;   // grows out of no undamped mode: windings, controllers, slopes of motors
   // Of ω with the link held at angles of the cycle; equal where nothing changes with the angle.
   double least = 0, greatest = 0;
   // Of the periodic system, where coefficients or contacts change within the round: what the mean leaves out is the
@@ -71,7 +72,7 @@ struct Mode {
   // `least` and `greatest`; the exponent's frequency is the mean over the round.
   bool fades_within_round = false;
   bool only_of_mean = false;  // no swing of the periodic system is in its place: contacts within the round take it away
-  double natural() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // [rad/s]
+  double magnitude() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // |λ| [rad/s]
 };
 
 // A joint whose law changes its piece within the round of the steady motion: backlash that opens, a stop that is met.
@@ -125,7 +126,7 @@ struct ModesStudy {
   std::string title, scene_file, scene_text;
   LinearDrive drive;
   UndampedModes undamped;
-  std::vector<Mode> modes;                            // without the rigid ones
+  std::vector<Mode> modes;                            // by number; without the rigid ones
   std::vector<DampedMode> damped;                     // all that were found
   std::vector<std::string> shaft_names, joint_names;  // of the shafts that may move, of all elastic joints
   std::string link;                                   // reduction link
@@ -169,6 +170,9 @@ std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, co
 
 // Of its joints that are shafts, as all cylinders fire.
 ShaftStresses stresses_of_sweep(const ModesStudy& study);
+
+// How many of its modes are natural frequencies of the drive; those of internal states stand behind them.
+std::size_t natural_modes(const ModesStudy& study);
 
 // Amplitudes of a mode at the shafts that may move.
 Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode);

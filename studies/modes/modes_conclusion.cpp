@@ -1,6 +1,7 @@
-// modes_conclusion.cpp — the first modes, and what swings at the operating speed, in a sentence.
+// modes_conclusion.cpp — the first modes, what swings at the operating speed, and where a mode's energy is, in words.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,15 +11,28 @@
 namespace kurbel::modes {
 namespace {
 
-// With its damping; and what springs and inertias alone would say, where states of elements make much of the frequency.
+constexpr double of_weight = 0.1;  // share of a mode's energy that makes its nature
+
+// With its damping; and how it swings with that, where damping and states of elements make much of the frequency.
 std::string first_mode(const Mode& mode) {
   constexpr double much = 0.005;
-  std::string text = fmt::format("First mode at {:.6g} Hz", hertz(mode.natural()));
+  std::string text = fmt::format("First mode at {:.6g} Hz", hertz(mode.omega));
   if (!(mode.lambda.imag() > 0)) return text + " undamped (it does not swing: ζ ≥ 1)";
   text += fmt::format(" (ζ = {:.3g}", mode.ratio);
-  if (std::abs(mode.natural() - mode.omega) > much * mode.omega)
-    text += fmt::format("; springs and inertias alone: {:.4g} Hz", hertz(mode.omega));
+  if (std::abs(mode.lambda.imag() - mode.omega) > much * mode.omega)
+    text += fmt::format("; damped {:.4g} Hz", hertz(mode.lambda.imag()));
   return text + ")";
+}
+
+// "mechanical and electrical: 0.86 Hz (ζ = 0.78)"
+std::string internal_mode(const ModesStudy& m, const Mode& mode) {
+  return fmt::format("{}: {:.4g} Hz (ζ = {:.3g})", nature_of(m, mode), hertz(mode.omega), mode.ratio);
+}
+
+EnergyStore::Kind kind_of(const OwnState& state) {
+  if (state.unit == "A") return EnergyStore::Kind::electrical;
+  const bool moves = state.unit == "rad" || state.unit == "m" || state.unit == "rad/s" || state.unit == "m/s";
+  return moves ? EnergyStore::Kind::mechanical : EnergyStore::Kind::control;
 }
 
 // The joint that bears most of its limits; the one that swings most where none has any.
@@ -53,17 +67,63 @@ bool is_forced(const ModesStudy& m) {
   return !m.joint_names.empty() && (!m.excitations.by_order.empty() || !m.excitations.by_frequency.empty());
 }
 
+std::vector<EnergyStore> energy_stores(const ModesStudy& m, const Mode& mode) {
+  std::vector<EnergyStore> stores;
+  const EnergyParts& energy = mode.energy;
+  if (energy.springs + energy.inertias + energy.in_own() == 0) return stores;
+  stores.push_back(
+      {m.drive.at.angle ? "springs and weights" : "springs", EnergyStore::Kind::mechanical, energy.springs});
+  stores.push_back({"inertias", EnergyStore::Kind::mechanical, energy.inertias});
+  const std::vector<OwnStatePlace>& places = m.drive.model->own_states;
+  for (std::size_t k = 0; k < energy.own.size(); ++k) {
+    const std::string& component = places[k].component;
+    if (k > 0 && places[k - 1].component == component) {  // its states stand together
+      stores.back().name = "states of " + component;
+      stores.back().share += energy.own[k];
+      continue;
+    }
+    stores.push_back({places[k].state.name + " of " + component, kind_of(places[k].state), energy.own[k]});
+  }
+  for (EnergyStore& store : stores) std::replace(store.name.begin(), store.name.end(), '_', ' ');
+  std::stable_sort(stores.begin(), stores.end(),
+                   [](const EnergyStore& a, const EnergyStore& b) { return a.share > b.share; });
+  return stores;
+}
+
+std::string energy_text(const ModesStudy& m, const Mode& mode) {
+  constexpr double shown = 0.005;
+  std::string text;
+  for (const EnergyStore& store : energy_stores(m, mode))
+    if (store.share >= shown)
+      text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", store.name, 100 * store.share);
+  return text.empty() ? "—" : text;
+}
+
+std::string nature_of(const ModesStudy& m, const Mode& mode) {
+  double share[3] = {};
+  for (const EnergyStore& store : energy_stores(m, mode)) share[static_cast<int>(store.kind)] += store.share;
+  std::string text = mode.of_own_states                          ? ""
+                     : m.drive.at.angle && m.drive.at.speed == 0 ? "about the rest"
+                                                                 : "torsional";
+  static const char* const words[] = {"mechanical", "electrical", "of control"};
+  for (int kind = mode.of_own_states ? 0 : 1; kind < 3; ++kind)
+    if (share[kind] >= of_weight) text += fmt::format("{}{}", text.empty() ? "" : " and ", words[kind]);
+  return text.empty() ? "of internal states" : text;
+}
+
 std::string conclusion_of(const ModesStudy& m) {
   std::string text;
   const std::string rest =
       m.rests_at ? fmt::format("about its rest at {:.4g}° of {}", *m.rests_at * 180 / std::numbers::pi, m.link) : "";
-  if (m.modes.empty()) {
+  const std::size_t natural = natural_modes(m);
+  if (natural == 0) {
     text = m.rests_at ? "The machine does not swing " + rest : "The drive has no mode with twist";
   } else {
     text = first_mode(m.modes.front());
     if (m.rests_at) text += ", " + rest;
-    if (m.modes.size() > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].natural()));
+    if (natural > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].omega));
   }
+  if (m.modes.size() > natural) text += "; " + internal_mode(m, m.modes[natural]);
   if (is_forced(m)) text += "; " + swing_at_that_speed(m);
   return text;
 }

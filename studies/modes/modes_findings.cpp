@@ -64,9 +64,16 @@ List periodic_list(const Mode& m) {
   });
 }
 
+List energy_list(const ModesStudy& m, const Mode& mode) {
+  return each(energy_stores(m, mode), [](const EnergyStore& store) {
+    return Record{{"in", store.name}, {"share", store.share}};
+  });
+}
+
+// Programs see those of internal states, too.
 Rows mode_table(const ModesStudy& m) {
   auto table = table_of("modes", "Natural frequencies, damping, energies", m.modes);
-  table.always().text_in(1, 0);
+  table.always().text_in(1, 0).people_see_first(natural_modes(m));
   table.column("number", "mode", &Mode::number)
       .column("name", "swings", [&](const Mode& mode) { return name_of(m, mode); })
       .only_for_programs("omega", &Mode::omega)
@@ -76,9 +83,11 @@ Rows mode_table(const ModesStudy& m) {
                          [](const Mode& mode) {
                            return Record{{"real", mode.lambda.real()}, {"imaginary", mode.lambda.imag()}};
                          })
-      .only_for_programs("natural_frequency", [](const Mode& mode) { return hertz(mode.natural()); })
+      .only_for_programs("natural_frequency", [](const Mode& mode) { return hertz(mode.omega); })
       .only_for_programs("error", [](const Mode& mode) { return hertz(mode.error); })
       .only_for_programs("of_own_states", &Mode::of_own_states)
+      .only_for_programs("nature", [&](const Mode& mode) { return nature_of(m, mode); })
+      .only_for_programs("energy", [&](const Mode& mode) { return energy_list(m, mode); })
       .only_for_programs("held",
                          [](const Mode& mode) {
                            return Record{{"least", hertz(mode.least)}, {"greatest", hertz(mode.greatest)}};
@@ -87,14 +96,15 @@ Rows mode_table(const ModesStudy& m) {
       .only_for_programs("damping_ratio", &Mode::ratio)
       .only_for_people(
           "ζ", [](const Mode& mode) { return mode.lambda.imag() > 0 ? read_as(mode.ratio, digits(4)) : "≥ 1"; });
+  if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.energy.in_own() > 0.01; }))
+    table.only_for_people("energy of the damped mode", [&](const Mode& mode) { return energy_text(m, mode); });
   if (std::any_of(m.modes.begin(), m.modes.end(),
-                  [](const Mode& mode) { return std::abs(mode.natural() - mode.omega) > 1e-6 * mode.omega; }))
-    table.only_for_people("|λ| [Hz]", [](const Mode& mode) { return read_as(hertz(mode.natural()), digits(6)); });
+                  [](const Mode& mode) { return std::abs(mode.magnitude() - mode.omega) > 1e-6 * mode.omega; }))
+    table.only_for_people("|λ| [Hz]", [](const Mode& mode) { return read_as(hertz(mode.magnitude()), digits(6)); });
   table.only_for_people("error [Hz]", [](const Mode& mode) { return read_as(hertz(mode.error), digits(2)); });
   if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.least < mode.greatest; }))
     table.only_for_people("held at angles [Hz]", [](const Mode& mode) {
-      return mode.of_own_states ? std::string("—")
-                                : fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
+      return fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
     });
   if (std::any_of(m.modes.begin(), m.modes.end(),
                   [](const Mode& mode) { return mode.only_of_mean || !mode.periodic.empty(); }))
@@ -116,6 +126,25 @@ Rows mode_table(const ModesStudy& m) {
                        [&](const Mode& mode) { return largest_shares(mode.shares.joint, m.joint_names); })
       .only_for_people("kinetic energy in",
                        [&](const Mode& mode) { return largest_shares(mode.shares.shaft, m.shaft_names); });
+}
+
+// What vibrates by windings, controllers and slopes of motors, with the energy that decides what it is.
+Rows internal_table(const ModesStudy& m) {
+  const auto first = m.modes.begin() + static_cast<std::ptrdiff_t>(natural_modes(m));
+  return table_of("", "Modes of windings, controllers and other internal states",
+                  std::vector<Mode>(first, m.modes.end()))
+      .headed("modes of windings, controllers and other internal states, which are no natural frequencies of the drive")
+      .text_in(4, 0)
+      .only_for_people("mode", &Mode::number)
+      .only_for_people("swings", [&](const Mode& mode) { return name_of(m, mode); })
+      .only_for_people("nature", [&](const Mode& mode) { return nature_of(m, mode); })
+      .only_for_people("energy", [&](const Mode& mode) { return energy_text(m, mode); })
+      .only_for_people("f damped [Hz]", damped_text)
+      .only_for_people("ζ", &Mode::ratio, digits(4))
+      .only_for_people(
+          "|λ| [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(6))
+      .only_for_people(
+          "error [Hz]", [](const Mode& mode) { return hertz(mode.error); }, digits(2));
 }
 
 Rows response_table(const ModesStudy& m) {
@@ -266,9 +295,13 @@ std::optional<double> swing_error(const ModesStudy& m, std::size_t j) {
 }
 
 void add_key_figures(Findings& f, const ModesStudy& m) {
-  for (std::size_t k = 0; k < m.modes.size() && k < 4; ++k)
-    f.key(fmt::format("mode {}", m.modes[k].number), {hertz(m.modes[k].natural()), hertz(m.modes[k].error)},
-          "natural_frequency", m.modes[k].lambda.imag() > 0 ? fmt::format("ζ = {:.3g}", m.modes[k].ratio) : "", 6);
+  for (std::size_t k = 0; k < m.modes.size() && k < 4; ++k) {
+    const Mode& mode = m.modes[k];
+    std::string note = mode.of_own_states ? nature_of(m, mode) : "";
+    if (mode.lambda.imag() > 0) note += fmt::format("{}ζ = {:.3g}", note.empty() ? "" : ", ", mode.ratio);
+    f.key(fmt::format("mode {}", mode.number), {hertz(mode.omega), hertz(mode.error)},
+          mode.of_own_states ? "internal_frequency" : "natural_frequency", note, 6);
+  }
   if (!is_forced(m)) return;
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
   const std::size_t j = joint_with_largest_swing(said);
@@ -311,13 +344,14 @@ FormulaCard half_width(const ModesStudy& m) {
 
 void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
   f.say(in, mode_table(m));
+  f.say(in, internal_table(m));
   f.say(in, Sentences{.lines = {method_text(m)}, .indent = "  ", .page = false});
   f.tell("shafts", m.shaft_names);
   f.tell("joints", joint_list(m));
   f.tell("count_of_modes_up_to_the_last", m.undamped.counted_below);
   if (m.modes.empty()) return;
   f.draw(in, [&m] { return mode_plots(m); });
-  if (!m.rests_at) f.show(in, rayleigh(m));
+  if (!m.rests_at && natural_modes(m) > 0) f.show(in, rayleigh(m));
   if (m.rests_at && m.drive.size() == 1) f.show(in, about_rest(m));
   f.show(in, Text{.title = "", .body = "Check: " + method_text(m) + " (Sylvester's law of inertia)."});
 }

@@ -62,7 +62,7 @@ Plot shape_plot(const ModesStudy& m) {
             .wide = m.shaft_names.size() > 8};
   const std::vector<char> held = held_by_springs(m.drive);
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
-    Series s{.name = fmt::format("mode {}, {:.4g} Hz: {}", m.modes[k].number, hertz(m.modes[k].natural()),
+    Series s{.name = fmt::format("mode {}, {:.4g} Hz: {}", m.modes[k].number, hertz(m.modes[k].omega),
                                  name_of(m, m.modes[k])),
              .role = further_role(k)};
     const Eigen::VectorXd shape = shaft_shape(m, m.modes[k]);
@@ -168,8 +168,8 @@ Plot order_plot(const ModesStudy& m) {
 
 void mark_modes(const ModesStudy& m, Plot& plot, double end) {
   for (const Mode& mode : m.modes)
-    if (hertz(mode.natural()) <= end)
-      plot.marks.push_back({hertz(mode.natural()), fmt::format("mode {}", mode.number)});
+    if (hertz(mode.magnitude()) <= end)
+      plot.marks.push_back({hertz(mode.magnitude()), fmt::format("mode {}", mode.number)});
 }
 
 Plot spectrum_plot(const ModesStudy& m, const TorqueHistory& h) {

@@ -22,6 +22,19 @@ bool is_forced(const ModesStudy& study);
 // "First mode at 9.78 Hz (ζ = 0.126), second at 482 Hz; at 1500 rpm "coupling" swings by 9.94 N·m about 154 N·m"
 std::string conclusion_of(const ModesStudy& study);
 
+// Where the energy of a mode is, the largest share first; none where that is not known. Own states of a component are one.
+struct EnergyStore {
+  enum class Kind { mechanical, electrical, control };
+  std::string name;  // "springs", "inertias", "current of motor"
+  Kind kind = Kind::mechanical;
+  double share = 0;
+};
+std::vector<EnergyStore> energy_stores(const ModesStudy& study, const Mode& mode);
+// "inertias 50 %, current of motor 49 %, springs 1 %"
+std::string energy_text(const ModesStudy& study, const Mode& mode);
+// "torsional", "electrical", "mechanical and electrical": every kind that has a tenth of the energy.
+std::string nature_of(const ModesStudy& study, const Mode& mode);
+
 std::vector<Plot> mode_plots(const ModesStudy& study);
 std::vector<Plot> response_plots(const ModesStudy& study);
 std::vector<Plot> history_plots(const ModesStudy& study, const TorqueHistory& history);

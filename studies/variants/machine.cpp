@@ -178,12 +178,16 @@ MachineAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   const ModesStudy study = find_modes(scene, effects_of_modes(scene), options);
   if (!study.complete) return {RowState::failed, study.diagnosis, {}};
   MachineAnswer answer;
+  const auto frequency = [&](const char* name, const std::string& number, double omega, double error) {
+    constexpr double hertz = 0.5 / std::numbers::pi;
+    answer.figures.push_back({{omega * hertz, error * hertz}, name + number, "Hz"});
+  };
   for (const Mode& mode : study.modes) {
     const std::string number = std::to_string(mode.number);
-    answer.figures.push_back({{mode.natural() / (2 * std::numbers::pi), mode.error / (2 * std::numbers::pi)},
-                              "natural_frequency." + number,
-                              "Hz"});
-    if (mode.lambda.imag() > 0) answer.figures.push_back({{mode.ratio}, "damping_ratio." + number});
+    frequency(mode.of_own_states ? "internal_frequency." : "natural_frequency.", number, mode.omega, mode.error);
+    if (mode.lambda.imag() <= 0) continue;
+    frequency("damped_frequency.", number, mode.lambda.imag(), mode.lambda_error);
+    answer.figures.push_back({{mode.ratio}, "damping_ratio." + number});
   }
   return answer;
 }
