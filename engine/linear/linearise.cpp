@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/index.h"
+#include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 using Eigen::Index;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
+constexpr int positions_of_balance = 64;       // a turn: enough to find a speed
 constexpr double left_by_differences = 1e-11;  // of the largest entry: what is left of a difference of equal ones
 
 // With the link held at an angle weights and loads that hang on it hold it, too.
@@ -266,6 +268,22 @@ double usual_speed(const Model& model) {
     return start.speed / model.node_ratio[at(on)];
   }
   return model.speed_scale;
+}
+
+double balanced_speed(const std::shared_ptr<const Model>& model) {
+  const double rated = usual_speed(*model);
+  if (model->scene.run.start.speed != 0 || model->free_shafts < model->shafts.size()) return rated;
+  const auto left = [&](double speed) {
+    return BaseMotion(model, {.speed = speed, .positions = positions_of_balance}).left_over();
+  };
+  double high = 1.05 * rated, above = left(high);
+  for (int i = 1; i <= 60 && above <= 0; ++i) {
+    const double low = rated * (1.05 - 0.01 * i), below = left(low);
+    if (below > 0) return find_root(left, low, below, high, above);
+    high = low;
+    above = below;
+  }
+  return rated;
 }
 
 }  // namespace kurbel

@@ -70,5 +70,7 @@ LinearDrive linearise(std::shared_ptr<const Model> model, const LinearisationPoi
 // The speed at which a scene is linearised where it has no steady motion and none is asked for: of its start, else the rated one
 // of its elements.
 double usual_speed(const Model& model);
+// Where mean torques balance near the rated speed and a faster motion is braked, if they do; else `usual_speed`.
+double balanced_speed(const std::shared_ptr<const Model>& model);
 
 }  // namespace kurbel

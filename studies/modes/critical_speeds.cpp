@@ -12,9 +12,11 @@
 namespace kurbel {
 namespace {
 
-constexpr double least_strength = 1e-6;  // of the strongest order
-constexpr double hardly_swings = 0.5;    // ζ
-constexpr int looks_at_a_peak = 2;       // each takes some two digits
+constexpr int sweep_points = 240;
+constexpr std::size_t most_solves = 400'000;  // of n-by-n systems in a sweep, over n
+constexpr double least_strength = 1e-6;       // of the strongest order
+constexpr double hardly_swings = 0.5;         // ζ
+constexpr int looks_at_a_peak = 2;            // each takes some two digits
 
 constexpr Eigen::Index most_coordinates = 160;
 constexpr double growth = 1e-6;  // of a turn's radian
@@ -140,6 +142,58 @@ void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& a
   const auto same = [](const SpeedResponse& a, const SpeedResponse& b) { return a.speed == b.speed; };
   std::stable_sort(found.sweep.begin(), found.sweep.end(), slower);
   found.sweep.erase(std::unique(found.sweep.begin(), found.sweep.end(), same), found.sweep.end());
+}
+
+std::vector<double> sweep_speeds(ModesStudy& found) {
+  std::vector<double> speeds;
+  for (int i = 0; i <= sweep_points; ++i)
+    speeds.push_back(std::min(found.slowest + (found.fastest - found.slowest) * i / sweep_points, found.fastest));
+  for (const CriticalSpeed& c : found.critical) {
+    const Mode& mode = found.modes[static_cast<std::size_t>(c.mode) - 1];
+    const double zeta = std::clamp(mode.ratio, 1e-4, 0.2), damped = mode.magnitude() / c.order;
+    for (const double factor : {1 - 2 * zeta, 1 - zeta, 1 - 0.4 * zeta, 1.0, 1 + 0.4 * zeta, 1 + zeta, 1 + 2 * zeta})
+      speeds.push_back(damped * factor);
+    speeds.push_back(c.speed);
+  }
+  speeds.push_back(std::abs(found.drive.at.speed));
+  std::sort(speeds.begin(), speeds.end());
+  std::erase_if(speeds, [&](double w) { return w < found.slowest || w > found.fastest; });
+  const auto same = [](double a, double b) { return b - a <= 1e-9 * b; };  // but for rounding
+  speeds.erase(std::unique(speeds.begin(), speeds.end(), same), speeds.end());
+  const std::size_t solves = speeds.size() * found.excitations.harmonics * static_cast<std::size_t>(found.drive.size());
+  if (solves <= 20 * most_solves) return speeds;
+  const std::size_t keep = std::max<std::size_t>(20, speeds.size() * 20 * most_solves / solves);
+  std::vector<double> fewer;
+  for (std::size_t i = 0; i < keep; ++i) fewer.push_back(speeds[i * (speeds.size() - 1) / (keep - 1)]);
+  found.notes.push_back(fmt::format("the drive is large: the sweep has {} speeds instead of {}", keep, speeds.size()));
+  fewer.erase(std::unique(fewer.begin(), fewer.end()), fewer.end());
+  return fewer;
+}
+
+double parametric_half_width(double variation, double damping_ratio) {
+  const double rest = variation * variation / 16 - damping_ratio * damping_ratio;
+  return rest > 0 ? std::sqrt(rest) : 0;
+}
+
+void find_zones(ModesStudy& found) {
+  const auto& elements = found.drive.model->network.elements;
+  if (found.rests_at || std::none_of(elements.begin(), elements.end(),
+                                     [](const Network::ShaftElement& e) { return e.element->cycle > 0; }))
+    return;
+  for (const Mode& mode : found.modes) {
+    if (mode.of_own_states) continue;  // no spring holds it
+    const std::vector<double> variation = inertia_variation(found.drive, mode.shape, found.excitations.harmonics);
+    for (std::size_t r = 1; r < variation.size(); ++r) {
+      ParametricZone zone{.mode = mode.number, .harmonic = r};
+      zone.centre = 2 * frequency_of_resonance(found.drive, mode) / found.excitations.order(r);
+      zone.variation = variation[r];
+      zone.half_width = parametric_half_width(variation[r], std::max(0.0, mode.ratio));
+      if (zone.variation > 1e-6 && zone.centre >= found.slowest && zone.centre <= found.fastest)
+        found.zones.push_back(zone);
+    }
+  }
+  std::sort(found.zones.begin(), found.zones.end(),
+            [](const ParametricZone& a, const ParametricZone& b) { return a.centre < b.centre; });
 }
 
 bool grows(const LinearDrive& drive) {

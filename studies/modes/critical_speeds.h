@@ -1,8 +1,9 @@
-// critical_speeds.h — at which speeds orders meet modes, and at which a machine can run for long at all.
+// critical_speeds.h — at which speeds orders meet modes or their inertia excites them, and at which a machine can run.
 #pragma once
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "studies/modes/modes.h"
 
@@ -14,6 +15,13 @@ double frequency_of_resonance(const LinearDrive& drive, const Mode& mode);
 
 // Fills `critical`: where an order that has any strength meets a mode within the range, by speed.
 void find_critical_speeds(ModesStudy& found);
+
+// Speeds of the sweep, ascending: over the range evenly, about the critical ones closely, the operating one. A large drive
+// has fewer, which is noted.
+std::vector<double> sweep_speeds(ModesStudy& found);
+
+// Fills `zones`: where the inertia's orders excite a mode parametrically within the range, by speed.
+void find_zones(ModesStudy& found);
 
 // The amplitudes of `critical`, in the joint that their mode twists most, by the sweep, which has points at and beside
 // every one of them unless it was thinned. The peaks are located further by `at`, which responds at any speed, to some 1e-3

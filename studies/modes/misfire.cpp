@@ -90,6 +90,7 @@ std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, co
   same.slowest = normal.slowest, same.fastest = normal.fastest;
   same.spot_checks = 0, same.spots.clear(), same.torque.clear();
   same.response_alone = true;
+  same.start = !normal.start_unknown;
   same.watch.progress = {};
   for (const Misfiring& one : cases) {
     if (options.watch.stopped()) break;

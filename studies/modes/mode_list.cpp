@@ -249,6 +249,22 @@ void note_changes(const CycleSamples& samples, ModesStudy& found) {
                   list, samples.link_angle * 180 / pi, found.link));
 }
 
+void note_missing_swings(ModesStudy& found) {
+  constexpr double hardly = 0.01;
+  if (!found.cycle) return;
+  for (std::size_t j = 0; j < found.joint_names.size(); ++j) {
+    const double linear = found.here.joints[j].peak, really = found.cycle->joints[j].peak;
+    if (!(really > 1e-6 * std::abs(found.cycle->joints[j].mean) && linear < hardly * really)) continue;
+    found.notes.push_back(fmt::format(
+        "the linear response says {} of {}, which swings by {} in the steady motion: its critical speeds, barred "
+        "ranges and curves over the speed do not hold{}",
+        with_unit(linear, "N*m", 3), found.joint_names[j], with_unit(really, "N*m", 3),
+        found.drive.model->effects.joint_clearance
+            ? ". With clearance the linear drive takes the pin at its mean place, inside the gap, where nothing touches"
+            : ""));
+  }
+}
+
 // Joints whose pieces change within the round, with the linear spring that does most nearly the same there.
 void find_rattles(const CycleSamples& samples, int count, ModesStudy& found) {
   const Model& m = *found.drive.model;

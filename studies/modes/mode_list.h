@@ -20,6 +20,8 @@ void find_exponents(const Orbit& orbit, const CycleSamples& samples, ModesStudy&
 bool changes_contact(const Event& event);
 // Notes contacts that lock and slip, touch and part within the round: the linear machine has them one way.
 void note_changes(const CycleSamples& samples, ModesStudy& found);
+// Notes joints that hardly swing in the linear response and do in the steady motion: what is linear says nothing of them.
+void note_missing_swings(ModesStudy& found);
 // Fills `rattles`: joints whose law changes its piece within the round.
 void find_rattles(const CycleSamples& samples, int count, ModesStudy& found);
 

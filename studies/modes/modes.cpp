@@ -11,7 +11,6 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/numerics/roots.h"
 #include "studies/history/torque_history.h"
 #include "studies/modes/critical_speeds.h"
 #include "studies/modes/drive_limits.h"
@@ -23,10 +22,8 @@
 namespace kurbel {
 namespace {
 
-constexpr int sweep_points = 240;
-constexpr std::size_t most_solves = 400'000;  // of n-by-n systems in a sweep, over n
-constexpr std::size_t cycle_samples = 4096;   // of a round of the steady motion
-constexpr int rounds_of_rocking = 12;         // what swings on then, swings on; each takes up to 64 times as long
+constexpr std::size_t cycle_samples = 4096;  // of a round of the steady motion
+constexpr int rounds_of_rocking = 12;        // what swings on then, swings on; each takes up to 64 times as long
 
 class Study {
  public:
@@ -38,13 +35,31 @@ class Study {
     found_.link = model_->node_label(model_->reduction_node);
   }
 
+  // What is known when the budget is spent is the answer, from the first modes on.
   ModesStudy result() {
     check_options();
-    say("regime", 0);
+    std::optional<ModesStudy> at_the_state;
+    if (searches_start() && !options_.response_alone) at_the_state = modes_at_the_state();
+    try {
+      refine();
+    } catch (const OutOfTime& out) {
+      if (options_.response_alone || out.budget() != scene_.run.budget) throw;
+      if (!listed_ && !at_the_state) throw;
+      if (!listed_) found_ = std::move(*at_the_state);
+      end_early();
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void refine() {
+    begin("steady motion", 0.01);
     find_operating_point();
-    say("modes", 0.1);
-    name_parts();
+    begin("modes", 0.1);
+    name_parts(found_);
     list_modes(options_.count, found_);
+    listed_ = true;
+    if (options_.modes_alone) return;
     if (!options_.angle) find_frozen_range(options_.count, found_);
     if (samples_ && !options_.speed) {
       note_changes(*samples_, found_);
@@ -52,27 +67,37 @@ class Study {
     }
     if (samples_ && !options_.speed && !options_.angle) find_exponents(*orbit_, *samples_, found_);
     choose_range();
-    say("excitation", 0.15);
+    begin("excitation", 0.15);
     find_forcing();
-    say("forced response", 0.2);
+    begin("forced response", 0.2);
     find_critical_speeds(found_);
-    find_zones();
+    find_zones(found_);
     sweep();
     find_barred_ranges(
         *model_, options_.barred_factor, [this](double speed) { return respond(drive_at(speed), found_.excitations); },
         found_);
     if (!options_.angle) check_spots_of_range();
     if (!options_.torque.empty()) add_history();
-    if (options_.response_alone) return std::move(found_);
+    if (options_.response_alone) return;
+    begin("limits", 0.9);
     judge_all_limits();
+    begin("stresses of shafts", 0.95);
     find_stresses();
-    return std::move(found_);
   }
 
- private:
-  void say(const std::string& what, double fraction) const {
+  void begin(const std::string& what, double fraction) {
+    at_work_ = what;
     options_.watch.at(what, fraction);
     options_.watch.say(what);
+  }
+  // The budget is spent. Tables that are not whole are taken away.
+  void end_early() {
+    found_.complete = false;
+    found_.diagnosis = fmt::format(
+        "the budget of {:g} s of processor time is spent at work on the {}: what would follow is not assessed",
+        scene_.run.budget, at_work_);
+    std::erase_if(found_.spots, [](const SpotCheck& spot) { return spot.linear.joints.empty(); });
+    if (found_.limited.empty()) found_.sweep.clear(), found_.rigid.clear(), found_.critical.clear();
   }
   bool stopped() const { return options_.watch.stopped(); }
 
@@ -87,17 +112,49 @@ class Study {
     if (options_.barred_factor <= 0) throw std::invalid_argument("--barred: must be > 0");
   }
 
-  // The steady motion that the scene's own start leads to, unless a speed is asked for of a machine that knows no contacts and
-  // no states of its own: then all turns as geared, whatever the speed.
-  void find_operating_point() {
+  // What a machine does at a speed that is asked for depends on its start where it knows contacts or states of its own;
+  // else all turns as geared.
+  bool searches_start() const {
     const bool plain = !model_->has_contacts() && model_->own_states.empty() && scene_.sequence.steps.empty();
-    if (!(options_.speed && plain)) find_orbit_cycle();
+    return options_.start && !(options_.speed && plain);
+  }
+
+  // Before any start: at the speed asked for, else at the scene's or the rated one, all as geared. None where small motions
+  // exist about the steady motion alone: play in a joint, a crank that rocks.
+  std::optional<ModesStudy> modes_at_the_state() {
+    begin("modes at the scene's state", 0);
+    ModesStudy first = found_;
+    try {
+      BaseMotion base(model_, {.speed = options_.speed.value_or(usual_speed(*model_)),
+                               .angle = options_.angle,
+                               .positions = 4 * coarse_positions});
+      if (base.equations().has_followers()) return {};
+      first.drive = linearise(base);
+      name_parts(first);
+      list_modes(options_.count, first);
+    } catch (const std::runtime_error&) {
+      return {};
+    } catch (const std::logic_error&) {
+      return {};
+    }
+    if (const std::size_t count = natural_modes(first); count > 0)
+      options_.watch.say(fmt::format("at {}, all as geared: {} natural frequenc{}, the first {:.5g} Hz",
+                                     first.speed_unit.text(first.drive.at.speed, 5), count, count == 1 ? "y" : "ies",
+                                     first.modes.front().omega / (2 * pi)));
+    first.notes.push_back(
+        "the modes are those at the scene's state, clutches locked and brakes released: no steady motion refines them");
+    return first;
+  }
+
+  // The steady motion that the scene's own start leads to, where anything depends on it.
+  void find_operating_point() {
+    if (searches_start()) find_orbit_cycle();
     if (!options_.speed && !options_.angle) stay_at_rest();
     LinearisationPoint point{.speed = options_.speed.value_or(samples_ ? samples_->mean->speed : 0),
                              .angle = options_.angle};
     if (samples_) point.orbit = samples_->mean;
     if (rest_ && !options_.speed) point.orbit = rest_;
-    if (!options_.speed && !point.orbit && !swings_about_rest()) point.speed = balanced_or_usual_speed();
+    if (!options_.speed && !point.orbit && !swings_about_rest()) point.speed = balanced_speed(model_);
     BaseMotion base(model_, point);
     if (!point.orbit && base.equations().has_followers())
       throw std::invalid_argument(
@@ -128,6 +185,28 @@ class Study {
     for (std::vector<Complex>& orders : response.orders) std::fill(orders.begin() + 1, orders.end(), Complex{});
   }
 
+  // A start that fails costs a fifth of the budget at most: what does not depend on it comes all the same.
+  void search_start(const std::function<void()>& search) {
+    const double most = scene_.run.budget / 5, begin = processor_time();
+    bool ended = false;
+    try {
+      const Deadline deadline(most);
+      search();
+      ended = orbit_->kind != Orbit::Kind::failed || processor_time() - begin < most;
+    } catch (const OutOfTime& out) {
+      if (out.budget() != most) throw;
+    }
+    if (ended) return;
+    found_.start_unknown = true;
+    samples_.reset(), rest_.reset();
+    orbit_.emplace();
+    orbit_->words = fmt::format(
+        "the scene's own start leads to none within a fifth of the budget ({:.3g} s of processor time)", most);
+    found_.notes.push_back(
+        "not assessed, for want of a steady motion: torques in it, contacts that change within its round, limits in it "
+        "and on the way to it; a larger budget in [run] gives the start more time");
+  }
+
   void look_for_orbit() {
     OrbitOptions options;
     options.method = scene_.run.method == "work" ? "auto" : scene_.run.method;
@@ -143,8 +222,7 @@ class Study {
     }
   }
 
-  void find_orbit_cycle() {
-    look_for_orbit();
+  void sample_regime() {
     found_.orbit = orbit_->words;
     try {
       if (orbit_->repeats() && orbit_->point.time > 0) samples_ = sample_cycle(*orbit_, cycle_samples);
@@ -152,6 +230,11 @@ class Study {
     } catch (const std::invalid_argument& refused) {
       found_.orbit = refused.what();
     }
+  }
+
+  void find_orbit_cycle() {
+    search_start([this] { look_for_orbit(), sample_regime(); });
+    if (found_.start_unknown) found_.orbit = orbit_->words;
     if (samples_ && samples_->mean->speed == 0) rest_ = samples_->mean, samples_.reset();  // the link stands
     if (!samples_ && !rest_ && !swings_about_rest())
       found_.notes.push_back(fmt::format(
@@ -187,27 +270,10 @@ class Study {
           found_.speed_unit.text(speed, 5), torque, found_.link));
   }
 
-  // Without a steady motion: where mean torques balance near the rated speed and a faster motion is braked, if they do.
-  double balanced_or_usual_speed() const {
-    const double rated = usual_speed(*model_);
-    if (model_->scene.run.start.speed != 0 || model_->free_shafts < model_->shafts.size()) return rated;
-    const auto left = [&](double speed) {
-      return BaseMotion(model_, {.speed = speed, .positions = 4 * coarse_positions}).left_over();
-    };
-    double high = 1.05 * rated, above = left(high);
-    for (int i = 1; i <= 60 && above <= 0; ++i) {
-      const double low = rated * (1.05 - 0.01 * i), below = left(low);
-      if (below > 0) return find_root(left, low, below, high, above);
-      high = low;
-      above = below;
-    }
-    return rated;
-  }
-
   double signed_speed(double speed) const { return std::copysign(speed, found_.drive.at.speed); }
 
-  void name_parts() {
-    for (const int s : found_.drive.shaft) {
+  void name_parts(ModesStudy& of) const {
+    for (const int s : of.drive.shaft) {
       const Shaft& shaft = model_->shafts[at(s)];
       std::string name = model_->node_label(shaft.reference);
       double largest = -1;
@@ -218,9 +284,9 @@ class Study {
         inertia *= std::pow(model_->gain_of_node[at(n)], 2);
         if (inertia > largest) largest = inertia, name = model_->node_label(n);
       }
-      found_.shaft_names.push_back(name);
+      of.shaft_names.push_back(name);
     }
-    found_.joint_names = model_->joint_names();
+    of.joint_names = model_->joint_names();
   }
 
   void choose_range() {
@@ -236,32 +302,16 @@ class Study {
   }
 
   void find_forcing() {
-    found_.excitations =
+    Excitations excitations =
         find_excitations(found_.drive, signed_speed(found_.fastest), found_.highest_order, options_.orders == 0);
+    found_.here = respond(found_.drive, excitations);
+    found_.excitations = std::move(excitations);
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
     if (found_.excitations.by_order.empty() && found_.excitations.by_frequency.empty())
       found_.notes.push_back(
           "nothing in the scene excites the drive by order or frequency: no torque depends on an angle or swings "
           "over time");
-    found_.here = respond(found_.drive, found_.excitations);
-    tell_swings_that_are_missing();
-  }
-
-  // A joint that hardly swings in the linear response and does in the steady motion: what is linear says nothing of it.
-  void tell_swings_that_are_missing() {
-    constexpr double hardly = 0.01;
-    if (!found_.cycle) return;
-    for (std::size_t j = 0; j < found_.joint_names.size(); ++j) {
-      const double linear = found_.here.joints[j].peak, really = found_.cycle->joints[j].peak;
-      if (!(really > 1e-6 * std::abs(found_.cycle->joints[j].mean) && linear < hardly * really)) continue;
-      found_.notes.push_back(fmt::format(
-          "the linear response says {} of {}, which swings by {} in the steady motion: its critical speeds, barred "
-          "ranges and curves over the speed do not hold{}",
-          with_unit(linear, "N*m", 3), found_.joint_names[j], with_unit(really, "N*m", 3),
-          model_->effects.joint_clearance ? ". With clearance the linear drive takes the pin at its mean place, inside "
-                                            "the gap, where nothing touches"
-                                          : ""));
-    }
+    note_missing_swings(found_);
   }
 
   LinearDrive drive_at(double speed) const {
@@ -273,27 +323,6 @@ class Study {
     return linearise(model_, point);
   }
 
-  void find_zones() {
-    const auto& elements = model_->network.elements;
-    if (found_.rests_at || std::none_of(elements.begin(), elements.end(),
-                                        [](const Network::ShaftElement& e) { return e.element->cycle > 0; }))
-      return;
-    for (const Mode& mode : found_.modes) {
-      if (mode.of_own_states) continue;  // no spring holds it
-      const std::vector<double> variation = inertia_variation(found_.drive, mode.shape, found_.excitations.harmonics);
-      for (std::size_t r = 1; r < variation.size(); ++r) {
-        ParametricZone zone{.mode = mode.number, .harmonic = r};
-        zone.centre = 2 * frequency_of_resonance(found_.drive, mode) / found_.excitations.order(r);
-        zone.variation = variation[r];
-        zone.half_width = parametric_half_width(variation[r], std::max(0.0, mode.ratio));
-        if (zone.variation > 1e-6 && zone.centre >= found_.slowest && zone.centre <= found_.fastest)
-          found_.zones.push_back(zone);
-      }
-    }
-    std::sort(found_.zones.begin(), found_.zones.end(),
-              [](const ParametricZone& a, const ParametricZone& b) { return a.centre < b.centre; });
-  }
-
   // A point of the sweep.
   SpeedResponse respond_at(double speed) const {
     const LinearDrive drive = drive_at(speed);
@@ -303,41 +332,12 @@ class Study {
     return response;
   }
 
-  std::vector<double> sweep_speeds() {
-    std::vector<double> speeds;
-    for (int i = 0; i <= sweep_points; ++i)
-      speeds.push_back(std::min(found_.slowest + (found_.fastest - found_.slowest) * i / sweep_points, found_.fastest));
-    for (const CriticalSpeed& c : found_.critical) {
-      const Mode& mode = found_.modes[at(c.mode - 1)];
-      const double zeta = std::clamp(mode.ratio, 1e-4, 0.2), damped = mode.magnitude() / c.order;
-      for (const double factor : {1 - 2 * zeta, 1 - zeta, 1 - 0.4 * zeta, 1.0, 1 + 0.4 * zeta, 1 + zeta, 1 + 2 * zeta})
-        speeds.push_back(damped * factor);
-      speeds.push_back(c.speed);
-    }
-    speeds.push_back(std::abs(found_.drive.at.speed));
-    std::sort(speeds.begin(), speeds.end());
-    std::erase_if(speeds, [&](double w) { return w < found_.slowest || w > found_.fastest; });
-    const auto same = [](double a, double b) { return b - a <= 1e-9 * b; };  // but for rounding
-    speeds.erase(std::unique(speeds.begin(), speeds.end(), same), speeds.end());
-    const std::size_t solves = speeds.size() * found_.excitations.harmonics * at(static_cast<int>(found_.drive.size()));
-    if (solves > 20 * most_solves) {
-      const std::size_t keep = std::max<std::size_t>(20, speeds.size() * 20 * most_solves / solves);
-      std::vector<double> fewer;
-      for (std::size_t i = 0; i < keep; ++i) fewer.push_back(speeds[i * (speeds.size() - 1) / (keep - 1)]);
-      found_.notes.push_back(
-          fmt::format("the drive is large: the sweep has {} speeds instead of {}", keep, speeds.size()));
-      fewer.erase(std::unique(fewer.begin(), fewer.end()), fewer.end());
-      return fewer;
-    }
-    return speeds;
-  }
-
   void sweep() {
     const Excitations& x = found_.excitations;
     const bool limited = any_limits(limited_joints(*model_));
     // What swings at frequencies of its own bears loads at every speed, too.
     if (found_.joint_names.empty() || (x.by_order.empty() && x.by_frequency.empty() && !limited)) return;
-    const std::vector<double> speeds = sweep_speeds();
+    const std::vector<double> speeds = sweep_speeds(found_);
     found_.keeps_its_speed = !grows(found_.drive) && found_.here.speed_swing < std::abs(found_.drive.at.speed);
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       if (stopped()) {
@@ -380,7 +380,7 @@ class Study {
 
   // A speed that is asked for is judged by the linear response at it; peaks are those of a run-up all the same.
   void judge_all_limits() {
-    if (!orbit_ && any_limits(found_.limited)) look_for_orbit();
+    if (!orbit_ && any_limits(found_.limited)) search_start([this] { look_for_orbit(); });
     judge_limits(model_, orbit_.value_or(Orbit{}), !options_.speed && !options_.angle, options_.watch, found_);
   }
 
@@ -412,17 +412,14 @@ class Study {
   std::optional<Orbit> orbit_;
   std::shared_ptr<const MeanMotion> rest_;  // where the link stands and others turn
   std::optional<CycleSamples> samples_;
+  std::string at_work_;
+  bool listed_ = false;  // the modes at the operating point
   ModesStudy found_;
 };
 
 }  // namespace
 
 Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode) { return study.drive.motion * mode.shape; }
-
-double parametric_half_width(double variation, double damping_ratio) {
-  const double rest = variation * variation / 16 - damping_ratio * damping_ratio;
-  return rest > 0 ? std::sqrt(rest) : 0;
-}
 
 std::size_t natural_modes(const ModesStudy& study) {
   return static_cast<std::size_t>(

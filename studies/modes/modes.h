@@ -41,6 +41,8 @@ struct ModesOptions {
   std::vector<double> spots = {};    // and those [rad/s]
   bool misfires = true;              // where shafts' stresses are judged: the same as one cylinder does not fire
   bool response_alone = false;       // of a case beside the one that is judged
+  bool modes_alone = false;          // natural frequencies and damping, and nothing else
+  bool start = true;                 // else no steady motion is sought, and all turns as geared
   Watch watch = {};
 };
 
@@ -139,6 +141,7 @@ struct ModesStudy {
   std::optional<SpeedResponse> cycle;  // what the joints really do there, from the full equations
   double cycle_order = 1;              // of its first harmonic
   std::string orbit;                   // what the scene's own start leads to, in words
+  bool start_unknown = false;          // it led to nothing within a fifth of the budget
   std::vector<Rattle> rattles;
   bool keeps_its_speed = true;        // nothing grows at the operating point
   std::vector<SpeedResponse> sweep;   // over the range
@@ -159,8 +162,11 @@ struct ModesStudy {
 // Where none are asked for: the scene's, with all elasticity where it has none.
 Effects effects_of_modes(const Scene& scene);
 
+// Natural frequencies wait for no start: first come those at the scene's state or at its rated speed; the steady motion, to
+// which the search gives a fifth of the scene's budget at most, refines them and what depends on it. Where the budget is
+// spent, what is known by then is the answer, not `complete`.
 // Throws SceneError where the scene makes no machine; std::invalid_argument where nothing is elastic or options are
-// senseless; std::runtime_error where modes cannot be found.
+// senseless; std::runtime_error where modes cannot be found; OutOfTime where none are found within the budget.
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);
 
 // The same drive at the speeds of `normal`, as one cylinder after the other does not fire (misfire.cpp); none where one

@@ -174,10 +174,12 @@ MachineAnswer answer_of_steady(const MachineQuestion& q, const Scene& scene, boo
 
 MachineAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   ModesOptions options;
+  options.modes_alone = true;
   options.watch.interrupted = q.interrupted;
   const ModesStudy study = find_modes(scene, effects_of_modes(scene), options);
   if (!study.complete) return {RowState::failed, study.diagnosis, {}};
   MachineAnswer answer;
+  if (study.start_unknown) answer.state = RowState::unconfirmed, answer.diagnosis = study.orbit;
   const auto frequency = [&](const char* name, const std::string& number, double omega, double error) {
     constexpr double hertz = 0.5 / std::numbers::pi;
     answer.figures.push_back({{omega * hertz, error * hertz}, name + number, "Hz"});

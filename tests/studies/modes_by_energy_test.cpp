@@ -107,5 +107,41 @@ TEST(ModesByEnergy, FiguresOfASweepTellThemApart) {
   EXPECT_NEAR(answer.figures[0].value, torsional(900) / (2 * pi), 1e-9);
 }
 
+// From rest the first turn alone is thousands of periods of the shaft's vibration, which nothing damps.
+const char* const long_start = R"toml(
+line = ["motor", "shaft", "disc"]
+motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "2000 kg*m2" }
+shaft = { kind = "coupling", stiffness = "1000 kN*m/rad" }
+disc = { kind = "load", inertia = "0.5 kg*m2", torque = "5 N*m", damping = "0.1 N*m*s/rad", table = { over = "angle", formula = "5 [N*m]*(1 + 0.5*sin(angle/1 [rad]))"
+}
+}
+effects = { elasticity = true }
+run = { start = "rest", until = "2 s", budget = "1 s" }
+)toml";
+
+// Time is the budget's, of the processor.
+TEST(ModesByEnergy, NaturalFrequenciesWaitForNoStart) {
+  const double begin = processor_time();
+  const ModesStudy m = modes_of(long_start);
+  EXPECT_LT(processor_time() - begin, 1.5);
+  EXPECT_TRUE(m.start_unknown);
+  EXPECT_NE(m.orbit.find("within a fifth of the budget (0.2 s"), std::string::npos) << m.orbit;
+  ASSERT_EQ(m.modes.size(), 1u);
+  const double omega = std::sqrt(1e6 * (1 / 2000.0 + 1 / 0.5));
+  EXPECT_NEAR(m.modes[0].omega, omega, 1e-9 * omega);
+  EXPECT_EQ(std::count_if(m.notes.begin(), m.notes.end(),
+                          [](const std::string& note) { return note.starts_with("not assessed"); }),
+            1);
+}
+
+TEST(ModesByEnergy, ASweepWhoseStartIsUnknownSaysSo) {
+  MachineQuestion question;
+  question.text = long_start, question.file = "flywheel.toml", question.of = SweepStudy::modes;
+  const MachineAnswer answer = answer_of(question);
+  EXPECT_EQ(answer.state, RowState::unconfirmed);
+  ASSERT_FALSE(answer.figures.empty());
+  EXPECT_EQ(answer.figures[0].name, "natural_frequency.1");
+}
+
 }  // namespace
 }  // namespace kurbel::modes_by_energy_test
