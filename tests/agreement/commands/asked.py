@@ -15,7 +15,7 @@ QUICK = 20  # s of processor time: dearer cells are skipped by --quick
 # that its figures are those of the scene. Without those, `accuracy` and `uncertainty` are asked only without --quick.
 BASE = ("check", "figures", "run", "compare", "steady", "size", "reduce", "forces", "modes", "gears", "effects", "advise")
 DEAR = ("accuracy", "uncertainty")
-ITSELF = golden.Command(("diff", "SCENE", "SCENE", "--no-trials"))
+ITSELF = golden.Command(("diff", "SCENE", "SCENE"))
 
 WORST_LEFT = 1e-10    # of a deviation, when a run is taken as settled
 MOST_PERIODS = 4000   # of the steady motion, until it is

@@ -11,7 +11,7 @@ from asked import effects_of_forces, figure, same_effects, slowest
 # is exact; here figures other than speeds are compared where that is nothing.
 OF_OTHERS = 100
 SETTLED = 1e-9    # of the speed
-LEFT_IS_ABOUT = 3  # what a mid speed has still to change is itself an estimate
+LEFT_IS_ABOUT = 3  # what a motion has still to change is itself an estimate
 
 
 @dataclass(frozen=True)
@@ -269,7 +269,7 @@ def settled_and_steady(told):
     if not pair or len(runs) != 2 or not all(runs):
         return
     cycle = pair[0]
-    steady, more = cycle_values(cycle), 1 / max(1 - slowest(cycle), 1e-3)
+    steady, more = cycle_values(cycle), LEFT_IS_ABOUT / max(1 - slowest(cycle), 1e-3)
     first, second = (values(r["figures"], "run settled") for r in runs)
 
     def own(name, scale=0):
