@@ -164,9 +164,10 @@ class RunFigures {
         tell_(spring ? quantities::rms_spring_torque : quantities::rms_torque, joint.component,
               [&]() -> std::optional<Found> {
                 const bool slips = joint.elastic >= 0 && model_.elastic[at(joint.elastic)].slips;
-                if (run_->outcome.t <= 0 || (spring && slips)) return {};
+                const double duration = run_->outcome.t - begin();
+                if (duration <= 0 || (spring && slips)) return {};
                 const double square = run_->outcome.state[equations_->square_index(i, spring)];
-                return Found{root_mean_square(square, run_->outcome.t), joint.torque_scale};
+                return Found{root_mean_square(square, duration), joint.torque_scale};
               });
       }
   }

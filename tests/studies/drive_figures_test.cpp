@@ -147,6 +147,23 @@ TEST(Clutch, TorqueReserveLeavesSlippingOut) {
   EXPECT_NEAR(figure(r, "torque_reserve.clutch"), 2, 1e-6);
 }
 
+// Gone on from a state that was kept, the RMS torque is that of what follows: of a constant load, the load.
+TEST(Coupling, RmsTorqueOfARunThatGoesOnIsOfWhatFollows) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "coupling", "fan"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "0.5 kg*m2" }
+    coupling = { kind = "coupling", stiffness = "6 kN*m/rad", damping_ratio = 0.1 }
+    fan = { kind = "load", torque = "10 N*m", inertia = "0.5 kg*m2" }
+    run = { start = "rest", until = "30 s", accuracy = 1e-9 }
+  )");
+  SimulateOptions options{.measure_error = false, .keep_state = true};
+  options.go_on_from = simulate(scene, Effects{.all_elastic = true}, "warm", options).checkpoint;
+  options.until = 31;
+  const Result later = simulate(scene, Effects{.all_elastic = true}, "on", options);
+  for (const char* name : {"rms_torque.coupling", "rms_spring_torque.coupling"})
+    EXPECT_NEAR(figure(later, name), 10, 1e-6) << name;
+}
+
 // Under its rated torque a motor draws its rated current; the crank weighs next to nothing and only gives the cycle.
 TEST(MotorFigures, UnderTheRatedTorqueACycleDrawsTheRatedCurrent) {
   const Result r = test::run(R"(
