@@ -144,7 +144,7 @@ const std::string shunt =
     R"("dc shunt motor", stall_torque = "200 N*m", no_load_speed = "10 rad/s", inertia = "20 kg*m2")";
 const std::string part = "[[0, 500], [60, 100]]", held_on = "[[0, 500], [60, 100]], beyond = \"hold\"";
 
-const std::string& conclusion(const StudyOutput& output) { return output.conclusion; }
+std::string conclusion(const StudyOutput& output) { return output.conclusion(); }
 bool says_outside(const std::string& text) { return text.find("outside its table") != std::string::npos; }
 
 // Forces and balancing torque under a load from outside of its table are told without an error, what the given motion alone
