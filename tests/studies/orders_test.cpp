@@ -10,7 +10,7 @@
 
 #include "studies/dictionary/dictionary.h"
 #include "studies/steady/steady.h"
-#include "studies/sweep/machine.h"
+#include "studies/variants/machine.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test::orders_test {
