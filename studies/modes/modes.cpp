@@ -222,7 +222,7 @@ class Study {
     }
   }
 
-  void sample_regime() {
+  void sample_orbit() {
     found_.orbit = orbit_->words;
     try {
       if (orbit_->repeats() && orbit_->point.time > 0) samples_ = sample_cycle(*orbit_, cycle_samples);
@@ -233,7 +233,7 @@ class Study {
   }
 
   void find_orbit_cycle() {
-    search_start([this] { look_for_orbit(), sample_regime(); });
+    search_start([this] { look_for_orbit(), sample_orbit(); });
     if (found_.start_unknown) found_.orbit = orbit_->words;
     if (samples_ && samples_->mean->speed == 0) rest_ = samples_->mean, samples_.reset();  // the link stands
     if (!samples_ && !rest_ && !swings_about_rest())

@@ -84,7 +84,7 @@ TEST(ModesByEnergy, SharesAreThoseOfTheStoredEnergies) {
 
 // λ² + λ R/L + c²/(L J) = 0 on a shaft that is all but rigid: half of the energy in the winding, half in the inertias.
 TEST(ModesByEnergy, AWindingAndAnInertiaShareTheirEnergyInHalves) {
-  const ModesStudy m = modes_of(fan_drive(9e6, 0, 0));
+  const ModesStudy m = modes_of(fan_drive(9e6, 2000, 0));
   ASSERT_EQ(m.modes.size(), 2u);
   const Mode& winding = m.modes[1];
   const double omega = constant / std::sqrt(inductance * (j1 + j2)), zeta = resistance / (2 * inductance * omega);
