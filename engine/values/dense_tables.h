@@ -20,6 +20,14 @@ Scene with_tables_within(Scene scene, double within);
 // By which part of its greatest value a table of the scene may be off at most; 0: none is taken by fewer pieces.
 double tables_within(const Scene& scene);
 
+// Pieces within this part of the accuracy that is asked for.
+inline constexpr double tables_of_accuracy = 1.0 / 3;
+inline Scene with_fewer_points(const Scene& scene) {
+  return with_tables_within(scene, tables_of_accuracy * scene.run.accuracy);
+}
+// What that may leave open of a figure, as part of it: forces that are off by so much at once, and what swings by them.
+inline double left_by_tables(const Scene& scene) { return tables_within(scene) / tables_of_accuracy; }
+
 // "cylinder1.load.force (7201 points): by fewer pieces, within 1e-05 of …"; empty: there is none.
 std::string words_of_dense_tables(const Scene& scene);
 

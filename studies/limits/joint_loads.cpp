@@ -181,7 +181,7 @@ SteadyLoads steady_loads(const Orbit& orbit, const std::shared_ptr<const Model>&
     SteadyLoads loads = follow(*orbit.map, orbit.point, joints, fine);
     if (!loads.found) return loads;
     add_errors(follow_loosely(orbit, joints),
-               (orbit.polished ? 0 : orbit.still_changes) + tables_within(machine->scene), joints, loads);
+               (orbit.polished ? 0 : orbit.still_changes) + left_by_tables(machine->scene), joints, loads);
     return loads;
   }
   // What comes to rest does its work before: that is no lasting load.

@@ -51,7 +51,7 @@ void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineRe
 class Reducer {
  public:
   Reducer(const Scene& scene, const ReduceOptions& options)
-      : scene_(as_of(with_tables_within(scene, scene.run.accuracy), scene.effects, options.at)), options_(options) {
+      : scene_(as_of(with_fewer_points(scene), scene.effects, options.at)), options_(options) {
     if (options.positions < 1 || options.positions > 100000)
       throw std::invalid_argument(fmt::format("--positions {}: must be 1 … 100000", options.positions));
     if (options.orders < 0 || options.orders > 1000)
@@ -320,7 +320,7 @@ class Reducer {
     for (std::size_t i = along_ ? 0 : 1; i < r_.spectra.size(); ++i)
       for (Harmonic& h : r_.spectra[i].harmonics) h.amplitude.error.reset();
   }
-  double within() const { return tables_within(scene_); }
+  double within() const { return left_by_tables(scene_); }
   // Within pieces: at an edge either may be a hair late, so that the other is looked at on both sides of it.
   static double largest_difference(const Piecewise& f, const Piecewise& looser) {
     const double hair = 1e-6 * looser.length();

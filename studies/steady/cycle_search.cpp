@@ -369,14 +369,16 @@ class Search {
       out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +
                                        out_.point.multiplier_error + rounding_of_multipliers);
     const Round other = go_round(*loose, point, looser_tolerance);
+    const double tables = left_by_tables(scene_);  // two sets of pieces may agree by chance
     for (Figure& f : fine.figures)
       for (const Figure& g : other.figures)
         if (f.name == g.name) {
           const double rounding = f.unit == "J" ? rounding_of_works : 8 * std::numeric_limits<double>::epsilon();
           // What the steps resolve of the rated quantity both searches share.
-          f.error = std::max({std::abs(f.value - g.value), rounding * std::abs(f.value), map_tolerance * f.scale});
+          f.error = std::max({std::abs(f.value - g.value), rounding * std::abs(f.value), map_tolerance * f.scale}) +
+                    tables * std::abs(f.value);
         }
-    widen_errors(fine.orders.all, other.orders.all, map_tolerance);
+    widen_errors(fine.orders.all, other.orders.all, map_tolerance, tables);
     if (out_.model->has_continuous_shafts()) add_errors_of_shafts(fine);
   }
 
@@ -389,7 +391,7 @@ class Search {
     const SteadyCycle other = Search(finer, effects_, options).run();
     if (other.found) {
       add_differences(fine.figures, other.figures);
-      widen_errors(fine.orders.all, other.orders, map_tolerance);
+      widen_errors(fine.orders.all, other.orders);
     } else {
       out_.notes.push_back("what the cut of continuous shafts leaves open is not in the errors: " + other.why);
     }

@@ -203,7 +203,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
                                    left_by_golden_section * std::abs(strongest.drive));
   const auto greatest =
       std::max_element(result.curve.begin(), result.curve.end(), [](auto& a, auto& b) { return a.net() < b.net(); });
-  const double within = tables_within(machine.model().scene), error = error_of(finer, result.curve.back(), within);
+  const double within = left_by_tables(machine.model().scene), error = error_of(finer, result.curve.back(), within);
   // Losses by inertia torques know the speed, too.
   if (lossy && std::any_of(result.curve.begin(), result.curve.end(), [&](const MeanTorques& m) {
         return std::abs(m.net() - result.curve.back().net()) > 10 * error + 1e-9 * m.turnover;
@@ -282,7 +282,7 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
     run.tolerance *= 100;
     run.from = {0, equations.start(0, settings)};
     result.time =
-        estimate_from(outcome.t, integrate(equations, run, {}).t, (1e-12 + tables_within(m.scene)) * outcome.t);
+        estimate_from(outcome.t, integrate(equations, run, {}).t, (1e-12 + left_by_tables(m.scene)) * outcome.t);
   }
   if (result.reached || !result.why.empty()) return result;
   result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),

@@ -173,16 +173,18 @@ double OrdersOf::captured(const std::vector<Order>& these) const {
   return all > 0 ? std::min(sum / all, 1.0) : 1;
 }
 
-void widen_errors(std::vector<OrdersOf>& all, const std::vector<OrdersOf>& others, double resolved) {
+void widen_errors(std::vector<OrdersOf>& all, const std::vector<OrdersOf>& others, double resolved, double left) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   for (OrdersOf& of : all)
     for (const OrdersOf& other : others) {
       if (!(of.channel == other.channel)) continue;
+      double largest = 0;
+      for (const Order& o : of.orders) largest = std::max(largest, std::abs(o.wave));
       for (std::size_t n = 0; n < std::min(of.orders.size(), other.orders.size()); ++n) {
         Order& o = of.orders[n];
-        const double size = std::abs(o.wave);
-        o.error = o.error.value_or(0) + std::max(std::abs(o.wave - other.orders[n].wave), rounding * std::abs(of.mean));
-        if (size <= resolved * of.scale) o.error = std::max(*o.error, size);
+        const double apart = std::abs(o.wave - other.orders[n].wave);
+        o.error =
+            o.error.value_or(0) + std::max({apart, rounding * std::abs(of.mean), resolved * of.scale}) + left * largest;
       }
     }
 }

@@ -52,9 +52,10 @@ struct OrdersOfRound {
 // by no whole number of turns and by no whole part of two, so that its angle does not say where the motion is.
 OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, double tolerance, double turned);
 
-// Adds to the errors what others have found otherwise; an amplitude is its own error where the steps resolve no more than
-// that part of the rated quantity.
-void widen_errors(std::vector<OrdersOf>& all, const std::vector<OrdersOf>& others, double resolved);
+// Adds to the errors what others have found otherwise: at least what the steps resolve, a part of the rated quantity, and a
+// part of each quantity's largest amplitude that is left open besides.
+void widen_errors(std::vector<OrdersOf>& all, const std::vector<OrdersOf>& others, double resolved = 0,
+                  double left = 0);
 void drop_errors(std::vector<OrdersOf>& all);
 
 // "torque_order.0.5.main_coupling", "torque_order_phase.0.5.main_coupling" [deg]: of the orders that matter, or of all.

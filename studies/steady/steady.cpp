@@ -307,7 +307,7 @@ std::vector<Effects> effects_side_by_side(const Scene& scene) {
 
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options) {
   const Deadline deadline(scene.run.budget);
-  const Scene taken = with_tables_within(scene, scene.run.accuracy);
+  const Scene taken = with_fewer_points(scene);
   return Study(taken, effects, options).run();
 }
 
