@@ -113,7 +113,7 @@ TEST(Orders, OfAFourStrokeCycleComeInHalves) {
     ASSERT_GE(of.telling().size(), 3u) << channel;
     for (std::size_t n = 0; n < of.orders.size(); ++n) EXPECT_EQ(of.orders[n].order, 0.5 * static_cast<double>(n + 1));
     EXPECT_EQ(of.telling().front().order, 0.5) << channel;
-    EXPECT_NEAR(of.captured(of.orders), 1, 1e-6) << channel;
+    EXPECT_NEAR(of.captured(of.orders), 1, 1e-4) << channel;  // what is above the 24th order
   }
   for (const char* name : {"torque_order.0.5.coupling", "torque_order.1.coupling", "torque_order.1.5.coupling",
                            "speed_order.0.5.crank", "torque_order_phase.0.5.coupling"}) {
