@@ -290,7 +290,7 @@ class Reducer {
       Spectrum s = spectrum(named[i].first, named[i].second, fine[i], orders);
       if (loose) {
         const Spectrum other = spectrum(named[i].first, named[i].second, (*loose)[i], orders);
-        const double left = rounding * std::sqrt(s.mean_square) + (i > 0 ? within() : 0) * fine[i].largest();
+        const double left = rounding * std::sqrt(s.mean_square) + (i > 0 || along_ ? within() : 0) * fine[i].largest();
         for (std::size_t n = 0; n < s.harmonics.size(); ++n)
           s.harmonics[n].amplitude =
               estimate_from(s.harmonics[n].amplitude.value, other.harmonics[n].amplitude.value, left);
@@ -305,7 +305,7 @@ class Reducer {
     r_.mean_drive.value = fine[1].mean();
     r_.mean_load.value = fine[2].mean();
     if (!loose) return;
-    r_.inertia_error = largest_difference(fine[0], (*loose)[0]);
+    r_.inertia_error = largest_difference(fine[0], (*loose)[0]) + (along_ ? within() * fine[0].largest() : 0);
     const double drive = within() * fine[1].largest(), load = within() * fine[2].largest();
     r_.drive_error = largest_difference(fine[1], (*loose)[1]) + drive;
     r_.load_error = largest_difference(fine[2], (*loose)[2]) + load;
