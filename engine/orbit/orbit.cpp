@@ -154,10 +154,11 @@ class Search {
     if (last_motion_.time() == 0) return with_holders("the machine stands from its start on");
     return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rested_at()));
   }
-  // When the last shaft was held; where nothing holds it, when it was as good as still.
+  // When the last shaft was held, by friction or by losses; where nothing holds it, when it was as good as still.
   double rested_at() const {
+    const auto holds = [](const Event& e) { return e.kind == EventKind::rest || e.kind == EventKind::held; };
     for (const Event& e : events_)
-      if (e.kind == EventKind::rest && e.t >= (1 - 1e-12) * last_motion_.time()) return e.t;
+      if (holds(e) && e.t >= (1 - 1e-12) * last_motion_.time()) return e.t;
     return last_motion_.time();
   }
   std::string with_holders(std::string text) {

@@ -318,6 +318,16 @@ TEST(MotorSwitchedOff, RestsWhenTheRunSays) {
   EXPECT_NEAR(mean.value, same.value, *mean.error + *same.error);
 }
 
+// A rigid machine that its losses hold, too: the wedge at 2.0608 s. The last step that still turned ends before that.
+TEST(MotorSwitchedOff, RestsWhenItsLossesHoldIt) {
+  const Scene scene = test::scene_file("scenes/wedge_lift.toml");
+  const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
+  const Result run = test::run(scene, false);
+  ASSERT_TRUE(run.periods.standstill);
+  EXPECT_TRUE(has(study.conclusion, fmt::format("comes to rest at {:.4g} s", *run.periods.standstill)))
+      << study.conclusion << ' ' << *run.periods.standstill;
+}
+
 // A vibration about zero is a steady motion: |φ| = M/√((k − Jω²)² + (cω)²), of which the speed is ω times as much.
 TEST(SwingsAboutZero, AreASteadyMotion) {
   const Scene scene = report("swings_about_zero");

@@ -141,8 +141,9 @@ def planted(value, path):
     return None
 
 
-def found(told, of="contradictions"):
-    return {c.pair for c in getattr(judge(told), of)}
+def found(told, of=("contradictions",)):
+    judged = judge(told)
+    return {c.pair for kind in of for c in getattr(judged, kind)}
 
 
 class PlantedValues(unittest.TestCase):
@@ -156,16 +157,16 @@ class PlantedValues(unittest.TestCase):
         seen = set()
         for summaries in (SUMMARIES, EQUILIBRIUM, OF_REGIME, RESTS):
             told = told_of(summaries)
-            for path, value in leaves(told.cells):
+            for path, value in list(leaves(told.cells)):
                 wrong = planted(value, path)
                 if wrong is None or wrong == value:
                     continue
-                other = Told(told.scene, copy.deepcopy(told.cells), told.about)
-                node = other.cells
+                node = told.cells
                 for step in path[:-1]:
                     node = node[step]
                 node[path[-1]] = wrong
-                seen |= found(other) | found(other, "without_error")
+                seen |= found(told, ("contradictions", "without_error"))
+                node[path[-1]] = value
         self.assertEqual({p.__name__ for p in pairs.PAIRS} - seen, set())
 
     def test_a_value_is_found_beyond_its_errors_only(self):

@@ -5,7 +5,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
-from asked import effects_of_forces, figure, same_effects, slowest
+from asked import effects_of_forces, figure, figure_time, same_effects, slowest
 
 # Of a run that has not settled a figure of its last cycle is off by some times what its mid speed is off. The settled run
 # is exact; here figures other than speeds are compared where that is nothing.
@@ -230,7 +230,7 @@ def rigid_and_steady(told):
 def ended_and_steady(run, cycle, name):
     periods, left = run["periods"], run["periods"]["remaining_to_limit"]
     if not cycle.get("found") or not periods["steady"] or periods["run_down_begin"] is not None or not number(left):
-        return
+        return  # what is shown of a machine that ends otherwise is not its last cycle
     own, steady = values(run["figures"], name), cycle_values(cycle)
     speed = figure(cycle["figures"], "mean_speed") or 1
     for s in both(own, steady, last_cycle(run)):
@@ -545,30 +545,35 @@ def rest_of(words):
 
 def kinds_of_motion(told):
     """Comes to rest, stalls, goes on: `steady` of the scene's effects against what `run` has seen by its end; the time of
-    rest to the four digits that are said."""
+    rest to the four digits that are said. That of `run` is the link's: behind springs the rest of the machine rests later.
+    Of a machine that rests in the end `steady` shows the motion that it keeps before, and says when it rests."""
     pair = same_effects(told.answers)
     if not pair:
         return
     cycle, run = pair
-    end = max((f["at"] for f in run["figures"] if f["name"].startswith("final_") and f.get("at")), default=0)
-    stands, why = run["periods"]["standstill"], cycle.get("why") or ""
-    said, conclusion = f"steady: {why or cycle['regime']['words']}"[:200], f"run: {run['conclusion'][:200]}"
-    rest = rest_of(why)
-    if cycle.get("found"):
-        yield Words("it goes on", said, conclusion, stands is None and not re.search(r"runs away|stalls|does not start", run["conclusion"]))
-        return
+    end, stands = figure_time(run) or 0, run["periods"]["standstill"]
+    why, conclusion = cycle.get("why") or "", told.get("steady")["conclusion"]
+    ends = why if not cycle.get("found") else conclusion if "In the end" in conclusion else ""
+    rest = rest_of(ends)
+    said, ran = f"steady: {why or conclusion}"[:240], f"run: {run['conclusion']}"[:240]
     if rest is not None and stands is not None:
-        yield Words("when it comes to rest", f"steady: {rest} s", f"run: standstill {stands:.6g} s", abs(rest - stands) <= 1e-3 * stands)
+        later = "elastic" in (c["label"] for c in told.get("steady")["cycles"])
+        yield Words("when it comes to rest", f"steady: {rest} s", f"run: standstill {stands:.6g} s",
+                    abs(rest - stands) <= 1e-3 * stands or later and rest > stands)
     elif rest is not None and rest < 0.999 * end:
-        yield Words("it comes to rest", said, conclusion, "at rest" in run["conclusion"])
-    elif "stall" in why:
-        yield Words("it stalls", said, conclusion, "runs steadily" not in run["conclusion"])
+        yield Words("it comes to rest", said, ran, "at rest" in run["conclusion"])
+    elif ends and "stall" in ends:
+        yield Words("it stalls", said, ran, "runs steadily" not in run["conclusion"])
+    elif cycle.get("found"):
+        yield Words("it goes on", said, ran, (stands is None or "stands while" in ends) and not re.search(
+            r"runs away|stalls|does not start", run["conclusion"]))
 
 
 def rests_alike(told):
     """When the machine comes to rest, as `size` and `reduce` refuse and as `steady` does."""
     steady = told.get("steady")
-    times_ = [t for t in (rest_of(c.get("why")) for c in (steady or {}).get("cycles", ())) if t is not None]
+    times_ = [t for t in (rest_of(w) for w in ((steady or {}).get("conclusion"), *(c.get("why") for c in (steady or {}).get("cycles", ()))))
+              if t is not None]
     for command in ("size", "reduce", "forces"):
         t = rest_of(told.complaint(command))
         if t is not None and steady:
