@@ -130,27 +130,23 @@ TEST(Orders, OfAFourStrokeCycleComeInHalves) {
 TEST(Orders, PhasesCountFromTheLinksZeroInEitherSense) {
   for (const char* speed : {"20 rad/s", "-20 rad/s"}) {
     const Scene scene = scene_from(fmt::format(
-        R"(line = ["drive", "coupling", "mixer"]
+        R"scene(line = ["drive", "coupling", "mixer"]
 drive = {{ kind = "prescribed speed", speed = "{}" }}
 coupling = {{ kind = "coupling", stiffness = "1 kN*m/rad" }}
-mixer = {{ kind = "torque source", inertia = "0.1 kg*m2", table = {{ over = "angle", formula = "10 [N*m] * (1 + cos(2*phi - 0.7))"
-  }
-}
-}
-}
+mixer = {{ kind = "torque source", inertia = "0.1 kg*m2", table = {{ over = "angle", formula = "10 [N*m] * (1 + cos(2*phi - 0.7))" }} }}
 run = {{ start = {{ angle = "33 deg" }}, until = "1 s" }}
-)",
+)scene",
         speed));
-const SteadyCycle c = cycle_of(scene, Effects{});
-const OrdersOf& of = orders_of(c, "torque.coupling");
-ASSERT_EQ(of.telling().size(), 1u) << speed;
-EXPECT_NEAR(of.mean, -10, 1e-9);
-const Order order = of.telling().front();
-EXPECT_EQ(order.order, 2);
-EXPECT_NEAR(std::abs(order.wave), 10, 1e-9);
-ASSERT_TRUE(order.phase());
-EXPECT_NEAR(order.phase()->value, 0.7 - pi, 1e-9) << speed;  // of −10 cos(2φ − 0.7)
-}
+    const SteadyCycle c = cycle_of(scene, Effects{});
+    const OrdersOf& of = orders_of(c, "torque.coupling");
+    ASSERT_EQ(of.telling().size(), 1u) << speed;
+    EXPECT_NEAR(of.mean, -10, 1e-9);
+    const Order order = of.telling().front();
+    EXPECT_EQ(order.order, 2);
+    EXPECT_NEAR(std::abs(order.wave), 10, 1e-9);
+    ASSERT_TRUE(order.phase());
+    EXPECT_NEAR(order.phase()->value, 0.7 - pi, 1e-9) << speed;  // of −10 cos(2φ − 0.7)
+  }
 }
 
 TEST(Orders, WithoutAnAngleThereAreNone) {
