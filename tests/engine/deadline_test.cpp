@@ -106,7 +106,9 @@ TEST(Deadline, ASpentBudgetEndsEveryStudy) {
   ForcesOptions many;
   many.positions = 3600;
   EXPECT_THROW(steady(scene, {scene.effects}, {}), OutOfTime);
-  EXPECT_THROW(find_modes(scene, scene.effects, {}), OutOfTime);
+  const ModesStudy modes = find_modes(scene, scene.effects, {});  // of the scene's state: what is known by then
+  EXPECT_FALSE(modes.complete);
+  EXPECT_NE(modes.diagnosis.find("budget"), std::string::npos) << modes.diagnosis;
   EXPECT_THROW(find_forces(scene, many), OutOfTime);
   EXPECT_THROW(reduce(scene, {}), OutOfTime);
   EXPECT_THROW(size_flywheel(scene, flywheel), OutOfTime);

@@ -225,7 +225,7 @@ effects = {{ elasticity = true }}
 run = {{ start = {{ speed = "5 rad/s", c = {{ twist = "0.02 rad" }} }}, until = "{:.17g} s", samples = 401, accuracy = 1e-9 }}
 )",
                                                    2 * pi / omega));
-  const auto screens = screens_of(scene, {{"elasticity:c", "elasticity of c"}}, run_with_elasticity(scene), 0.05);
+  const auto screens = screens_of(scene, {{"elasticity:c", "elasticity of c", "c"}}, run_with_elasticity(scene), 0.05);
   const Screen* activity = screen_of(screens.at(0), "activity");
   ASSERT_TRUE(activity);
   EXPECT_NEAR(activity->number, 4 * 0.5 * k * twist * twist / (0.5 * (j1 + j2) * 25), 1e-5);
@@ -250,7 +250,7 @@ run = { start = { speed = "30 rad/s" }, until = "10 ms" }
                still = amplitude * j2 / (j1 + j2), share = (swing - still) / (40 + still);
   const Result full = run_with_elasticity(scene);
   for (const double factor : {0.99, 1.01}) {
-    const auto screens = screens_of(scene, {{"elasticity:c", "elasticity of c"}}, full, factor * share);
+    const auto screens = screens_of(scene, {{"elasticity:c", "elasticity of c", "c"}}, full, factor * share);
     const Screen* found = screen_of(screens.at(0), "quasi-static amplification");
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->number, swing / still, 1e-3);
