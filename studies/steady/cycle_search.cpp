@@ -374,8 +374,9 @@ class Search {
       for (const Figure& g : other.figures)
         if (f.name == g.name) {
           const double rounding = f.unit == "J" ? rounding_of_works : 8 * std::numeric_limits<double>::epsilon();
-          // What the steps resolve of the rated quantity both searches share.
-          f.error = std::max({std::abs(f.value - g.value), rounding * std::abs(f.value), map_tolerance * f.scale}) +
+          // What the steps resolve of the rated quantity both searches share; nothing is nothing.
+          const double shared = f.value == 0 && g.value == 0 ? 0 : map_tolerance * f.scale;
+          f.error = std::max({std::abs(f.value - g.value), rounding * std::abs(f.value), shared}) +
                     tables * std::abs(f.value);
         }
     widen_errors(fine.orders.all, other.orders.all, map_tolerance, tables);

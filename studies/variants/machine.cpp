@@ -254,9 +254,20 @@ std::vector<SweptFigure> figures_of(const MachineQuestion& question) {
   return known;
 }
 
+// Amplitude or phase of one order: there are hundreds, which nobody asks for all at once.
+static bool is_order(const SweptFigure& figure) {
+  using namespace quantities;
+  return is_asked_for(figure.name, word(speed_order)) || is_asked_for(figure.name, word(speed_order_phase)) ||
+         is_asked_for(figure.name, word(torque_order)) || is_asked_for(figure.name, word(torque_order_phase));
+}
+
 std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std::vector<std::string>& asked) {
-  if (asked.empty()) return known;
   std::vector<SweptFigure> list;
+  if (asked.empty()) {
+    std::copy_if(known.begin(), known.end(), std::back_inserter(list),
+                 [](const SweptFigure& f) { return !is_order(f); });
+    return list;
+  }
   for (const std::string& name : asked) {
     const std::size_t before = list.size();
     for (const SweptFigure& f : known)

@@ -62,7 +62,8 @@ const Key* quantity_key(const Scene& scene, const std::string& path);
 
 // Names and units of what the study yields for the scene as it is; of run also what other variants may yield.
 std::vector<SweptFigure> figures_of(const MachineQuestion& question);
-// Those asked for: whole names, or a quantity ("delta": of whatever has one); empty: all. Throws std::invalid_argument.
+// Those asked for: whole names, or a quantity ("delta": of whatever has one); empty: all but single orders of a motion.
+// Throws std::invalid_argument.
 std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std::vector<std::string>& asked);
 
 // What a study says of a machine.
