@@ -1,5 +1,6 @@
 """The digest that is committed: summaries of a few cheap cells, so that a change of results cannot land unseen."""
 import json
+import re
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -32,6 +33,7 @@ LONG = 6       # items of a list without names that are kept: the first ones
 # Digests are held on other CPUs: measured without FMA, values moved by up to some 1e-11 of the largest of their unit where
 # stated errors were 1e-12. Whatever errors state, so much is nothing.
 NOTHING = 1e-10
+ORDER = re.compile(r"(speed|torque)_order(_phase)?\.")  # figures that stand in the list of orders, too
 DIGITS = 12    # of a value: LAST_BITS stays far above what is cut off
 
 
@@ -40,6 +42,7 @@ def shortened(node):
     if isinstance(node, dict):
         return {key: shortened(value) for key, value in node.items() if key not in LEFT_OUT | EFFORT}
     if isinstance(node, list):
+        node = [x for x in node if not (isinstance(x, dict) and ORDER.match(str(x.get("name"))))]
         nameless = not all(isinstance(x, dict) and "name" in x for x in node)
         kept = [shortened(x) for x in (node[:LONG] if nameless else node)]
         return kept + ([f"{len(node)} items"] if len(kept) < len(node) else [])
