@@ -85,8 +85,11 @@ std::vector<EnergyStore> energy_stores(const ModesStudy& m, const Mode& mode) {
     stores.push_back({places[k].state.name + " of " + component, kind_of(places[k].state), energy.own[k]});
   }
   for (EnergyStore& store : stores) std::replace(store.name.begin(), store.name.end(), '_', ' ');
+  const auto in_order = [](double share) {
+    return std::round(1e6 * share);
+  };  // halves are halves, whatever rounding says
   std::stable_sort(stores.begin(), stores.end(),
-                   [](const EnergyStore& a, const EnergyStore& b) { return a.share > b.share; });
+                   [&](const EnergyStore& a, const EnergyStore& b) { return in_order(a.share) > in_order(b.share); });
   return stores;
 }
 

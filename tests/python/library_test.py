@@ -61,7 +61,7 @@ class Runs(unittest.TestCase):
         self.assertEqual(peaks[0], peaks[1])
         self.assertEqual(peaks[2], peaks[3])
         self.assertAlmostEqual(peaks[0] / peaks[2], 2, delta=1e-4)
-        modes = [kurbel.modes(TWO_MASSES, effects=effects).figures_of()["natural_frequency.1"].value
+        modes = [kurbel.modes(TWO_MASSES, effects=effects).summary["modes"][0]["natural_frequency"]
                  for effects in ("elasticity,gravity", ["elasticity", "gravity"])]
         self.assertEqual(modes[0], modes[1])
 
