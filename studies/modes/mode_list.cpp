@@ -67,10 +67,10 @@ Eigen::VectorXd principal_shape(const LinearDrive& drive, const Eigen::VectorXcd
 }
 
 // Of springs and inertias.
-std::vector<Mode> modes_of_springs(int count, const ModesStudy& found) {
+std::vector<Mode> modes_of_springs(const ModesStudy& found) {
   std::vector<Mode> modes;
   const UndampedModes& u = found.undamped;
-  for (Eigen::Index i = u.rigid; i < u.omega.size() && i < u.rigid + count; ++i) {
+  for (Eigen::Index i = u.rigid; i < u.omega.size(); ++i) {
     Mode& mode = modes.emplace_back();
     mode.omega = mode.least = mode.greatest = u.omega[i];
     mode.shape = u.shapes.col(i);
@@ -81,13 +81,12 @@ std::vector<Mode> modes_of_springs(int count, const ModesStudy& found) {
 }
 
 // Of springs, weights and inertias, K = −∂M/∂φ among the stiffnesses: what is left without damping and own states.
-std::vector<Mode> modes_at_rest(int count, const ModesStudy& found) {
+std::vector<Mode> modes_at_rest(const ModesStudy& found) {
   LinearDrive undamped = found.drive;
   undamped.damping.setZero();
   undamped.own_scale.resize(0);
   std::vector<Mode> modes;
   for (const DampedMode& d : damped_modes(undamped, found.undamped)) {
-    if (modes.size() == at(count)) break;
     if (d.lambda.imag() <= 1e-6 * std::abs(d.lambda)) continue;
     Mode& mode = modes.emplace_back();
     mode.omega = mode.least = mode.greatest = std::abs(d.lambda);
@@ -103,12 +102,15 @@ void number_in_order(std::vector<Mode>& modes) {
 }
 
 // What swings by states of elements, and what springs and states of elements do so differently together that it grows
-// out of no undamped mode. By |λ|, as damped modes are.
+// out of no undamped mode. By |λ|, as damped modes are. What lies above all that are listed is of no account, unless such states
+// have energy in it.
 void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStudy& found) {
   const std::size_t most = found.modes.size() + at(count);
+  const double highest = found.modes.empty() ? HUGE_VAL : found.modes.back().omega;
   for (std::size_t i = 0; i < found.damped.size(); ++i) {
     const DampedMode& d = found.damped[i];
     if (used[i] || d.lambda.imag() <= 1e-6 * std::abs(d.lambda) || found.modes.size() == most) continue;
+    if (std::abs(d.lambda) > highest && !(d.energy.in_own() > 0)) continue;
     Mode mode;
     mode.omega = std::abs(d.lambda);
     mode.lambda = d.lambda;
@@ -180,8 +182,9 @@ void list_modes(int count, ModesStudy& found) {
   found.undamped = undamped_modes(found.drive, wanted);
   found.damped = damped_modes(found.drive, found.undamped, wanted);
   const bool held_at_rest = stands(found.drive) && found.drive.size() <= wanted.dense_below;
-  found.modes = held_at_rest ? modes_at_rest(count, found) : modes_of_springs(count, found);
+  found.modes = held_at_rest ? modes_at_rest(found) : modes_of_springs(found);
   const std::vector<char> used = pair_damped(found);
+  if (found.modes.size() > at(count)) found.modes.resize(at(count));
   add_swings_of_own_states(count, used, found);
   if (found.drive.model->has_continuous_shafts()) add_wave_errors(found);
   for (const DampedMode& d : found.damped)

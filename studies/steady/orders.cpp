@@ -26,15 +26,17 @@ constexpr std::size_t fewest_waves = 24, most_waves = 240;  // of a period
 constexpr double least_told = 0.01;                         // of the largest
 constexpr std::size_t most_told = 12;                       // of one quantity
 constexpr double below_rounding = 1e-11;                    // of the rated quantity
+constexpr double most_parts = 128;                          // of two turns, after which a motion comes again
 constexpr double slowest_part = 1e-6;                       // of the rated speed: below that the link stands
 constexpr double whole_within = 1e-6;
 
-// The order of the longest wave: 1/n over n turns, n/2 over two nth of a turn; none for other angles.
+// The order of the longest wave: 1/n over n turns, n/2 over two nth of a turn; none for other angles, nor for so small ones that
+// the link as good as stands.
 std::optional<double> lowest_order(double turned) {
   const double turns = std::abs(turned) / turn;
   const auto is_whole = [](double x) { return std::round(x) >= 1 && std::abs(x - std::round(x)) <= whole_within * x; };
   if (is_whole(turns)) return 1 / std::round(turns);
-  if (is_whole(2 / turns)) return 0.5 * std::round(2 / turns);
+  if (2 / turns <= most_parts && is_whole(2 / turns)) return 0.5 * std::round(2 / turns);
   return {};
 }
 

@@ -131,7 +131,8 @@ TEST(Curve, FewerPiecesAreNoFartherOffThanTheyMay) {
     for (const double period : {0.0, 4.0})
       for (const double within : {1e-3, 1e-5, 1e-6}) {
         const Curve all(x, y, form, period), fewer = all.by_fewer_pieces(within);
-        EXPECT_LT(fewer.x().size(), 300u);
+        // Corners of the straight pieces are 5e-6 high: within less than that each is a place of its own where it bends most.
+        EXPECT_LT(fewer.x().size(), form == Form::linear && within < 5e-6 ? 1000u : 300u);
         EXPECT_LE(most_off(all, fewer), 1.02 * within);
         EXPECT_FALSE(fewer.jumps() && period == 0 && fewer.before() == fewer.y().front());
         EXPECT_EQ(fewer.x().front(), all.x().front());

@@ -18,10 +18,11 @@ namespace {
 std::string engine(int points) {
   std::string table;
   for (int k = 0; k <= points; ++k) {
-    const double phi = 720.0 * k / points, from = std::remainder(phi - 400, 720) / 30;
+    const double phi = 720.0 * k / points, within = k < points ? phi : 0;  // the last point is the first
+    const double from = std::remainder(within - 400, 720) / 30;
     table +=
         fmt::format("{}[{:.10g}, {:.10g}]", k == 0 ? "" : ", ", phi,
-                    3500 * std::exp(-0.5 * from * from) + 200 * std::pow(std::sin(phi * std::numbers::pi / 720), 2));
+                    3500 * std::exp(-0.5 * from * from) + 200 * std::pow(std::sin(within * std::numbers::pi / 720), 2));
   }
   return fmt::format(R"(line = ["crank", "coupling", "fan"]
 [crank]

@@ -82,7 +82,7 @@ TEST(ForcesOfTheRegime, HaveTheSpeedsAndWorksOfTheSteadyCycle) {
     expect("cycle_min_speed." + link, forces.least_speed);
     expect("cycle_max_speed." + link, forces.greatest_speed);
     for (const CycleWork& w : forces.work)
-      if (w.name == link + ".load") expect("work_per_cycle." + w.name + " (useful)", w.work);
+      if (w.name == link + ".load") expect("work_per_cycle." + w.name + " (" + w.kind + ")", w.work);
   };
   for (const auto& [name, link] :
        {std::pair("scenes/piston_pump.toml", "plunger1"), std::pair("scenes/steam_engine.toml", "engine"),

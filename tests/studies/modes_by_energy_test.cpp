@@ -112,9 +112,7 @@ const char* const long_start = R"toml(
 line = ["motor", "shaft", "disc"]
 motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "2000 kg*m2" }
 shaft = { kind = "coupling", stiffness = "1000 kN*m/rad" }
-disc = { kind = "load", inertia = "0.5 kg*m2", torque = "5 N*m", damping = "0.1 N*m*s/rad", table = { over = "angle", formula = "5 [N*m]*(1 + 0.5*sin(angle/1 [rad]))"
-}
-}
+disc = { kind = "load", inertia = "0.5 kg*m2", torque = "5 N*m", damping = "0.1 N*m*s/rad", table = { over = "angle", formula = "5 [N*m]*(1 + 0.5*sin(phi))" } }
 effects = { elasticity = true }
 run = { start = "rest", until = "2 s", budget = "1 s" }
 )toml";

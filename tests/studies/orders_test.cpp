@@ -133,7 +133,7 @@ TEST(Orders, PhasesCountFromTheLinksZeroInEitherSense) {
         R"scene(line = ["drive", "coupling", "mixer"]
 drive = {{ kind = "prescribed speed", speed = "{}" }}
 coupling = {{ kind = "coupling", stiffness = "1 kN*m/rad" }}
-mixer = {{ kind = "torque source", inertia = "0.1 kg*m2", table = {{ over = "angle", formula = "10 [N*m] * (1 + cos(2*phi - 0.7))" }} }}
+mixer = {{ kind = "torque source", inertia = "0.1 kg*m2", table = {{ over = "angle", formula = "10 [N*m] * (1 + cos(2*phi - 0.7 [rad]))" }} }}
 run = {{ start = {{ angle = "33 deg" }}, until = "1 s" }}
 )scene",
         speed));

@@ -407,7 +407,7 @@ TEST(SteadyOutput, JsonHoldsFiguresMultipliersAndOperatingPoints) {
   EXPECT_TRUE(csv_text(output.tables[0].table()).starts_with("speed [rad/s],drive_torque"));
 }
 
-// What weights take is not lost: a screw and a wedge that lift. As `run` has it (1.3).
+// What weights take is not lost: a screw and a wedge that lift. As `run` has it (theory 1.3).
 TEST(Steady, EfficiencyCountsWeightsWithTheDrivingWork) {
   const Scene scene = scene_file("tests/agreement/swings/screw_wedge_slide.toml");
   const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});

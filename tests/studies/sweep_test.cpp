@@ -14,10 +14,10 @@
 #include <set>
 
 #include "studies/scenes/kinds.h"
-#include "studies/variants/machine.h"
 #include "studies/sweep/program_version.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/sweep/sweep_plots.h"
+#include "studies/variants/machine.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::sweep_test {

@@ -448,6 +448,8 @@ def modes_and_steady(told):
     if speed := cycle.get(f"mean_speed.{point['link']}"):
         yield Same("operating speed", Value(point["speed"], None, "modes operating_point.speed"), speed)
     for r in modes["response"]:
+        if "cycle_peak" not in r:  # the motion itself was not followed
+            continue
         peak, rms = (cycle.get(f"{n}.{r['joint']}") for n in ("cycle_peak_torque", "cycle_rms_torque"))
         if peak and number(r["cycle_peak"]) and r["cycle_peak"]:
             # It is the largest way from the mean, to whichever side: on the other one the torque may go less far.
