@@ -33,7 +33,12 @@ class Output {
     cycle_ = net.elements.front().element->cycle;
     Scene bare;
     bare.file = file;
-    model_ = compile_network(std::move(net), bare, Effects{});
+    try {
+      model_ = compile_network(std::move(net), bare, Effects{});
+    } catch (const SceneError& error) {  // dimensions beside which an inertia of 1 kg·m² is lost
+      for (const Message& message : error.messages) messages.add(section.at, message.text);
+      return;
+    }
     for (const Channel& channel : model_->pool_channels) {
       if (channel.name.what == quantities::position) position_ = &channel;
       if (channel.name.what == quantities::velocity) velocity_ = &channel;
