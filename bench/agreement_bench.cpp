@@ -120,7 +120,6 @@ Table matrix_of(const Half& half, const std::vector<Row>& rows) {
     tones.push_back(Tone::none);
     table.rows.push_back(std::move(cells));
     table.tones.push_back(std::move(tones));
-    table.hints.emplace_back(table.columns.size());
   }
   return table;
 }

@@ -65,7 +65,6 @@ Table shares(const std::string& title, const std::string& what, const Variants& 
     std::vector<Tone> tones(table.columns.size(), Tone::none);
     tones[4] = tone;
     table.tones.push_back(std::move(tones));
-    table.hints.emplace_back(table.columns.size());
   }
   return table;
 }
@@ -128,19 +127,16 @@ Table matrix(const Variants& all) {
   Table table{.title = "Covered, in percent: method by accuracy asked for", .columns = {"method"}, .rows = {}};
   for (const double accuracy : coverage::accuracies()) table.columns.push_back(fmt::format("{:.0e}", accuracy));
   for (const std::string& method : coverage::methods()) {
-    std::vector<std::string> row = {method}, hints = {""};
+    std::vector<std::string> row = {method};
     std::vector<Tone> tones = {Tone::none};
     for (const double accuracy : coverage::accuracies()) {
       const Group a = of_accuracy(accuracy);
       const Share s = coverage::share_of(all, [&](const MeasuredVariant& v) { return v.method == method && a.run(v); });
       row.push_back(s.judged ? fmt::format("{:.1f}", 100 * s.share()) : "–");
       tones.push_back(tone_of(s));
-      hints.push_back(fmt::format("{} of {} figures of {} runs missed; lower bound {}", s.judged - s.covered, s.judged,
-                                  s.runs, percent(s.lower)));
     }
     table.rows.push_back(std::move(row));
     table.tones.push_back(std::move(tones));
-    table.hints.push_back(std::move(hints));
   }
   return table;
 }

@@ -100,7 +100,6 @@ Table overview(const std::string& family, const std::vector<CaseMatrix>& matrice
     if (m.hard_case->family != family) continue;
     std::vector<std::string> row = {in_words(m.hard_case->name), m.hard_case->parameter};
     std::vector<Tone> tones(2, Tone::none);
-    std::vector<std::string> hints(2);
     for (const std::vector<CaseOutcome>& cells : m.cells) {
       const auto met = std::count_if(cells.begin(), cells.end(), [](const CaseOutcome& o) {
         return o.verdict == Verdict::passed || o.verdict == Verdict::refused;
@@ -108,13 +107,9 @@ Table overview(const std::string& family, const std::vector<CaseMatrix>& matrice
       const Verdict worst = worst_of(cells);
       row.push_back(worst == Verdict::excluded ? "–" : std::to_string(met));
       tones.push_back(tone_of(worst));
-      const auto shown =
-          std::find_if(cells.begin(), cells.end(), [&](const CaseOutcome& o) { return o.verdict == worst; });
-      hints.push_back(words_of(*shown));
     }
     table.rows.push_back(std::move(row));
     table.tones.push_back(std::move(tones));
-    table.hints.push_back(std::move(hints));
   }
   return table;
 }
@@ -128,16 +123,14 @@ Table errors_of(const CaseMatrix& m) {
               .folded = true};
   for (const double accuracy : hard::all_accuracies()) table.columns.push_back(fmt::format("{:.0e}", accuracy));
   for (std::size_t k = 0; k < m.cells.size(); ++k) {
-    std::vector<std::string> row = {hard::all_methods()[k]}, hints = {""};
+    std::vector<std::string> row = {hard::all_methods()[k]};
     std::vector<Tone> tones = {Tone::none};
     for (const CaseOutcome& o : m.cells[k]) {
       row.push_back(error_cell(o));
       tones.push_back(tone_of(o.verdict));
-      hints.push_back(words_of(o));
     }
     table.rows.push_back(std::move(row));
     table.tones.push_back(std::move(tones));
-    table.hints.push_back(std::move(hints));
   }
   return table;
 }
@@ -260,23 +253,22 @@ Table growth_of_errors(const std::string& title, HardCase (*machine)(double cycl
 }
 
 Table legend(double budget) {
-  return {
-      .title =
-          "In a family's table a number says at how many accuracies the cell is green; its colour is that of the "
-          "worst. Point at a cell for its words.",
-      .columns = {"cell", "what it says"},
-      .rows = {{"green", fmt::format("the right answer, with an error of at most {:g} × (accuracy asked for + "
-                                     "condition × rounding); or the words that belong to a machine that cannot run",
-                                     hard::allowed_ratio)},
-               {"amber", fmt::format("the program says that it reached less than was asked for, and how much; or "
-                                     "that its budget was spent ({:g} s of processor time an integration, more for "
-                                     "the heavy cases)",
-                                     budget)},
-               {"grey", "the method does not apply; the reasons stand at the end of each family"},
-               {"red", "a wrong answer, or other words than belong there"}},
-      .text_columns = 2,
-      .tones = {{Tone::good, Tone::none}, {Tone::fair, Tone::none}, {Tone::aside, Tone::none}, {Tone::bad, Tone::none}},
-      .hints = {{"", ""}, {"", ""}, {"", ""}, {"", ""}}};
+  return {.title =
+              "In a family's table a number says at how many accuracies the cell is green; its colour is that of the "
+              "worst.",
+          .columns = {"cell", "what it says"},
+          .rows = {{"green", fmt::format("the right answer, with an error of at most {:g} × (accuracy asked for + "
+                                         "condition × rounding); or the words that belong to a machine that cannot run",
+                                         hard::allowed_ratio)},
+                   {"amber", fmt::format("the program says that it reached less than was asked for, and how much; or "
+                                         "that its budget was spent ({:g} s of processor time an integration, more for "
+                                         "the heavy cases)",
+                                         budget)},
+                   {"grey", "the method does not apply; the reasons stand at the end of each family"},
+                   {"red", "a wrong answer, or other words than belong there"}},
+          .text_columns = 2,
+          .tones = {
+              {Tone::good, Tone::none}, {Tone::fair, Tone::none}, {Tone::aside, Tone::none}, {Tone::bad, Tone::none}}};
 }
 
 // A finer accuracy than one that spent its budget is not tried.
