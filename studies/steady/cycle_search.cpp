@@ -21,6 +21,7 @@
 #include "studies/run/compare.h"
 #include "studies/run/measured_errors.h"
 #include "studies/steady/round_figures.h"
+#include "studies/steady/steady_words.h"
 #include "studies/validity/outside_data.h"
 #include "studies/validity/static_curve.h"
 #include "studies/validity/substitutes.h"
@@ -190,7 +191,11 @@ class Search {
     out_.point.derivatives = newton.derivatives;
     out_.point.residual = newton.residual;
     out_.end = image_.end;
-    if (newton.found) return settle(newton.x);
+    if (newton.found) {
+      out_.why = why_not_held(scene_, options_.hold_by, newton.x[newton.x.size() - 1] * unit_);
+      if (out_.why.empty()) settle(newton.x);
+      return;
+    }
     if (image_.end == ReturnMap::End::interrupted) {
       out_.why = image_.why;
       return;
@@ -307,7 +312,8 @@ class Search {
     out_.section = map_->section_angle();
     out_.cycle_time = out_.point.time;
     out_.stability =
-        !out_.uncertain     ? stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error)
+        !out_.uncertain ? stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error)
+        : out_.kind == Orbit::Kind::vibrating ? "its stability is not assessed"
         : out_.point.grazed ? "of uncertain stability, for an event is only just touched; the run comes here and stays"
                             : "the run comes here and stays";
     out_.neutral = out_.point.neutral();

@@ -81,6 +81,7 @@ std::string vibration_text(const SteadyCycle& c) {
   const Figure* most = nullptr;
   for (const Figure& f : c.figures)
     if (f.what == quantities::vibration_amplitude && (!most || f.value > most->value)) most = &f;
+  if (most && most->value == 0) return "it stands still";
   return fmt::format("frequency {}{}", with_error(*c.find("vibration_frequency"), "Hz"),
                      most ? fmt::format(", amplitude {} of \"{}\"", with_error(*most, "rad"), most->of) : "");
 }
@@ -89,6 +90,10 @@ class Study {
  public:
   Study(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options)
       : scene_(scene), effects_(effects), options_(options) {
+    if (!options.hold_by.empty() && !options.holds_speed())
+      throw std::invalid_argument(fmt::format(
+          "--hold-by {}: which speed is it to hold? Give --mid-speed or --mean-speed, e.g. --mean-speed \"60 rpm\"",
+          in_quotes(options.hold_by)));
     const OrbitOptions search = orbit_options(scene, options.periods, options.watch);
     out_.later = choose_kept_moment(scene, effects.back(), search, options_.at);
   }

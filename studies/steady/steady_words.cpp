@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/numerics/angles.h"
+#include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 
@@ -26,6 +27,13 @@ std::string beside(double value, double other) {
 std::string complex_text(std::complex<double> z) {
   if (z.imag() == 0) return fmt::format("{:.6g}", z.real());
   return fmt::format("{:.6g} {} {:.6g} i", z.real(), z.imag() < 0 ? "−" : "+", std::abs(z.imag()));
+}
+
+std::string why_not_held(const Scene& scene, const std::string& by, double value) {
+  const Key* const key = quantity_place(scene.components, by).key;
+  if (!key || key->domain.contains(value)) return {};
+  return fmt::format("that speed would need {} = {}, which must be {}; take another speed or another quantity", by,
+                     with_unit(value, key->unit, 4), key->domain.describe(key->unit));
 }
 
 std::vector<std::string> words_of(const SteadyCycle& c) {

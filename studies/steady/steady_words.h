@@ -10,6 +10,10 @@
 
 namespace kurbel {
 
+// Why a quantity of the scene, COMPONENT.KEY, cannot have the value that a demanded speed needs: it is beyond the key's
+// domain. Empty: it can, or no quantity is named.
+std::string why_not_held(const Scene& scene, const std::string& by, double value);
+
 std::vector<std::string> words_of(const SteadyCycle& cycle);
 std::vector<std::string> words_of_diagram(const SteadyStudy& study);
 Record operating_point(const OperatingDiagram& diagram, const OperatingPoint& point);  // the same for programs

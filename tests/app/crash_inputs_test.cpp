@@ -63,10 +63,6 @@ TEST_F(CrashInputs, AnEmptyListIsRefusedByEveryCommand) {
                    ":3:194: ", "dc shunt motor \"motor\": switch_times = []; must hold one value at least");
 }
 
-TEST_F(CrashInputs, AStartToldAtTheSliderOfAnEndlessCrankIsRefusedAtItsPlace) {
-  expect_refused("check", "start_of_an_endless_crank.toml", ":4:", "cannot turn");
-}
-
 TEST_F(CrashInputs, AStartToldAtWhatAScrewMovesIsRefused) {
   for (const char* verb : {"check", "run", "steady", "reduce"})
     expect_refused(verb, "slide_before_it_is_compiled.toml", ":4:24: ",

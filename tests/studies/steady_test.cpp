@@ -215,6 +215,12 @@ TEST(Steady, SpeedIsHeldByAQuantityOfTheScene) {
     EXPECT_NEAR(value_of(study.cycles[0], "mean_speed.motor"), speed, 1e-8);
   }
   EXPECT_TRUE(has(thrown_by(scene, {.mean_speed = 10, .hold_by = "load.mass"}), "must name a quantity"));
+  EXPECT_TRUE(has(thrown_by(scene, {.hold_by = "load.torque"}), "which speed")) << "nothing is ignored";
+  const Scene viscous = scene_from(dc_against("load = { kind = \"load\", damping = \"0.5 N*m*s/rad\" }\n"));
+  const SteadyStudy beyond =
+      steady(viscous, {Effects{}}, {.mean_speed = 45, .hold_by = "load.damping", .start_search = false});
+  EXPECT_FALSE(beyond.complete) << "above no load a load would have to drive";
+  EXPECT_TRUE(has(beyond.diagnosis, "load.damping")) << beyond.diagnosis;
 }
 
 // Mean over time and middle of the extremes are two demands: a press turns differently by each.
