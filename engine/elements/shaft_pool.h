@@ -96,7 +96,8 @@ class ShaftPool final : public ElementPool {
       const ShaftState<double> x = state(p, now);
       std::array<Number, own_states + 1> own;
       for (int k = 0; k < own_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 1 + k);
-      ShaftState<Number> dual{x.t, {}, Number::input(x.rate, 0), x.mode, x.direction, x.command, own.data(), x.on};
+      ShaftState<Number> dual{x.t,  {},        Number::input(x.rate, 0), x.mode, x.direction, x.command, own.data(),
+                              x.on, x.on_since};
       if constexpr (UsesAngle<E>) dual.angle = Number::input(x.angle, static_cast<int>(inputs) - 1);
       const auto scatter = [&](const Number& value, double gain, const std::array<int, inputs>& to) {
         slots[to[0]] += gain * value.d[0] * p.at.gain;
