@@ -18,9 +18,10 @@ int list_effects() {
   for (const EffectFlag& effect : effect_flags())
     say(fmt::format("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
                     effect.parameters, effect.states, effect.matters,
-                    effect.unsaid == EffectFlag::Unsaid::off           ? "off"
-                    : effect.unsaid == EffectFlag::Unsaid::where_given ? "on where the scene gives that"
-                                                                       : "on, even in the rigid machine"));
+                    effect.unsaid == EffectFlag::Unsaid::off               ? "off"
+                    : effect.unsaid == EffectFlag::Unsaid::where_given     ? "on where the scene gives that"
+                    : effect.unsaid == EffectFlag::Unsaid::with_elasticity ? "on where anything is elastic"
+                                                                           : "on, even in the rigid machine"));
   return exit_done;
 }
 

@@ -75,7 +75,7 @@ void counts_of_instructions(BenchBook& book, const std::string& counter) {
   for (const std::string& file : scenes) {
     const Scene scene = read_scene(file, all_kinds());
     for (const EffectFlag& flag : effect_flags()) {
-      if (flag.unsaid == EffectFlag::Unsaid::part_of_machine || !has_parameters(scene, flag)) continue;
+      if (flag.is_usual() || !has_parameters(scene, flag)) continue;
       if (flag.flag == &Effects::multibody) continue;  // any mechanism gives it its parameters
       const auto off = counted_instructions(counter, file, flag.name, "off"),
                  without = counted_instructions(counter, file, flag.name, "without");

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/elements/any_shaft_element.h"
+#include "drivetrain/induction/lagging_motor.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/units.h"
@@ -100,7 +100,9 @@ OwnState TwoAxisMotor::state(int k) const {
 }
 
 ShaftForm under(const TwoAxisMotor& motor, const Effects& effects) {
-  return effects.transients ? nullptr : shaft_form(motor.line);
+  if (effects.transients) return nullptr;
+  if (!effects.torque_lag) return shaft_form(motor.line);
+  return shaft_form(LaggingMotor(motor.line, {motor.line.breakdown_slip, motor.circuit.frequency}));
 }
 
 std::string TwoAxisMotor::describe() const {

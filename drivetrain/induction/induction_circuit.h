@@ -96,7 +96,7 @@ struct TwoAxisMotor {
  private:
   static double sense(int mode) { return mode == 0 ? 1 : -1; }
 };
-// Its steady characteristic without the effect "transients".
+// Its steady characteristic without the effect "transients", with the lag of its fluxes by the effect "torque_lag".
 ShaftForm under(const TwoAxisMotor& motor, const Effects& effects);
 
 template <class T>

@@ -17,12 +17,12 @@ Fields<Keys> catalogue_fields() {
       .add(defaulted("mains", "Hz", "50 Hz", positive,
                      "frequency f of the supply where frequency is not given: for poles, nameplate and circuit"),
            &Keys::mains)
-      .add(quantity("breakdown_ratio", "", {.low = 1, .low_open = true}, "breakdown over rated torque ν"),
+      .add(quantity("breakdown_ratio", "", {.low = 1, .low_open = true}, "breakdown over rated torque ν", "torque_lag"),
            &Keys::breakdown_ratio)
       .add(quantity("breakdown_torque", "N*m", positive,
                     "M_b, with breakdown_slip in place of rated_power, rated_speed and breakdown_ratio"),
            &Keys::breakdown_torque)
-      .add(quantity("breakdown_slip", "", positive, "s_b of Kloss' curve"), &Keys::breakdown_slip)
+      .add(quantity("breakdown_slip", "", positive, "s_b of Kloss' curve", "torque_lag"), &Keys::breakdown_slip)
       .add(defaulted("resistance_ratio", "", "0.0", not_negative,
                      "a = R_s/R_r′ in Kloss' formula; > 0 with frequency (cage motors: about 1)"),
            &Keys::resistance_ratio)
@@ -60,7 +60,9 @@ void add_nameplate(Fields<Keys>& fields) {
 }
 
 void add_circuit(Fields<Keys>& fields) {
-  const auto ohms = [](const char* name, const char* doc) { return quantity(name, "Ohm", positive, doc); };
+  const auto ohms = [](const char* name, const char* doc, const char* effect = "") {
+    return quantity(name, "Ohm", positive, doc, effect);
+  };
   fields
       .add(quantity("frequency", "Hz", positive,
                     "of the mains; with it the motor is its two-axis circuit, currents as states; without it the "
@@ -75,7 +77,7 @@ void add_circuit(Fields<Keys>& fields) {
            &Keys::voltage)
       .add(quantity("pole_pairs", "", {.low = 1, .high = 100}, "p"), &Keys::pole_pairs)
       .add(quantity("stator_resistance", "Ohm", not_negative, "R_s of one phase"), &Keys::stator_resistance)
-      .add(ohms("rotor_resistance", "R_r, referred to the stator"), &Keys::rotor_resistance)
+      .add(ohms("rotor_resistance", "R_r, referred to the stator", "torque_lag"), &Keys::rotor_resistance)
       .add(ohms("stator_reactance", "leakage X_s at the frequency"), &Keys::stator_reactance)
       .add(ohms("rotor_reactance", "leakage X_r, referred to the stator"), &Keys::rotor_reactance)
       .add(ohms("magnetising_reactance", "X_m"), &Keys::magnetising_reactance);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "drivetrain/induction/induction_law.h"
+#include "drivetrain/induction/lagging_motor.h"
 #include "drivetrain/induction/started_motor.h"
 #include "drivetrain/shared/kinds.h"
 #include "engine/model/network.h"
@@ -50,26 +51,26 @@ void check_start(const Motor& m, std::optional<double> synchronous_speed) {
   }
 }
 
-// The motor on its starter.
+// The motor on its starter, its torque with the lag of its fluxes.
 template <class Element>
-void put_started(const std::string& name, const InductionKeys& m, const Element& motor, Network& net, int node) {
+void put_started(const std::string& name, const InductionKeys& m, const Element& motor, FluxLag lag, Network& net,
+                 int node) {
   const double limit = m.torque_limit.value_or(HUGE_VAL);
+  const auto put = [&](const auto& started) { net.put(node, name, LaggingMotor(started, lag), m.window); };
+  const auto put_on = [&](const auto& starter, double limit_of_it) {
+    put(StartedMotor<Element, std::remove_cvref_t<decltype(starter)>>{motor, starter, limit_of_it});
+  };
   switch (m.starting) {
     case Starting::direct:
-      return net.put(node, name, motor, m.window);
-    case Starting::star_delta: {
-      const StarDelta starter{m.switch_time.value_or(-1), m.switch_speed.value_or(0), m.pause};
-      return net.put(node, name, StartedMotor<Element, StarDelta>{motor, starter, HUGE_VAL}, m.window);
-    }
-    case Starting::soft_start: {
-      const SoftStart starter{m.initial_voltage, *m.ramp};
-      return net.put(node, name, StartedMotor<Element, SoftStart>{motor, starter, limit}, m.window);
-    }
-    case Starting::frequency_converter: {
-      const FrequencyConverter starter{*m.ramp, m.target_speed.value_or(motor.synchronous_speed),
-                                       motor.synchronous_speed};
-      return net.put(node, name, StartedMotor<Element, FrequencyConverter>{motor, starter, limit}, m.window);
-    }
+      return put(motor);
+    case Starting::star_delta:
+      return put_on(StarDelta{m.switch_time.value_or(-1), m.switch_speed.value_or(0), m.pause}, HUGE_VAL);
+    case Starting::soft_start:
+      return put_on(SoftStart{m.initial_voltage, *m.ramp}, limit);
+    case Starting::frequency_converter:
+      return put_on(
+          FrequencyConverter{*m.ramp, m.target_speed.value_or(motor.synchronous_speed), motor.synchronous_speed},
+          limit);
   }
 }
 
@@ -126,14 +127,17 @@ void build_induction(const Section& s, Network& net, Messages& messages) {
   if (law) speed = std::visit([](const auto& m) { return synchronous_speed_of(m); }, *law);
   check_start(motor, speed);
   if (!law || messages.all().size() > before) return;
-  net.data.add(s.name, data_of(motor, *law));
+  const InductionData data = data_of(motor, *law);
+  net.data.add(s.name, data);
   net.data.add(s.name, rating_of(motor));
   if (const auto* two_axis = std::get_if<TwoAxisMotor>(&*law)) {
     net.data.add(s.name, windings_of(motor, two_axis->circuit));
     return net.put(node, s.name, *two_axis, motor.window);
   }
-  if (const auto* points = std::get_if<CatalogueMotor>(&*law)) return put_started(s.name, motor, *points, net, node);
-  put_started(s.name, motor, std::get<InductionMotor>(*law), net, node);
+  const FluxLag lag{data.breakdown_slip, data.mains};
+  if (const auto* points = std::get_if<CatalogueMotor>(&*law))
+    return put_started(s.name, motor, *points, lag, net, node);
+  put_started(s.name, motor, std::get<InductionMotor>(*law), lag, net, node);
 }
 
 }  // namespace

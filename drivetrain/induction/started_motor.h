@@ -31,6 +31,7 @@ struct StartedMotor {
   bool uses_speed() const { return true; }
   double settled_from() const { return starter.settled_from(); }
   Rated rated() const { return motor.rated(); }
+  bool is_open(int mode) const { return mode < 0; }  // between star and delta
 
   void guard(const ShaftState<double>& x, double* g) const {
     const Mode m = unpacked(x.mode);

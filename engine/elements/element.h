@@ -124,6 +124,7 @@ struct OwnState {
   std::string unit;   // SI
   double scale = 1;   // order of magnitude, for error control
   bool peak = false;  // its extreme is a figure of every run
+  bool lags = false;  // follows a law of the present motion; at a constant one it is at the law's value
 };
 
 // Lines of the energy balance. Useful work goes into the process; harmful work is friction and damping.

@@ -89,6 +89,10 @@ bool Model::has_contacts() const {
          std::any_of(elastic.begin(), elastic.end(), [](const ElasticJoint& e) { return e.slips; });
 }
 
+bool Model::has_memory() const {
+  return std::any_of(own_states.begin(), own_states.end(), [](const OwnStatePlace& own) { return !own.state.lags; });
+}
+
 std::string Model::explain() const {
   const std::size_t twists = elastic.size();
   std::string text = fmt::format("effects on: {}\n", effects.describe());

@@ -183,6 +183,8 @@ struct Model {
   std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts + own_states.size(); }
   // One coordinate, everything rigid, nothing that slips: what the work equation and the reduction need.
   bool has_contacts() const;
+  // States of its own that a constant motion does not settle at once: all but those that merely lag.
+  bool has_memory() const;
   bool has_continuous_shafts() const;  // that are elastic: cut_continuous_shafts says how well they are resolved
   std::string node_label(int node) const;
   // For people, of all elastic joints: the component, of several of its parts with their number; the middle one of a

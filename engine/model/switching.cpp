@@ -62,6 +62,16 @@ void release_brakes(Model& m) {
   });
 }
 
+// Where nothing twists the machine moves no faster than its loads, and motors keep to their static curves.
+Effects effects_on_elements(const Model& m) {
+  Effects effects = m.effects;
+  effects.torque_lag = effects.torque_lag &&
+                       std::any_of(m.network.joints.begin(), m.network.joints.end(), [](const Network::Joint& joint) {
+                         return joint.elastic && joint.element->is.has_spring();
+                       });
+  return effects;
+}
+
 void leave_out_what_is_gone(Model& m) {
   std::vector<Network::ShaftElement>& elements = m.network.elements;
   for (std::size_t e = elements.size(); e-- > 0;)
@@ -104,9 +114,10 @@ void switch_effects(Compilation& c) {
   Model& m = c.model;
   switch_joints(m);
   if (m.effects.locked) release_brakes(m);
+  const Effects effects = effects_on_elements(m);
   bool any = false;
   for (Network::ShaftElement& e : m.network.elements) try {
-      if (auto changed = e.element->form_under(m.effects)) {
+      if (auto changed = e.element->form_under(effects)) {
         any = any || e.element->cycle > 0;
         e.element = std::move(changed);
       }

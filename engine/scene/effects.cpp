@@ -64,7 +64,7 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
   if (name == "all" && on) {
     effects.all_elastic = true;
     for (const EffectFlag& f : flags)
-      if (f.unsaid == EffectFlag::Unsaid::part_of_machine || has_parameters(scene, f))
+      if (f.is_usual() || has_parameters(scene, f))
         effects.*(f.flag) = f.flag != &Effects::multibody;  // the same physics at many times the cost
     return;
   }
@@ -88,7 +88,7 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
 
 std::span<const EffectFlag> effect_flags() {
   using Unsaid = EffectFlag::Unsaid;
-  static constexpr std::array<EffectFlag, 13> flags = {{
+  static constexpr std::array<EffectFlag, 14> flags = {{
       {"joint_friction", &Effects::joint_friction, "joint friction", Unsaid::off,
        "friction in the joints of a slider-crank, found together with the reactions", "a joint's friction_coefficient",
        "none; dead centres and standstill are events", "efficiency, heat in the joints, starting under load"},
@@ -101,6 +101,10 @@ std::span<const EffectFlag> effect_flags() {
       {"transients", &Effects::transients, "electrical transients", Unsaid::where_given,
        "currents and fluxes of motors as states", "the inductance of a DC motor or the frequency of an induction motor",
        "a current of a DC motor, four currents of an induction motor", "at switching, and for fast changes of load"},
+      {"torque_lag", &Effects::torque_lag, "torque lag", Unsaid::with_elasticity,
+       "the lag of the fluxes behind an induction motor's static curve, T_e dM/dt + M = M(ω), T_e = 1/(s_b 2π f)",
+       "an induction motor and anything elastic", "a torque per motor",
+       "where the speed of a motor swings faster than a tenth of s_b f; transients, where data allow, replace it"},
       {"relaxation", &Effects::relaxation, "relaxation", Unsaid::where_given,
        "Maxwell branches of rubber couplings as states", "the branches of a rubber coupling", "a twist per branch",
        "where damping must fit over a range of frequencies", true},
@@ -153,7 +157,7 @@ Effects without_elasticity(const Effects& effects) {
 Effects bare_machine(const Effects& effects) {
   Effects bare;
   for (const EffectFlag& effect : effect_flags())
-    if (effect.unsaid == EffectFlag::Unsaid::part_of_machine) bare.*(effect.flag) = effects.*(effect.flag);
+    if (effect.is_usual()) bare.*(effect.flag) = effects.*(effect.flag);
   bare.locked = effects.locked;
   return bare;
 }
@@ -164,10 +168,9 @@ Effects in_both(const Effects& a, const Effects& b) {
   if (!common.all_elastic)
     for (const std::string& component : a.all_elastic ? b.elastic : a.elastic)
       if (b.is_elastic(component)) common.elastic.push_back(component);
-  for (const EffectFlag& effect : effect_flags()) {
-    const bool usual = effect.unsaid == EffectFlag::Unsaid::part_of_machine;  // on: not worth a word
-    common.*(effect.flag) = usual ? a.*(effect.flag) || b.*(effect.flag) : a.*(effect.flag) && b.*(effect.flag);
-  }
+  for (const EffectFlag& effect : effect_flags())
+    common.*(effect.flag) =
+        effect.is_usual() ? a.*(effect.flag) || b.*(effect.flag) : a.*(effect.flag) && b.*(effect.flag);
   common.locked = a.locked && b.locked;
   return common;
 }
@@ -184,7 +187,7 @@ std::string Effects::describe() const {
   std::string without;
   for (const EffectFlag& effect : effect_flags()) {
     const bool on = this->*(effect.flag);
-    if (effect.unsaid == EffectFlag::Unsaid::part_of_machine) {
+    if (effect.is_usual()) {
       if (!on) without += (without.empty() ? ", without " : " and ") + std::string(effect.words);
     } else if (on) {
       words.emplace_back(effect.words);

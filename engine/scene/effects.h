@@ -18,6 +18,7 @@ struct Effects {
   bool backlash = false;          // gaps between flanks; off: they always touch
   bool mesh_variation = false;    // tooth stiffness over the mesh; off: its mean
   bool transients = false;        // circuits of motors; off: their static characteristic
+  bool torque_lag = true;         // of induction motors on that, where anything is elastic; off: none
   bool relaxation = false;        // of rubber; off: its static stiffness and damping
   bool bearing_friction = false;  // off: none
   bool gear_losses = false;       // off: gears without losses
@@ -38,14 +39,15 @@ struct EffectFlag {
   const char* name;  // in [effects] and --effects
   bool Effects::*flag;
   const char* words;  // "joint friction"
-  enum class Unsaid { off, where_given, part_of_machine };
-  Unsaid unsaid;           // off; on where the scene has parameters for it; on even in the rigid machine
-  const char* adds;        // what it simulates
+  enum class Unsaid { off, where_given, with_elasticity, part_of_machine };
+  Unsaid unsaid;     // off; on where the scene has parameters for it; on in any elastic machine; in the rigid one, too
+  const char* adds;  // what it simulates
   const char* parameters;  // what a scene needs for it
   const char* states;      // what it adds to the state and to the events
   const char* matters;     // when it matters
   // A body that gives way, or what only an elastic connection has: it goes where elasticity goes.
   bool of_elasticity = false;
+  bool is_usual() const { return unsaid >= Unsaid::with_elasticity; }  // only where it is off that is worth a word
 };
 std::span<const EffectFlag> effect_flags();
 
@@ -55,16 +57,18 @@ std::span<const EffectFlag> effect_flags();
 //                the flexible rod of a slider-crank;
 //                what only an elastic connection has: backlash (rigid flanks always touch, there is no law of rigid
 //                impact here), mesh variation, relaxation;
+//                the torque lag of motors, which matters for swings that only an elastic machine has: no flag goes with
+//                it, a model in which nothing is elastic has none;
 //   kept         friction of joints and bearings (LuGre's bristle is the friction's own memory), losses of gears and
 //                their self-locking, slip of belts, clutches and fluid couplings, currents of motors; joint clearance (the
 //                journal's way within its gap, not the bodies' compliance, is what it adds); and what is part of the
 //                machine: gravity, variable inertia, load edges.
 Effects without_elasticity(const Effects& effects);
 
-// The bare machine: no effect at all but what is part of the machine, as it is in `effects`.
+// The bare machine: no effect at all but what is on by itself, as it is in `effects`.
 Effects bare_machine(const Effects& effects);
 
-// What two models share: effects that are on in both; of what is part of the machine, what is off in both.
+// What two models share: effects that are on in both; of what is on by itself, what is off in both.
 Effects in_both(const Effects& a, const Effects& b);
 
 // A key that this effect needs stands somewhere in the scene, in a component's table.

@@ -13,8 +13,7 @@ namespace {
 
 void list_effects(const Effects& effects, std::vector<std::string>& list) {
   for (const EffectFlag& effect : effect_flags())
-    if (effects.*(effect.flag) && !effect.of_elasticity && effect.unsaid != EffectFlag::Unsaid::part_of_machine &&
-        effect.flag != &Effects::multibody)
+    if (effects.*(effect.flag) && !effect.of_elasticity && !effect.is_usual() && effect.flag != &Effects::multibody)
       list.emplace_back(effect.words);
 }
 

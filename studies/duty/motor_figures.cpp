@@ -15,8 +15,9 @@ namespace {
 // none: no heat of slip is told.
 std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor) {
   const auto* data = m.network.data.find<InductionData>(motor.component);
-  const bool transient = std::any_of(m.own_states.begin(), m.own_states.end(),
-                                     [&](const OwnStatePlace& own) { return own.component == motor.component; });
+  const bool transient = std::any_of(m.own_states.begin(), m.own_states.end(), [&](const OwnStatePlace& own) {
+    return own.component == motor.component && !own.state.lags;
+  });
   const bool commanded = std::any_of(m.commands.begin(), m.commands.end(),
                                      [&](const CommandTarget& c) { return c.component == motor.component; });
   return data && !data->by_converter && !transient && !commanded ? std::optional(data->synchronous_speed)

@@ -24,11 +24,10 @@ bool on_in(const Scene& scene, const EffectUnit& unit) {
                      [&](const EffectFlag& flag) { return unit.name == flag.name && scene.effects.*(flag.flag); });
 }
 
-bool part_of_machine(const EffectUnit& unit) {
+bool is_usual(const EffectUnit& unit) {
   const auto flags = effect_flags();
-  return std::any_of(flags.begin(), flags.end(), [&](const EffectFlag& flag) {
-    return unit.name == flag.name && flag.unsaid == EffectFlag::Unsaid::part_of_machine;
-  });
+  return std::any_of(flags.begin(), flags.end(),
+                     [&](const EffectFlag& flag) { return unit.name == flag.name && flag.is_usual(); });
 }
 
 // What to do with a setting: which of its values are multiplied.
@@ -112,7 +111,7 @@ EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, 
   if (makes_machine(scene, effects_of(scene, units, all))) return all;
   // What is part of the machine comes first: without it a mechanism may be too simple to exclude anything.
   const auto rank = [&](std::size_t k) {
-    return part_of_machine(units[k]) ? 0 : k == keep ? 1 : on_in(scene, units[k]) ? 2 : 3;
+    return is_usual(units[k]) ? 0 : k == keep ? 1 : on_in(scene, units[k]) ? 2 : 3;
   };
   std::vector<std::size_t> order(units.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

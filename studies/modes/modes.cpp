@@ -115,7 +115,7 @@ class Study {
   // What a machine does at a speed that is asked for depends on its start where it knows contacts or states of its own;
   // else all turns as geared.
   bool searches_start() const {
-    const bool plain = !model_->has_contacts() && model_->own_states.empty() && scene_.sequence.steps.empty();
+    const bool plain = !model_->has_contacts() && !model_->has_memory() && scene_.sequence.steps.empty();
     return options_.start && !(options_.speed && plain);
   }
 

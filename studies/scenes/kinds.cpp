@@ -206,9 +206,10 @@ void add_kind(Kind kind) {
 namespace {
 
 const char* unsaid_text(const EffectFlag& effect) {
-  return effect.unsaid == EffectFlag::Unsaid::off           ? "off"
-         : effect.unsaid == EffectFlag::Unsaid::where_given ? "on where the scene gives that"
-                                                            : "on, even in the rigid machine; off by name alone";
+  return effect.unsaid == EffectFlag::Unsaid::off               ? "off"
+         : effect.unsaid == EffectFlag::Unsaid::where_given     ? "on where the scene gives that"
+         : effect.unsaid == EffectFlag::Unsaid::with_elasticity ? "on where anything is elastic"
+                                                                : "on, even in the rigid machine; off by name alone";
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ class Study {
     out_.diagram = operating_diagram(*machine, sense(), lossy_);
     log(fmt::format("operating points: {} of {} speeds scanned", out_.diagram->points.size(),
                     out_.diagram->curve.size()));
-    if (!model.own_states.empty()) out_.diagram->become_estimate();
+    if (model.has_memory()) out_.diagram->become_estimate();
     if (out_.diagram->estimate)
       out_.notes.push_back(
           "operating points are estimates, by the static torques of the rigid machine: losses that depend on the load, "

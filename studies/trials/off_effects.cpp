@@ -92,8 +92,7 @@ std::shared_ptr<const Model> machine_with(const Scene& scene, const Effects& on,
   Effects fits = effect.effects;
   std::vector<const EffectFlag*> dropped;
   for (const EffectFlag& flag : effect_flags())
-    if (on.*(flag.flag) && flag.unsaid != EffectFlag::Unsaid::part_of_machine)
-      fits.*(flag.flag) = false, dropped.push_back(&flag);
+    if (on.*(flag.flag) && !flag.is_usual()) fits.*(flag.flag) = false, dropped.push_back(&flag);
   if (dropped.empty() || !makes_machine(scene, fits)) return compile(scene, effect.effects);
   std::vector<std::string> gone;
   for (const EffectFlag* flag : dropped) {

@@ -14,11 +14,17 @@
 namespace kurbel {
 namespace {
 
-// Motors on their static curves at the mains: of a frequency converter the supply is none.
+// Neither with the lag of its fluxes nor by its circuit.
+bool follows_at_once(const Model& model, const std::string& motor) {
+  return std::none_of(model.own_states.begin(), model.own_states.end(),
+                      [&](const OwnStatePlace& own) { return own.component == motor; });
+}
+
+// Motors that follow their static curves at once, at the mains: of a frequency converter the supply is none.
 std::vector<std::pair<std::string, InductionData>> static_motors(const Model& model) {
   std::vector<std::pair<std::string, InductionData>> list;
   for (const auto& [component, motor] : model.network.data.all<InductionData>())
-    if (!motor.by_converter && !(motor.has_circuit && model.effects.transients)) list.emplace_back(component, motor);
+    if (!motor.by_converter && follows_at_once(model, component)) list.emplace_back(component, motor);
   return list;
 }
 
@@ -65,9 +71,10 @@ std::vector<std::string> static_curve_notes(const Model& model,
     notes.push_back(fmt::format(
         "the drive \"{}\" swings at about {:.2g} Hz, {:.2g} % of the mains' {:g} Hz, from {:.3g} s on, and its static "
         "torque-speed curve lets its torque swing by {:.3g} N·m with that: too fast for the curve, whose fluxes follow "
-        "at once. Estimated by its breakdown slip {:.2g}, a real motor's torque follows such a swing by {:.0f} %; {}",
+        "at once. Estimated by its breakdown slip {:.2g}, a real motor's torque follows such a swing by {:.0f} %; {}{}",
         name, swing.frequency, 100 * swing.frequency / motor.mains, motor.mains, swing.at, swing.torque,
         motor.breakdown_slip, 100 * swing.followed,
+        model.effects.torque_lag ? "" : "the effect torque_lag reckons with that; ",
         motor.has_circuit ? "the scene has the data of the two-axis model, which computes it: --effects with transients"
                           : fmt::format("the two-axis model computes it: keys frequency = \"{:g} Hz\" and "
                                         "resistance_ratio > 0 (cage motors: about 1) instead of starting_ratio or a "

@@ -2,8 +2,7 @@
 //
 // Told where the speed swings faster than the curve holds for: above 3 % of the mains' frequency, where the estimate of
 // what the fluxes let through differs by more than 5 % of the rated torque. As far as the samples resolve it. Fluxes
-// follow the curve as T dM/dt + M = M_static(ω), T = 1/(2π s_b f), for small slips: T is the rotor's transient time
-// constant, by which Kloss' curve has its breakdown at s_b.
+// follow the curve as drivetrain/induction/lagging_motor.h says; motors that do so in the model are not told.
 #pragma once
 
 #include <functional>

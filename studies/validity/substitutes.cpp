@@ -1,5 +1,9 @@
-// substitutes.cpp — loads of mechanisms with mirrored diagrams, and engines, which say so themselves.
+// substitutes.cpp — loads of mechanisms with mirrored diagrams, and engines and motors, which say so themselves.
 #include "studies/validity/substitutes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 
 #include "engine/reading/mirrored.h"
 #include "mechanisms/reduced/mechanism.h"
@@ -12,6 +16,11 @@ std::vector<std::string> substitutes(const Model& model) {
     if (const MechanismElement* element = mechanism_of(e)) {
       for (const SliderLoad& load : element->mechanism().loads)
         if (load.mirrored) notes.push_back(words_of_mirrored(load.name, "motored"));
+      continue;
+    }
+    const std::vector<OwnState>& own = e.element->own_states;
+    if (std::any_of(own.begin(), own.end(), [](const OwnState& state) { return state.lags; })) {
+      notes.push_back(fmt::format("\"{}\", as something is elastic: {}", e.component, e.element->describe()));
       continue;
     }
     // What drives by the angle is an engine: all that it says of itself is a substitute.

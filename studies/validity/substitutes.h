@@ -1,4 +1,5 @@
-// substitutes.h — what stands for something that a scene does not give: diagrams of cylinders that do not fire.
+// substitutes.h — what stands for something that a scene does not give: diagrams of cylinders that do not fire, the lag of
+// fluxes whose circuit is not known.
 #pragma once
 
 #include <string>

@@ -1,0 +1,74 @@
+// lagging_motor.h — an induction motor on its static curve whose torque follows the curve with the lag of its fluxes
+// (effect "torque_lag", in machines in which something is elastic).
+//
+//     T_e dM/dt + M = M_static(ω),   T_e = 1/(s_b ω_s)         (theory 4.21)
+//     s_b      breakdown slip of the curve
+//     ω_s      2π f, f the mains' frequency: the electrical synchronous angular frequency, not the shaft's
+//
+// T_e is the rotor's transient time constant X/(ω_s R_r). Neither voltage nor frequency of the supply changes it, so that
+// a motor on any starter has that of the mains. How far it holds against the two-axis model: theory 4.21, and the tests.
+// Switched off the torque ceases at once, and what the fluxes would give decays with T_e; switched on again the motor
+// meets what is left of it. At the start: at rest it is just being switched on, no torque; turning, the curve's.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "engine/elements/any_shaft_element.h"
+#include "engine/elements/element.h"
+#include "engine/scene/effects.h"
+
+namespace kurbel {
+
+struct FluxLag {
+  double breakdown_slip = 0, mains = 0;                                                // s_b [1], f [Hz], > 0
+  double time() const { return 1 / (2 * std::numbers::pi * breakdown_slip * mains); }  // T_e [s]
+};
+
+// Motor: an element without states of its own.
+template <class Motor>
+struct LaggingMotor : Motor {
+  static constexpr ShaftTraits is = [] {
+    ShaftTraits traits = Motor::is;
+    traits.states = 1;
+    traits.described = traits.other_forms = true;
+    return traits;
+  }();
+  FluxLag lag;
+
+  LaggingMotor(Motor motor, FluxLag its) : Motor(std::move(motor)), lag(its) {}
+
+  template <class T>
+  T torque(const ShaftState<T>& x) const {
+    if constexpr (requires(const Motor& motor) { motor.is_open(0); })
+      if (this->is_open(x.mode)) return T(0.0);
+    return x.own[0];
+  }
+  template <class T>
+  void rates(const ShaftState<T>& x, T* rate) const {
+    rate[0] = ((x.on ? Motor::torque(x) : T(0.0)) - x.own[0]) / lag.time();
+  }
+  void first_states(const ShaftState<double>& x, double* own) const {
+    own[0] = x.on && x.rate != 0 ? Motor::torque(x) : 0;
+  }
+  OwnState state(int) const { return {"lagging_torque", "N*m", this->rated().torque, false, true}; }
+  std::string describe() const {
+    return fmt::format(
+        "induction motor on its static curve with the lag of the fluxes, T_e dM/dt + M = M(ω), T_e = 1/(s_b 2π f) = "
+        "{:.3g} ms by the breakdown slip {:.3g} at {:g} Hz; the two-axis model (key frequency, effect transients) "
+        "computes "
+        "them",
+        1e3 * lag.time(), lag.breakdown_slip, lag.mains);
+  }
+};
+
+// Its static curve without the effect.
+template <class Motor>
+ShaftForm under(const LaggingMotor<Motor>& motor, const Effects& effects) {
+  return effects.torque_lag ? nullptr : shaft_form(static_cast<const Motor&>(motor));
+}
+
+}  // namespace kurbel
