@@ -172,7 +172,7 @@ TEST(LaggingMotor, AtStandstillItsTorqueComesAndGoesWithItsFluxes) {
   const Result r = run(R"(
 line = ["motor", "shaft", "disc"]
 effects = { elasticity = true }
-motor = { kind = "induction motor", breakdown_torque = "120 N*m", breakdown_slip = 0.2, synchronous_speed = "1500 rpm" }
+motor = { kind = "induction motor", breakdown_torque = "120 N*m", breakdown_slip = 0.2, synchronous_speed = "1500 rpm", inertia = "0.1 kg*m2" }
 drum = { kind = "prescribed speed", on = "motor", speed = "0 rad/s" }
 shaft = { kind = "coupling", stiffness = "1 kN*m/rad", damping = "1 N*m*s/rad" }
 disc = { kind = "inertia", inertia = "0.1 kg*m2" }
@@ -208,7 +208,7 @@ line = ["motor", "shaft", "fan"]
 effects = {{ elasticity = true }}
 motor = {{ kind = "induction motor", rated_power = "15 kW", rated_speed = "1460 rpm", synchronous_speed = "1500 rpm", breakdown_ratio = 3, starting_ratio = 2, inertia = "0.1 kg*m2"{} }}
 shaft = {{ kind = "coupling", stiffness = "2 kN*m/rad", damping = "1 N*m*s/rad" }}
-fan = {{ kind = "load", inertia = "0.5 kg*m2", quadratic = "0.003 N*m*s2/rad2" }}
+fan = {{ kind = "load", inertia = "0.5 kg*m2", damping = "0.5 N*m*s/rad" }}
 run = {{ start = {}, until = "1 s", accuracy = 1e-8 }}
 )",
                                            starting, start);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -190,9 +191,11 @@ inline std::string text_of(const Part& p, const Units& u) {
                          quantity(torque, "N*m"), quantity(speed, "rad/s"));
     case Part::Kind::induction:
       return fmt::format(
-          "kind = \"induction motor\", rated_power = {}, rated_speed = {}, synchronous_speed = {}, breakdown_ratio = "
-          "2.5, inertia = \"0 kg*m2\"",
-          quantity(0.4 * torque * 0.96 * speed, "W"), quantity(0.96 * speed, "rad/s"), quantity(speed, "rad/s"));
+          "kind = \"induction motor\", rated_power = {}, rated_speed = {}, poles = 2, mains = {}, breakdown_ratio = "
+          "2.5, "
+          "inertia = \"0 kg*m2\"",
+          quantity(0.4 * torque * 0.96 * speed, "W"), quantity(0.96 * speed, "rad/s"),
+          quantity(speed / (2 * std::numbers::pi), "Hz"));
     case Part::Kind::series: {  // 8 A at standstill; a quarter of the torque at half the speed
       const double constant = torque / 64, resistance = 0.5 * constant * speed;
       return fmt::format(

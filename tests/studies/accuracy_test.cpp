@@ -99,7 +99,7 @@ TEST(Accuracy, ReferencesAgreeWithPublishedDigitsAndStateAnHonestAgreement) {
 
 TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
   AccuracyOptions options = coarse();
-  options.within = 0.01;
+  options.within = 0.03;
   options.budget = 1e3;
   Scene scene = test::scene_file("scenes/crank_press.toml");
   scene.run.until = 2;
@@ -110,9 +110,9 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
   EXPECT_EQ(study.levels[study.own].effects, scene.effects.describe());
   EXPECT_EQ(study.levels[study.fullest].name, "with joint friction");
   EXPECT_GT(study.levels[study.own].model_error[study.key], 1e-3);
-  EXPECT_LT(study.levels[study.own].model_error[study.key], 1e-2);
+  EXPECT_LT(study.levels[study.own].model_error[study.key], 3e-2);
   for (std::size_t level = 0; level <= study.fullest; ++level) EXPECT_GT(study.levels[level].seconds, 0);
-  EXPECT_TRUE(study.answers[0].starts_with("Cheapest within 1 % of peak_torque.main_coupling: elastic, "))
+  EXPECT_TRUE(study.answers[0].starts_with("Cheapest within 3 % of peak_torque.main_coupling: elastic, "))
       << study.answers[0];
   // Unlimited time buys the setting with the least error of all.
   double least = HUGE_VAL;
@@ -122,9 +122,9 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
   EXPECT_NE(study.answers[1].find(best), std::string::npos) << study.answers[1] << " but " << best;
   // The rigid model knows no ringing: tightening its tolerance cannot help.
   ASSERT_EQ(study.levels[0].name, "rigid");
-  EXPECT_GT(study.levels[0].model_error[study.key], 0.5);
+  EXPECT_GT(study.levels[0].model_error[study.key], 0.09);
   for (const MeasuredSetting& s : study.settings)
-    EXPECT_TRUE(s.level > 0 || s.total_error[study.key] > 0.5) << study.name_of(s);
+    EXPECT_TRUE(s.level > 0 || s.total_error[study.key] > 0.09) << study.name_of(s);
   EXPECT_TRUE(std::any_of(study.findings.begin(), study.findings.end(),
                           [](const std::string& f) { return f.find("whatever its tolerance") != std::string::npos; }));
   // What is printed, written and drawn holds every setting.

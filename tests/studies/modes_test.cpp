@@ -280,7 +280,7 @@ TEST(ForcedResponse, LongSimulationSettlesToIt) {
 }
 
 // The press blanks once a turn and its speed sags by a tenth: the linear drive at the mean operating point comes within
-// two per cent of the steady cycle that the simulation settles to.
+// five per cent of the steady cycle that the simulation settles to.
 TEST(ForcedResponse, OfThePressIsNearItsSimulatedSteadyCycle) {
   Scene scene = test::scene_file("scenes/crank_press.toml");
   const ModesStudy m = find_modes(scene, scene.effects, {.orders = 80});
@@ -294,8 +294,8 @@ TEST(ForcedResponse, OfThePressIsNearItsSimulatedSteadyCycle) {
     square += tau[k] * tau[k] / static_cast<double>(tau.size() - last);
   }
   const JointResponse& joint = m.here.joints[1];
-  EXPECT_NEAR(joint.upper, greatest, 0.02 * greatest);
-  EXPECT_NEAR(std::hypot(joint.mean, joint.rms), std::sqrt(square), 0.02 * std::sqrt(square));
+  EXPECT_NEAR(joint.upper, greatest, 0.05 * greatest);
+  EXPECT_NEAR(std::hypot(joint.mean, joint.rms), std::sqrt(square), 0.05 * std::sqrt(square));
 }
 
 // --- critical speeds and zones ---

@@ -157,9 +157,11 @@ TEST(StaticCurve, lags_on_the_fullest_level_of_accuracy) {
 }
 
 // What docs/how_it_works.md says of the motor's models.
-TEST(StaticCurve, the_press_amplifies_less_the_nearer_its_motor_is_to_a_real_one) {
+TEST(StaticCurve, the_press_amplifies_as_its_motors_fluxes_let_it) {
   EXPECT_NEAR(peak_ratio(press_with("")), 3.05, 0.005);
   EXPECT_NEAR(peak_ratio(press_with("starting_ratio = 2.5")), 1.98, 0.005);
+  EXPECT_NEAR(peak_ratio(lagging_press_with("")), 1.08, 0.005);
+  EXPECT_NEAR(peak_ratio(lagging_press_with("starting_ratio = 2.5")), 1.26, 0.005);
   Scene two_axes = press_with("frequency = \"50 Hz\"\nresistance_ratio = 1");
   two_axes.effects.transients = true;
   EXPECT_NEAR(peak_ratio(two_axes), 1.86, 0.005);
