@@ -62,9 +62,10 @@ void release_brakes(Model& m) {
   });
 }
 
-// Where nothing twists the machine moves no faster than its loads, and motors keep to their static curves.
+// Where nothing twists motors keep to their static curves, unless the machine stands beside an elastic one.
 Effects effects_on_elements(const Model& m) {
   Effects effects = m.effects;
+  if (effects.lags_rigid) return effects;
   effects.torque_lag = effects.torque_lag &&
                        std::any_of(m.network.joints.begin(), m.network.joints.end(), [](const Network::Joint& joint) {
                          return joint.elastic && joint.element->is.has_spring();

@@ -171,6 +171,7 @@ Effects in_both(const Effects& a, const Effects& b) {
   for (const EffectFlag& effect : effect_flags())
     common.*(effect.flag) =
         effect.is_usual() ? a.*(effect.flag) || b.*(effect.flag) : a.*(effect.flag) && b.*(effect.flag);
+  common.lags_rigid = a.lags_rigid || b.lags_rigid;
   common.locked = a.locked && b.locked;
   return common;
 }
@@ -193,6 +194,7 @@ std::string Effects::describe() const {
       words.emplace_back(effect.words);
     }
   }
+  if (torque_lag && lags_rigid) words.emplace_back("torque lag");
   if (words.empty()) return "none" + without;
   std::string text = words.front();
   for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " and " : ", ") + words[i];

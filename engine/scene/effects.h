@@ -19,6 +19,7 @@ struct Effects {
   bool mesh_variation = false;    // tooth stiffness over the mesh; off: its mean
   bool transients = false;        // circuits of motors; off: their static characteristic
   bool torque_lag = true;         // of induction motors on that, where anything is elastic; off: none
+  bool lags_rigid = false;        // … and where nothing is: the rigid machine beside an elastic one that has it
   bool relaxation = false;        // of rubber; off: its static stiffness and damping
   bool bearing_friction = false;  // off: none
   bool gear_losses = false;       // off: gears without losses
@@ -57,12 +58,11 @@ std::span<const EffectFlag> effect_flags();
 //                the flexible rod of a slider-crank;
 //                what only an elastic connection has: backlash (rigid flanks always touch, there is no law of rigid
 //                impact here), mesh variation, relaxation;
-//                the torque lag of motors, which matters for swings that only an elastic machine has: no flag goes with
-//                it, a model in which nothing is elastic has none;
 //   kept         friction of joints and bearings (LuGre's bristle is the friction's own memory), losses of gears and
 //                their self-locking, slip of belts, clutches and fluid couplings, currents of motors; joint clearance (the
 //                journal's way within its gap, not the bodies' compliance, is what it adds); and what is part of the
-//                machine: gravity, variable inertia, load edges.
+//                machine: gravity, variable inertia, load edges. The torque lag of motors is on by itself only where
+//                something is elastic; a comparison keeps it on both sides (rigid_twin in studies/run/compare.h).
 Effects without_elasticity(const Effects& effects);
 
 // The bare machine: no effect at all but what is on by itself, as it is in `effects`.

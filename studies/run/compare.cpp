@@ -130,6 +130,13 @@ bool is_elastic(const Model& model) {
                      [](const ElasticJoint& e) { return !e.slips && !e.springless; });
 }
 
+Effects rigid_twin(const Model& elastic) {
+  Effects rigid = without_elasticity(elastic.effects);
+  rigid.lags_rigid = std::any_of(elastic.own_states.begin(), elastic.own_states.end(),
+                                 [](const OwnStatePlace& own) { return own.state.lags; });
+  return rigid;
+}
+
 ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& effects,
                             const std::optional<Effects>& against) {
   const auto elastic = [&](const Effects& e) { return is_elastic(*compile(scene, e)); };
@@ -141,8 +148,9 @@ ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& ef
     all.all_elastic = true;
     if (elastic(all)) pair.b = all;
   }
-  const Effects rigid = without_elasticity(pair.b);
-  pair.a = against ? *against : elastic(pair.b) ? rigid : bare_machine(pair.b);
+  const auto b_model = compile(scene, pair.b);
+  const Effects rigid = rigid_twin(*b_model);
+  pair.a = against ? *against : is_elastic(*b_model) ? rigid : bare_machine(pair.b);
   const std::string a = pair.a.describe(), b = pair.b.describe();
   if (a == b && (effects || against))
     throw std::invalid_argument(
@@ -150,7 +158,7 @@ ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& ef
   const bool of_scene = !effects || b == scene.effects.describe();
   if (a == b)
     pair.label_a = "rigid", pair.label_b = "same";
-  else if (a == rigid.describe() && elastic(pair.b))
+  else if (a == rigid.describe() && is_elastic(*b_model))
     pair.label_a = "rigid", pair.label_b = "elastic";
   else if (a == bare_machine(pair.a).describe())
     pair.label_a = "bare", pair.label_b = of_scene ? "full" : "second";

@@ -31,8 +31,11 @@ struct ModelPair {
 // Something in the model gives way: a spring between two shafts, or a flexible rod. Clutches that slip are no springs.
 bool is_elastic(const Model& model);
 
+// Those of the elastic model with its elasticity taken away and nothing else: motors whose torque lags keep that.
+Effects rigid_twin(const Model& elastic);
+
 // Like for like. `effects` are those of b; unset: those of the scene, and with all of its elasticity where it has none on.
-// `against` are those of a; unset: those of b without elasticity, so that elasticity alone differs; where nothing of b
+// `against` are those of a; unset: those of b's rigid twin, so that elasticity alone differs; where nothing of b
 // is elastic, the bare machine. Throws SceneError where the scene makes no machine, std::invalid_argument where both
 // models that were asked for are the same.
 ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& effects = {},

@@ -306,8 +306,9 @@ class Study {
 std::vector<Effects> effects_side_by_side(const Scene& scene) {
   Effects full = scene.effects;
   if (full.describe() == "none") full.all_elastic = true;
-  if (!is_elastic(*compile(scene, full))) return {scene.effects};
-  return {without_elasticity(full), full};
+  const auto elastic = compile(scene, full);
+  if (!is_elastic(*elastic)) return {scene.effects};
+  return {rigid_twin(*elastic), full};
 }
 
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options) {
