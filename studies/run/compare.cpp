@@ -158,7 +158,7 @@ ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& ef
   const bool of_scene = !effects || b == scene.effects.describe();
   if (a == b)
     pair.label_a = "rigid", pair.label_b = "same";
-  else if (a == rigid.describe() && is_elastic(*b_model))
+  else if (is_elastic(*b_model) && (a == rigid.describe() || a == without_elasticity(pair.b).describe()))
     pair.label_a = "rigid", pair.label_b = "elastic";
   else if (a == bare_machine(pair.a).describe())
     pair.label_a = "bare", pair.label_b = of_scene ? "full" : "second";

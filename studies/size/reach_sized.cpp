@@ -121,6 +121,7 @@ class Reach {
   // What a model found at several flywheels is said once.
   void note(const SizedOrbit& orbit, SizedModel as) {
     for (const std::string& what : orbit.notes) {
+      if (std::count(s_.notes.begin(), s_.notes.end(), what)) continue;
       const std::string which = fmt::format("{}: ", name_of(as));
       if (std::none_of(s_.notes.begin(), s_.notes.end(), [&](const std::string& n) {
             return n.starts_with(which + "the drive ") && what.starts_with("the drive ");

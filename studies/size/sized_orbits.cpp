@@ -14,6 +14,7 @@
 #include "studies/steady/cycle_search.h"
 #include "studies/validity/outside_data.h"
 #include "studies/validity/static_curve.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
@@ -117,6 +118,7 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
     if (!orbit.repeats()) return r;
     fill(r, orbit_cycle(orbit, {motor}), model->node_ratio[kurbel::at(motor)]);
     r.notes = static_curve_notes(*orbit.map, orbit.point);
+    for (std::string& sentence : substitutes(*model)) r.notes.push_back(std::move(sentence));
     for (std::string& sentence : outside_data(*orbit.map, orbit.point)) r.notes.push_back(std::move(sentence));
     if (!with_error) return r;
     if (const auto looser = looser_orbit_cycle(orbit, {motor})) {

@@ -20,7 +20,7 @@ std::vector<std::string> substitutes(const Model& model) {
     }
     const std::vector<OwnState>& own = e.element->own_states;
     if (std::any_of(own.begin(), own.end(), [](const OwnState& state) { return state.lags; })) {
-      notes.push_back(fmt::format("\"{}\", as something is elastic: {}", e.component, e.element->describe()));
+      notes.push_back(fmt::format("\"{}\": {}", e.component, e.element->describe()));
       continue;
     }
     // What drives by the angle is an engine: all that it says of itself is a substitute.

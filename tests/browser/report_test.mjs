@@ -1,5 +1,5 @@
 // report_test.mjs — a report in Chromium: no errors, no requests, every plot drawn, the machine moves, it prints.
-// usage: node report_test.mjs report.html   (playwright-core is looked for beside this file and in KURBEL_BROWSER_MODULES)
+// usage: node report_test.mjs report.html …   (playwright-core is looked for beside this file and in KURBEL_BROWSER_MODULES)
 // Ends with 77, "skipped", where there is no browser.
 import assert from 'node:assert/strict';
 import {existsSync} from 'node:fs';
@@ -19,10 +19,10 @@ for (const folder of [process.env.KURBEL_BROWSER_MODULES, path.dirname(fileURLTo
 }
 if (!chromium) skip('no playwright-core here');
 
-const report = path.resolve(process.argv[2]);
 const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync']});
 try {
+  for (const report of process.argv.slice(2).map(name => path.resolve(name)))
   for (const [width, colorScheme] of [[1400, 'light'], [500, 'dark']]) {
     const page = await browser.newPage({viewport: {width, height: 900}, colorScheme});
     const complaints = [], requests = [];
@@ -114,7 +114,7 @@ try {
     assert.deepEqual(complaints, []);
     assert.deepEqual(requests.slice(1), [], 'nothing but the page itself is asked for');
     await page.close();
-    console.log(`${width} px, ${colorScheme}: ${plots.length} plots drawn, ${moves ? 'machine moves, ' : ''}${pdf.length} bytes of PDF`);
+    console.log(`${path.basename(path.dirname(report))}, ${width} px, ${colorScheme}: ${plots.length} plots drawn, ${moves ? 'machine moves, ' : ''}${pdf.length} bytes of PDF`);
   }
 } finally {
   await browser.close();

@@ -99,7 +99,7 @@ TEST(Conclusion, AStalledMachineIsHeadlinedAsStalled) {
   Scene scene = test::scene_file("scenes/compressor.toml");
   scene.run.start.speed = 0;
   const Result r = test::run(scene, false);
-  EXPECT_TRUE(first_sentence(r).starts_with("\"compressor\" stalls at 308.9° after 0.637 s")) << first_sentence(r);
+  EXPECT_TRUE(first_sentence(r).starts_with("\"compressor\" stalls at 308.9° after 0.654 s")) << first_sentence(r);
   test::expect_sound_conclusion(findings_of(r), "stalled compressor");
 }
 

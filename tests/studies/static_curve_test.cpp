@@ -97,9 +97,8 @@ void expect_told(const char* verb, const StudyOutput& output) {
 
 // Which model the motor has, and why.
 void expect_lag_told(const char* verb, const StudyOutput& output) {
-  for (const std::string& text : {output.table, output.json})
-    for (const char* words : {"something is elastic", "lag of the fluxes"})
-      EXPECT_NE(text.find(words), std::string::npos) << verb << ": " << words;
+  for (const std::string& text : {output.text(), output.json()})
+    EXPECT_NE(text.find("lag of the fluxes"), std::string::npos) << verb;
 }
 
 SimulateOptions quick() {
@@ -148,7 +147,7 @@ TEST(StaticCurve, lags_in_the_full_model_of_effects_and_advice) {
 
 TEST(StaticCurve, lags_on_the_fullest_level_of_accuracy) {
   AccuracyOptions options;
-  options.time = 2;
+  options.time = 10;
   options.tolerances = {1e-5};
   options.multibody = false;
   Scene scene = press_with("");
@@ -160,7 +159,7 @@ TEST(StaticCurve, lags_on_the_fullest_level_of_accuracy) {
 TEST(StaticCurve, the_press_amplifies_as_its_motors_fluxes_let_it) {
   EXPECT_NEAR(peak_ratio(press_with("")), 3.05, 0.005);
   EXPECT_NEAR(peak_ratio(press_with("starting_ratio = 2.5")), 1.98, 0.005);
-  EXPECT_NEAR(peak_ratio(lagging_press_with("")), 1.08, 0.005);
+  EXPECT_NEAR(peak_ratio(lagging_press_with("")), 1.129, 0.005);
   EXPECT_NEAR(peak_ratio(lagging_press_with("starting_ratio = 2.5")), 1.26, 0.005);
   Scene two_axes = press_with("frequency = \"50 Hz\"\nresistance_ratio = 1");
   two_axes.effects.transients = true;

@@ -394,7 +394,7 @@ TEST(SteadyOutput, JsonHoldsFiguresMultipliersAndOperatingPoints) {
   const StudyOutput output = output_of(study);
   const auto json = nlohmann::json::parse(output.json());
   ASSERT_EQ(json["cycles"].size(), 2u);
-  EXPECT_EQ(json["cycles"][1]["multipliers"].size(), 3u);
+  EXPECT_EQ(json["cycles"][1]["multipliers"].size(), 4u);  // two shafts, a twist, the lag of the motor's torque
   EXPECT_EQ(json["operating_points"].size(), study.diagram->points.size());
   for (const auto& f : json["cycles"][1]["figures"]) EXPECT_TRUE(f["error"].is_number()) << f["name"];
   const Report report = output.report();
