@@ -166,19 +166,21 @@ void set_up_schema(OptionList& command, int& code) {
   });
 }
 
-// What completion, manual page and docs/commands.md are made of.
+// What completion, manual page, docs/commands.md and the Python module's stub are made of.
 void set_up_commands(OptionList& command, int& code) {
   struct Wanted {
     std::string name;
-    bool manual = false, markdown = false;
+    bool manual = false, markdown = false, stubs = false;
   };
   const auto wanted = std::make_shared<Wanted>();
   command.add_option("command", wanted->name, "its options, a line each (default: the commands, a line each)");
   command.add_flag("--manual", wanted->manual, "all commands with their options, for the manual page (roff)");
   command.add_flag("--markdown", wanted->markdown, "all commands as a table (Markdown)");
+  command.add_flag("--stubs", wanted->stubs, "questions as functions of the Python module, for its stub");
   command.action([&code, wanted] {
     say(wanted->manual         ? verbs_as_manual()
         : wanted->markdown     ? verbs_as_markdown()
+        : wanted->stubs        ? questions_as_stubs()
         : wanted->name.empty() ? names_of_verbs()
                                : options_of_verb(wanted->name));
     code = exit_done;

@@ -105,6 +105,33 @@ std::string verbs_as_markdown() {
   return text;
 }
 
+// A flag, one value, or several: as the module takes them.
+std::string questions_as_stubs() {
+  constexpr std::size_t width = 119;
+  std::string text;
+  for (const Question& question : questions()) {
+    if (question.name == "diff") continue;  // of two scenes: by hand
+    const std::string begin = fmt::format("def {}(", question.name);
+    std::string line = begin + "scene: _Scene, *, set: _Settings = ...";
+    for (const DeclaredOption& option : question.options) {
+      const bool list =
+          option.form == OptionForm::several || option.text.name == "effects" || option.text.name == "against";
+      const std::string next = fmt::format("{}: {} = ...", option.text.name,
+                                           option.form == OptionForm::flag ? "bool"
+                                           : list                          ? "_Values"
+                                                                           : "_Value");
+      if (line.size() + next.size() + 3 > width) {
+        text += line + ",\n";
+        line = std::string(begin.size(), ' ') + next;
+      } else {
+        line += ", " + next;
+      }
+    }
+    text += line + (line.size() + 16 > width ? "\n" + std::string(begin.size(), ' ') : "") + ") -> Study: ...\n";
+  }
+  return text;
+}
+
 std::string names_of_verbs() {
   std::string text;
   for (const VerbText& verb : verbs()) text += verb.name + "\n";

@@ -33,9 +33,11 @@ VerbText verb_of(const Question& question);
 // All that are registered, and all questions, by their places.
 std::vector<VerbText> verbs();
 
-// What stands between the marks in docs/kurbel.1, docs/commands.md and what completion asks for.
+// What stands between the marks in docs/kurbel.1, docs/commands.md and python/kurbel/__init__.pyi, and what completion asks
+// for.
 std::string verbs_as_manual();
 std::string verbs_as_markdown();
+std::string questions_as_stubs();                      // of the Python module: a function each, options with their types
 std::string names_of_verbs();                          // a line each
 std::string options_of_verb(const std::string& name);  // a line each; throws std::invalid_argument
 

@@ -12,6 +12,7 @@ every fault. A run that cannot go on is no exception: `complete` is
 False, `diagnosis` says why.
 """
 
+import inspect
 import json
 from collections.abc import Mapping
 
@@ -114,6 +115,10 @@ def _verb(name):
     ask.__name__ = ask.__qualname__ = name
     ask.__doc__ = (f"kurbel {name} put to a scene. Options: {', '.join(option_names(name)) or 'none'}; "
                    f"what they are: kurbel {name} --help.")
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    ask.__signature__ = inspect.Signature(
+        [inspect.Parameter("scene", inspect.Parameter.POSITIONAL_OR_KEYWORD)] +
+        [inspect.Parameter(option, keyword, default=None) for option in ["set", *option_names(name)]])
     return ask
 
 

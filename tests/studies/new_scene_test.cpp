@@ -143,6 +143,7 @@ std::string made_part(const std::string& file) {
 TEST_F(NewScene, ManPageTableAndCompletionAreWhatTheCommandsSayOfThemselves) {
   EXPECT_EQ(made_part("docs/kurbel.1"), kurbel("commands --manual").text) << "renew it: scripts/renew-docs";
   EXPECT_EQ(made_part("docs/commands.md"), kurbel("commands --markdown").text) << "renew it: scripts/renew-docs";
+  EXPECT_EQ(made_part("python/kurbel/__init__.pyi"), kurbel("commands --stubs").text) << "renew it: scripts/renew-docs";
   const std::string readme = text_of(test::source_path("README.md")), help = kurbel("--help").text;
   std::istringstream names(kurbel("commands").text);
   int count = 0;
