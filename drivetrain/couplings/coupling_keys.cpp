@@ -47,7 +47,19 @@ const Fields<CouplingLimits>& coupling_limit_fields() {
                &Limits::temperature_factor)
           .add(defaulted("start_factor", "", "1", {.low = 1},
                          "S_z by its maker's table, for the number of starts or blows in an hour, in kurbel modes"),
-               &Limits::start_factor);
+               &Limits::start_factor)
+          .add(choice("type", "elastomer",
+                      "what carries: rubber has S_f and S_t; steel has none, of discs, gear teeth or springs"),
+               &Limits::type,
+               {{"elastomer", Limits::Type::elastomer},
+                {"disc", Limits::Type::disc},
+                {"gear", Limits::Type::gear},
+                {"spring", Limits::Type::spring}})
+          .check([](const Reading<Limits>& r) {
+            if (r.type != Limits::Type::elastomer && r.given(&Limits::temperature_factor))
+              r.refuse(&Limits::temperature_factor,
+                       "\"temperature_factor\" is of rubber; a coupling of this \"type\" has none: drop it");
+          });
   return made;
 }
 

@@ -19,11 +19,16 @@ namespace kurbel {
 
 // What kurbel modes judges by, after DIN 740-2 (theory 12.10); 0: not given.
 struct CouplingLimits {
+  // What carries: rubber, whose heat grows with the frequency (S_f) and which weakens with the temperature (S_t), or steel.
+  enum class Type { elastomer, disc, gear, spring };
   double nominal = 0, maximum = 0, vibratory = 0;  // T_KN, T_Kmax, T_KW [N·m]
   double power = 0;                                // P_KW [W]
   double application_factor = 1;                   // K_A, ≥ 1
   double temperature_factor = 1;                   // S_t, ≥ 1
   double start_factor = 1;                         // S_z, ≥ 1
+  Type type = Type::elastomer;
+  // S_f, of a swing whose spectrum makes `of_swing` of it.
+  double frequency_factor(double of_swing) const { return type == Type::elastomer ? of_swing : 1; }
 };
 
 // What a component states that has a gap, whether or not the effect "backlash" is on.

@@ -68,6 +68,24 @@ double BandHistory::Stretch::at(double t) const {
   return above / below;
 }
 
+Works BandHistory::Stretch::work_at(double t) const {
+  constexpr std::size_t last = points / 2;
+  if (t >= end) return work[last];
+  if (t <= begin) return work[0];
+  const double x = (2 * t - begin - end) / (end - begin);
+  Works above{};
+  double below = 0;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const double distance = x - chebyshev()[2 * k];
+    if (distance == 0) return work[k];
+    const double weight = (k % 2 == 0 ? 1.0 : -1.0) * (k == 0 || k == last ? 0.5 : 1.0) / distance;
+    for (std::size_t i = 0; i < above.size(); ++i) above[i] += weight * work[k][i];
+    below += weight;
+  }
+  for (double& sum : above) sum /= below;
+  return above;
+}
+
 void BandHistory::Stretch::find_extremes() {
   const auto extreme = [&](double sign, double& value_there, double& time_there) {
     std::size_t best = 0;
@@ -130,7 +148,26 @@ std::optional<double> BandHistory::last_outside(double low, double high) const {
   return last;
 }
 
+const BandHistory::Stretch* BandHistory::stretch_at(double t) const {
+  for (const auto* list : {&low_, &high_})
+    for (const Stretch& s : *list)
+      if (s.begin <= t && t <= s.end) return &s;
+  return nullptr;
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+Works works_in(const Equations& equations, std::span<const double> y) {
+  Works sums{};
+  const std::vector<WorkAccount>& accounts = equations.model().accounts;
+  for (std::size_t k = 0; k < accounts.size(); ++k)
+    sums[static_cast<std::size_t>(accounts[k].kind)] += y[equations.work_index(k)];
+  return sums;
+}
+
+}  // namespace
 
 void SpeedRecorder::begin(double t, std::span<const double> y, Equations& equations) {
   const Model& m = equations.model();
@@ -140,6 +177,7 @@ void SpeedRecorder::begin(double t, std::span<const double> y, Equations& equati
   angle_ = static_cast<std::size_t>(m.reduction_angle);
   free_ = shaft_ < m.free_shafts;
   sources_.emplace(m);
+  audited_ = equations.audit() && m.cycle > 0;
   if (m.cycle == 0 && t == 0 && angles_.empty()) angles_.push_back(equations.angle_with_turns(angle_, y));
 }
 
@@ -158,7 +196,19 @@ BandHistory::Stretch SpeedRecorder::stretch_of(StepView& view) const {
   BandHistory::Stretch s{.begin = view.t_previous(), .end = view.t()};
   for (std::size_t k = 0; k < BandHistory::points; ++k) s.value[k] = speed_at(view, s.time(k));
   s.find_extremes();
+  for (std::size_t k = 0; k < s.work.size() && audited_; ++k) {
+    const bool first = k == 0, last = k + 1 == s.work.size();
+    s.work[k] = works_in(view.equations(), first ? view.y_previous() : last ? view.y() : view.at(s.time(2 * k)));
+  }
   return s;
+}
+
+std::optional<Works> SpeedRecorder::works_at(double t) const {
+  if (!audited_) return {};
+  if (t == off_since_) return works_off_;
+  for (const BandHistory* history : {&driven_, &coasting_})
+    if (const BandHistory::Stretch* s = history->stretch_at(t)) return s->work_at(t);
+  return {};
 }
 
 void SpeedRecorder::step(StepView& view) {
@@ -168,7 +218,10 @@ void SpeedRecorder::step(StepView& view) {
     coasting_.clear();
     off_since_.reset();
   }
-  if (!on_ && !off_since_) off_since_ = view.t_previous();
+  if (!on_ && !off_since_) {
+    off_since_ = view.t_previous();
+    if (audited_) works_off_ = works_in(view.equations(), view.y_previous());
+  }
   (on_ ? driven_ : coasting_).add(stretch_of(view));
   while (!angles_.empty() && angles_.size() <= grid) {
     const double t = angles_.size() == grid ? until_ : interval() * static_cast<double>(angles_.size());

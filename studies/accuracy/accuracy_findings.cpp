@@ -241,8 +241,7 @@ Findings findings_of(const AccuracyStudy& study) {
              .diagnosis = study.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
              .footer = machine_info() + " · " + report_footer()};
-  f.answer(study.complete ? Topic::figures : Topic::runs, study.answers.empty() ? first : study.answers.front(),
-           study.complete ? 0 : 100);
+  f.conclude(study.complete, study.answers.empty() ? first : study.answers.front());
   const bool measured = !study.settings.empty() && !study.figures.empty();
   const Chapter terminal = f.chapter("");  // nothing of it on the page
   const auto say = [&](Sentences words) {

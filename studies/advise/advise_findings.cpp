@@ -126,7 +126,7 @@ Findings findings_of(const Advice& a) {
              .diagnosis = a.full.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
              .tells_diagnosis = false};
-  f.answer(a.complete ? Topic::figures : Topic::runs, a.conclusion, a.complete ? 0 : 100);
+  f.conclude(a.complete, a.conclusion);
   const TriedSet &full = a.tried.front(), &chosen = a.tried[a.chosen];
   f.figures = {{"deviation", 100 * chosen.deviation, "%", 100 * chosen.error, "at most, measured", 3, "deviation"},
                {"time of the full model", 1e3 * full.cpu_seconds, "ms", 1e3 * a.time_spread * full.cpu_seconds, "a run",

@@ -145,7 +145,7 @@ Findings findings_of(const MachineDifference& d) {
              .speed_unit = d.speed_unit().name,
              .complete = d.complete(),
              .diagnosis = d.a.done() ? d.b.diagnosis : d.a.diagnosis};
-  f.answer(d.complete() ? Topic::figures : Topic::runs, conclusion(d), d.complete() ? 0 : 1);
+  f.conclude(d.complete(), conclusion(d));
   for (const FigureDifference* figure : by_size(d))
     if (f.figures.size() < 5) {
       const Estimate b = read_in(d, *figure, *figure->b);

@@ -47,33 +47,37 @@ std::optional<double> efficiency_of(double driving, double useful, double weight
   return -useful / spent;
 }
 
-std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, const std::vector<CycleRecord>& cycles,
-                                     const WholeRun& whole) {
-  if (!periods.steady || whole.work.empty()) return {};
-  const double from = periods.run_up_end.value_or(whole.begin), to = periods.run_down_begin.value_or(whole.end);
-  const CycleRecord *first = nullptr, *last = nullptr;
-  for (const CycleRecord& c : cycles) {
-    if (c.begin < from || c.end > to || c.work_before.empty()) continue;
-    if (!first) first = &c;
-    last = &c;
-  }
-  if (!first) return {};
-  const auto at_begin = [&](const CycleRecord& c) {
-    return Border{c.begin, c.energy_before, works_by_kind(m, c.work_before)};
-  };
-  // The end of a cycle is the begin of the next, seen or not: its works are those before it and its own.
-  const auto at_end = [&](const CycleRecord& c) {
-    Border b{c.end, c.energy_after, works_by_kind(m, c.work_before)};
-    const std::array<double, 4> own = works_by_kind(m, c.work);
-    for (std::size_t i = 0; i < own.size(); ++i) b.work[i] += own[i];
-    return b;
-  };
-  const Border start{whole.begin, whole.energy_begin, {}},
-      end{whole.end, whole.energy_end, works_by_kind(m, whole.work)};
+std::vector<WorkPeriod> three_periods(const Periods& p, double begin, double end) {
+  if (!p.steady) return {};
   std::vector<WorkPeriod> list;
-  if (first->begin > whole.begin) list.push_back(between(names[0], start, at_begin(*first)));
-  list.push_back(between(names[1], at_begin(*first), at_end(*last)));
-  if (periods.run_down_begin) list.push_back(between(names[2], at_end(*last), end));
+  const double from = p.run_up_end.value_or(begin), to = p.run_down_begin.value_or(end);
+  if (from > begin) list.push_back({.name = names[0], .begin = begin, .end = from});
+  if (to > from) list.push_back({.name = names[1], .begin = from, .end = to});
+  if (p.run_down_begin) list.push_back({.name = names[2], .begin = to, .end = p.standstill.value_or(end)});
+  return list;
+}
+
+std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, const std::vector<CycleRecord>& cycles,
+                                     const WholeRun& whole,
+                                     const std::function<std::optional<std::array<double, 4>>(double t)>& works_at) {
+  if (whole.work.empty()) return {};
+  const auto sum = [](const std::array<double, 4>& work) { return work[0] + work[1] + work[2] + work[3]; };
+  const auto border_at = [&](double t) -> std::optional<Border> {
+    if (t == whole.begin) return Border{t, whole.energy_begin, {}};
+    if (t == whole.end || t == periods.standstill) return Border{t, whole.energy_end, works_by_kind(m, whole.work)};
+    const std::optional<std::array<double, 4>> work = works_at(t);
+    if (!work) return {};
+    Border known{whole.begin, whole.energy_begin, {}};
+    for (const CycleRecord& c : cycles)
+      if (c.begin <= t && !c.work_before.empty()) known = {c.begin, c.energy_before, works_by_kind(m, c.work_before)};
+    return Border{t, known.energy + sum(*work) - sum(known.work), *work};
+  };
+  std::vector<WorkPeriod> list;
+  for (const WorkPeriod& p : three_periods(periods, whole.begin, whole.end)) {
+    const std::optional<Border> begin = border_at(p.begin), end = border_at(p.end);
+    if (!begin || !end) return {};
+    list.push_back(between(p.name, *begin, *end));
+  }
   return list;
 }
 

@@ -1,11 +1,14 @@
-// work_periods.h — works of run-up, steady motion and run-down, between the borders of whole cycles.
+// work_periods.h — run-up, steady motion and run-down with their borders, the same wherever they are told, and their works.
 //
-// Run-up lasts here to the begin of the first whole cycle of steady motion, run-down begins with the end of the last one
-// before the drive goes off: over whole cycles work is what it is, whatever swings within them.
+//     run-up          from the start to where the speed enters the range of steady motion for good     (run/periods.h)
+//     steady motion   from there to where the last source goes off, or to the end
+//     run-down        from there to standstill, or to the end
+//
 //     A_d + A_u + A_h + A_w = ΔE      driving, useful, harmful works, that of weights; kinetic and stored energy
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,9 +43,14 @@ struct WholeRun {
   std::vector<double> work;                                     // per account [J]
 };
 
-// None where the motion is not steady, or not for a whole cycle.
+// The periods of a run between two times, without works; none where the motion is not steady.
+std::vector<WorkPeriod> three_periods(const Periods& periods, double begin, double end);
+
+// The same with their works: `works_at` tells those from the start up to a border; where it cannot, there are none. Energy
+// at a border is that at the begin of the cycle around it, and what was done since.
 std::vector<WorkPeriod> work_periods(const Model& model, const Periods& periods, const std::vector<CycleRecord>& cycles,
-                                     const WholeRun& whole);
+                                     const WholeRun& whole,
+                                     const std::function<std::optional<std::array<double, 4>>(double t)>& works_at);
 
 // "work_of_run_up.driving" … "work_of_run_up.energy": their errors are told, not judged, as a border may be another in
 // another run.

@@ -131,7 +131,7 @@ Findings findings_of(const EffectStudy& s) {
              .diagnosis = s.full.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
              .tells_diagnosis = false};
-  f.answer(s.full.complete ? Topic::figures : Topic::runs, s.conclusion, s.full.complete ? 0 : 100);
+  f.conclude(s.full.complete, s.conclusion);
   for (const LeftOut& l : s.left_out)
     if (l.failed.empty() && !l.changes.empty() && f.figures.size() < 4)
       f.figures.push_back({"without " + words_of(l), 100 * l.changes.front().relative, "%",

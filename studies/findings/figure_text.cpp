@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "engine/scene/units.h"
-#include "studies/conclusions/headline.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/report.h"
 
 namespace kurbel {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "engine/base/estimate.h"
-#include "studies/conclusions/conclusion.h"
+#include "studies/claims/conclusion.h"
 #include "studies/data/data_table.h"
 #include "studies/findings/formulas.h"
 #include "studies/findings/report.h"
@@ -77,7 +77,7 @@ struct Findings {
   std::string page_title = {};       // empty: the title
   std::string scene_file = {};       // for programs; empty: not told
   std::string speed_unit = {};       // that people are told speeds in, for programs; empty: there are none
-  std::vector<Answer> answers = {};  // what the conclusion is made of
+  Claims claims = {};            // what the conclusion is made of
   bool complete = true;
   std::string diagnosis = {};    // of a run that failed on its way
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
@@ -92,9 +92,15 @@ struct Findings {
   std::optional<Brief> brief = {};  // what a terminal is told unless all is asked for; none: all
 
   // The same in terminal, page and JSON, in one line.
-  std::string conclusion() const { return in_one_line(concluded(answers)); }
-  void answer(Topic topic, std::string sentence, double severity = 0) {
-    answers.push_back({topic, std::move(sentence), severity});
+  std::string conclusion() const { return in_one_line(concluded(claims)); }
+  void claim(std::optional<Claim> made) { add(claims, std::move(made)); }
+  void claim(Predicate what, std::string sentence) { claim(claimed(what, std::move(sentence))); }
+  void claim(Claims made) {
+    claims.insert(claims.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
+  }
+  // What a study comes to, in a sentence.
+  void conclude(bool whole, std::string sentence) {
+    claim(whole ? Predicate::figures_told : Predicate::incomplete, std::move(sentence));
   }
 
   void key(std::string name, const Estimate& value, std::string means, std::string note = {}, int digits = 0) {

@@ -34,6 +34,26 @@ DataCell cell_of(const Value& value) {
   return number && std::isfinite(*number) ? *number : std::numeric_limits<double>::quiet_NaN();
 }
 
+// Typed, beside the words of the conclusion.
+Record claim_record(const Claim& c) {
+  Record record = {{"name", name_of(c.predicate)},
+                   {"of", c.of},
+                   {"at", c.evidence.at},
+                   {"value", c.evidence.value},
+                   {"limit", c.evidence.limit},
+                   {"error", c.evidence.error},
+                   {"unit", c.evidence.unit},
+                   {"severity", name_of(c.severity())},
+                   {"text", c.text}};
+  if (!c.load_case.empty()) record.push_back({"load_case", c.load_case});
+  if (c.remedy)
+    record.push_back({"remedy", Record{{"key", c.remedy->key},
+                                       {"value", c.remedy->value},
+                                       {"unit", c.remedy->unit},
+                                       {"tried", c.remedy->tried}}});
+  return record;
+}
+
 }  // namespace
 
 List Rows::list() const {
@@ -70,6 +90,7 @@ Record summary_of(const Findings& f) {
   if (f.tells_complete) put(summary, "complete", f.complete);
   if (!f.complete && f.tells_diagnosis) put(summary, "diagnosis", f.diagnosis);
   put(summary, "conclusion", f.conclusion());
+  put(summary, "claims", each(f.claims, claim_record));
   for (const Statement& s : f.statements) std::visit([&](const auto& what) { tell(summary, what); }, s.what);
   return summary;
 }

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "engine/scene/units.h"
-#include "studies/conclusions/headline.h"
+#include "studies/claims/headline.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/findings/output.h"
 

@@ -105,7 +105,7 @@ std::string in_lines(const std::vector<std::string>& lines) {
 
 std::vector<std::string> headline_of(const Findings& findings) {
   std::vector<std::string> lines;
-  for (const std::string& sentence : concluded(findings.answers))
+  for (const std::string& sentence : concluded(findings.claims))
     for (std::string& line : wrapped(sentence, Brief::width, "  ")) lines.push_back(std::move(line));
   if (lines.size() > Brief::most_of_conclusion) {
     lines.resize(Brief::most_of_conclusion);

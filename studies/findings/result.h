@@ -10,7 +10,7 @@
 
 #include "engine/base/estimate.h"
 #include "engine/run/recorders.h"
-#include "studies/conclusions/conclusion.h"
+#include "studies/claims/claim.h"
 
 namespace kurbel {
 
@@ -144,7 +144,10 @@ struct Result {
   RunStatistics statistics;
   double cpu_total = 0;  // of all runs, errors included [s]
   std::vector<std::string> notes;
-  std::vector<Answer> answers;  // that the motion itself gives: it stalls, runs away, slips to the end
+  Claims claims;  // that the motion itself gives: it stalls, runs away, slips to the end
+  // Of remedies of its verdicts (name_of_remedy) the value with which the machine was computed and holds, and with one worse
+  // by 1 % does not; not finite: none was found.
+  std::map<std::string, double> remedies_tried;
   std::shared_ptr<const TrajectoryRecorder> trajectory;  // null for a multibody run
   std::shared_ptr<const Traces> traces;                  // for plots; null unless asked for
   std::shared_ptr<const Model> model;

@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "engine/base/estimate.h"
-#include "studies/conclusions/headline.h"
+#include "studies/claims/headline.h"
 #include "studies/data/data_table.h"
 #include "studies/data/value.h"
 #include "studies/findings/figure_text.h"

@@ -36,8 +36,8 @@ Findings begin_findings(const AboutForces& f, const CycleOfForces& front, const 
               .complete = f.complete,
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
-  to.answer(f.complete ? Topic::figures : Topic::runs, conclusion, f.complete ? 0 : 100);
-  for (const std::string& sentence : f.outside_data) to.answer(Topic::sure, sentence, 0.5);
+  to.conclude(f.complete, conclusion);
+  for (const std::string& sentence : f.outside_data) to.claim(Predicate::outside_data, sentence);
   to.tell("mechanism", f.mechanism);
   return to;
 }

@@ -20,7 +20,7 @@ Findings made(std::string conclusion, Rows table, const FormulaCard& formula) {
              .page_title = table.title,
              .tells_complete = false,
              .footer = report_footer()};
-  f.answer(Topic::figures, std::move(conclusion));
+  f.conclude(true, std::move(conclusion));
   const Chapter in = f.chapter("Geometry");
   f.say(in, std::move(table));
   f.show(in, formula);

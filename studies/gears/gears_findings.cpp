@@ -357,7 +357,7 @@ Findings findings_of(const Gears& g) {
              .scene_file = g.scene_file,
              .tells_complete = false,
              .footer = report_footer()};
-  f.answer(Topic::figures, conclusion_of(g));
+  f.conclude(true, conclusion_of(g));
   add_key_figures(f, g);
   if (g.scene_file.empty()) f.tell("scene", "");
   f.tell("pairs", each(g.stages, stage_record));

@@ -23,7 +23,7 @@ struct Use {
   double share() const { return limit > 0 ? load / limit : load > 0 ? HUGE_VAL : 0; }
 };
 
-// By the limit that is used most. Not by T_KN: at speeds that the machine does not keep its mean torque is what drive and
+// By the limit that is used most; factors of a standard are taken from the limit, so that loads are torques. Not by T_KN: at speeds that the machine does not keep its mean torque is what drive and
 // load leave over for accelerating, not what it would be where the speed is held.
 Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
   const DriveLimits& l = joint.limits;
@@ -32,13 +32,16 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
     if (limit > 0 && (most.reason.empty() || torque / limit > most.share())) most = {torque, limit, reason};
   };
   const double largest = std::abs(load.largest().value);
-  consider(l.temperature_factor * load.weighted.value, l.vibratory, "vibratory_torque");
-  consider(l.temperature_factor * largest, l.maximum, "maximum_torque");
-  consider(l.application_factor * largest, l.shear_stress * l.polar_modulus, "allowable_shear_stress");
+  consider(load.swing.value,
+           l.vibratory / (l.temperature_factor * l.frequency_factor(load.frequency_factor)), "vibratory_torque");
+  consider(largest, l.maximum / l.temperature_factor, "maximum_torque");
+  consider(largest, l.shear_stress * l.polar_modulus / l.application_factor, "allowable_shear_stress");
   const double amplitude = load.amplitude().value;
   if (l.shaft.vibratory) consider(amplitude, *l.shaft.vibratory * l.polar_modulus, "allowable_vibratory_stress");
   if (l.shaft.endurance)
-    consider(l.shaft.fatigue_stress(amplitude, load.middle().value), *l.shaft.endurance * l.polar_modulus,
+    consider(amplitude,
+             amplitude * *l.shaft.endurance * l.polar_modulus /
+                 l.shaft.fatigue_stress(amplitude, load.middle().value),
              "endurance_limit");
   // Heat grows with the square of the swing.
   if (l.power > 0 && load.power.value > 0)

@@ -3,6 +3,7 @@
 // A joint with limits is barred where its steady load exceeds any of them but T_KN (theory 12.9). One without is barred
 // by a rule:
 //     T_W > f · max(|T_mean|, T_rated)                                                 (theory 12.12)
+// Loads are torques without factors of a standard, which make the limit smaller instead: T_W ≤ T_KW/(S_t S_f).
 // A ship's shaft is barred where its stress exceeds τ_C of UR M68, which falls with the speed; around a resonance from
 // 16 n_c/(18 − λ_c) to (18 − λ_c) n_c/16 at the least (drivetrain/couplings/shaft_rating.h).
 // T_rated: the drive's rated torque, reduced to this joint; it does not vanish with the mean. Where the halves of a joint

@@ -12,22 +12,27 @@ namespace kurbel {
 namespace {
 
 std::string use_of(const Verdict& v) {
-  const std::string share = std::isfinite(v.value) ? fmt::format("{:.0f} %", 100 * v.value / v.limit) : "unbounded";
   const Compliance state = v.state();
+  if (state == Compliance::not_assessed) return "not assessed";
+  const std::string share = std::isfinite(v.value) ? fmt::format("{:.0f} %", 100 * v.share()) : "unbounded";
   return share + (state == Compliance::holds ? " holds" : state == Compliance::exceeded ? " EXCEEDED" : " UNDECIDED");
 }
 
 Tone tone_of(Compliance state) {
-  return state == Compliance::holds ? Tone::good : state == Compliance::exceeded ? Tone::bad : Tone::fair;
+  return state == Compliance::holds          ? Tone::good
+         : state == Compliance::exceeded     ? Tone::bad
+         : state == Compliance::not_assessed ? Tone::aside
+                                             : Tone::fair;
 }
 
-// With its error where that shows.
+// The load without its factors, with its error where that shows.
 std::string readable(const Verdict& v) {
+  if (!v.assessed) return "—";
   const ReadableUnit unit = readable_unit(v.limit, v.unit);
-  const std::string value = read_as(unit.factor * v.value, {.digits = 5, .otherwise = "unbounded"});
+  const std::string value = read_as(unit.factor * v.load(), {.digits = 5, .otherwise = "unbounded"});
   if (v.bound) return fmt::format("≤ {} {}", value, unit.unit);
   if (!(v.error > 1e-4 * std::abs(v.value))) return fmt::format("{} {}", value, unit.unit);
-  return fmt::format("{} ± {} {}", value, read_as(unit.factor * v.error, {.digits = 2}), unit.unit);
+  return fmt::format("{} ± {} {}", value, read_as(unit.factor * v.error / v.factor, {.digits = 2}), unit.unit);
 }
 
 // A rule that bars all speeds tells no range to keep away from; it stands in the notes.
@@ -71,10 +76,11 @@ Rows verdict_table(const std::vector<Verdict>& verdicts) {
   Rows table =
       table_of("verdicts", "What the components may bear", verdicts)
           .headed("limits")
-          .text_in(3)
+          .text_in(4)
           .column("component", "component", &Verdict::component)
           .only_for_people("use", use_of)
           .column("requirement", "requirement", &Verdict::requirement)
+          .column("load_case", "load case", &Verdict::load_case)
           .only_for_programs("value", &Verdict::value)
           .only_for_programs("error", &Verdict::error)
           .only_for_programs("bound", &Verdict::bound)
@@ -82,7 +88,10 @@ Rows verdict_table(const std::vector<Verdict>& verdicts) {
           .only_for_programs("unit", &Verdict::unit)
           .only_for_programs("holds", &Verdict::holds)
           .only_for_programs("verdict", [](const Verdict& v) { return std::string(name_of(v.state())); })
-          .only_for_people("value", readable)
+          .only_for_people("load", readable)
+          .column("factor", "factors", &Verdict::factor,
+                  [](double factor) { return factor == 1 ? std::string() : fmt::format("{:.4g}", factor); })
+          .only_for_people("of the standard", [](const Verdict& v) { return v.factors; })
           .only_for_people("limit",
                            [](const Verdict& v) {
                              const ReadableUnit unit = readable_unit(v.limit, v.unit);
@@ -114,20 +123,22 @@ Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<Limi
       .column("limit", "limit there [N·m]", &BarredRange::limit, torque);
 }
 
-std::string limits_sentence(const std::vector<Verdict>& verdicts, const std::vector<BarredRange>& ranges,
-                            const std::vector<LimitedJoint>& joints, const SpeedUnit& unit) {
+std::optional<Claim> barred_claim(const std::vector<BarredRange>& ranges, const std::vector<LimitedJoint>& joints,
+                                  const SpeedUnit& unit) {
   std::vector<BarredRange> told;
   std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(told), is_told_first);
+  const BarredRange* b = worst_of(told);
+  if (!b) return {};
   const std::size_t number = number_apart(told);
-  std::string text;
-  if (const BarredRange* b = worst_of(told))
-    text = b->everywhere ? fmt::format("{} at every speed of {} ({})",
-                                       b->by == BarredRange::By::sign ? "a joint with play hammers" : "barred",
-                                       range_text(*b, unit), joints[b->joint].name)
-                         : fmt::format("{} barred range{}, worst {} ({}{})", number, number == 1 ? "" : "s",
-                                       range_text(*b, unit), joints[b->joint].name, excess_text(*b));
-  const std::string judged = sentence_of(verdicts, "limit");
-  return judged + (judged.empty() || text.empty() ? "" : "; ") + text;
+  const std::string& joint = joints[b->joint].name;
+  const bool known = std::isfinite(b->peak);
+  return claimed(Predicate::speeds_barred,
+                 b->everywhere ? fmt::format("{} at every speed of {} ({})",
+                                             b->by == BarredRange::By::sign ? "a joint with play hammers" : "barred",
+                                             range_text(*b, unit), joint)
+                               : fmt::format("{} barred range{}, worst {} ({}{})", number, number == 1 ? "" : "s",
+                                             range_text(*b, unit), joint, excess_text(*b)),
+                 joint, {.value = known ? std::optional(b->peak) : std::nullopt, .limit = b->limit, .unit = "N*m"});
 }
 
 std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, const std::vector<BarredRange>& ranges,

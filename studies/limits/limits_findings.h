@@ -15,9 +15,9 @@ Rows verdict_table(const std::vector<Verdict>& verdicts);
 Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<LimitedJoint>& joints,
                   const SpeedUnit& unit);
 
-// "1 of 4 limits EXCEEDED, worst …; 2 barred ranges, worst 310 … 355 rpm (main_coupling)"; empty: nothing is judged.
-std::string limits_sentence(const std::vector<Verdict>& verdicts, const std::vector<BarredRange>& ranges,
-                            const std::vector<LimitedJoint>& joints, const SpeedUnit& unit);
+// "2 barred ranges, worst 310 … 355 rpm (main_coupling)"; none: no range to keep away from is told.
+std::optional<Claim> barred_claim(const std::vector<BarredRange>& ranges, const std::vector<LimitedJoint>& joints,
+                                  const SpeedUnit& unit);
 
 // Where the loads and peaks come from, and what no range of speed is free of.
 std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, const std::vector<BarredRange>& ranges,

@@ -28,19 +28,45 @@ Figure figure_of(const char* words, const std::string& of, double value, const c
   return Figure::of_name(Name::own(words, of), value, unit, scale);
 }
 
+// The load case of a moment of a run, by its sequence or by its three periods (periods.h).
+std::string load_case_at(const Result& r, std::optional<double> at) {
+  const Periods& p = r.periods;
+  if (!at || !r.model || r.begins_at > 0) return load_case::run;
+  const std::vector<SequenceStep>& steps = r.model->scene.sequence.steps;
+  std::size_t taken = 0, told = 0;  // steps; commands of the one under way
+  while (taken < steps.size() && steps[taken].when == SequenceStep::When::at && steps[taken].value <= 0) ++taken;
+  for (const Event& e : r.events) {
+    if (e.kind != EventKind::command || e.t > *at || steps.empty()) continue;
+    if (++told == steps[taken % steps.size()].set.size()) ++taken, told = 0;
+  }
+  if (taken > 0) return fmt::format("after step {} of the sequence", (taken - 1) % steps.size() + 1);
+  if (!p.steady) return steps.empty() ? load_case::run : load_case::start;
+  if (p.run_down_begin && *at > *p.run_down_begin) return load_case::run_down;
+  return p.run_up_end && *at <= *p.run_up_end ? load_case::start : load_case::steady;
+}
+
+// What would mend a verdict: words, and where it is a key's value that.
+struct Mend {
+  std::string words = {};
+  std::optional<Remedy> remedy = {};
+  bool up_to = false;
+  std::string more = {};  // behind the words of a remedy
+};
+
 // What a run found of one component, against what it states.
 class Rater {
  public:
-  Rater(const Result& result, const std::string& component, std::vector<Verdict>& out)
-      : result_(result), component_(component), out_(out) {}
+  Rater(const Result& result, const std::string& component, const std::string& only_case, std::vector<Verdict>& out)
+      : result_(result), component_(component), only_case_(only_case), out_(out) {}
 
   void all() {
     if (const auto* rating = stated<HeatRating>()) heat(*rating);
     if (const auto* rating = stated<BeltRating>()) belt(*rating);
-    if (const auto* limits = stated<CouplingLimits>(); limits && limits->maximum > 0) coupling(*limits);
+    if (const auto* limits = stated<CouplingLimits>()) coupling(*limits);
     if (const auto* keys = stated<ShaftKeys>()) {
       if (keys->allowable_shear_stress) shaft(*keys);
       if (rates_cycle(keys->rating)) cycle_of_stress(*keys);
+      if (keys->rating.is_of_propulsion()) leave(requirement::continuous, std::nan(""), "Pa");
     }
     if (const auto* rating = stated<RimRating>()) rim(*rating);
     if (const auto* rating = stated<MotorRating>(); rating && rating->states_duty()) motor(*rating);
@@ -51,86 +77,132 @@ class Rater {
   const T* stated() const {
     return result_.model->network.data.find<T>(component_);
   }
-  // `mends` makes words of the value that would hold; it gets how many times too large the value may be.
+  std::string load_case_of(std::optional<double> at) const {
+    return only_case_.empty() ? load_case_at(result_, at) : only_case_;
+  }
+  // `mends` tells what would hold; it gets how many times too large the value may be.
   template <class Mends>
-  void add(const char* requirement, const Estimate& value, double limit, const char* unit, const Mends& mends) {
+  Verdict& add(const char* requirement, const Estimate& value, std::optional<double> at, double limit, const char* unit,
+               const Mends& mends) {
     Verdict v{component_, requirement, value.value, limit, unit, "", value.error.value_or(0)};
-    if (v.state() != Compliance::holds) v.note = mends((v.value + v.error) / limit);
+    v.load_case = load_case_of(at);
+    if (v.state() == Compliance::exceeded || v.state() == Compliance::undecided) {
+      Mend mend = mends((v.value + v.error) / limit);
+      if (mend.remedy) {
+        v.remedy = mend.remedy;
+        take_tried(v);
+        mend.words = in_words(*v.remedy, mend.up_to) + mend.more;
+      }
+      v.note = std::move(mend.words);
+    }
     if (!result_.errors_measured) v.note += std::string(v.note.empty() ? "" : "; ") + "its error was not measured";
     out_.push_back(std::move(v));
+    return out_.back();
   }
-  std::optional<Estimate> found(const std::string& name) const {
-    const Figure* f = result_.find(name);
-    return f ? std::optional(abs(*f)) : std::nullopt;
+  // The value that was found by computing the machine with it; not finite: none was, and what is known is an estimate.
+  void take_tried(Verdict& v) const {
+    const auto found = result_.remedies_tried.find(name_of_remedy(v));
+    if (found != result_.remedies_tried.end() && std::isfinite(found->second))
+      v.remedy->value = found->second, v.remedy->tried = true;
   }
+  void leave(const char* requirement, double limit, const char* unit) {
+    out_.push_back(not_assessed(component_, requirement, limit, unit, load_case::steady,
+                                "kurbel steady and modes judge the steady motion"));
+  }
+  Remedy remedy(const char* key, double value, const char* unit) const {
+    return {component_ + "." + key, enough(value), unit};
+  }
+  const Figure* found(const std::string& name) const { return result_.find(name); }
 
   void heat(const HeatRating& rating) {
-    const auto hottest = found("engagement_heat." + component_), power = found("heat_power." + component_);
+    const Figure *hottest = found("engagement_heat." + component_), *power = found("heat_power." + component_);
     if (rating.engagement && hottest)
-      add("heat of an engagement: W ≤ W_allowable", *hottest, *rating.engagement, "J", [](double times) {
-        return fmt::format(
-            "as W goes with the square of the difference of speed: it holds where that is {:.0f} % of what it is",
-            std::floor(100 / std::sqrt(times)));
+      add("heat of an engagement: W ≤ W_allowable", abs(*hottest), {}, *rating.engagement, "J", [](double times) {
+        return Mend{
+            fmt::format("by an estimate, as W goes with the square of the difference of speed, it holds where "
+                        "that is {:.0f} % of what it is",
+                        std::floor(100 / std::sqrt(times)))};
       });
     if (rating.power && power)
-      add("mean heat power: W_total/t ≤ P_allowable", *power, *rating.power, "W", [](double times) {
-        return fmt::format("it holds with {:.0f} % of these engagements in the same time", std::floor(100 / times));
+      add("mean heat power: W_total/t ≤ P_allowable", abs(*power), {}, *rating.power, "W", [](double times) {
+        return Mend{fmt::format("by an estimate it holds with {:.0f} % of these engagements in the same time",
+                                std::floor(100 / times))};
       });
+    if (!rating.engagement && slips_closed())
+      out_.push_back(not_assessed(component_, "heat of slipping: W ≤ W_allowable", std::nan(""), "J", load_case::run,
+                                  "it slips while closed, and states no allowable_heat"));
+  }
+  bool slips_closed() const {
+    return std::any_of(result_.claims.begin(), result_.claims.end(), [&](const Claim& c) {
+      return c.of == component_ &&
+             (c.predicate == Predicate::clutch_slips_closed || c.predicate == Predicate::limiter_slips ||
+              c.predicate == Predicate::slips_to_the_end);
+    });
   }
 
   void belt(const BeltRating& b) {
-    const auto peak = found("peak_torque." + component_), strand = found("strand_force." + component_);
+    const Figure *peak = found("peak_torque." + component_), *strand = found("strand_force." + component_);
     if (b.tension && strand)
-      add("strand force: F₀ + |τ|/(2 r₁) ≤ F_allowable", *strand, *b.tension, "N", [&](double) {
-        const double left = *b.tension - b.pretension, pull = strand->value + strand->error.value_or(0) - b.pretension;
-        if (left <= 0) return std::string("the pretension alone is as much");
-        return fmt::format("it holds from diameter_in = {:.4g} mm on, at the same torque and pretension",
-                           2e3 * b.radius * pull / left);
+      add("strand force: F₀ + |τ|/(2 r₁) ≤ F_allowable", abs(*strand), peak ? peak->at : strand->at, *b.tension, "N",
+          [&](double) {
+            const double left = *b.tension - b.pretension,
+                         pull = strand->value + strand->error.value_or(0) - b.pretension;
+            if (left <= 0) return Mend{"the pretension alone is as much"};
+            return Mend{.remedy = remedy("diameter_in", 2 * b.radius * pull / left, "m")};
+          });
+    if (b.reserve && peak) {
+      const bool slips = std::abs(peak->value) >= b.limit * (1 - 1e-9);
+      add("reserve against slip: S |τ| ≤ M", *b.reserve * abs(*peak), peak->at, b.limit, "N*m", [&](double times) {
+        return Mend{.remedy = remedy("pretension", b.pretension * times, "N"),
+                    .more = slips ? "; it slips, and would carry more than it does with more" : ""};
       });
-    if (b.reserve && peak)
-      add("reserve against slip: S |τ| ≤ M", *b.reserve * *peak, b.limit, "N*m", [&](double times) {
-        return fmt::format(
-            "{}it holds from pretension = {:.4g} N on{}", peak->value >= b.limit * (1 - 1e-9) ? "it slips; " : "",
-            b.pretension * times,
-            peak->value >= b.limit * (1 - 1e-9) ? " at the least: what it would carry then is more" : "");
-      });
+      out_.back().factor = *b.reserve, out_.back().factors = fmt::format("S = {:g}", *b.reserve);
+    }
   }
 
   // Of its segments.
-  std::optional<Estimate> largest_torque() const {
-    std::optional<Estimate> largest;
+  const Figure* largest_torque() const {
+    const Figure* largest = nullptr;
     for (const Figure& f : result_.figures)
       if (f.what == quantities::peak_torque && is_of(f.of))
-        if (!largest || std::abs(f.value) > largest->value) largest = abs(f);
+        if (!largest || std::abs(f.value) > std::abs(largest->value)) largest = &f;
     return largest;
   }
 
   // DIN 740-2: where starts weigh more than the mean torque, how much of that acts is not known here, and none counts.
   void coupling(const CouplingLimits& limits) {
-    const auto largest = largest_torque();
-    if (!largest) return;
-    const double factor = limits.temperature_factor * limits.start_factor;
-    add(requirement::maximum, factor * *largest, limits.maximum, "N*m", [&](double times) {
-      return fmt::format("it holds from maximum_torque = {:.4g} N·m on", limits.maximum * times);
-    });
-    out_.back().bound = limits.start_factor > 1;
-    if (factor != 1)
-      out_.back().note += fmt::format("{}S_t = {:g}, S_z = {:g}", out_.back().note.empty() ? "" : "; ",
-                                      limits.temperature_factor, limits.start_factor);
+    const Figure* largest = largest_torque();
+    if (limits.maximum > 0 && largest) {
+      const double factor = limits.temperature_factor * limits.start_factor;
+      Verdict& v =
+          add(requirement::maximum, factor * abs(*largest), largest->at, limits.maximum, "N*m", [&](double times) {
+            Remedy key = remedy("maximum_torque", limits.maximum * times, "N*m");
+            key.tried = true;  // nothing of the motion depends on it
+            return Mend{.remedy = key};
+          });
+      v.bound = limits.start_factor > 1;
+      v.factor = factor;
+      if (factor != 1)
+        v.factors = fmt::format("S_t = {:g}, S_z = {:g}", limits.temperature_factor, limits.start_factor);
+    }
+    if (limits.nominal > 0) leave("nominal torque: K_A S_t |T_mean| ≤ T_KN", limits.nominal, "N*m");
+    if (limits.vibratory > 0) leave("vibratory torque: S_t S_f T_W ≤ T_KW", limits.vibratory, "N*m");
+    if (limits.power > 0) leave("dissipated power: P_W ≤ P_KW", limits.power, "W");
+  }
+
+  Mend thicker(const ShaftKeys& shaft, double times) const {
+    return {.remedy = remedy("diameter", *shaft.diameter * std::cbrt(times), "m"),
+            .more = shaft.bore > 0 ? ", with its bore in proportion" : ""};
   }
 
   void shaft(const ShaftKeys& shaft) {
-    const double modulus = shaft.polar_modulus();
-    const auto largest = largest_torque();
+    const Figure* largest = largest_torque();
     if (!largest) return;
-    add("shear stress: |T|/W_p ≤ τ_allowable", *largest / modulus, *shaft.allowable_shear_stress, "Pa",
-        [&](double times) {
-          return fmt::format("it holds from diameter = {:.4g} mm on, with its bore in proportion, at the same torque",
-                             1e3 * *shaft.diameter * std::cbrt(times));
-        });
+    add("shear stress: |T|/W_p ≤ τ_allowable", abs(*largest) / shaft.polar_modulus(), largest->at,
+        *shaft.allowable_shear_stress, "Pa", [&](double times) { return thicker(shaft, times); });
   }
 
-  // The widest cycle that rainflow could count: of the segment where it is worst.
+  // The extremes of the whole run, start included: no endless alternation, but no less than that of any part of it.
   void cycle_of_stress(const ShaftKeys& shaft) {
     const double modulus = shaft.polar_modulus();
     JointLoad widest, largest;
@@ -143,57 +215,67 @@ class Rater {
       if (load.amplitude().value >= widest.amplitude().value) widest = load;
       if (std::abs(load.largest().value) >= std::abs(largest.largest().value)) largest = load;
     }
-    const auto thicker = [&](double times) {
-      return fmt::format("it holds from diameter = {:.4g} mm on, with its bore in proportion, at the same torque",
-                         1e3 * *shaft.diameter * std::cbrt(times));
-    };
+    const auto mend = [&](double times) { return thicker(shaft, times); };
     const ShaftRating& rating = shaft.rating;
+    const auto alternates = [&](const char* requirement, const Estimate& stress, double limit,
+                                const std::string& note) {
+      Verdict& v = add(requirement, stress, {}, limit, "Pa", [](double) { return Mend{}; });
+      if (only_case_.empty()) v.bound = true, v.load_case = load_case::steady;
+      const std::string whence = v.bound ? "a bound: the extremes of the whole run; kurbel steady and modes judge the "
+                                           "steady motion"
+                                         : "";
+      for (const std::string& more : {whence, note})
+        if (!more.empty()) v.note += (v.note.empty() ? "" : "; ") + more;
+    };
     if (rating.vibratory)
-      add(requirement::vibratory_stress, widest.amplitude() / modulus, *rating.vibratory, "Pa", thicker);
+      alternates(requirement::vibratory_stress, widest.amplitude() / modulus, *rating.vibratory, "");
     if (rating.endurance) {
       const Fatigue fatigue = fatigue_of(rating, widest.amplitude() / modulus, widest.middle() / modulus);
-      add(requirement::fatigue, fatigue.stress, *rating.endurance, "Pa", thicker);
-      std::string& note = out_.back().note;
-      note += (note.empty() ? "" : "; ") + fatigue.note;
+      alternates(requirement::fatigue, fatigue.stress, *rating.endurance, fatigue.note);
     }
-    if (rating.yield)
-      add(requirement::yield, rating.safety * abs(largest.largest()) / modulus, rating.yield_in_shear(), "Pa", thicker);
+    if (rating.yield) {
+      const Figure* peak = largest_torque();
+      add(requirement::yield, rating.safety * abs(largest.largest()) / modulus, peak ? peak->at : std::nullopt,
+          rating.yield_in_shear(), "Pa", mend);
+    }
   }
   bool is_of(const std::string& joint) const { return is_joint_of(joint, component_); }
 
   void rim(const RimRating& rating) {
-    const auto speed = found("rim_speed." + component_);
+    const Figure* speed = found("rim_speed." + component_);
     if (!speed) return;
     const auto smaller = [&](double times) {
-      return fmt::format("it holds up to rim_radius = {:.4g} mm at this speed", 1e3 * *rating.radius / times);
+      Remedy radius = remedy("rim_radius", 0, "m");
+      radius.value = -enough(-*rating.radius / times);
+      return Mend{.remedy = radius, .up_to = true};
     };
-    if (rating.speed) add("rim speed: r |ω| ≤ v_allowable", *speed, *rating.speed, "m/s", smaller);
+    if (rating.speed) add("rim speed: r |ω| ≤ v_allowable", abs(*speed), speed->at, *rating.speed, "m/s", smaller);
     if (!rating.stress) return;
-    const double density = *rating.density, v = speed->value;
-    add("hoop stress of the rim: ρ (r ω)² ≤ σ_allowable", function_of(*speed, density * v * v, 2 * density * v),
-        *rating.stress, "Pa", [&](double times) { return smaller(std::sqrt(times)); });
+    const double density = *rating.density, v = std::abs(speed->value);
+    add("hoop stress of the rim: ρ (r ω)² ≤ σ_allowable", function_of(abs(*speed), density * v * v, 2 * density * v),
+        speed->at, *rating.stress, "Pa", [&](double times) { return smaller(std::sqrt(times)); });
   }
 
   void motor(const MotorRating& rating) {
-    const auto rms = found("motor_rms_torque." + component_);
+    const Figure* rms = found("motor_rms_torque." + component_);
     const auto* data = stated<InductionData>();
     const double rated = data ? data->rated_torque : rating.torque.value_or(0);
     if (!rms || !(rated > 0)) return;
     const auto mends = [&](double times) {
-      return fmt::format("it holds from a rated torque of {:.4g} N·m on", rated * times);
+      return Mend{fmt::format("by an estimate it holds from a rated torque of {:.4g} N·m on", enough(rated * times))};
     };
     // Continuous duty is that of the steady motion, where the run comes to one: a start is soon forgotten.
     const bool continuous = !rating.duty.time && !rating.duty.share && result_.find(quantities::run_up_time, "");
-    if (const auto use = continuous ? found("thermal_use." + component_) : std::nullopt) {
+    if (const Figure* use = continuous ? found("thermal_use." + component_) : nullptr) {
       const bool changes = result_.model && !result_.model->commands.empty();
       add(changes ? "RMS torque of the heaviest cycle: √(∫ M² dt/T) ≤ M_N"
                   : "RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N",
-          rated * *use, rated, "N*m", mends);
+          rated * abs(*use), use->at, rated, "N*m", mends);
     } else {
       // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
       const double span = result_.until - result_.begins_at,
                    part = rating.duty.time ? *rating.duty.time / span : rating.duty.share.value_or(1);
-      add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", *rms, rated * std::sqrt(part), "N*m", mends);
+      add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", abs(*rms), {}, rated * std::sqrt(part), "N*m", mends);
     }
     std::string& note = out_.back().note;
     note += fmt::format("{}M_N = {:.4g} N·m; a lower bound of its heating", note.empty() ? "" : "; ", rated);
@@ -201,6 +283,7 @@ class Rater {
 
   const Result& result_;
   const std::string& component_;
+  const std::string& only_case_;
   std::vector<Verdict>& out_;
 };
 
@@ -299,10 +382,11 @@ std::vector<Figure> rating_figure_list(const Model& model) {
   return list;
 }
 
-std::vector<Verdict> judge_ratings(const Result& result) {
+std::vector<Verdict> judge_ratings(const Result& result, const std::string& only_case) {
   std::vector<Verdict> verdicts;
   if (!result.complete || !result.model) return verdicts;
-  for (const std::string& component : result.model->network.components) Rater(result, component, verdicts).all();
+  for (const std::string& component : result.model->network.components)
+    Rater(result, component, only_case, verdicts).all();
   return verdicts;
 }
 

@@ -3,7 +3,8 @@
 //     engagement: W = ∫ |M_k Δω| dt ≤ allowable_heat, the hottest one         W_total/t ≤ allowable_heat_power
 //     belt:       F₀ + |τ|/(2 r₁) ≤ allowable_tension                         slip_reserve · |τ| ≤ M (Euler, Eytelwein)
 //     shaft:      |T|/W_p ≤ allowable_shear_stress                            W_p = π (D⁴ − d⁴)/(16 D)
-//                 its widest cycle, from the least torque to the greatest: Goodman, yield, the maker's amplitude
+//                 from the least torque to the greatest: yield; for Goodman and the maker's amplitude a bound of the
+//                 steady motion: the extremes of one start are no endless alternation
 //     flywheel:   r |ω| ≤ allowable_rim_speed                                 ρ (r ω)² ≤ allowable_rim_stress
 //     motor:      √(∫ M² dt/t) ≤ M_N √part,  part = 1 (S1), duty_time/t (S2), duty_share (S3): a lower bound of heating
 //     coupling:   S_t S_z |T| ≤ T_Kmax (DIN 740-2)                            with S_z > 1 a bound
@@ -34,7 +35,8 @@ std::vector<Figure> watched_figure_list(const Model& model);
 // Those that ratings judge.
 std::vector<Figure> rating_figure_list(const Model& model);
 
-// Of a complete run; an incomplete one has not shown what it would bring.
-std::vector<Verdict> judge_ratings(const Result& result);
+// Of a complete run; an incomplete one has not shown what it would bring. Load cases are told by the run's sequence and
+// periods, or all are `only_case`, of figures that are of that alone.
+std::vector<Verdict> judge_ratings(const Result& result, const std::string& only_case = {});
 
 }  // namespace kurbel

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "engine/base/enumerators.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 
 namespace kurbel {
 namespace {
-
-Estimate times(double factor, const Estimate& m) { return factor * abs(m); }
 
 class Judge {
  public:
@@ -29,109 +30,127 @@ class Judge {
 
   void all() {
     if (limits_.nominal > 0)
-      add("nominal torque: K_A S_t |T_mean| ≤ T_KN",
-          times(limits_.application_factor * limits_.temperature_factor, load_.mean), limits_.nominal, "N*m",
-          fmt::format("K_A = {:g}, S_t = {:g}", limits_.application_factor, limits_.temperature_factor),
-          "nominal_torque");
+      counted("nominal torque: K_A S_t |T_mean| ≤ T_KN", abs(load_.mean), limits_.nominal,
+              {{"K_A", limits_.application_factor}, {"S_t", limits_.temperature_factor}}, "", "nominal_torque");
     if (limits_.maximum > 0) maximum();
     if (limits_.vibratory > 0)
-      add("vibratory torque: S_t S_f T_W ≤ T_KW", times(limits_.temperature_factor, load_.weighted), limits_.vibratory,
-          "N*m",
-          load_.frequency > 0 ? fmt::format("S_t = {:g}, S_f = {:.3g}, strongest at {:.4g} Hz",
-                                            limits_.temperature_factor, load_.frequency_factor, load_.frequency)
-                              : "it does not swing",
-          "vibratory_torque");
+      counted("vibratory torque: S_t S_f T_W ≤ T_KW", abs(load_.swing), limits_.vibratory,
+              {{"S_t", limits_.temperature_factor}, {"S_f", limits_.frequency_factor(load_.frequency_factor)}},
+              load_.frequency > 0 ? fmt::format("strongest at {:.4g} Hz", load_.frequency) : "it does not swing",
+              "vibratory_torque");
     if (limits_.power > 0)
-      add("dissipated power: P_W ≤ P_KW", times(1, load_.power), limits_.power, "W", "", "dissipated_power");
-    if (limits_.shear_stress > 0) shear();
+      add("dissipated power: P_W ≤ P_KW", abs(load_.power), limits_.power, "W", load_case::steady, "",
+          "dissipated_power");
+    if (limits_.shear_stress > 0)
+      largest("shear stress: K_A |T|/W_p ≤ τ_allowable", limits_.shear_stress, "Pa", 1 / limits_.polar_modulus,
+              {"K_A", limits_.application_factor}, fmt::format("W_p = {:.5g} cm³", 1e6 * limits_.polar_modulus));
     if (limits_.shaft.any()) swinging_stress();
   }
 
  private:
+  using Factor = std::pair<const char*, double>;
+
   // `key`: of the limit in the scene, with which it would hold; null: the section carries it.
-  Verdict& add(std::string requirement, const Estimate& value, double limit, std::string unit, std::string note,
-               const char* key = nullptr) {
+  Verdict& add(std::string requirement, const Estimate& value, double limit, std::string unit, const char* load_case,
+               std::string note, const char* key = nullptr) {
     Verdict v{joint_.name,     std::move(requirement), value.value, limit, std::move(unit),
               std::move(note), value.error.value_or(0)};
-    if (v.state() == Compliance::exceeded) {
-      const double needed = v.value + v.error;
-      const std::string mends = key ? fmt::format("it holds from {} = {} on", key, told_shortly(needed, v.unit))
-                                    : fmt::format("it holds from {:.3g} times this diameter on, at the same torque",
-                                                  std::cbrt(needed / limit));
-      if (std::isfinite(needed)) v.note = mends + (v.note.empty() ? "" : "; ") + v.note;
+    v.load_case = load_case;
+    const double needed = v.value + v.error;
+    if (v.state() == Compliance::exceeded && std::isfinite(needed)) {
+      std::string mends = fmt::format("by an estimate it holds from {:.3g} times this diameter on, at the same torque",
+                                      std::cbrt(needed / limit));
+      if (key) {  // nothing of the motion depends on it
+        v.remedy = Remedy{joint_.component + "." + key, enough(needed), v.unit, true};
+        mends = in_words(*v.remedy);
+      }
+      v.note = mends + (v.note.empty() ? "" : "; ") + v.note;
     }
     out_.push_back(std::move(v));
     return out_.back();
   }
-
-  // The largest of the way there: simulated, else a bound. What of the steady motion is larger, stands apart.
-  struct Largest {
-    Estimate start = {}, steady = {};
-    bool bound = false;
-    std::string note = {};
-  };
-  Largest largest() const {
-    Largest found{.steady = load_.largest()};
-    if (peak_) {
-      found.start = peak_->torque;
-      found.note = fmt::format("at {:.4g} s of {}", peak_->time, run_up_.words);
-    } else if (passing_ && std::abs(passing_->torque) > std::abs(found.steady.value)) {
-      found.start = {passing_->torque, 0};
-      found.bound = true;
-      found.note = fmt::format("a bound only: steady swing at {}, which a quick passage stays below; no run-up: {}",
-                               unit_.text(passing_->speed, 5), run_up_.words);
-    } else {
-      found.note = fmt::format("in steady motion; no run-up: {}", run_up_.words);
-    }
-    return found;
+  // A torque that counts with factors.
+  void counted(const char* requirement, const Estimate& torque, double limit, const std::vector<Factor>& factors,
+               const std::string& note, const char* key, const char* load_case = load_case::steady) {
+    double factor = 1;
+    for (const Factor& f : factors) factor *= f.second;
+    Verdict& v = add(requirement, factor * torque, limit, "N*m", load_case, note, key);
+    v.factor = factor, v.factors = words_of(factors);
   }
+  static std::string words_of(const std::vector<Factor>& factors) {
+    std::string text;
+    for (const Factor& f : factors)
+      if (f.second != 1) text += fmt::format("{}{} = {:.3g}", text.empty() ? "" : ", ", f.first, f.second);
+    return text;
+  }
+  void leave(const char* requirement, double limit, const char* unit, const char* load_case) {
+    out_.push_back(not_assessed(joint_.name, requirement, limit, unit, load_case, run_up_.words));
+  }
+
+  // --- the largest torque: of the start, or of the resonances below the operating speed; and of the steady motion ---
+
+  std::string of_start() const { return fmt::format("at {:.4g} s of {}", peak_->time, run_up_.words); }
+  std::string of_passing() const {
+    return fmt::format("a bound: steady swing at {}, which a quick passage stays below",
+                       unit_.text(passing_->speed, 5));
+  }
+  bool passes() const { return passing_ && std::abs(passing_->torque) > std::abs(load_.largest().value); }
 
   void maximum() {
-    const Largest l = largest();
-    const Estimate steady = times(limits_.temperature_factor, l.steady),
-                   start = start_torque(limits_, l.start, load_.mean);
-    const bool starts = start.value > steady.value;
-    std::string note = starts ? l.note : "in steady motion" + (peak_ ? std::string() : "; no run-up: " + run_up_.words);
-    if (limits_.temperature_factor > 1 || limits_.start_factor > 1)
-      note += fmt::format("; S_t = {:g}, S_z = {:g}", limits_.temperature_factor, limits_.start_factor);
-    add(requirement::maximum, starts ? start : steady, limits_.maximum, "N*m", note, "maximum_torque").bound =
-        starts && l.bound;
+    const double temperature = limits_.temperature_factor;
+    if (peak_) {
+      const Estimate start = start_torque(limits_, peak_->torque, load_.mean);
+      Verdict& v =
+          add(requirement::maximum, start, limits_.maximum, "N*m", load_case::start, of_start(), "maximum_torque");
+      v.factors = words_of({{"S_t", temperature}, {"S_z", limits_.start_factor}});
+      if (peak_->torque.value != 0 && std::isfinite(start.value))
+        v.factor = start.value / std::abs(peak_->torque.value);
+    } else {
+      leave(requirement::maximum, limits_.maximum, "N*m", load_case::start);
+      if (passes()) {
+        counted(requirement::maximum, {std::abs(passing_->torque), 0}, limits_.maximum, {{"S_t", temperature}},
+                of_passing(), "maximum_torque", load_case::passing);
+        out_.back().bound = true;
+      }
+    }
+    counted(requirement::maximum, abs(load_.largest()), limits_.maximum, {{"S_t", temperature}}, "", "maximum_torque");
   }
 
-  void shear() {
-    const Largest l = largest();
-    const double modulus = limits_.polar_modulus;
-    const Estimate steady = times(limits_.application_factor / modulus, l.steady), start = times(1 / modulus, l.start);
-    const bool starts = start.value > steady.value;
-    add("shear stress: K_A |T|/W_p ≤ τ_allowable", starts ? start : steady, limits_.shear_stress, "Pa",
-        starts
-            ? fmt::format("W_p = {:.5g} cm³, without K_A: {}", 1e6 * modulus, l.note)
-            : fmt::format("W_p = {:.5g} cm³, K_A = {:g}, in steady motion", 1e6 * modulus, limits_.application_factor))
-        .bound = starts && l.bound;
+  // A stress that goes with the largest torque, by `per` of it; `steady_factor` counts in steady motion alone.
+  void largest(const char* requirement, double limit, const char* unit, double per, const Factor& steady_factor,
+               const std::string& note) {
+    const std::string also = note.empty() ? "" : "; " + note;
+    if (peak_) {
+      add(requirement, per * abs(peak_->torque), limit, unit, load_case::start, of_start() + also);
+    } else {
+      leave(requirement, limit, unit, load_case::start);
+      if (passes())
+        add(requirement, {per * std::abs(passing_->torque), 0}, limit, unit, load_case::passing, of_passing() + also)
+            .bound = true;
+    }
+    Verdict& v =
+        add(requirement, steady_factor.second * per * abs(load_.largest()), limit, unit, load_case::steady, note);
+    v.factor = steady_factor.second, v.factors = words_of({steady_factor});
   }
 
   void swinging_stress() {
     const ShaftRating& shaft = limits_.shaft;
-    const Estimate amplitude = times(1 / limits_.polar_modulus, load_.amplitude());
-    if (shaft.vibratory) add(requirement::vibratory_stress, amplitude, *shaft.vibratory, "Pa", "in steady motion");
+    const double per = 1 / limits_.polar_modulus;
+    const Estimate amplitude = per * load_.amplitude();
+    const auto steady = [&](const char* requirement, const Estimate& value, double limit, const std::string& note) {
+      add(requirement, value, limit, "Pa", load_case::steady, note);
+    };
+    if (shaft.vibratory) steady(requirement::vibratory_stress, amplitude, *shaft.vibratory, "");
     if (shaft.endurance) {
-      const Fatigue f = fatigue_of(shaft, amplitude, times(1 / limits_.polar_modulus, load_.middle()));
-      add(requirement::fatigue, f.stress, *shaft.endurance, "Pa", f.note);
+      const Fatigue f = fatigue_of(shaft, amplitude, per * abs(load_.middle()));
+      steady(requirement::fatigue, f.stress, *shaft.endurance, f.note);
     }
-    if (shaft.yield) yield();
+    if (shaft.yield)
+      largest(requirement::yield, shaft.yield_in_shear(), "Pa", shaft.safety * per, {"K_A", 1.0},
+              shaft.safety != 1 ? fmt::format("S = {:g}", shaft.safety) : "");
     if (shaft.is_of_propulsion() && std::isfinite(joint_.continuous(speed_)))
-      add(requirement::continuous, amplitude, joint_.continuous(speed_), "Pa",
-          fmt::format("λ = {:.3g}, in steady motion", joint_.speed_ratio(speed_)));
-  }
-
-  void yield() {
-    const Largest l = largest();
-    const double factor = limits_.shaft.safety / limits_.polar_modulus;
-    const Estimate steady = times(factor, l.steady), start = times(factor, l.start);
-    const bool starts = start.value > steady.value;
-    add(requirement::yield, starts ? start : steady, limits_.shaft.yield_in_shear(), "Pa",
-        starts ? l.note : "in steady motion")
-        .bound = starts && l.bound;
+      steady(requirement::continuous, amplitude, joint_.continuous(speed_),
+             fmt::format("λ = {:.3g}", joint_.speed_ratio(speed_)));
   }
 
   const LimitedJoint& joint_;
@@ -155,63 +174,145 @@ Fatigue fatigue_of(const ShaftRating& shaft, const Estimate& amplitude, const Es
                   1e-6 * mean.value, 1e-6 * shaft.strength_in_shear(), shaft.notch, shaft.safety)};
 }
 
-const char* name_of(Compliance c) {
-  return c == Compliance::holds ? "holds" : c == Compliance::exceeded ? "exceeded" : "undecided";
-}
+const char* name_of(Compliance c) { return enumerator_words<Compliance::not_assessed>(c); }
 
 Compliance Verdict::state() const {
+  if (!assessed) return Compliance::not_assessed;
   if (std::isnan(value) || std::isnan(error)) return Compliance::undecided;
   if (value + error <= limit) return Compliance::holds;
-  return bound || value - error <= limit ? Compliance::undecided : Compliance::exceeded;
+  if (bound) return Compliance::not_assessed;
+  return value - error <= limit ? Compliance::undecided : Compliance::exceeded;
 }
 
-double worst_excess(const std::vector<Verdict>& verdicts) {
-  double worst = 0;
-  for (const Verdict& v : verdicts)
-    if (v.state() == Compliance::exceeded) worst = std::max(worst, v.value / v.limit);
-  return worst;
+Verdict not_assessed(std::string component, std::string requirement, double limit, std::string unit,
+                     const char* load_case, std::string why) {
+  Verdict v{std::move(component), std::move(requirement), std::nan(""), limit, std::move(unit), std::move(why)};
+  v.load_case = load_case, v.assessed = false;
+  return v;
+}
+
+double enough(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
+  return unit * std::ceil(value / unit - 1e-9);
+}
+
+std::string name_of_remedy(const Verdict& v) {
+  return v.remedy ? v.remedy->key + " for " + v.requirement : std::string();
+}
+
+std::string in_words(const Remedy& r, bool up_to) {
+  const std::string value = r.unit == "m" ? fmt::format("{:.4g} mm", 1e3 * r.value) : told_shortly(r.value, r.unit);
+  return fmt::format("{}it holds {} {} = {}{}{}", r.tried ? "" : "by an estimate ", up_to ? "up to" : "from",
+                     r.key.substr(r.key.rfind('.') + 1), value, up_to ? "" : " on",
+                     r.tried ? (up_to ? ", and does not 1 % above" : ", and does not 1 % below") : "");
 }
 
 namespace {
 
-// "clutch", heat of an engagement: 132 % of what is allowed
+// "clutch", heat of an engagement (run)
+std::string name_of(const Verdict& v) {
+  return fmt::format("\"{}\", {} ({})", v.component, v.requirement.substr(0, v.requirement.find(':')), v.load_case);
+}
+
+// "clutch", heat of an engagement (run): 132 % of what is allowed
 std::string use_in_words(const Verdict& v) {
-  return fmt::format("\"{}\", {}: {:.0f} % of what is allowed", v.component,
-                     v.requirement.substr(0, v.requirement.find(':')), 100 * v.value / v.limit);
+  return fmt::format("{}: {:.0f} % of what is allowed", name_of(v), 100 * v.share());
+}
+
+// "9.16 kN·m · 1.2 of 10 kN·m", "; it holds from …"
+std::string numbers_in_words(const Verdict& v) {
+  const bool counted = v.factor != 1 && std::isfinite(v.load());
+  return fmt::format("{}{} of {}{}", told_shortly(counted ? v.load() : v.value, v.unit),
+                     counted ? fmt::format(" · {:.3g}", v.factor) : "", told_shortly(v.limit, v.unit),
+                     v.note.empty() ? "" : "; " + v.note);
 }
 
 // Of those in that state the one that is nearest to its limit, or farthest beyond it; null: none is.
 const Verdict* worst_of(const std::vector<Verdict>& verdicts, Compliance state) {
   const Verdict* worst = nullptr;
   for (const Verdict& v : verdicts)
-    if (v.state() == state && (!worst || v.value / v.limit > worst->value / worst->limit)) worst = &v;
+    if (v.state() == state && (!worst || v.share() > worst->share())) worst = &v;
   return worst;
+}
+
+// The verdict that all are judged by: what is exceeded before what is undecided, what holds, and what is not assessed.
+const Verdict* decisive(const std::vector<Verdict>& verdicts) {
+  for (const Compliance state :
+       {Compliance::exceeded, Compliance::undecided, Compliance::holds, Compliance::not_assessed})
+    if (const Verdict* worst = worst_of(verdicts, state)) return worst;
+  return nullptr;
+}
+
+std::string left_open(const std::vector<Verdict>& verdicts) {
+  const Verdict* first = worst_of(verdicts, Compliance::not_assessed);
+  if (!first) return {};
+  const auto more = std::count_if(verdicts.begin(), verdicts.end(),
+                                  [](const Verdict& v) { return v.state() == Compliance::not_assessed; }) -
+                    1;
+  return fmt::format("not assessed: {}{}", name_of(*first), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+// Of those that are assessed.
+std::string sum_up(const std::vector<Verdict>& all, const Verdict& worst, const std::string& what) {
+  const auto count = [&](Compliance state) {
+    return std::count_if(all.begin(), all.end(), [&](const Verdict& v) { return v.state() == state; });
+  };
+  const auto open = count(Compliance::not_assessed), number = static_cast<std::ptrdiff_t>(all.size()) - open;
+  const bool one = number == 1;
+  switch (worst.state()) {
+    case Compliance::exceeded:
+      return fmt::format("{}{}, {}",
+                         one ? "a " + what + " is EXCEEDED, "
+                             : fmt::format("{} of {} {}s EXCEEDED, worst ", count(Compliance::exceeded), number, what),
+                         use_in_words(worst), numbers_in_words(worst));
+    case Compliance::undecided:
+      return fmt::format("{} of {} {}s undecided, {}", count(Compliance::undecided), number, what, use_in_words(worst));
+    case Compliance::holds:
+      return fmt::format("{}{} hold{}, {}{}",
+                         one           ? "its " + what
+                         : number == 2 ? "both " + what + "s"
+                                       : fmt::format("all {} {}s", number, what),
+                         open > 0 ? (one ? " that is assessed" : " that are assessed") : "", one ? "s" : "",
+                         one ? "" : "the nearest ", use_in_words(worst));
+    case Compliance::not_assessed:
+      return {};
+  }
+  return {};
+}
+
+Predicate predicate_of(Compliance state) {
+  constexpr Predicate of[] = {Predicate::limit_held, Predicate::limit_exceeded, Predicate::limit_undecided,
+                              Predicate::not_assessed};
+  return of[static_cast<std::size_t>(state)];
 }
 
 }  // namespace
 
 std::string sentence_of(const std::vector<Verdict>& verdicts, const std::string& what) {
-  if (verdicts.empty()) return "";
-  const auto count = [&](Compliance state) {
-    return std::count_if(verdicts.begin(), verdicts.end(), [&](const Verdict& v) { return v.state() == state; });
-  };
-  const bool one = verdicts.size() == 1;
-  const std::string all = one                    ? "its " + what
-                          : verdicts.size() == 2 ? "both " + what + "s"
-                                                 : fmt::format("all {} {}s", verdicts.size(), what);
-  if (const Verdict* worst = worst_of(verdicts, Compliance::exceeded)) {
-    return fmt::format(
-        "{}{}, {} of {}{}",
-        one ? "a " + what + " is EXCEEDED, "
-            : fmt::format("{} of {} {}s EXCEEDED, worst ", count(Compliance::exceeded), verdicts.size(), what),
-        use_in_words(*worst), told_shortly(worst->value, worst->unit), told_shortly(worst->limit, worst->unit),
-        worst->note.empty() ? "" : "; " + worst->note);
+  const Verdict* worst = decisive(verdicts);
+  if (!worst) return "";
+  const std::string judged = sum_up(verdicts, *worst, what), open = left_open(verdicts);
+  return judged + (judged.empty() || open.empty() ? "" : "; ") + open;
+}
+
+Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& what) {
+  Claims claims;
+  const Verdict* worst = decisive(verdicts);
+  const auto known = [](double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; };
+  for (const Verdict& v : verdicts) {
+    const Compliance state = v.state();
+    const std::string text = &v == worst                         ? capitalised(sentence_of(verdicts, what))
+                             : state == Compliance::not_assessed ? name_of(v) + ": not assessed"
+                                                                 : use_in_words(v) + ", " + numbers_in_words(v);
+    std::optional<Claim> claim =
+        claimed(predicate_of(state), text, v.component,
+                {.value = known(v.value), .limit = known(v.limit), .error = known(v.error), .unit = v.unit});
+    if (!claim) continue;
+    claim->load_case = v.load_case, claim->remedy = v.remedy, claim->in_conclusion = &v == worst;
+    claims.push_back(std::move(*claim));
   }
-  if (const Verdict* open = worst_of(verdicts, Compliance::undecided))
-    return fmt::format("{} of {} {}s undecided, {}", count(Compliance::undecided), verdicts.size(), what,
-                       use_in_words(*open));
-  return fmt::format("{} hold{}, {}{}", all, one ? "s" : "", one ? "" : "the nearest ",
-                     use_in_words(*worst_of(verdicts, Compliance::holds)));
+  return claims;
 }
 
 Estimate start_torque(const DriveLimits& limits, const Estimate& peak, const Estimate& mean) {

@@ -12,14 +12,28 @@
 #include <vector>
 
 #include "engine/scene/speed_unit.h"
+#include "studies/claims/claim.h"
 #include "studies/limits/run_up.h"
 
 namespace kurbel {
 
-enum class Compliance { holds, exceeded, undecided };
+// not_assessed: the command does not compute the load case, or knows a bound that is beyond the limit.
+enum class Compliance { holds, exceeded, undecided, not_assessed };
 const char* name_of(Compliance compliance);
 
-// One requirement on one component.
+// What a verdict is of: the same limit on the same load case has the same verdict in every command.
+namespace load_case {
+inline constexpr const char* start = "start";                          // from rest, or the run-up of a run
+inline constexpr const char* steady = "steady";                        // the motion that the machine keeps
+inline constexpr const char* passing = "resonance passed";             // below the operating speed
+inline constexpr const char* run_down = "run-down";                    // after the last source went off
+inline constexpr const char* run = "run";                              // all that was simulated
+inline constexpr const char* speed_range = "steady, range of speeds";  // held at each of them
+// "after step 2 of the sequence" else
+}  // namespace load_case
+
+// One requirement on one component, in one load case. A torque that counts with factors of a standard is
+// value = factor · load.
 struct Verdict {
   std::string component, requirement;  // "vibratory torque: S_t S_f T_W ≤ T_KW"
   double value = 0, limit = 0;
@@ -27,6 +41,13 @@ struct Verdict {
   std::string note;    // where it is exceeded it begins with what would mend it
   double error = 0;    // of the value
   bool bound = false;  // the value is only known to be no more than this
+  std::string load_case = load_case::run;
+  double factor = 1;
+  std::string factors = {};           // "S_t = 1.2, S_f = 1.41"
+  std::optional<Remedy> remedy = {};  // the key's value from which on it holds
+  bool assessed = true;
+  double load() const { return value / factor; }
+  double share() const { return value / limit; }
   Compliance state() const;
   bool holds() const { return state() == Compliance::holds; }
 };
@@ -54,12 +75,25 @@ struct Fatigue {
 };
 Fatigue fatigue_of(const ShaftRating& shaft, const Estimate& amplitude, const Estimate& mean);
 
-// The largest value over its limit, of what is exceeded; 0: nothing is.
-double worst_excess(const std::vector<Verdict>& verdicts);
+// A limit of a load case that is not computed here; `why`: who does.
+Verdict not_assessed(std::string component, std::string requirement, double limit, std::string unit,
+                     const char* load_case, std::string why);
 
 // "1 of 3 ratings EXCEEDED, worst "clutch", heat of an engagement: 132 % of what is allowed, 1320 J of 1000 J; …", with the
-// value that would mend it; "all 3 ratings hold, the nearest "belt", …"; empty: nothing is judged. `what`: "rating".
+// value that would mend it; "all 3 ratings hold, the nearest "belt", …", and what is not assessed; empty: nothing is judged.
+// `what`: "rating".
 std::string sentence_of(const std::vector<Verdict>& verdicts, const std::string& what);
+
+// A claim for each; the worst one's sentence is that of all, and stands in the conclusion.
+Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& what);
+// "it holds from diameter = 87.92 mm on, and does not 1 % below"; of what was not tried "by an estimate it holds …".
+// `than`: "from … on" or "up to".
+std::string in_words(const Remedy& remedy, bool up_to = false);
+
+// Rounded up to the four digits that are shown; with a minus sign down.
+double enough(double value);
+// "shaft.diameter for shear stress: …": by which a run knows the remedies that were tried.
+std::string name_of_remedy(const Verdict& verdict);
 
 // Of all joints that have limits. Loads and peaks are of `joints`, in this order; passing is asked where there is no
 // run-up, and may be empty.

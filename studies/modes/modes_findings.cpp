@@ -390,10 +390,11 @@ Findings findings_of(const ModesStudy& m) {
              .complete = m.complete,
              .diagnosis = m.diagnosis,
              .footer = report_footer()};
-  f.answer(m.complete ? Topic::figures : Topic::runs, conclusion_of(m), m.complete ? 0 : 100);
-  for (const std::string& sentence : m.outside_data) f.answer(Topic::sure, capitalised(sentence), 0.5);
-  f.answer(Topic::bears, limits_sentence(m.verdicts, m.barred, m.limited, m.speed_unit), worst_excess(m.verdicts));
-  f.answer(Topic::bears, stress_sentence(m.stresses), stress_excess(m.stresses));
+  f.conclude(m.complete, conclusion_of(m));
+  for (const std::string& sentence : m.outside_data) f.claim(Predicate::outside_data, capitalised(sentence));
+  f.claim(limit_claims(m.verdicts, "limit"));
+  f.claim(barred_claim(m.barred, m.limited, m.speed_unit));
+  f.claim(stress_claim(m.stresses));
   const Chapter limits = f.chapter("Limits (theory 12.9)"), modes = f.chapter("Modes (theory 12.2, 12.3)"),
                 campbell = f.chapter("Critical speeds (theory 12.6)"),
                 forced = f.chapter("Forced response (theory 12.7)"),

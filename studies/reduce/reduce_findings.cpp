@@ -280,8 +280,8 @@ Findings findings_of(const MachineReduction& r) {
   f.key("constant inertia of the drive", {r.constant_inertia}, "constant_inertia", r.to_output ? "on " + r.link : "");
   f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);
   f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
-  f.answer(Topic::figures, conclusion_of(r));
-  for (const std::string& sentence : r.outside_data) f.answer(Topic::sure, sentence, 0.5);
+  f.conclude(true, conclusion_of(r));
+  for (const std::string& sentence : r.outside_data) f.claim(Predicate::outside_data, sentence);
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
   tell_all(f, r);

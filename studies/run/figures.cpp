@@ -327,7 +327,8 @@ class RunFigures {
                          .energy_begin = e.kinetic_start + e.stored_start,
                          .energy_end = e.kinetic_end + e.stored_end,
                          .work = e.work};
-    run_->work_periods = work_periods(model_, run_->periods, run_->cycles.cycles(), whole);
+    run_->work_periods = work_periods(model_, run_->periods, run_->cycles.cycles(), whole,
+                                      [&](double t) { return run_->speed->works_at(t); });
     tell_works(model_, run_->work_periods, tell_);
   }
   void add_motors() {

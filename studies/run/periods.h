@@ -14,6 +14,8 @@
 // run-up        ends where ω enters for good, up to the end of the driven time, the range of the last cycle widened by
 //               1 % of the steady speed (without a cycle: steady speed ± 1 %). Of steady motion only; a machine that
 //               begins within that range has no run-up.
+// run-down      from the end of the driven time to standstill, or to the end. The three periods and their works are between
+//               these times wherever they are told (duty/work_periods.h).
 // standstill    the link comes to rest and is held to the end; else |ω| stays for good below 0.1 % of the last mid
 //               speed, or of the speed at the end of the driven time.
 #pragma once

@@ -280,9 +280,8 @@ void show_motion(Findings& f, const Results& results) {
 
 void show_works_of_periods(Findings& f, Chapter in, const Result& r) {
   if (!r.model || !r.complete) return;
-  const WholeRun whole{.begin = r.begins_at, .end = r.until, .work = {0}};  // its times alone are asked for
   Lines lines;
-  for (const WorkPeriod& p : work_periods(*r.model, r.periods, r.cycles, whole)) {
+  for (const WorkPeriod& p : three_periods(r.periods, r.begins_at, r.until)) {
     const std::string words = std::string("work_of_") + p.name;
     std::string name = p.name;
     std::replace(name.begin(), name.end(), '_', ' ');

@@ -8,8 +8,8 @@
 #include "engine/scene/units.h"
 #include "studies/answers/key_figures.h"
 #include "studies/answers/measured_names.h"
-#include "studies/answers/run_answers.h"
-#include "studies/conclusions/headline.h"
+#include "studies/answers/run_claims.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/limits/ratings.h"
@@ -127,7 +127,7 @@ void show_ratings(Findings& f, Chapter in, const Result& r) {
   Rows table = verdict_table(verdicts);
   table.key = "ratings", table.heading = "ratings";
   f.say(in, std::move(table));
-  for (Answer& answer : rating_answers(verdicts)) f.answers.push_back(std::move(answer));
+  f.claim(limit_claims(verdicts, "rating"));
 }
 
 // What a screen of a terminal has room for.
@@ -143,7 +143,8 @@ Brief brief_of(const Result& r) {
               .notes = r.notes};
   // What the conclusion says already.
   std::erase_if(brief.notes, [&](const std::string& note) {
-    return std::any_of(r.answers.begin(), r.answers.end(), [&](const Answer& a) { return a.sentence == note; });
+    return std::any_of(r.claims.begin(), r.claims.end(),
+                       [&](const Claim& c) { return c.in_conclusion && c.text == note; });
   });
   std::string sure = r.errors_measured
                          ? fmt::format("accuracy {:.1e} asked for, {:.1e} measured", r.accuracy, r.measured_accuracy)
@@ -210,8 +211,8 @@ Findings findings_of(const Result& r, const Result* rigid) {
       .unconfirmed = r.unconfirmed() ? r.accuracy_in_words() : "",
       .opening = Findings::Opening::title_and_conclusion,
       .footer = report_footer()};
-  f.answers = run_answers(r);
-  f.answer(Topic::figures, capitalised(figures_in_words(r)));
+  f.claims = run_claims(r);
+  f.conclude(true, capitalised(figures_in_words(r)));
   f.brief = brief_of(r);
   f.figures = key_figures_of(r);
   show_motion(f, rigid && drawable({rigid}) ? Results{rigid, &r} : Results{&r});
@@ -250,9 +251,9 @@ Findings findings_of(const Comparison& c) {
              .footer = report_footer()};
   judge_completion(f, c);
   for (const Result* r : results)
-    for (Answer& answer : run_answers(*r, r->label + " model: "))
-      if (answer.severity > 0 || r == &c.b) f.answers.push_back(std::move(answer));
-  if (c.a.complete && c.b.complete) f.answer(Topic::figures, c.conclusion);
+    for (Claim& claim : run_claims(*r, r->label + " model: "))
+      if (claim.is_bad() || r == &c.b) f.claims.push_back(std::move(claim));
+  if (c.a.complete && c.b.complete) f.conclude(true, c.conclusion);
   f.figures = key_figures_of(c);
   show_motion(f, results);
   const Chapter figures = f.chapter("Figures");

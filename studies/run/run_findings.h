@@ -75,7 +75,7 @@ std::string coarse_rows_note(const TrajectoryRecorder& trajectory, std::int64_t 
 
 // The machine that moves and its plots: the page's first chapters.
 void show_motion(Findings& findings, const Results& results);
-// A row a period of steady machines, between the borders of whole cycles; they close: ΔE is the sum of the works.
+// A row a period of steady machines, between the borders that are told everywhere; they close: ΔE is the sum of the works.
 void show_works_of_periods(Findings& findings, Chapter in, const Result& result);
 void show_delta_formulas(Findings& findings, Chapter in, const Results& results);
 // Audit, statistics, events, explanation, scene: the page's last chapters.

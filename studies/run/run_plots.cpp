@@ -12,7 +12,7 @@
 
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/measured_names.h"
-#include "studies/conclusions/headline.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/trace.h"

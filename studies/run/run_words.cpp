@@ -88,9 +88,9 @@ std::string figures_in_words(const Result& r) {
     text = fmt::format("the torque in \"{}\" reaches {}{}", peak->of, told(*peak),
                        peak->at ? " at " + told_shortly(*peak->at, "s") : "");
   const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
-  if (const Figure* delta = first_of(r, quantities::delta))
-    more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
   constexpr double stands_within_the_cycle = 2;
+  if (const Figure* delta = first_of(r, quantities::delta); delta && delta->value < stands_within_the_cycle)
+    more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
   if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" changes by {} of its middle in the last cycle, which is not steady",
                      cycle->of, told(*cycle)));

@@ -14,7 +14,7 @@
 #include "engine/run/checkpoint.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
-#include "studies/answers/motion_answers.h"
+#include "studies/answers/motion_claims.h"
 #include "studies/duty/holding.h"
 #include "studies/duty/motor_figures.h"
 #include "studies/limits/ratings.h"
@@ -263,6 +263,7 @@ class Simulation {
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
     run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);
+    run->slips = std::make_unique<SlipRecorder>(model);
     run->falls = std::make_unique<FlywheelFalls>(model);
     run->currents = std::make_unique<MotorCurrents>(model);
     run->ranges = std::make_unique<DataRangeRecorder>(model);
@@ -288,6 +289,7 @@ class Simulation {
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
+    if (!run->slips->joints().empty()) observers.push_back(run->slips.get());
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);
@@ -379,7 +381,7 @@ class Simulation {
     run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
-    judge_motion(run.outcome);
+    judge_motion(run.outcome, *run.slips);
     tell_outside_data(*run.ranges, result_);
     note_regularised(run.outcome.regularised);
     note_arcs(m.network);
@@ -414,11 +416,10 @@ class Simulation {
     }
   }
   // Does it do its work at all?
-  void judge_motion(const RunOutcome& outcome) {
-    result_.answers = motion_answers(equations_, outcome, result_.periods, result_.figures, !result_.cycles.empty(),
-                                     result_.begins_at);
+  void judge_motion(const RunOutcome& outcome, const SlipRecorder& slips) {
+    result_.claims = motion_claims(equations_, outcome, result_, slips);
     if (const std::optional<Stall> stall = stalled(equations_, outcome))
-      result_.notes.push_back(outcome.complete ? result_.answers.front().sentence : in_words(*stall));
+      result_.notes.push_back(outcome.complete ? result_.claims.front().text : in_words(*stall));
   }
 
   std::shared_ptr<const Model> model_;

@@ -40,8 +40,13 @@ class Worst {
   }
   void add(const LimitedJoint& joint, const char* what, std::vector<Verdict>& verdicts) const {
     if (known_)
-      verdicts.push_back(
-          {joint.name, what, stress_, allowed_, "Pa", fmt::format("worst at λ = {:.3g}, linear response", lambda_), 0});
+      verdicts.push_back({.component = joint.name,
+                          .requirement = what,
+                          .value = stress_,
+                          .limit = allowed_,
+                          .unit = "Pa",
+                          .note = fmt::format("worst at λ = {:.3g}, linear response", lambda_),
+                          .load_case = what == requirement::passing ? load_case::passing : load_case::speed_range});
   }
 
  private:

@@ -140,29 +140,34 @@ Plot stress_plot(const ShaftStresses& s, std::size_t j, const std::vector<Stress
 
 }  // namespace
 
-std::string stress_sentence(const ShaftStresses& s) {
-  if (!s.any()) return "";
+std::optional<Claim> stress_claim(const ShaftStresses& s) {
+  if (!s.any()) return {};
   const std::vector<std::size_t> shafts = judged_shafts(s.joints);
   const std::vector<StressPeak> peaks = stress_peaks(s.joints, s.normal), other = misfire_peaks(s);
   const StressPeak* worst = worst_of_all(peaks, shafts);
-  if (!worst || !(worst->stress > 0)) return "";
+  if (!worst || !(worst->stress > 0)) return {};
   std::string text = fmt::format("vibratory stress of shafts: {}{}, {}", shafts.size() > 1 ? "the worst " : "",
                                  worst->shaft, peak_text(*worst, s.unit) + passed_text(s, *worst));
   if (const StressPeak* m = worst_of_all(other, shafts))
     text += fmt::format("; as {} misfires {}{}", m->misfires, m->shaft == worst->shaft ? "" : m->shaft + ", ",
                         peak_text(*m, s.unit));
-  return text;
-}
-
-double stress_excess(const ShaftStresses& s) {
-  double most = 0;
-  const auto look_at = [&](const StressPeak& p) {
-    const double passing = use_in_passing(s, p).value_or(HUGE_VAL);
-    most = std::max(most, passing <= 1 ? passing : p.use());
-  };
-  for (const StressPeak& p : stress_peaks(s.joints, s.normal)) look_at(p);
-  for (const StressPeak& p : misfire_peaks(s)) look_at(p);
-  return most > 1 ? most : 0;
+  // What is used most: in the barred range that may be passed by what passing allows.
+  const StressPeak* most = worst;
+  double use = 0;
+  for (const auto* list : {&peaks, &other})
+    for (const StressPeak& p : *list) {
+      const double passing = use_in_passing(s, p).value_or(HUGE_VAL), used = passing <= 1 ? passing : p.use();
+      if (used > use) use = used, most = &p;
+    }
+  const bool judged = std::isfinite(most->allowed) && use > 0;
+  std::optional<Claim> claim =
+      claimed(use > 1  ? Predicate::limit_exceeded
+              : judged ? Predicate::limit_held
+                       : Predicate::figures_told,
+              std::move(text), most->shaft,
+              judged ? Evidence{.value = most->stress, .limit = most->stress / use, .unit = "Pa"} : Evidence{});
+  if (claim) claim->load_case = most->misfires.empty() ? load_case::speed_range : "misfire of " + most->misfires;
+  return claim;
 }
 
 Rows stress_table(const ShaftStresses& s) {

@@ -1,9 +1,10 @@
 // stress_findings.h — what is said of stresses: the sentence that stands first, tables, curves.
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "studies/claims/claim.h"
 #include "studies/data/data_table.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
@@ -12,10 +13,8 @@
 namespace kurbel {
 
 // "vibratory stress of shafts: the worst propeller_shaft, 38.2 MPa at 92 rpm, 87 % of what is allowed there; as cylinder3
-// misfires 44.1 MPa at 92 rpm, 101 %: it EXCEEDS that"; empty: there is nothing to say.
-std::string stress_sentence(const ShaftStresses& s);
-// How many times too large, of what is exceeded; 0: nothing is.
-double stress_excess(const ShaftStresses& s);
+// misfires 44.1 MPa at 92 rpm, 101 %: it EXCEEDS that", judged by what is used most; none: there is nothing to say.
+std::optional<Claim> stress_claim(const ShaftStresses& s);
 
 Rows stress_table(const ShaftStresses& s);   // of every shaft the sum, and its orders
 Rows misfire_table(const ShaftStresses& s);  // of every shaft and cylinder that misfires

@@ -329,17 +329,18 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
 
 // Simulated as it really is, it may not keep what it was sized for.
 void add_answers(Findings& f, const Sizing& s) {
-  f.answer(s.complete ? Topic::figures : Topic::runs, conclusion_of(s), s.complete ? 0 : 100);
+  f.conclude(s.complete, conclusion_of(s));
   const DeltaReached* real = reached(s, SizedModel::elastic);
   if (!real) real = reached(s, SizedModel::rigid);
   constexpr double visible = 1.02;
   if (s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta)
-    f.answer(Topic::bears,
-             fmt::format("{}{:.6g} kg·m², by the work equation, do not keep δ = {:g}: simulated it is {:.4g} at the "
-                         "crank, {:.3g} times that",
-                         s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",
-                         exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),
-             real->crank.value / s.delta);
+    f.claim(claimed(
+        Predicate::demand_missed,
+        fmt::format("{}{:.6g} kg·m², by the work equation, do not keep δ = {:g}: simulated it is {:.4g} at the "
+                    "crank, {:.3g} times that",
+                    s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",
+                    exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),
+        s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 #include "engine/scene/units.h"
 #include "studies/answers/measured_names.h"
-#include "studies/answers/run_answers.h"
+#include "studies/answers/run_claims.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/trace.h"
@@ -328,6 +328,20 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
 
 // --- all of it ---
 
+// What the study comes to: of the last model, whose figures are its evidence.
+std::optional<Claim> claim_of(const SteadyStudy& s) {
+  if (s.cycles.empty()) return claimed(Predicate::incomplete, s.conclusion);
+  const SteadyCycle& c = s.cycles.back();
+  const Figure* mean = c.find("mean_speed." + s.link);
+  const Figure* told = c.kind == Orbit::Kind::vibrating ? c.find("vibration_frequency") : mean;
+  const Predicate what = !s.complete                        ? Predicate::incomplete
+                         : c.kind == Orbit::Kind::vibrating ? Predicate::vibrates
+                                                            : Predicate::runs_steadily;
+  return claimed(
+      what, s.conclusion, s.link,
+      s.complete && told ? Evidence{.value = told->value, .error = told->error, .unit = told->unit} : Evidence{});
+}
+
 void add_key_figures(Findings& f, const SteadyStudy& s) {
   const SpeedUnit unit = speed_unit_of(s);
   for (const SteadyCycle& c : s.cycles) {
@@ -389,18 +403,26 @@ Findings findings_of(const SteadyStudy& s) {
              .complete = s.complete,
              .diagnosis = s.diagnosis,
              .opening = Findings::Opening::title_and_conclusion};
-  f.answer(Topic::runs, s.conclusion, s.complete ? 0 : 100);
+  f.claim(claim_of(s));
   for (const SteadyCycle& c : s.cycles)
-    if (c.found && !c.uncertain && !c.neutral && c.point.largest() > 1)
-      f.answer(Topic::runs,
-               fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), 50);
-  for (const std::string& sentence : s.cycles.back().outside_data) f.answer(Topic::sure, capitalised(sentence), 0.5);
-  for (const MotorUse& use : s.cycles.back().motors)
+    if (c.found && !c.uncertain && !c.neutral)
+      f.claim(
+          claimed(Predicate::steady_motion_unstable,
+                  fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), {},
+                  {.value = c.point.largest(),
+                   .limit = 1,
+                   .error = c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front())}));
+  const SteadyCycle& last = s.cycles.back();
+  for (const std::string& sentence : last.outside_data) f.claim(Predicate::outside_data, capitalised(sentence));
+  for (const MotorUse& use : last.motors) {
+    const Figure* rms = last.find("rms_drive_torque." + use.component);
     if (use.rated)
-      if (std::optional<Answer> answer = overload_answer(*s.cycles.back().model, use.component, *use.thermal(), true))
-        f.answers.push_back(std::move(*answer));
-  const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());
-  for (Answer& answer : rating_answers(ratings)) f.answers.push_back(std::move(answer));
+      f.claim(overload_claim(
+          *last.model, use.component,
+          {*use.thermal(), rms && rms->error ? std::optional(*rms->error / *use.rated) : std::nullopt}, true));
+  }
+  const std::vector<Verdict> ratings = steady_ratings(last);
+  f.claim(limit_claims(ratings, "rating"));
   const Chapter cycle = f.chapter("Steady cycle");
   f.chapter(chapter_of_measurement);
   const Chapter orders = f.chapter("Orders of speeds and torques (theory 11.10)"),

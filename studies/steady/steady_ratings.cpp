@@ -39,7 +39,7 @@ void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
 void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
   if (!c.loads.found) return;
   RunUp none;
-  none.words = "kurbel modes judges the start";
+  none.words = "kurbel modes judges the start, and kurbel run what it runs through";
   const std::vector<LimitedJoint> joints = limited_joints(*c.model);
   const auto head = [](const Verdict& v) { return v.requirement.substr(0, v.requirement.find(':')); };
   for (Verdict& v : judge(joints, c.loads, none, {}, c.model->scene.speed_unit)) {
@@ -48,7 +48,7 @@ void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
     std::erase_if(verdicts, [&](const Verdict& other) {
       const bool same = other.component == v.component ||
                         (joint != joints.end() && other.component == joint->component);  // of its segments together
-      return same && head(other) == head(v);
+      return same && head(other) == head(v) && other.load_case == v.load_case;
     });
     verdicts.push_back(std::move(v));
   }
@@ -83,7 +83,7 @@ std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
     }
     as_run.figures.push_back(std::move(strand));
   }
-  std::vector<Verdict> verdicts = judge_ratings(as_run);
+  std::vector<Verdict> verdicts = judge_ratings(as_run, load_case::steady);
   add_loads(c, verdicts);
   std::erase_if(verdicts, [&](const Verdict& v) {
     const auto* motor = c.model->network.data.find<MotorRating>(v.component);

@@ -301,7 +301,7 @@ Findings findings_of(const SweepStudyResult& s) {
              .complete = !s.interrupted && s.tally.rows >= s.wanted,
              .diagnosis = s.interrupted ? "interrupted; the same command goes on where it ended"
                                         : "rows are missing; the same command goes on"};
-  f.answer(Topic::figures, conclusion_of(s));
+  f.conclude(true, conclusion_of(s));
   for (const Spread& spread : spreads_of(s))
     if (f.figures.size() < 4)
       f.figures.push_back(

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "studies/run/run_findings.h"
+#include "studies/trials/remedies.h"
 
 namespace kurbel {
 namespace {
@@ -133,11 +134,13 @@ Trials try_effects(const Result& run, const std::vector<std::string>& key_figure
 }
 
 WithTrials<Result> with_trials(Result run, const SimulateOptions& options) {
+  try_remedies(run, options);
   Trials trials = try_effects(run, names_of(key_figures_of(run), run), options, true);
   return {std::move(run), std::move(trials)};
 }
 
 WithTrials<Comparison> with_trials(Comparison comparison, const SimulateOptions& options) {
+  try_remedies(comparison.b, options);
   Trials trials = try_effects(comparison.b, names_of(key_figures_of(comparison), comparison.b), options);
   return {std::move(comparison), std::move(trials)};
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/conclusions/headline.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/run/run_findings.h"
 
@@ -155,9 +155,10 @@ void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
                                            100 * least_that_changes_the_answer));
   } else {
     const MovedFigure moved = moved_by(rigid, speed).front();
-    f.answer(Topic::depends, moved.on == "—" ? fmt::format("The rigid model would tell no {}", moved.figure)
-                                             : fmt::format("The rigid model would tell {} in place of {} for {} ({})",
-                                                           moved.on, moved.off, moved.figure, moved.change));
+    f.claim(Predicate::effect_matters, moved.on == "—"
+                                           ? fmt::format("The rigid model would tell no {}", moved.figure)
+                                           : fmt::format("The rigid model would tell {} in place of {} for {} ({})",
+                                                         moved.on, moved.off, moved.figure, moved.change));
   }
 }
 
@@ -193,11 +194,11 @@ void conclude(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   for (const Trial* trial : moving) count += any(*trial, changes_the_answer);
   if (count > 0) {
     const MovedFigure moved = moved_by(*moving.front(), speed).front();
-    f.answer(Topic::depends,
-             moved.on == "—"
-                 ? capitalised(fmt::format("{}, which is off, would leave no {}", moved.effect, moved.figure))
-                 : capitalised(fmt::format("{}, which is off, would move {} from {} to {} ({})", moved.effect,
-                                           moved.figure, moved.off, moved.on, moved.change)));
+    f.claim(Predicate::effect_matters,
+            moved.on == "—"
+                ? capitalised(fmt::format("{}, which is off, would leave no {}", moved.effect, moved.figure))
+                : capitalised(fmt::format("{}, which is off, would move {} from {} to {} ({})", moved.effect,
+                                          moved.figure, moved.off, moved.on, moved.change)));
   }
   if (!f.brief) return;
   std::string words = fmt::format("effects that are off: {} of {} tried would move a key figure by {:g} % or more",

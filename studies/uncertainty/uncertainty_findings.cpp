@@ -144,7 +144,7 @@ Findings findings_of(const UncertaintyStudy& s) {
              .scene_file = s.scene_file,
              .complete = s.complete,
              .diagnosis = s.diagnosis};
-  f.answer(s.complete ? Topic::figures : Topic::runs, s.conclusion, s.complete ? 0 : 1);
+  f.conclude(s.complete, s.conclusion);
   for (const FigureUncertainty& figure : s.figures)
     if (figure.by_gradients > 0 && f.figures.size() < 4)
       f.figures.push_back({figure.figure.name, figure.value, figure.figure.unit, 2 * figure.deviation(),

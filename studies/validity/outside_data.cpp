@@ -219,7 +219,7 @@ void drop_errors(std::vector<Figure>& figures, double since) {
 }
 
 void tell_outside_data(const DataRangeRecorder& ranges, Result& result) {
-  for (std::string& sentence : ranges.sentences()) result.answers.push_back({Topic::sure, std::move(sentence), 0.5});
+  for (std::string& sentence : ranges.sentences()) add(result.claims, claimed(Predicate::outside_data, std::move(sentence)));
   const std::optional<double> since = ranges.since();
   if (!since) return;
   drop_errors(result.figures, *since);

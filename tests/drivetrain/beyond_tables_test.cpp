@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 constexpr double rpm = std::numbers::pi / 30;
 
 bool tells(const Result& r) {
-  return std::any_of(r.answers.begin(), r.answers.end(), [](const Answer& a) {
-    return a.topic == Topic::sure && a.sentence.find("outside its table") != std::string::npos;
+  return std::any_of(r.claims.begin(), r.claims.end(), [](const Claim& c) {
+    return c.predicate == Predicate::outside_data && c.text.find("outside its table") != std::string::npos;
   });
 }
 

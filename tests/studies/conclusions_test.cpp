@@ -1,5 +1,5 @@
 // conclusions_test.cpp — what is said first: in the right order, rounded, and the same everywhere.
-#include "studies/conclusions/conclusion.h"
+#include "studies/claims/conclusion.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "studies/answers/key_figures.h"
-#include "studies/answers/motion_answers.h"
 #include "studies/run/run_findings.h"
 #include "studies/trials/trials_findings.h"
 #include "tests/support/conclusions.h"
@@ -52,15 +51,21 @@ TEST(Headline, CountsSignificantDigitsAsTheyAreWritten) {
 
 // Does it run, is it sure, does it bear it, what would change it, the figures: bad news before good.
 TEST(Conclusion, BadNewsComesFirstThenTheQuestionsInTheirOrder) {
-  const std::vector<std::string> said = concluded({{Topic::figures, "figures"},
-                                                   {Topic::depends, "friction would change it"},
-                                                   {Topic::bears, "the clutch gets too hot", 1.2},
-                                                   {Topic::bears, "the shaft is overloaded", 1.9},
-                                                   {Topic::bears, "a third excess", 1.1},
-                                                   {Topic::runs, "it runs"},
-                                                   {Topic::sure, "NOT confirmed", 1}});
-  EXPECT_EQ(said, (std::vector<std::string>{"NOT confirmed.", "The shaft is overloaded.", "The clutch gets too hot.",
-                                            "It runs.", "Friction would change it.", "Figures."}));
+  Claims claims;
+  const auto say = [&](Predicate what, const std::string& words, double share = 0) {
+    add(claims, claimed(what, words, {}, share > 0 ? Evidence{.value = share, .limit = 1} : Evidence{}));
+  };
+  say(Predicate::figures_told, "figures");
+  say(Predicate::effect_matters, "friction would change it");
+  say(Predicate::limit_exceeded, "the clutch gets too hot", 1.2);
+  say(Predicate::limit_exceeded, "the shaft is overloaded", 1.9);
+  say(Predicate::limit_exceeded, "a third excess", 1.1);
+  say(Predicate::runs_steadily, "it runs");
+  say(Predicate::not_confirmed, "NOT confirmed");
+  add(claims, claimed_aside(Predicate::starts, "it starts"));
+  EXPECT_EQ(concluded(claims),
+            (std::vector<std::string>{"NOT confirmed.", "The shaft is overloaded.", "The clutch gets too hot.",
+                                      "It runs.", "Friction would change it.", "Figures."}));
 }
 
 // All example scenes: one conclusion everywhere; on a terminal at most 25 lines with the two that name the files, and no
@@ -86,13 +91,13 @@ TEST(Conclusion, OfEverySceneIsOneAndTheShortFormIsShort) {
     }
     // None of the examples is bad news, but for the belts that are meant to slip.
     if (name == "belt_mill") continue;
-    for (const Answer& a : f.answers) EXPECT_EQ(a.severity, 0) << name << ": " << a.sentence;
+    for (const Claim& c : f.claims) EXPECT_EQ(c.severity(), Severity::note) << name << ": " << c.text;
   }
 }
 
 // --- does it run at all? ---
 
-std::string first_sentence(const Result& r) { return concluded(findings_of(r).answers).front(); }
+std::string first_sentence(const Result& r) { return concluded(findings_of(r).claims).front(); }
 
 // The compressor of the examples, started from rest without a flywheel's swing: its motor cannot press the piston through.
 TEST(Conclusion, AStalledMachineIsHeadlinedAsStalled) {
@@ -163,7 +168,7 @@ TEST(Conclusion, TellsWhichEffectThatIsOffWouldChangeTheAnswer) {
   options.measure_error = false;
   options.until = 4;
   const auto study = with_trials(simulate(scene, scene.effects, "elastic", options), options);
-  const std::vector<std::string> said = concluded(findings_of(study).answers);
+  const std::vector<std::string> said = concluded(findings_of(study).claims);
   ASSERT_GE(said.size(), 4u);
   EXPECT_NE(said[1].find("The rigid model would tell"), std::string::npos) << said[1];
   EXPECT_NE(said[2].find("Joint friction, which is off, would move"), std::string::npos) << said[2];

@@ -143,6 +143,10 @@ TEST(Efficiency, CountsTheChangeOfStoredEnergy) {
   for (const char* period : {"run_up", "steady_motion", "run_down"}) {
     const auto of = [&](const char* what) { return figure(r, std::string("work_of_") + period + "." + what); };
     const auto efficiency = efficiency_of(of("driving"), of("useful"), of("weight"), of("energy"));
+    if (std::string(period) == "run_up") {  // it is over before the first stroke's work
+      EXPECT_FALSE(efficiency);
+      continue;
+    }
     ASSERT_TRUE(efficiency) << period;
     EXPECT_GT(*efficiency, 0) << period;
     EXPECT_LT(*efficiency, 1) << period;
@@ -150,7 +154,8 @@ TEST(Efficiency, CountsTheChangeOfStoredEnergy) {
       EXPECT_NEAR(*efficiency, steady, 1e-3);
     }
   }
-  EXPECT_GT(-figure(r, "work_of_run_down.useful") / figure(r, "work_of_run_down.driving"), 3);
+  EXPECT_EQ(figure(r, "work_of_run_down.driving"), 0);
+  EXPECT_LT(figure(r, "work_of_run_down.useful"), 0);
 }
 
 }  // namespace

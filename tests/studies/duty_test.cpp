@@ -196,13 +196,13 @@ TEST(SteadyRatings, AreNotJudgedTwice) {
     const std::vector<Verdict> verdicts = steady_ratings(s.cycles.back());
     std::size_t stresses = 0;
     for (const Verdict& v : verdicts) {
-      if (v.requirement.starts_with("shear stress")) {
+      if (v.requirement.starts_with("shear stress") && v.assessed) {
         ++stresses;
         EXPECT_NE(v.requirement.find("K_A"), std::string::npos) << v.component;
         EXPECT_NEAR(v.value, 1.5 * 30 / (pi * 8e-6 / 16), 2e-3 * v.value) << "30 N·m, 20 mm";
       }
-      if (v.requirement == requirement::maximum) {
-        EXPECT_NEAR(v.value, 30, 0.1) << "without S_z";
+      if (v.requirement == requirement::maximum && v.assessed) EXPECT_NEAR(v.value, 30, 0.1) << "without S_z";
+      if (v.requirement == requirement::maximum && !v.assessed) {
         EXPECT_NE(v.note.find("kurbel modes judges the start"), std::string::npos) << v.note;
       }
     }
@@ -285,15 +285,14 @@ TEST(WorksByPeriod, CloseAndAddUpToTheRun) {
     all += of("driving");
     energy += of("energy");
   }
-  // What follows the last whole cycle belongs to none of them.
-  EXPECT_LT(all, turned_over);
-  const double whole_cycles = figure(r, "work_of_steady_motion.driving") / figure(r, "driving_work_per_cycle");
-  EXPECT_NEAR(whole_cycles, std::round(whole_cycles), 1e-4);
-  EXPECT_NEAR(figure(r, "work_of_steady_motion.energy"), 0, 1e-4 * energy);
+  EXPECT_NEAR(all, turned_over, 1e-9 * turned_over);
+  EXPECT_NEAR(energy, r.energy.kinetic_end - r.energy.kinetic_start + r.energy.stored_end - r.energy.stored_start,
+              1e-6 * turned_over);
 }
 
-// Works of periods by hand: a cycle before, two steady ones, what follows run-down's begin.
-TEST(WorksByPeriod, AreSortedByTheBordersOfWholeCycles) {
+// Works of periods by hand: run-up ends and the drive goes off within a cycle; energy there is that at the cycle's begin and
+// what was done since.
+TEST(WorksByPeriod, AreThoseBetweenTheBordersThatAreTold) {
   const auto model = compile(test::scene_file("scenes/driven_slider_crank.toml"), {});
   std::vector<CycleRecord> cycles;
   std::vector<double> before(model->accounts.size(), 0.0);
@@ -316,18 +315,20 @@ TEST(WorksByPeriod, AreSortedByTheBordersOfWholeCycles) {
   before[drive] += 3;
   Periods p;
   p.steady = true, p.run_up_end = 0.5, p.run_down_begin = 3.5;
-  const std::vector<WorkPeriod> found =
-      work_periods(*model, p, cycles, {.begin = 0, .end = 6, .energy_begin = 0, .energy_end = 1, .work = before});
+  const std::vector<WorkPeriod> found = work_periods(
+      *model, p, cycles, {.begin = 0, .end = 6, .energy_begin = 0, .energy_end = 1, .work = before}, [](double t) {
+        return std::array<double, 4>{t < 1 ? 6.0 : 10 + 11 + 12 + 7.0, 0, 0, 0};
+      });
   ASSERT_EQ(found.size(), 3u);
-  EXPECT_EQ(found[0].work[0], 10);
-  EXPECT_EQ(found[0].energy, 5);
-  EXPECT_EQ(found[0].end, 1);
-  EXPECT_EQ(found[1].work[0], 11 + 12);
-  EXPECT_EQ(found[1].energy, 10);
-  EXPECT_EQ(found[1].end, 3);
-  EXPECT_EQ(found[2].work[0], 13 + 3);
-  EXPECT_EQ(found[2].energy, 1 - 15);
-  EXPECT_EQ(found[2].residual(), -14 - 16);
+  EXPECT_EQ(found[0].work[0], 6);
+  EXPECT_EQ(found[0].energy, 6);
+  EXPECT_EQ(found[0].end, 0.5);
+  EXPECT_EQ(found[1].work[0], 40 - 6);
+  EXPECT_EQ(found[1].energy, 15 + 7 - 6);
+  EXPECT_EQ(found[1].end, 3.5);
+  EXPECT_EQ(found[2].work[0], 6 + 3);
+  EXPECT_EQ(found[2].energy, 1 - 22);
+  EXPECT_EQ(found[2].residual(), -21 - 9);
 }
 
 // --- work within the loop ---

@@ -74,7 +74,7 @@ double amplitude_of(double torque, double omega, double on = near_inertia) {
 
 const Verdict& verdict_on(const ModesStudy& m, const std::string& what) {
   for (const Verdict& v : m.verdicts)
-    if (v.requirement.starts_with(what)) return v;
+    if (v.assessed && v.requirement.starts_with(what)) return v;
   throw std::runtime_error("no verdict on " + what);
 }
 
@@ -111,7 +111,7 @@ TEST(Limits, RangesOfSeveralJointsThatOverlapAreOne) {
       b.joint = ranges.size() % 2, b.from = from, b.to = to, b.limit = 75, b.peak = 940, b.by = BarredRange::By::limit;
       ranges.push_back(b);
     }
-    return limits_sentence({}, ranges, joints, SpeedUnit{});
+    return barred_claim(ranges, joints, SpeedUnit{})->text;
   };
   EXPECT_TRUE(said({{15, 30}, {10, 20}}).starts_with("1 barred range, worst ")) << said({{15, 30}, {10, 20}});
   EXPECT_TRUE(said({{15, 30}, {40, 50}, {10, 20}}).starts_with("2 barred ranges, worst "));
@@ -125,11 +125,12 @@ TEST(Limits, MachineThatTurnsBackwardsHasTheVerdictsOfTheOneThatTurnsForwards) {
   const ModesOptions simulated{.torque = "k1"};
   const ModesStudy forwards = modes_of(two_masses(1, limits), simulated),
                    backwards = modes_of(two_masses(-1, limits), simulated);
-  ASSERT_EQ(forwards.verdicts.size(), 3u);
-  ASSERT_EQ(backwards.verdicts.size(), 3u);
-  for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_NEAR(backwards.verdicts[k].value, forwards.verdicts[k].value, 1e-6 * forwards.verdicts[k].value)
-        << forwards.verdicts[k].requirement;
+  ASSERT_GE(forwards.verdicts.size(), 3u);
+  ASSERT_EQ(backwards.verdicts.size(), forwards.verdicts.size());
+  for (std::size_t k = 0; k < forwards.verdicts.size(); ++k)
+    if (forwards.verdicts[k].assessed)
+      EXPECT_NEAR(backwards.verdicts[k].value, forwards.verdicts[k].value, 1e-6 * forwards.verdicts[k].value)
+          << forwards.verdicts[k].requirement;
   EXPECT_NEAR(verdict_on(backwards, "nominal").value, 1.25 * drive, 1e-6);
   EXPECT_NEAR(backwards.here.joints[0].mean, -drive, 1e-6);
   ASSERT_EQ(forwards.barred.size(), 1u);

@@ -55,7 +55,7 @@ TEST(ModesAtRest, PendulumSwingsBySqrtOfMglOverJ) {
     EXPECT_NEAR(m.modes[0].ratio, 0, 1e-12);
     ASSERT_TRUE(m.rests_at);
     EXPECT_NEAR(*m.rests_at, 0, 1e-9);
-    EXPECT_NE(findings_of(m).answers.size(), 0u);
+    EXPECT_NE(findings_of(m).claims.size(), 0u);
   }
 }
 

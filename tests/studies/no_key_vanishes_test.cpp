@@ -145,9 +145,10 @@ Seen run_of(const Scene& scene) {
     const Result r = simulate(scene, scene.effects, "", options);
     for (const Figure& f : r.figures) seen.numbers.push_back(f.value);
     for (const std::string& note : r.notes) seen.words += note + "\n";
-    for (const Answer& answer : r.answers) seen.words += answer.sentence + "\n";
+    for (const Claim& claim : r.claims) seen.words += claim.text + "\n";
     for (const Verdict& v : judge_ratings(r)) {
-      seen.numbers.insert(seen.numbers.end(), {v.value, v.limit});
+      for (const double number : {v.value, v.limit})
+        if (!std::isnan(number)) seen.numbers.push_back(number);
       seen.words += v.component + v.requirement + v.note + "\n";
     }
     seen.numbers.insert(seen.numbers.end(), {r.accuracy, r.until, static_cast<double>(scene.run.samples)});

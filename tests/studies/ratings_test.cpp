@@ -104,8 +104,8 @@ TEST(Ratings, BeltByEulerAndEytelwein) {
   const auto more = judge_ratings(test::run(text(3, 700)));
   EXPECT_EQ(verdict_of(more, "strand").state(), Compliance::holds);
   EXPECT_EQ(verdict_of(more, "reserve").state(), Compliance::exceeded);
-  EXPECT_NE(verdict_of(more, "reserve").note.find(fmt::format("pretension = {:.4g} N", 500 * 60 / slip.limit)),
-            std::string::npos);
+  EXPECT_NEAR(verdict_of(more, "reserve").remedy->value, 500 * 60 / slip.limit, 0.1);
+  EXPECT_NE(verdict_of(more, "reserve").note.find("pretension = "), std::string::npos);
 }
 
 // 5 N·m on 1 kg m² from 100 rad/s for 2 s: 110 rad/s at r = 0.6 m, v = 66 m/s, σ = ρ v².
@@ -131,7 +131,7 @@ TEST(Ratings, RimSpeedAndHoopStress) {
   const Verdict& stress = verdict_of(verdicts, "hoop stress");
   EXPECT_NEAR(stress.value, 7200.0 * 66 * 66, 1);
   EXPECT_EQ(stress.state(), Compliance::exceeded);
-  EXPECT_NE(stress.note.find(fmt::format("{:.4g} mm", 600 * std::sqrt(30e6 / (7200.0 * 66 * 66)))), std::string::npos);
+  EXPECT_NEAR(stress.remedy->value, 0.6 * std::sqrt(30e6 / (7200.0 * 66 * 66)), 1e-4);
 }
 
 // τ = 16 T/(π d³) of the torque that the run finds, rigid and elastic.
@@ -200,7 +200,7 @@ TEST(Ratings, DutyOfAMotorByASquareProfile) {
   EXPECT_EQ(judged("duty = \"S2\"\nduty_time = \"3 s\"", 0.75).state(), Compliance::holds);
   const Verdict exceeded = judged("duty = \"S3\"\nduty_share = 0.25", 0.25);
   EXPECT_EQ(exceeded.state(), Compliance::exceeded);
-  EXPECT_NE(exceeded.note.find(fmt::format("{:.4g} N·m on", rms / 0.5)), std::string::npos) << exceeded.note;
+  EXPECT_NE(exceeded.note.find("it holds from a rated torque of"), std::string::npos) << exceeded.note;
 }
 
 // A shunt motor at its full field heats its armature by M², too: U, R, k held at a speed give M = k (c U − k ω)/R. Full

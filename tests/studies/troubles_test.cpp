@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "studies/conclusions/conclusion.h"
+#include "studies/claims/conclusion.h"
 #include "studies/run/run_findings.h"
 #include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
@@ -15,7 +15,7 @@ namespace {
 
 std::string first_sentence(const Result& r) {
   test::expect_sound_conclusion(findings_of(r), r.title);
-  return concluded(findings_of(r).answers).front();
+  return concluded(findings_of(r).claims).front();
 }
 void expect_first(const std::string& scene, const std::string& sentence) {
   EXPECT_EQ(first_sentence(test::run(scene)), sentence);
@@ -73,10 +73,10 @@ TEST(Troubles, AClosedClutchThatLetsGoOnTheWayIsSaid) {
     blow = { kind = "load", on = "wheel", torque = "300 N*m", acts = "against motion", start = "1 s", stop = "1.05 s" }
     run = { start = { speed = "100 rad/s" }, until = "4 s" }
   )");
-  const std::vector<std::string> said = concluded(findings_of(r).answers);
+  const std::vector<std::string> said = concluded(findings_of(r).claims);
   ASSERT_GE(said.size(), 2u);
   EXPECT_EQ(
-      said[1],
+      said[0],
       "\"clutch\" lets go once although it is closed, first at 1 s: the torque reaches the 120 N·m that it holds.");
 }
 

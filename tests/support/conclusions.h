@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/conclusions/headline.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/output.h"
 
 namespace kurbel::test {
@@ -44,7 +44,7 @@ inline std::string in_one_run_of_words(std::string text) {
 
 // The same first sentence on the terminal, in short and in full, on the page and in JSON; at most four digits.
 inline void expect_sound_conclusion(const Findings& f, const std::string& whose) {
-  const std::vector<std::string> sentences = concluded(f.answers);
+  const std::vector<std::string> sentences = concluded(f.claims);
   ASSERT_FALSE(sentences.empty()) << whose;
   const std::string& first = sentences.front();
   EXPECT_TRUE(page_of(f).conclusion.starts_with(first)) << whose;

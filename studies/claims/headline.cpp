@@ -1,5 +1,5 @@
 // headline.cpp — numbers in a sentence, found and rounded.
-#include "studies/conclusions/headline.h"
+#include "studies/claims/headline.h"
 
 #include <fmt/format.h>
 

@@ -1,18 +1,16 @@
 // conclusion.cpp — the one place that chooses and orders what is said first.
-#include "studies/conclusions/conclusion.h"
+#include "studies/claims/conclusion.h"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 
-#include "studies/conclusions/headline.h"
+#include "studies/claims/headline.h"
 
 namespace kurbel {
 namespace {
 
 constexpr int most_bad_news = 2;  // of a question
-
-bool is_bad(const Answer& a) { return a.severity > 0; }
 
 std::string as_sentence(std::string sentence) {
   while (sentence.ends_with('.') || sentence.ends_with(' ') || sentence.ends_with('\n')) sentence.pop_back();
@@ -21,15 +19,21 @@ std::string as_sentence(std::string sentence) {
 
 }  // namespace
 
-std::vector<std::string> concluded(std::vector<Answer> answers) {
-  std::stable_sort(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) {
-    return std::tuple(!is_bad(a), a.topic, -a.severity) < std::tuple(!is_bad(b), b.topic, -b.severity);
+std::vector<std::string> concluded(Claims claims) {
+  std::erase_if(claims, [](const Claim& c) { return !c.in_conclusion; });
+  std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
+    const auto place = [](const Claim& c) {
+      const bool bad = c.is_bad();
+      return std::tuple(!bad, c.topic(), bad ? -static_cast<int>(c.severity()) : 0,
+                        bad && c.topic() == Topic::bears ? -c.share() : 0, bad ? c.predicate : Predicate{});
+    };
+    return place(a) < place(b);
   });
   std::vector<std::string> sentences;
   std::map<Topic, int> told;
-  for (const Answer& a : answers) {
-    if (is_bad(a) && ++told[a.topic] > most_bad_news) continue;
-    if (std::string sentence = as_sentence(headline(a.sentence)); !sentence.empty())
+  for (const Claim& claim : claims) {
+    if (claim.is_bad() && ++told[claim.topic()] > most_bad_news) continue;
+    if (std::string sentence = as_sentence(headline(claim.text)); !sentence.empty())
       sentences.push_back(std::move(sentence));
   }
   return sentences;

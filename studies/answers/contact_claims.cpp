@@ -1,0 +1,200 @@
+// contact_claims.cpp — clutches, limiters, belts and brakes: by the state at the end, and by what was seen on the way.
+#include "studies/answers/contact_claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double slipping_from = 1e-3;   // of the usual speed: below it a shaft stands, or nothing slips
+constexpr double transmits_from = 1e-6;  // of the usual torque
+
+std::string so_often(int count) { return count == 1 ? "once" : count == 2 ? "twice" : fmt::format("{} times", count); }
+
+class ContactJudge {
+ public:
+  ContactJudge(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips)
+      : equations_(equations),
+        m_(equations.model()),
+        outcome_(outcome),
+        result_(result),
+        slips_(slips),
+        now_(equations.snapshot(outcome.t, outcome.state)) {}
+
+  Claims all() {
+    brakes();
+    for (const SlipRecorder::Joint& joint : slips_.joints()) slipping_joint(joint);
+    slipping_belts();
+    return std::move(claims_);
+  }
+
+ private:
+  std::string text(double speed) const { return m_.scene.speed_unit.text(std::abs(speed)); }
+  bool is_kind(const std::string& component, const char* kind) const { return m_.network.kind_of(component) == kind; }
+  const std::string& owner_of(const ElasticJoint& joint) const { return m_.network.joints[at(joint.joint)].component; }
+
+  // Of the speed of a component's shafts at the end; empty: not measured.
+  std::optional<double> error_of_speeds(const std::string& component) const {
+    const auto found = result_.final_state.find(component);
+    if (found == result_.final_state.end() || !found->second.speed.error) return {};
+    return *found->second.speed.error + (found->second.speed_out ? found->second.speed_out->error.value_or(0) : 0);
+  }
+  // What a speed on the way may be off by: as much as the worst figure of the run, of what is usual.
+  double error_on_the_way(double usual) const {
+    return usual * (result_.errors_measured ? result_.measured_accuracy : result_.tolerance);
+  }
+
+  // --- what slips ---
+
+  void slips_to_the_end(const ElasticJoint& joint, double slip) {
+    const double torque = now_.joint_torque[joint.joint];
+    const double usual = joint.gain_a * m_.shafts[at(joint.shaft_a)].speed_scale;
+    if (!(std::abs(slip) > slipping_from * std::abs(usual)) || !(std::abs(torque) > transmits_from * m_.torque_scale))
+      return;
+    const std::string& component = owner_of(joint);
+    slipping_.insert(component);
+    add(claims_, claimed(Predicate::slips_to_the_end,
+                         fmt::format("\"{}\" slips to the end, by {} under the {} N·m that it can transmit", component,
+                                     text(slip), std::abs(torque)),
+                         component,
+                         {.at = outcome_.t,
+                          .value = std::abs(slip),
+                          .limit = 0,
+                          .error = error_of_speeds(component),
+                          .unit = "rad/s"}));
+  }
+  double slip_of(const ElasticJoint& joint) const {
+    return joint.gain_a * now_.now.speed[joint.shaft_a] - joint.gain_b * now_.now.speed[joint.shaft_b];
+  }
+  void spell(Predicate predicate, const SlipRecorder::Joint& joint, const SlipRecorder::Spell& spell, std::string words,
+             bool aside) {
+    if (spell.times == 0) return;
+    std::optional<Claim> claim = claimed(predicate, std::move(words), joint.component,
+                                         {.at = spell.first,
+                                          .value = spell.fastest,
+                                          .limit = 0,
+                                          .error = error_on_the_way(joint.usual_speed),
+                                          .unit = "rad/s"});
+    if (claim) claim->in_conclusion = !aside;
+    add(claims_, std::move(claim));
+  }
+  void slipping_joint(const SlipRecorder::Joint& joint) {
+    const ElasticJoint& e = m_.elastic[joint.elastic];
+    const std::string& name = joint.component;
+    if (joint.kind == "one-way clutch") {
+      for (const SlipRecorder::Spell* ahead : {&joint.engaging, &joint.let_go})
+        spell(Predicate::freewheel_overruns, joint, *ahead,
+              fmt::format("\"{}\" lets its driven side run ahead, first at {:.4g} s", name, ahead->first), true);
+      return;
+    }
+    if (joint.closed && equations_.modes().slip[joint.elastic] != 0) slips_to_the_end(e, slip_of(e));
+    const bool limiter = joint.kind == "torque limiter";
+    if (!slipping_.count(name))
+      spell(limiter ? Predicate::limiter_slips : Predicate::clutch_slips_closed, joint, joint.let_go,
+            fmt::format("\"{}\" lets go {}{}, first at {:.4g} s: the torque reaches the {:.4g} N·m that it holds", name,
+                        so_often(joint.let_go.times), limiter ? "" : " although it is closed", joint.let_go.first,
+                        m_.network.joints[at(e.joint)].element->capacity),
+            false);
+    spell(Predicate::clutch_slips_engaging, joint, joint.engaging,
+          fmt::format("\"{}\" slips while it engages, {}, first at {:.4g} s", name, so_often(joint.engaging.times),
+                      joint.engaging.first),
+          true);
+    if (joint.open.times > 0)
+      add(claims_, claimed_aside(Predicate::clutch_opened_by_command,
+                                 fmt::format("\"{}\" is open by command, first at {:.4g} s", name, joint.open.first),
+                                 name, {.at = joint.open.first}));
+  }
+
+  // Rigid belts are contacts; those that stretch keep what they slipped as a state of their own.
+  void slipping_belts() {
+    for (std::size_t e = 0; e < m_.elastic.size(); ++e)
+      if (m_.elastic[e].slips && equations_.modes().slip[e] != 0 && is_kind(owner_of(m_.elastic[e]), "belt"))
+        slips_to_the_end(m_.elastic[e], slip_of(m_.elastic[e]));
+    for (std::size_t k = 0; k < m_.own_states.size(); ++k) {
+      if (m_.own_states[k].state.name != "slipped_angle") continue;
+      for (const ElasticJoint& joint : m_.elastic)
+        if (owner_of(joint) == m_.own_states[k].component) slips_to_the_end(joint, now_.sums.own_rate[k]);
+    }
+    for (const std::string& component : m_.network.components)
+      if (is_kind(component, "belt") && !slipping_.count(component)) slips_at_times(component);
+  }
+  // Of a belt that stretches or not.
+  void slips_at_times(const std::string& belt) {
+    int count = 0;
+    double first = 0;
+    for (const Event& event : outcome_.events)
+      if (event.component == belt && event.what.starts_with("slips") && event.from != event.what && ++count == 1)
+        first = event.t;
+    if (count == 0) return;
+    add(claims_,
+        claimed(Predicate::belt_slips,
+                fmt::format("\"{}\" slips {}, first at {:.4g} s, and grips again", belt, so_often(count), first), belt,
+                {.at = first, .value = count}));
+  }
+
+  // --- brakes ---
+
+  // A brake that was put on last and whose shaft still turns.
+  void brakes() {
+    for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
+      const Network::ShaftElement& element = m_.network.elements[e];
+      if (!is_kind(element.component, "brake")) continue;
+      const auto put = std::find_if(outcome_.events.rbegin(), outcome_.events.rend(), [&](const Event& event) {
+        return event.kind == EventKind::command && event.component == element.component;
+      });
+      if (put == outcome_.events.rend() || !(put->value.value_or(0) > 0)) continue;
+      const std::size_t shaft = at(m_.shaft_of_node[at(element.node)]);
+      const double gain = m_.gain_of_node[at(element.node)], torque = now_.sums.element_torque[e];
+      const double speed = gain * now_.now.speed[shaft], change = gain * now_.alpha[shaft];
+      if (equations_.at_standstill(shaft) ||
+          std::abs(speed) <= slipping_from * m_.speed_scale * m_.scale_ratio[at(element.node)])
+        continue;
+      if (!(std::abs(torque) > transmits_from * m_.torque_scale)) continue;
+      does_not_stop(element.component, put->t, speed, change, std::abs(torque));
+    }
+  }
+  void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque) {
+    const double braked = outcome_.t - put_on, more = speed * change < 0 ? std::abs(speed / change) : HUGE_VAL;
+    const Evidence evidence{
+        .at = put_on, .value = std::abs(speed), .limit = 0, .error = error_of_speeds(brake), .unit = "rad/s"};
+    if (more > outcome_.t)
+      add(claims_, claimed(Predicate::brake_does_not_stop,
+                           fmt::format("\"{}\" does not stop it: it slips at {} after {:.3g} s; its {:.4g} N·m are too "
+                                       "weak for what drives",
+                                       brake, text(speed), braked, torque),
+                           brake, evidence));
+    else if (is_done())  // while a sequence goes on it is a matter of time
+      add(claims_, claimed(Predicate::brake_has_not_stopped,
+                           fmt::format("\"{}\" has not stopped it by the end: {} are left after {:.3g} s, and {:.3g} s "
+                                       "more are needed at this rate",
+                                       brake, text(speed), braked, more),
+                           brake, evidence));
+  }
+  bool is_done() const {
+    return !m_.scene.sequence.repeat && equations_.modes().next_step >= m_.scene.sequence.steps.size();
+  }
+
+  Equations& equations_;
+  const Model& m_;
+  const RunOutcome& outcome_;
+  const Result& result_;
+  const SlipRecorder& slips_;
+  const Snapshot& now_;
+  Claims claims_;
+  std::set<std::string> slipping_;  // to the end
+};
+
+}  // namespace
+
+Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Result& result,
+                      const SlipRecorder& slips) {
+  return ContactJudge(equations, outcome, result, slips).all();
+}
+
+}  // namespace kurbel

@@ -1,0 +1,324 @@
+// motion_claims.cpp — stalls, runaways, motors that hang: judged by the state at the end and by what led there.
+#include "studies/answers/motion_claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "drivetrain/induction/induction_law.h"
+#include "engine/model/model.h"
+#include "engine/numerics/index.h"
+#include "engine/scene/effects.h"
+#include "studies/answers/contact_claims.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double stands = 1e-3;   // of the usual speed: below it a shaft stands
+constexpr double drives = 1e-6;   // of the usual torque: above it something drives
+constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene tells of such a one
+constexpr double nearly = 0.2;    // of the largest speed so far: below it the link has come to a stop
+
+std::string where(const Stall& s) {
+  const double degrees = s.angle * 180 / std::numbers::pi;
+  return fmt::format("\"{}\" stalls at {:.1f}° after {:.3g} s: ", s.link, degrees - 360 * std::floor(degrees / 360),
+                     s.time);
+}
+
+class Judge {
+ public:
+  Judge(Equations& equations, const RunOutcome& outcome)
+      : equations_(equations),
+        m_(equations.model()),
+        outcome_(outcome),
+        shaft_(at(m_.shaft_of_node[at(m_.reduction_node)])),
+        now_(equations.snapshot(outcome.t, outcome.state)) {}
+
+  std::string link() const { return m_.network.nodes[at(m_.reduction_node)].component; }
+  double angle() const { return now_.node_angle[m_.reduction_node]; }
+  double speed() const { return m_.gain_of_node[at(m_.reduction_node)] * now_.now.speed[shaft_]; }
+  bool is_held() const { return equations_.at_standstill(shaft_) && now_.now.speed[shaft_] == 0; }
+  bool is_commanded() const { return !m_.commands.empty(); }
+  // Of all that drives, reduced to the link [N·m].
+  double drive() const {
+    double torque = 0;
+    for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
+      if (m_.network.elements[e].element->account == Account::driving)
+        torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
+    return torque;
+  }
+  // A motor under torque whose own shaft stands.
+  const MotorTorque* standing_motor() const {
+    for (const MotorTorque& motor : m_.motors)
+      if (!motor.prescribed && std::abs(torque_of(motor)) > drives * motor.rated_torque &&
+          std::abs(speed_of(motor)) < stands * std::abs(motor.rated_speed))
+        return &motor;
+    return nullptr;
+  }
+  double torque_of(const MotorTorque& motor) const { return motor.torque(now_); }
+  double speed_of(const MotorTorque& motor) const {
+    return m_.gain_of_node[at(motor.node)] * now_.now.speed[m_.shaft_of_node[at(motor.node)]];
+  }
+  std::optional<double> rest() const {
+    const auto stop = std::find_if(outcome_.events.rbegin(), outcome_.events.rend(),
+                                   [](const Event& e) { return e.kind == EventKind::rest; });
+    return stop == outcome_.events.rend() ? std::nullopt : std::optional(stop->t);
+  }
+
+  std::optional<Stall> stall() const {
+    const MotorTorque* motor = standing_motor();
+    const std::optional<double> since = rest();
+    if (!is_held() || !since || (is_commanded() && !motor) || brake_that_holds()) return {};
+    const double torque = drive();
+    if (torque == 0) return {};
+    return Stall{link(), motor ? motor->component : "", angle(), *since, torque};
+  }
+  // Where a clutch slips meanwhile, what drives is what that passes on.
+  std::string words_of(const Stall& stall) const {
+    for (std::size_t e = 0; e < m_.elastic.size(); ++e) {
+      const double passed_on = std::abs(now_.joint_torque[m_.elastic[e].joint]);
+      if (m_.elastic[e].slips && equations_.modes().slip[e] != 0 && passed_on > drives * m_.torque_scale)
+        return fmt::format("{}\"{}\" slips to the end under the {:.4g} N·m that it can transmit", where(stall),
+                           m_.network.joints[at(m_.elastic[e].joint)].component, passed_on);
+    }
+    return in_words(stall);
+  }
+
+  // A brake that is on, by command or always, and whose shaft stands; null: none.
+  const std::string* brake_that_holds() const {
+    for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
+      const Network::ShaftElement& element = m_.network.elements[e];
+      if (m_.network.kind_of(element.component) != "brake" || !equations_.modes().active[e]) continue;
+      if (equations_.at_standstill(at(m_.shaft_of_node[at(element.node)])) && command_of(element.component) > 0)
+        return &element.component;
+    }
+    return nullptr;
+  }
+  // In force at the end; 1 where nothing commands it.
+  double command_of(const std::string& component) const {
+    for (std::size_t c = 0; c < m_.commands.size(); ++c)
+      if (m_.commands[c].component == component) return equations_.modes().command[c].at(outcome_.t, m_.scene.sequence);
+    return 1;
+  }
+  // What would move the link if nothing held it, reduced to it [N·m]: all but what opposes motion.
+  double acts() const {
+    double torque = 0;
+    for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
+      if (!m_.network.elements[e].element->is.directional)
+        torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
+    return torque;
+  }
+  // "gear", "bearing": what opposes motion on shafts that stand, and gears with losses.
+  std::string what_holds() const {
+    if (const std::string* brake = brake_that_holds()) return fmt::format("\"{}\"", *brake);
+    std::set<std::string> names;
+    for (const Network::ShaftElement& e : m_.network.elements)
+      if (e.element->is.directional && equations_.at_standstill(at(m_.shaft_of_node[at(e.node)])))
+        names.insert(e.component);
+    for (const ShaftRelation& relation : m_.relations)
+      if (relation.loss_account >= 0) names.insert(m_.network.relations[at(relation.relation)].component);
+    std::string text;
+    for (const std::string& name : names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+    return text;
+  }
+
+  // --- claims ---
+
+  std::optional<Claim> stalls(const Stall& stall) const {
+    return claimed(Predicate::stalls, words_of(stall), stall.link,
+                   {.at = stall.time, .value = std::abs(stall.torque), .limit = 0, .unit = "N*m"});
+  }
+
+  // Turned back by more than half a turn, against what drove it from the start.
+  std::optional<Claim> backwards(const Result& r) const {
+    if (is_commanded() || r.begins_at > 0 || !(speed() < -stands * m_.speed_scale)) return {};
+    Equations first(equations_.shared_model(), false);
+    const std::vector<double> y = first.start(0);
+    const double before = first.snapshot(0, y).node_angle[m_.reduction_node];
+    if (m_.scene.run.start.speed < 0 || before - angle() < std::numbers::pi) return {};
+    if (!(drive() > drives * m_.torque_scale)) return {};
+    return claimed(Predicate::turns_back,
+                   fmt::format("\"{}\" turns backwards, at {} at the end: its loads are stronger than the {} N·m that "
+                               "drive it forwards",
+                               link(), m_.scene.speed_unit.text(speed()), drive()),
+                   link(), of_speed(r, speed(), 0));
+  }
+
+  std::optional<Claim> runs_away(const Result& r) const {
+    const Periods& p = r.periods;
+    const double limit = far_away * m_.speed_scale;
+    if (is_commanded() || p.steady || p.run_down_begin || !p.without_limit) return {};
+    if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed()) return {};
+    return claimed(
+        Predicate::runs_away,
+        fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed that its data tell of, and {}", link(),
+                    m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
+        link(), of_speed(r, std::abs(speed()), limit));
+  }
+  // Over a cycle of the rigid machine at constant speed: beyond which one do loads and drag hold what drives?
+  bool settles_at_a_higher_speed() const try {
+    constexpr double most = 100, step = 1.5;
+    constexpr int places = 24;
+    const auto rigid = compile(m_.scene, without_elasticity(m_.effects));
+    Equations equations(rigid, false);
+    const std::size_t shaft = at(rigid->shaft_of_node[at(rigid->reduction_node)]);
+    const double cycle = rigid->cycle > 0 ? rigid->cycle : 2 * std::numbers::pi;
+    for (double times = step; times < most; times *= step) {
+      double sum = 0;
+      for (int k = 0; k < places; ++k) {
+        const std::vector<double> y = equations.modes_from_scratch(outcome_.t, cycle * k / places, times * speed());
+        sum += rigid->gain_of_node[at(rigid->reduction_node)] * equations.snapshot(outcome_.t, y).alpha[shaft];
+      }
+      if (sum * speed() <= 0) return true;
+    }
+    return false;
+  } catch (const std::exception&) {  // nothing is known of higher speeds
+    return false;
+  }
+
+  // Held from the start, although something drives, and no brake that is on holds it.
+  std::optional<Claim> never_starts(double fastest) const {
+    if (is_commanded() || !is_held() || rest() || fastest > stands * m_.speed_scale || brake_that_holds()) return {};
+    if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    return claimed(Predicate::does_not_start,
+                   fmt::format("\"{}\" does not start: its loads hold the {} N·m that drive it", link(), drive()),
+                   link(), {.value = std::abs(drive()), .limit = 0, .unit = "N*m"});
+  }
+
+  // By a brake that is on, or by what opposes motion against what acts; what never moved is told so first.
+  std::optional<Claim> held(double fastest) const {
+    if (!is_held()) return {};
+    const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
+    const std::string holders = what_holds();
+    std::optional<Claim> claim;
+    if (!holders.empty() && (anything_acts || brake_that_holds()))
+      claim =
+          claimed(Predicate::held_by,
+                  fmt::format("\"{}\" is held by {}{}", link(), holders,
+                              anything_acts ? fmt::format(" against the {:.4g} N·m that act", std::abs(acts())) : ""),
+                  link(), {.at = rest(), .value = std::abs(acts()), .unit = "N*m"});
+    else if (!moved)
+      claim = claimed(Predicate::does_not_move, fmt::format("\"{}\" does not move", link()), link());
+    if (claim) claim->in_conclusion = !moved;
+    return claim;
+  }
+
+  // Not once round, and hardly any speed left, although something drives.
+  std::optional<Claim> never_gets_round(const Result& r, double fastest) const {
+    if (is_commanded() || !r.cycles.empty() || m_.cycle == 0 || r.periods.run_down_begin || brake_that_holds())
+      return {};
+    if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    return claimed(Predicate::does_not_get_round,
+                   fmt::format("\"{}\" does not get round: it is at {:.1f}° at the end, with {}, where {} N·m drive it",
+                               link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive()),
+                   link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
+  }
+
+  // An induction motor that its loads keep below its breakdown speed, where it gives less and less the slower it is.
+  std::optional<Claim> hangs(const Periods& p) const {
+    if (!p.steady || p.run_down_begin) return {};
+    for (const MotorTorque& motor : m_.motors) {
+      const auto* data = m_.network.data.find<InductionData>(motor.component);
+      if (!data || data->by_converter || !(torque_of(motor) > drives * motor.rated_torque)) continue;
+      const double breakdown = data->synchronous_speed * (1 - data->breakdown_slip), now = speed_of(motor);
+      const double mean = p.steady_speed * m_.node_ratio[at(motor.node)];
+      if (!(std::max(now, mean) < breakdown) || !(now > stands * motor.rated_speed)) continue;
+      return claimed(Predicate::hangs_below_breakdown,
+                     fmt::format("\"{}\" does not come up to speed: it hangs at {}, below the {} at which it gives "
+                                 "most; its loads take all that it gives there",
+                                 motor.component, m_.scene.speed_unit.text(mean), m_.scene.speed_unit.text(breakdown)),
+                     motor.component, {.value = mean, .limit = breakdown, .unit = "rad/s"});
+    }
+    return {};
+  }
+
+  // One side of a spring is given a speed at the start, the other one is not, and they differ.
+  void shafts_that_disagree(Claims& claims) const {
+    std::set<int> given;
+    for (const auto& [component, start] : m_.scene.run.start.components)
+      if (start.speed) given.insert(m_.shaft_of_node[at(m_.network.ports.at(component).in)]);
+    if (given.empty()) return;
+    Equations first(equations_.shared_model(), false);
+    const std::vector<double> y = first.start(0);
+    const Snapshot& s = first.snapshot(0, y);
+    for (const ElasticJoint& joint : m_.elastic) {
+      const double a = joint.gain_a * s.now.speed[joint.shaft_a], b = joint.gain_b * s.now.speed[joint.shaft_b];
+      if (joint.slips || joint.springless || given.count(joint.shaft_a) == given.count(joint.shaft_b)) continue;
+      if (!(std::abs(a - b) > stands * std::abs(joint.gain_a * m_.shafts[at(joint.shaft_a)].speed_scale))) continue;
+      const std::string& name = m_.network.joints[at(joint.joint)].component;
+      add(claims,
+          claimed(Predicate::start_shafts_disagree,
+                  fmt::format("\"{}\" joins shafts that start at {} and {}: [run] start gives a speed to one side "
+                              "alone, and the start is a blow",
+                              name, m_.scene.speed_unit.text(a), m_.scene.speed_unit.text(b)),
+                  name, {.at = 0, .value = std::abs(a - b), .limit = 0, .unit = "rad/s"}));
+    }
+  }
+
+  // From rest, and driven.
+  std::optional<Claim> starts(const Result& r, double fastest) const {
+    if (r.begins_at > 0 || !(fastest > stands * m_.speed_scale) || m_.motors.empty()) return {};
+    Equations first(equations_.shared_model(), false);
+    const std::vector<double> y = first.start(0);
+    if (std::abs(first.snapshot(0, y).now.speed[shaft_]) > stands * m_.shafts[shaft_].speed_scale) return {};
+    return claimed_aside(Predicate::starts, fmt::format("\"{}\" starts from rest", link()), link(),
+                         {.at = r.periods.run_up_end, .value = fastest, .unit = "rad/s"});
+  }
+
+ private:
+  Evidence of_speed(const Result& r, double value, double limit) const {
+    const auto state = r.final_state.find(link());
+    const std::optional<double> error = state == r.final_state.end() ? std::nullopt : state->second.speed.error;
+    return {.at = outcome_.t, .value = value, .limit = limit, .error = error, .unit = "rad/s"};
+  }
+
+  Equations& equations_;
+  const Model& m_;
+  const RunOutcome& outcome_;
+  std::size_t shaft_;
+  const Snapshot& now_;
+};
+
+}  // namespace
+
+std::optional<Stall> stalled(Equations& equations, const RunOutcome& outcome) {
+  if (outcome.state.empty()) return {};
+  return Judge(equations, outcome).stall();
+}
+
+std::string in_words(const Stall& s) {
+  return fmt::format("{}the load can hold the {:.4g} N·m that drive there, and holds them to the end", where(s),
+                     s.torque);
+}
+
+Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips) {
+  Claims claims;
+  if (!outcome.complete || outcome.state.empty()) return claims;
+  const Judge judge(equations, outcome);
+  if (const std::optional<Stall> stall = judge.stall()) {
+    add(claims, judge.stalls(*stall));
+    return claims;
+  }
+  double fastest = 0;
+  for (const Figure& f : result.figures)
+    if (f.what == quantities::max_speed || f.what == quantities::min_speed)
+      fastest = std::max(fastest, std::abs(f.value));
+  if (std::optional<Claim> claim = judge.never_starts(fastest)) {
+    add(claims, std::move(claim));
+    return claims;
+  }
+  judge.shafts_that_disagree(claims);
+  for (std::optional<Claim> claim :
+       std::array{judge.backwards(result), judge.runs_away(result), judge.hangs(result.periods),
+                  judge.never_gets_round(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
+    add(claims, std::move(claim));
+  for (Claim& claim : contact_claims(equations, outcome, result, slips)) claims.push_back(std::move(claim));
+  return claims;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,136 @@
+// run_claims.cpp — a run that does what it should, in a sentence; and what keeps it from that.
+#include "studies/answers/run_claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivetrain/shared/rating_keys.h"
+#include "engine/numerics/index.h"
+#include "studies/claims/headline.h"
+#include "studies/findings/figure_text.h"
+
+namespace kurbel {
+namespace {
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// What a sound run comes to.
+class RunWords {
+ public:
+  explicit RunWords(const Result& result) : r_(result), p_(result.periods) {}
+
+  std::optional<Claim> all() const {
+    if (p_.steady) return stands_within_the_cycle() ? strokes() : steady();
+    const Figure* last = figure(quantities::final_speed);
+    const bool rests = last && last->value == 0;
+    const std::string end = !last                  ? std::string()
+                            : rests                ? "at rest"
+                            : all_but_rests(*last) ? fmt::format("all but at rest ({})", speed(last->value))
+                                                   : "at " + speed(last->value);
+    const Evidence at_end = last ? of(*last) : Evidence{.at = r_.until};
+    if (r_.model && !r_.model->commands.empty())
+      return claimed(
+          Predicate::goes_through_sequence,
+          fmt::format("\"{}\" goes through its operating sequence{}", link(), end.empty() ? "" : " and ends " + end),
+          link(), at_end);
+    if (p_.remaining || p_.without_limit)
+      return claimed(
+          Predicate::not_steady_yet,
+          fmt::format("\"{}\" has not come to a steady motion by {}: {}", link(), seconds(r_.until), p_.verdict),
+          link(), {.at = r_.until, .value = p_.remaining, .unit = "rad/s"});
+    if (end.empty()) return {};
+    return claimed(rests ? Predicate::at_rest : Predicate::moves,
+                   fmt::format("\"{}\" is {} after {}", link(), end, seconds(r_.until)), link(), at_end);
+  }
+
+ private:
+  // What still trembles in shafts that are held.
+  bool all_but_rests(const Figure& last) const {
+    return r_.model && std::abs(last.value) < 0.01 * r_.model->speed_scale;
+  }
+  // The link comes to rest, or turns back, in every cycle: such a motion repeats, and has no speed that it keeps.
+  bool stands_within_the_cycle() const {
+    const Figure* delta = figure(quantities::delta);
+    return delta && delta->value + delta->error.value_or(0) >= 2;
+  }
+  std::optional<Claim> strokes() const {
+    const Figure* time = figure(quantities::cycle_time);
+    return claimed(Predicate::works_in_strokes,
+                   fmt::format("\"{}\" makes single strokes{}, and stands between them", link(),
+                               time ? fmt::format(", one every {}", seconds(time->value)) : ""),
+                   link(), time ? of(*time) : Evidence{});
+  }
+  std::optional<Claim> steady() const {
+    const Figure* mean = figure(quantities::mean_speed);
+    std::string text = fmt::format("\"{}\" runs steadily at {}", link(), speed(mean ? mean->value : p_.steady_speed));
+    if (p_.run_up_end) text += fmt::format(" from {} on", seconds(*p_.run_up_end));
+    if (p_.run_down_begin) text += fmt::format(", runs down from {}", seconds(*p_.run_down_begin));
+    if (p_.standstill) text += fmt::format(" and rests at {}", seconds(*p_.standstill));
+    Evidence evidence = mean ? of(*mean) : Evidence{.value = p_.steady_speed, .unit = "rad/s"};
+    evidence.at = p_.run_up_end;
+    return claimed(Predicate::runs_steadily, std::move(text), link(), std::move(evidence));
+  }
+  static Evidence of(const Figure& f) { return {.at = f.at, .value = f.value, .error = f.error, .unit = f.unit}; }
+  std::string link() const { return r_.model ? r_.model->network.nodes[at(r_.model->reduction_node)].component : "it"; }
+  const Figure* figure(const QuantityKind& what) const { return r_.model ? r_.find(what, link()) : nullptr; }
+  std::string speed(double value) const {
+    return told_shortly(value, "rad/s", r_.model ? r_.model->scene.speed_unit : SpeedUnit{});
+  }
+  static std::string seconds(double t) { return told_shortly(t, "s"); }
+
+  const Result& r_;
+  const Periods& p_;
+};
+
+void overloaded_motors(const Result& r, Claims& claims) {
+  for (const Figure& f : r.figures) {
+    const bool by_torque = f.words() == "thermal_use";
+    if (!r.model || (!by_torque && f.words() != "current_use")) continue;
+    const char* of = r.model->commands.empty() ? "its steady motion" : "its heaviest cycle";
+    add(claims, overload_claim(*r.model, f.of, f, by_torque, of));
+  }
+}
+
+}  // namespace
+
+std::optional<Claim> overload_claim(const Model& model, const std::string& motor, const Estimate& use, bool by_torque,
+                                    const std::string& of) {
+  const auto* rating = model.network.data.find<MotorRating>(motor);
+  if (!rating || rating->states_duty()) return {};
+  const std::optional<double> rated = by_torque ? rating->torque : std::nullopt;
+  const double most = use.value + use.error.value_or(0);
+  std::optional<Claim> claim = claimed(
+      Predicate::motor_overloaded,
+      fmt::format(
+          "\"{}\" gets too hot: the {} of {} is {:.0f} % of the rated one{}", motor,
+          by_torque ? "RMS torque" : "RMS current", of, 100 * use.value,
+          rated ? fmt::format("; by an estimate it holds from a rated torque of {:.4g} N·m on", enough(*rated * most))
+                : ""),
+      motor, {.value = use.value, .limit = 1, .error = use.error});
+  if (claim) claim->load_case = load_case::steady;
+  return claim;
+}
+
+Claims run_claims(const Result& r, const std::string& whose) {
+  Claims claims = r.claims;
+  if (!r.complete) {
+    claims.clear();
+    add(claims, claimed(Predicate::incomplete, "INCOMPLETE: " + first_line(r.diagnosis)));
+    claims.back().text = capitalised(whose) + claims.back().text;
+    return claims;
+  }
+  if (std::none_of(claims.begin(), claims.end(),
+                   [](const Claim& c) { return c.topic() == Topic::runs && c.in_conclusion; }))
+    add(claims, RunWords(r).all());
+  overloaded_motors(r, claims);
+  if (r.unconfirmed())
+    add(claims,
+        claimed(Predicate::not_confirmed, "NOT confirmed: " + r.accuracy_in_words(), {},
+                {.value = r.errors_measured ? std::optional(r.measured_accuracy) : std::nullopt, .limit = r.accuracy}));
+  for (Claim& c : claims) c.text = capitalised(whose + c.text);
+  return claims;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,186 @@
+// claim_kinds.cpp — every claim: when it is true, what shows it, how it reads, who says it. The one list; docs/claims.md is made of it.
+#include <algorithm>
+#include <array>
+
+#include "studies/claims/claim.h"
+
+namespace kurbel {
+namespace {
+
+using enum Predicate;
+using enum Topic;
+using enum Severity;
+using enum ClaimKind::Shows;
+
+constexpr std::array kinds = {
+    ClaimKind{incomplete, runs, fault, anything,
+              "the computation ended before its end: budget, interrupt, a motion that cannot go on", "none",
+              "INCOMPLETE: the budget of 300 s of processor time is spent", "every command"},
+    ClaimKind{stalls, runs, fault, above,
+              "the link moved, is held at the end, and something drives it; no brake that is on holds it",
+              "at: of its rest; value: the torque that drives, on the link [N·m]",
+              "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
+              "holds them to the end",
+              "run, compare"},
+    ClaimKind{does_not_start, runs, fault, above,
+              "the link never moved although something drives it; no brake that is on holds it",
+              "value: the torque that drives, on the link [N·m]",
+              "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
+    ClaimKind{brake_does_not_stop, runs, fault, above,
+              "a brake is on, slips at the end, and at the deceleration there it never stops its shaft within the time "
+              "of the run",
+              "at: it was put on; value: speed of its shaft [rad/s]",
+              "\"brake\" does not stop it: it slips at 120 rpm after 2.5 s; its 40 N·m are too weak for what drives",
+              "run, compare"},
+    ClaimKind{turns_back, runs, fault, below,
+              "without a sequence, the link turned back by more than half a turn against a drive that drives forwards",
+              "value: speed at the end [rad/s]; limit: 0",
+              "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
+              "drive it forwards",
+              "run, compare"},
+    ClaimKind{hangs_below_breakdown, runs, fault, below,
+              "in steady motion an induction motor at the mains drives below its breakdown speed",
+              "value: its mean speed; limit: its breakdown speed [rad/s]",
+              "\"motor\" does not come up to speed: it hangs at 320 rpm, below the 1280 rpm at which it gives most; "
+              "its loads take all that it gives there",
+              "run, compare"},
+    ClaimKind{runs_away, runs, fault, above,
+              "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
+              "higher speed (up to a hundred times) do loads and drag hold what drives",
+              "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
+              "\"motor\" runs away: 100 rad/s at the end, 10 times the speed that its data tell of, and the mean speed "
+              "changes by +6.5 % a sixteenth of the time, and that does not shrink",
+              "run, compare"},
+    ClaimKind{does_not_get_round, runs, fault, above,
+              "no whole cycle, at the end a fifth of the largest speed at most, and something drives",
+              "value: the torque that drives, on the link [N·m]",
+              "\"press\" does not get round: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
+              "run, compare"},
+    ClaimKind{slips_to_the_end, runs, warning, above, "a closed clutch, limiter or belt slips at the end under torque",
+              "value: the speed of slip [rad/s]",
+              "\"clutch\" slips to the end, by 22.4 rad/s under the 12 N·m that it can transmit", "run, compare"},
+    ClaimKind{
+        brake_has_not_stopped, runs, warning, above,
+        "a brake is on and slips at the end, and would stop its shaft in less than the time of the run; the sequence "
+        "is done",
+        "at: it was put on; value: speed of its shaft [rad/s]",
+        "\"brake\" has not stopped it by the end: 30 rpm are left after 0.5 s, and 0.4 s more are needed at this rate",
+        "run, compare"},
+    ClaimKind{steady_motion_unstable, runs, warning, above, "a multiplier of the steady motion is greater than 1",
+              "value: the largest multiplier; limit: 1",
+              "In the elastic model the steady motion does not last: it is unstable: a deviation doubles in 4.2 cycles",
+              "steady"},
+    ClaimKind{
+        start_shafts_disagree, runs, warning, above,
+        "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
+        "value: the difference of speed [rad/s]",
+        "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare, steady"},
+    ClaimKind{runs_steadily, runs, note, anything,
+              "what the mid speed of the cycle still has to go to its limit is at most 0.1 % of it, and the link does "
+              "not stand within the cycle",
+              "at: end of the run-up; value: mean speed [rad/s]",
+              "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
+    ClaimKind{vibrates, runs, note, anything, "everything comes again, and the link does not turn in the mean",
+              "value: frequency [Hz]",
+              "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable", "steady"},
+    ClaimKind{works_in_strokes, runs, note, anything, "the cycles come again, and the link stands within each",
+              "at: end of the last cycle; value: its time [s]",
+              "\"press\" makes single strokes, one every 1.961 s, and stands between them", "run, compare"},
+    ClaimKind{goes_through_sequence, runs, note, anything,
+              "a sequence commands the machine, which comes to no steady motion", "value: speed at the end [rad/s]",
+              "\"press\" goes through its operating sequence and ends at rest", "run, compare"},
+    ClaimKind{does_not_move, runs, note, anything, "the link never moved, and nothing drives it", "none",
+              "\"drum\" does not move", "run, compare, steady"},
+    ClaimKind{at_rest, runs, note, anything, "the link moved, and stands at the end",
+              "at: of its rest; value: speed at the end [rad/s]", "\"pendulum\" is at rest after 6 s",
+              "run, compare, steady"},
+    ClaimKind{not_steady_yet, runs, note, anything, "the mid speed still has more than 0.1 % to go",
+              "at: end of the run; value: what remains of the mid speed [rad/s]",
+              "\"motor\" has not come to a steady motion by 8 s: the mean speed is only within 0.852 % of its limit",
+              "run, compare"},
+    ClaimKind{moves, runs, note, anything, "too short a run to tell more",
+              "at: end of the run; value: speed at the end [rad/s]", "\"crank\" is at 149.7 rad/s after 0.1 s",
+              "run, compare"},
+    ClaimKind{starts, runs, note, anything, "the link stands at the start and moves later on, driven",
+              "at: end of the run-up, where there is one", "\"motor\" starts from rest", "run, compare"},
+    ClaimKind{held_by, runs, note, anything,
+              "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
+              "brought to rest by it",
+              "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
+    ClaimKind{not_confirmed, sure, warning, anything,
+              "the errors measured are larger than the accuracy asked for, or were not measured",
+              "value: measured, limit: asked for", "NOT confirmed: accuracy 1e-06 was asked for, 3.1e-05 measured",
+              "run, compare"},
+    ClaimKind{outside_data, sure, warning, anything, "the motion takes values from beyond the ends of a table", "none",
+              "The torque of \"motor\" is taken from outside its table, which ends at 1796 rpm",
+              "all that compute a motion"},
+    ClaimKind{limit_exceeded, bears, fault, above,
+              "a limit of the scene is exceeded by more than the error of what it is held against",
+              "value, limit: as the requirement has them",
+              "1 of 3 ratings EXCEEDED, worst \"belts\", reserve against slip (run): 120 % of what is allowed, 194.3 "
+              "N·m of 161.9 N·m",
+              "run, compare, steady, modes"},
+    ClaimKind{motor_overloaded, bears, fault, above,
+              "RMS torque or current of a steady cycle is above the rated one, of a motor that states no duty",
+              "value: RMS over rated; limit: 1",
+              "\"motor\" gets too hot: the RMS torque of its steady motion is 112 % of the rated one",
+              "run, compare, steady"},
+    ClaimKind{demand_missed, bears, fault, above, "the sized machine has a δ greater than the demanded one",
+              "value: δ reached; limit: δ demanded",
+              "419 kg·m², by the work equation, do not keep δ = 0.05: simulated it is 0.0561 at the crank", "size"},
+    ClaimKind{clutch_slips_closed, bears, warning, above, "a closed clutch that had locked slips again",
+              "at: first; value: largest speed of slip [rad/s]",
+              "\"clutch\" lets go 10 times although it is closed, first at 0.41 s: the torque reaches the 37.5 N·m "
+              "that it holds",
+              "run, compare"},
+    ClaimKind{limiter_slips, bears, warning, above, "a torque limiter that had locked slips",
+              "at: first; value: largest speed of slip [rad/s]",
+              "\"limiter\" lets go once, first at 0.41 s: the torque reaches the 37.5 N·m that it holds",
+              "run, compare"},
+    ClaimKind{belt_slips, bears, warning, anything, "a belt slips and grips again", "at: first; value: how often",
+              "\"belts\" slips once, first at 0.01642 s, and grips again", "run, compare"},
+    ClaimKind{limit_undecided, bears, note, anything, "the limit lies within the error of what is held against it",
+              "value, limit, error: as the requirement has them",
+              "1 of 3 limits undecided, \"coupling\", vibratory torque (steady): 100 % of what is allowed",
+              "run, compare, steady, modes"},
+    ClaimKind{
+        limit_held, bears, note, below, "the value with its error is at most the limit",
+        "value, limit: as the requirement has them",
+        "All 5 ratings assessed hold, the nearest \"clutch\", heat of an engagement (run): 69 % of what is allowed",
+        "run, compare, steady, modes"},
+    ClaimKind{not_assessed, bears, note, anything,
+              "a limit that the scene states is of a load case that this command does not compute",
+              "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
+              "run, compare, steady, modes"},
+    ClaimKind{speeds_barred, bears, note, anything, "within the range of speeds a joint is beyond a limit or a rule",
+              "value, limit: where it is exceeded most [N·m]", "2 barred ranges, worst 310 … 355 rpm (main_coupling)",
+              "modes"},
+    ClaimKind{clutch_slips_engaging, bears, note, above, "a clutch slips from its closing to its locking",
+              "at: first; value: largest speed of slip [rad/s]", "\"clutch\" slips while it engages, first at 0.5 s",
+              "run, compare"},
+    ClaimKind{clutch_opened_by_command, bears, note, anything, "a clutch is open by command", "at: first",
+              "\"clutch\" is open by command, first at 0 s", "run, compare"},
+    ClaimKind{freewheel_overruns, bears, note, above, "the driven side of a one-way clutch runs ahead",
+              "at: first; value: largest speed of slip [rad/s]",
+              "\"freewheel\" lets its driven side run ahead, first at 1.2 s", "run, compare"},
+    ClaimKind{effect_matters, depends, note, anything,
+              "an effect that is off, or elasticity, moves a key figure by 2 % or more", "none",
+              "Joint friction, which is off, would move speed fluctuation δ, press from 0.1179 to 0.1886 (+60 %)",
+              "run, compare"},
+    ClaimKind{figures_told, figures, note, anything, "what was asked for was found", "none",
+              "The torque in \"main_coupling\" reaches 6.784 kN·m at 0.845 s", "every command"},
+};
+
+constexpr bool stands_in_order() {
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    if (kinds[k].predicate != static_cast<Predicate>(k)) return false;
+  return kinds.size() == static_cast<std::size_t>(last_predicate) + 1;
+}
+static_assert(stands_in_order());
+
+}  // namespace
+
+const ClaimKind& kind_of(Predicate predicate) { return kinds[static_cast<std::size_t>(predicate)]; }
+std::span<const ClaimKind> claim_kinds() { return kinds; }
+
+}  // namespace kurbel

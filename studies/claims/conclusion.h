@@ -1,0 +1,21 @@
+// conclusion.h — claims of a study, and the conclusion that they make.
+//
+//     figures_told "δ is 0.1043819", limit_exceeded "\"clutch\" gets too hot"
+//         → "\"clutch\" gets too hot.", "δ is 0.1044."
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/claims/claim.h"
+
+namespace kurbel {
+
+// Bad news by question, then by severity, then by how far it is beyond its limit, at most two of a question; then the
+// others by question, each as it was given. With full stops, and rounded as headlines are.
+std::vector<std::string> concluded(Claims claims);
+
+// In one line.
+std::string in_one_line(const std::vector<std::string>& sentences);
+
+}  // namespace kurbel

@@ -1,0 +1,15 @@
+// remedies.h — what would mend a verdict is computed before it is said: the machine with that value holds, and with one
+// worse by 1 % it does not.
+#pragma once
+
+#include "studies/findings/result.h"
+#include "studies/run/simulate.h"
+
+namespace kurbel {
+
+// Of the verdict of a complete run that is exceeded most, where a key of the scene mends it: the value is sought by runs
+// without errors, within the processor time that the run took, and kept in `remedies_tried`. Without one the remedy stays
+// an estimate. An interrupt ends it.
+void try_remedies(Result& run, const SimulateOptions& options);
+
+}  // namespace kurbel
