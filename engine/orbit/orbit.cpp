@@ -191,10 +191,7 @@ class Search {
     if (!done_ && !found_unstable_ && came_near <= enough_by_run) rest_on_run(new_map());
   }
 
-  ReturnMapOptions map_options() const {
-    return {options_.tolerance, options_.method, options_.cycles, options_.budget, options_.interrupted};
-  }
-  std::shared_ptr<ReturnMap> new_map() const { return std::make_shared<ReturnMap>(shared_, map_options()); }
+  std::shared_ptr<ReturnMap> new_map() const { return std::make_shared<ReturnMap>(shared_, map_options(options_)); }
 
   // Where Newton's method does not apply, the run itself has come near enough.
   void rest_on_run(const std::shared_ptr<ReturnMap>& map) {
@@ -281,7 +278,7 @@ class Search {
       if (period_.by_time && std::abs(std::remainder(period, period_.time)) < same_time * period_.time) continue;
       if (!go_where_least_happens(times[0], period)) return false;
       const double exact = events_.empty() ? by_whole_state(period) : period;
-      const auto map = std::make_shared<ReturnMap>(shared_, map_options(), exact);
+      const auto map = std::make_shared<ReturnMap>(shared_, map_options(options_), exact);
       period_.by_time = true;
       const double of_laws = std::exchange(period_.time, exact);
       rest_on_run(map);
@@ -298,7 +295,7 @@ class Search {
   // A period that the link's turning tells to the run's tolerance, corrected by as much as the whole state lags behind.
   double by_whole_state(double period) {
     for (int twice = 0; twice < 2; ++twice) {
-      ReturnMap map(shared_, map_options(), period);
+      ReturnMap map(shared_, map_options(options_), period);
       const ReturnMap::Image way = map.approach_from(state_);
       const ReturnMap::Image round = way.end == ReturnMap::End::returned ? map.image(way.z, false) : way;
       spend(map);

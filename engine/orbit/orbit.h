@@ -28,6 +28,10 @@ struct OrbitOptions {
 
 // As a scene's run asks for it: its budget, and its method unless that goes over the angle, where no round is one of time.
 OrbitOptions orbit_options(const RunSettings& run, const std::atomic<bool>* interrupted = nullptr);
+// Of the return map.
+inline ReturnMapOptions map_options(const OrbitOptions& of) {
+  return {of.tolerance, of.method, of.cycles, of.budget, of.interrupted};
+}
 
 struct Orbit {
   enum class Kind {

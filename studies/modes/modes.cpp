@@ -208,10 +208,7 @@ class Study {
   }
 
   void look_for_orbit() {
-    OrbitOptions options;
-    options.method = scene_.run.method == "work" ? "auto" : scene_.run.method;
-    options.budget = scene_.run.budget;
-    options.interrupted = options_.watch.interrupted;
+    OrbitOptions options = orbit_options(scene_.run, options_.watch.interrupted);
     if (has_rocking_crank(*model_)) options.most_rounds = rounds_of_rocking;
     options.progress = [this](const std::string& what, double part) { options_.watch.at(what, 0.1 * part); };
     orbit_.emplace();

@@ -12,6 +12,7 @@
 #include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/held_speeds.h"
 
 namespace kurbel {
 namespace {
@@ -21,7 +22,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double map_tolerance = 1e-11, enough = 1e-10;     // residual of the map, over the rated values
-constexpr double beside_by = 1e-5;                          // of unknowns of order one, for differences
 constexpr double most_derivatives = 25;                     // rounds with derivative that a search may take
 constexpr double first_part = 0.25, least_part = 1.0 / 32;  // of the way between two speeds
 constexpr std::size_t samples = 4096;                       // of a round
@@ -152,7 +152,7 @@ class CycleSearch {
       out_.found = false;
       out_.why = "the search took more time than it may" + on_the_way();
     }
-    out_.cost = cost_;
+    out_.cost = motion_.cost;
     return std::move(out_);
   }
 
@@ -202,12 +202,11 @@ class CycleSearch {
     }
     return compile_network(std::move(network), machine_.scene, machine_.effects);
   }
-  ReturnMapOptions map_options() const {
-    return {.tolerance = map_tolerance,
-            .method = machine_.scene.run.method == "work" ? "auto" : machine_.scene.run.method,
-            .cycles = 1,
-            .budget = 10 * options_.seconds,  // the deadline comes first
-            .interrupted = options_.interrupted};
+  OrbitOptions orbit_options() const {
+    OrbitOptions options = kurbel::orbit_options(machine_.scene.run, options_.interrupted);
+    options.tolerance = map_tolerance;
+    options.budget = 10 * options_.seconds;  // the deadline comes first
+    return options;
   }
   // The same modes, with the holding torques among the elements.
   static State on(const Model& model, State state) {
@@ -222,17 +221,17 @@ class CycleSearch {
     choose_scales();
     const VectorXd a = first_acceleration();
     const auto model = model_with(a);
-    map_ = std::make_unique<ReturnMap>(model, map_options());
+    map_ = std::make_unique<ReturnMap>(model, map_options(orbit_options()));
     const State begin = LinearMotion(drive_, x_, base_).state();
     const ReturnMap::Image guess = map_->approach_from(on(*model, begin));
-    cost_ += map_->cost();
+    motion_.cost += map_->cost();
     out_.why = guess.why;
     if (guess.end == ReturnMap::End::returned) {
       VectorXd x(guess.z.size() + a.size());
       x << guess.z, a;
-      if (solve_at(1, x)) return settle(x);
+      if (solve_at(1, x)) return settle();
     }
-    if (image_.end != ReturnMap::End::interrupted && machine_.orbit) along_the_speeds();
+    if (motion_.last.end != ReturnMap::End::interrupted && machine_.orbit) along_the_speeds();
   }
 
   VectorXd first_acceleration() const {
@@ -246,7 +245,7 @@ class CycleSearch {
     const Orbit& orbit = *machine_.orbit;
     const double from = drive_.at.orbit->speed / drive_.at.speed;  // of the speeds to be held
     const auto model = model_with(VectorXd::Zero(free_.cols()));
-    map_ = std::make_unique<ReturnMap>(model, map_options());
+    map_ = std::make_unique<ReturnMap>(model, map_options(orbit_options()));
     const PoincareSection& section = orbit.map->section();
     map_->go_through(on(*model, section.state()), section.options().sticks_throughout, drive_.at.orbit->speed);
     if (section.size() != map_->size()) return;
@@ -261,116 +260,82 @@ class CycleSearch {
         continue;
       }
       part *= 0.5;
-      if (part < least_part || image_.end == ReturnMap::End::interrupted) return;
+      if (part < least_part || motion_.last.end == ReturnMap::End::interrupted) return;
     }
-    settle(x);
+    settle();
   }
 
   // At so much of the speeds to be held.
   bool solve_at(double share, VectorXd& x) {
-    NewtonSystem system;
-    system.evaluate = [this, share](const VectorXd& at, VectorXd& residual, MatrixXd* derivative) {
-      return derivative ? round_with_derivative(at, share, residual, *derivative) : round(at, share, false, residual);
-    };
-    system.stopped = [this] { return image_.end == ReturnMap::End::interrupted; };
-    system.derivative_cost = map_->derivative_cost() + static_cast<double>(free_.cols());
-    system.magnitude = std::max(system.magnitude, map_->section().magnitude());
-    const NewtonOutcome newton = solve(system, x, enough);
-    x = newton.x;
-    if (newton.found) return true;
-    out_.why = image_.end != ReturnMap::End::returned ? image_.why : newton.why + on_the_way();
+    const double motions = static_cast<double>(free_.cols());
+    std::optional<MeanSpeeds> mean;
+    HeldSpeeds held{.machine = [this](const VectorXd& a) { return model_with(a); },
+                    .record = [&](const Model&) { return &mean.emplace(held_); },
+                    .miss = [&](const ReturnMap::Image& round) { return miss_of(round, *mean, share); }};
+    if (by_link_)
+      held.slope = [this](const ReturnMap::Image& round) -> MatrixXd {
+        return -link_speed(round) / (round.time * scale_[0]) * round.slowing;
+      };
+    held.by_differences = !by_link_;
+    held.enough = enough;
+    held.magnitude = std::max(held.magnitude, map_->section().magnitude());
+    held.most_cost = most_derivatives * (map_->derivative_cost() + motions);
+    find_held_orbit(held, *map_, x, orbit_options(), motion_);
+    x = motion_.newton.x;
+    if (motion_.newton.found) return true;
+    const bool tells_all =
+        motion_.last.end != ReturnMap::End::returned && motion_.last.end != ReturnMap::End::interrupted;
+    out_.why = motion_.orbit.words + (tells_all ? "" : on_the_way());
     return false;
   }
-  std::string on_the_way() const { return broken_.empty() ? "" : "; of what was tried, " + broken_; }
+  std::string on_the_way() const { return motion_.broken.empty() ? "" : "; of what was tried, " + motion_.broken; }
 
-  bool round(const VectorXd& x, double share, bool with_derivative, VectorXd& residual) {
-    Deadline::check();
-    if (cost_ > most_derivatives * (map_->derivative_cost() + static_cast<double>(free_.cols()))) {
-      image_.end = ReturnMap::End::interrupted;
-      image_.why = fmt::format("no cycle was found within {:.0f} rounds{}", cost_, on_the_way());
-      return false;
+  VectorXd miss_of(const ReturnMap::Image& round, const MeanSpeeds& mean, double share) const {
+    VectorXd miss(free_.cols());
+    for (Index f = 0; f < miss.size(); ++f) {
+      const double speed = by_link_ ? link_speed(round) : mean.mean(at(f), round.time);
+      miss[f] = (speed - share * speed_[at(f)]) / scale_[at(f)];
     }
-    const Index k = free_.cols(), n = x.size() - k;
-    ReturnMap map(model_with(x.tail(k)), map_options());
-    map.follow(*map_);
-    MeanSpeeds mean(held_);
-    image_ = map.image(x.head(n), with_derivative && by_link_, {&mean});
-    cost_ += map.cost();
-    if (image_.end != ReturnMap::End::returned) {
-      Deadline::check();  // which a round ends by, too
-      if (image_.end != ReturnMap::End::failed) broken_ = image_.why;
-      return false;
-    }
-    residual.resize(n + k);
-    residual.head(n) = image_.z - x.head(n);
-    for (Index f = 0; f < k; ++f) {
-      const double speed = by_link_ ? link_speed() : mean.mean(at(f), image_.time);
-      residual[n + f] = (speed - share * speed_[at(f)]) / scale_[at(f)];
-    }
-    return true;
+    return miss;
   }
-
-  bool round_with_derivative(const VectorXd& x, double share, VectorXd& residual, MatrixXd& derivative) {
-    const Index k = free_.cols(), n = x.size() - k;
-    MatrixXd beside(n + k, n + k);
-    for (Index j = by_link_ ? n : 0; j < n + k; ++j) {
-      VectorXd value;
-      if (!round(x + beside_by * VectorXd::Unit(n + k, j), share, false, value)) return false;
-      beside.col(j) = value;
-    }
-    if (!round(x, share, true, residual)) return false;
-    derivative = (beside.colwise() - residual) / beside_by;
-    if (by_link_) {
-      derivative.topLeftCorner(n, n) = image_.derivative - MatrixXd::Identity(n, n);
-      derivative.row(n).head(n) = -link_speed() / (image_.time * scale_[0]) * image_.slowing;
-    }
-    derivative_ = derivative;
-    return true;
+  // Mean, of a round which is one of the link's angle.
+  double link_speed(const ReturnMap::Image& round) const {
+    return std::copysign(map_->periodicity().angle / round.time, drive_.at.speed);
   }
-  // Mean, of the last round, which is one of the link's angle.
-  double link_speed() const { return std::copysign(map_->periodicity().angle / image_.time, drive_.at.speed); }
 
   // --- what was found ---
 
-  void settle(const VectorXd& x) {
-    const Index k = free_.cols(), n = x.size() - k;
-    const auto model = model_with(x.tail(k));
-    Orbit held;
-    held.kind = Orbit::Kind::cycle;
-    held.map = std::make_shared<ReturnMap>(model, map_options());
-    held.map->follow(*map_);
-    held.point.found = true;
-    held.point.z = x.head(n);
-    held.point.time = image_.time;
+  void settle() {
     try {
-      out_.samples = sample_cycle(held, samples);
+      out_.samples = sample_cycle(motion_.orbit, samples);
     } catch (const std::invalid_argument& refused) {
       out_.why = refused.what();
       return;
     }
     out_.found = true;
     out_.why.clear();
-    VectorXd scaled = x.tail(k);
-    for (Index f = 0; f < k; ++f) scaled[f] *= unit_[at(f)];
+    VectorXd scaled = motion_.by;
+    for (Index f = 0; f < scaled.size(); ++f) scaled[f] *= unit_[at(f)];
     const TrackedAngle& link = m_.angles[at(m_.reduction_angle)];
     out_.acceleration = link.gain * (base_.coordinates().motion * (free_ * scaled))[link.shaft];
-    judge_stability(n, k);
+    judge_stability(motion_.orbit.point.z.size(), scaled.size());
   }
 
   // Of the round at constant torques, less the multipliers of the held speeds themselves: those by which torques move
   // mean speeds most, |left · P_a| |s_z · right|. What a speed would do that nothing holds is no matter of the cycle.
   void judge_stability(Index n, Index k) {
     if (n == 0) return;
-    out_.uncertain = image_.grazed || !derivative_.topLeftCorner(n, n).allFinite();
+    const MatrixXd& derivative = motion_.derivative;
+    out_.uncertain = motion_.last.grazed || !derivative.topLeftCorner(n, n).allFinite();
     if (out_.uncertain) return;
-    const auto [values, right] = eigenpairs(derivative_.topLeftCorner(n, n) + MatrixXd::Identity(n, n));
+    const auto [values, right] = eigenpairs(derivative.topLeftCorner(n, n) + MatrixXd::Identity(n, n));
     const Eigen::MatrixXcd left = ComplexLu(right).inverse();
     out_.uncertain = !left.allFinite();
     if (out_.uncertain) return;
-    const VectorXd share = (left * derivative_.topRightCorner(n, k))
+    const VectorXd share = (left * derivative.topRightCorner(n, k))
                                .rowwise()
                                .norm()
-                               .cwiseProduct((derivative_.bottomLeftCorner(k, n) * right).colwise().norm().transpose());
+                               .cwiseProduct((derivative.bottomLeftCorner(k, n) * right).colwise().norm().transpose());
     std::vector<Index> order(at(n));
     std::iota(order.begin(), order.end(), Index{0});
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return share[a] > share[b]; });
@@ -391,10 +356,7 @@ class CycleSearch {
   std::vector<std::size_t> held_;
   bool by_link_ = false;  // all turns as one, and a round is one of the link: its time tells the mean speed
   std::unique_ptr<ReturnMap> map_;
-  ReturnMap::Image image_;
-  MatrixXd derivative_;
-  std::string broken_;  // what became of the last round that did not come round
-  double cost_ = 0;
+  HeldMotion motion_;  // of the last search
   HeldCycle out_;
 };
 

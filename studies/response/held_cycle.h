@@ -21,19 +21,6 @@
 
 namespace kurbel {
 
-// A constant torque beside the drive; it sets no scale, so that all members of a search are measured alike.
-struct HoldingTorque {
-  static constexpr ShaftTraits is{.account = Account::driving};
-  double value = 0;  // [N·m]
-  template <class T>
-  T torque(const ShaftState<T>&) const {
-    return T(value);
-  }
-  bool uses_time() const { return false; }
-  bool uses_speed() const { return false; }
-  Rated rated() const { return {}; }
-};
-
 // What is held: a machine as its network says, and the motion that it keeps where there is one.
 struct HeldMachine {
   const Network& network;

@@ -100,11 +100,9 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
   try {
     const auto model = compile_at(sized, effects, parts_.moment);
     const int motor = parts_.motor.empty() ? model->reduction_node : model->network.ports.at(parts_.motor).out;
-    const OrbitOptions options{.method = sized.run.method == "work" ? "auto" : sized.run.method,
-                               .budget = sized.run.budget,
-                               .most_rounds = parts_.most_rounds,
-                               .interrupted = watch_.interrupted,
-                               .progress = [this](const std::string& what, double part) { watch_.at(what, part); }};
+    OrbitOptions options = orbit_options(sized.run, watch_.interrupted);
+    options.most_rounds = parts_.most_rounds;
+    options.progress = [this](const std::string& what, double part) { watch_.at(what, part); };
     Orbit orbit = find_orbit(model, options);
     Deadline::check();
     if (!orbit.repeats() && parts_.held && orbit.kind != Orbit::Kind::interrupted)

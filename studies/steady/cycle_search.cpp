@@ -11,13 +11,13 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/follow_period.h"
+#include "engine/orbit/held_speeds.h"
 #include "engine/return_map/family.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
-#include "studies/response/held_cycle.h"
 #include "studies/run/compare.h"
 #include "studies/run/measured_errors.h"
 #include "studies/steady/round_figures.h"
@@ -95,16 +95,10 @@ class Search {
   }
 
  private:
-  ReturnMapOptions map_options(double tolerance) const {
-    return {.tolerance = tolerance,
-            .method = scene_.run.method == "work" ? "auto" : scene_.run.method,
-            .cycles = options_.periods,
-            .budget = scene_.run.budget,
-            .interrupted = options_.watch.interrupted};
-  }
+  OrbitOptions search_options() const { return orbit_options(scene_, options_.periods, options_.watch); }
 
   void prepare(std::shared_ptr<const Model> model) {
-    map_ = std::make_shared<ReturnMap>(model, map_options(map_tolerance));
+    map_ = std::make_shared<ReturnMap>(model, map_options(search_options()));
     describe_model(std::move(model));
   }
   void describe_model(std::shared_ptr<const Model> model) {
@@ -115,7 +109,7 @@ class Search {
   // Where the scene's own start leads to.
   void freely() {
     describe_model(compile_network(network_, scene_, effects_));
-    Orbit orbit = find_orbit(out_.model, orbit_options(scene_, options_.periods, options_.watch));
+    Orbit orbit = find_orbit(out_.model, search_options());
     out_.kind = orbit.kind;
     out_.orbit = orbit.words;
     out_.rounds = orbit.rounds;
@@ -168,8 +162,6 @@ class Search {
   }
   double first_held(double speed) const { return options_.hold_by.empty() ? first_torque(speed) : unit_; }
 
-  // Unknowns: z and what is held by; residuals: P(z) − z and the miss of the speed, whose derivatives come from rounds
-  // beside, as a mid speed depends on two peaks.
   void at_speed(double speed) {
     choose_drive();
     prepare(model_with(first_held(speed)));
@@ -186,21 +178,19 @@ class Search {
     if (guess.end != ReturnMap::End::returned) return;
     Eigen::VectorXd x(guess.z.size() + 1);
     x << guess.z, first_held(speed) / unit_;
-    const NewtonOutcome newton = solve(system_at(speed), x, enough);
-    out_.point.rounds = newton.rounds;
-    out_.point.derivatives = newton.derivatives;
-    out_.point.residual = newton.residual;
-    out_.end = image_.end;
-    if (newton.found) {
-      out_.why = why_not_held(scene_, options_.hold_by, newton.x[newton.x.size() - 1] * unit_);
-      if (out_.why.empty()) settle(newton.x);
+    const HeldMotion motion = hold(speed, x);
+    cost_ += motion.cost;
+    out_.point = motion.orbit.point;
+    out_.end = motion.last.end;
+    if (out_.point.found) {
+      out_.why = why_not_held(scene_, options_.hold_by, motion.by[0] * unit_);
+      if (out_.why.empty()) settle(motion);
       return;
     }
-    if (image_.end == ReturnMap::End::interrupted) {
-      out_.why = image_.why;
-      return;
-    }
-    const std::string what = image_.end != ReturnMap::End::returned ? trial_ended(newton, image_.why) : newton.why;
+    out_.why = motion.orbit.words;
+    if (motion.last.end == ReturnMap::End::interrupted) return;
+    const std::string what =
+        motion.last.end != ReturnMap::End::returned ? trial_ended(motion.newton, out_.why) : out_.why;
     out_.end = ReturnMap::End::failed;
     const std::string asked =
         fmt::format("with which \"{}\" turns at {} in the mean", out_.model->node_label(out_.model->reduction_node),
@@ -223,7 +213,7 @@ class Search {
     ReturnMap::Image guess;
     const bool switches = !scene_.sequence.steps.empty() || is_switched(network_);
     if (switches) {
-      Orbit orbit = find_orbit(out_.model, orbit_options(scene_, options_.periods, options_.watch));
+      Orbit orbit = find_orbit(out_.model, search_options());
       cost_ += orbit.cost;
       guess.why = "its own start does not lead to a cycle: " + orbit.words;
       if (!orbit.repeats()) return guess;
@@ -241,40 +231,20 @@ class Search {
     return guess;
   }
 
-  bool round(const Eigen::VectorXd& x, double speed, bool with_derivative, Eigen::VectorXd& residual) {
-    const Eigen::Index n = x.size() - 1;
-    ReturnMap map(model_with(x[n] * unit_), map_options(map_tolerance));
-    map.follow(*map_);
-    LinkSpeed link(map.model());
-    image_ = map.image(x.head(n), with_derivative, {link.observer()});
-    cost_ += map.cost();
-    if (image_.end != ReturnMap::End::returned) return false;
-    residual.resize(n + 1);
-    const double reached = options_.mid_speed ? link.mid() : image_.turned / image_.time;
-    residual << image_.z - x.head(n), (reached - speed) / std::abs(speed);
-    return true;
-  }
-
-  NewtonSystem system_at(double speed) {
-    NewtonSystem system;
-    system.evaluate = [this, speed](const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative) {
-      if (!derivative) return round(x, speed, false, residual);
-      const Eigen::Index n = x.size() - 1;
-      constexpr double step = 1e-5;
-      Eigen::MatrixXd beside(n + 1, n + 1);
-      for (Eigen::Index j = 0; j <= n; ++j) {
-        Eigen::VectorXd value;
-        if (!round(x + step * Eigen::VectorXd::Unit(n + 1, j), speed, false, value)) return false;
-        beside.col(j) = value;
-      }
-      if (!round(x, speed, true, residual)) return false;
-      *derivative = (beside.colwise() - residual) / step;
-      derivative->topLeftCorner(n, n) = image_.derivative - Eigen::MatrixXd::Identity(n, n);
-      return true;
-    };
-    system.stopped = [this] { return image_.end == ReturnMap::End::interrupted; };
-    system.derivative_cost = 2 * static_cast<double>(map_->size()) + 2;
-    return system;
+  // A mid speed depends on two peaks: its slopes come from rounds beside.
+  HeldMotion hold(double speed, const Eigen::VectorXd& guess) const {
+    std::optional<LinkSpeed> link;
+    const HeldSpeeds held{.machine = [this](const Eigen::VectorXd& a) { return model_with(a[0] * unit_); },
+                          .record = [&](const Model& m) { return link.emplace(m).observer(); },
+                          .miss =
+                              [&](const ReturnMap::Image& round) {
+                                const double reached = options_.mid_speed ? link->mid() : round.turned / round.time;
+                                return Eigen::VectorXd::Constant(1, (reached - speed) / std::abs(speed));
+                              },
+                          .enough = enough};
+    HeldMotion motion;
+    find_held_orbit(held, *map_, guess, search_options(), motion);
+    return motion;
   }
   // What the loads' mean torque leaves for the drive to add [N·m, on the drive's shaft].
   double first_torque(double speed) const try {
@@ -287,13 +257,10 @@ class Search {
   } catch (const std::invalid_argument&) {  // one angle and its speed do not describe it
     return 0;
   }
-  void settle(const Eigen::VectorXd& x) {
-    held_ = x[x.size() - 1] * unit_;
-    auto settled = std::make_shared<ReturnMap>(model_with(held_), map_options(map_tolerance));
-    settled->follow(*map_);
-    map_ = std::move(settled);
+  void settle(const HeldMotion& motion) {
+    held_ = motion.by[0] * unit_;
+    map_ = motion.orbit.map;
     out_.model = map_->shared_model();
-    out_.point.take(x.head(x.size() - 1), image_);
     out_.found = true;
     out_.point.cost = out_.cost = cost_;
     out_.cost_limit = 6 * (static_cast<double>(map_->size()) + 2) * options_.periods;
@@ -423,7 +390,6 @@ class Search {
   int added_node_ = 0;
   std::string added_to_;
   double cost_ = 0, unit_ = 1, held_ = 0;  // unit_: of what the speed is held by, held_
-  ReturnMap::Image image_;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/period.h"
+#include "engine/orbit/follow_period.h"
 #include "engine/run/recorders.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
@@ -231,9 +232,10 @@ void tell_outside_data(const DataRangeRecorder& ranges, Result& result) {
     if (result.events[i].t > *since) result.event_errors[i].reset();
 }
 
-std::vector<std::string> outside_data(ReturnMap& map, const SteadyPoint& point) {
+std::vector<std::string> outside_data(const ReturnMap& map, const SteadyPoint& point) {
   DataRangeRecorder recorder(map.model());
-  if (!recorder.empty()) map.image(point.z, false, {&recorder});
+  Equations equations(map.shared_model(), false);
+  if (!recorder.empty()) follow_period(map, point, equations, {.tolerance = map.options().tolerance}, {&recorder});
   return recorder.sentences();
 }
 

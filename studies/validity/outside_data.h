@@ -57,7 +57,7 @@ void drop_errors(std::vector<Figure>& figures, double since);
 void tell_outside_data(const DataRangeRecorder& ranges, Result& result);
 
 // Of the steady motion from the map's fixed point: a round more, only where there are such tables. A sentence each.
-std::vector<std::string> outside_data(ReturnMap& map, const SteadyPoint& point);
+std::vector<std::string> outside_data(const ReturnMap& map, const SteadyPoint& point);
 
 // Of the rigid machine whose link turns round once at this speed [rad/s], ≠ 0. A sentence each.
 std::vector<std::string> outside_data(RigidMachine& machine, double speed);

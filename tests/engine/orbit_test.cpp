@@ -6,7 +6,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "engine/orbit/held_speeds.h"
+#include "engine/orbit/link_speeds.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test::orbit_test {
@@ -55,6 +58,39 @@ TEST(Orbit, SlippingLimiterDrivesAFanAtItsTorque) {
   ASSERT_EQ(orbit.kind, Orbit::Kind::equilibrium) << orbit.words;
   EXPECT_NEAR(speed_of(scene, orbit, "fan"), std::sqrt(10 / 0.04), 1e-7);
   EXPECT_NEAR(speed_of(scene, orbit, "motor"), 40 * (1 - 10 / 60.0), 1e-7);
+}
+
+// At half of the motor's no-load speed it gives 30 N·m, the load takes 15: a torque of −15 N·m holds that speed.
+TEST(Orbit, SpeedIsHeldByTheTorqueThatIsMissing) {
+  const Scene scene = scene_from(std::string("line = [\"motor\", \"load\"]\n") + dc_motor +
+                                 "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n");
+  const auto machine = [&scene](double torque) {
+    Network network = build_network(scene);
+    network.put(network.ports.at("motor").in, "motor", HoldingTorque{torque});
+    return compile_network(std::move(network), scene, scene.effects);
+  };
+  ReturnMap like(machine(0), {});
+  const ReturnMap::Image guess = like.approach(20);
+  ASSERT_EQ(guess.end, ReturnMap::End::returned) << guess.why;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(guess.z.size() + 1);
+  x.head(guess.z.size()) = guess.z;
+  std::optional<LinkSpeeds> speeds;
+  for (const bool by_differences : {false, true}) {
+    const HeldSpeeds held{.machine = [&](const Eigen::VectorXd& a) { return machine(10 * a[0]); },
+                          .record = [&](const Model& m) { return &speeds.emplace(m); },
+                          .miss =
+                              [](const ReturnMap::Image& round) {
+                                return Eigen::VectorXd::Constant(1, round.turned / round.time / 20 - 1);
+                              },
+                          .by_differences = by_differences};
+    HeldMotion motion;
+    find_held_orbit(held, like, x, {}, motion);
+    ASSERT_TRUE(motion.orbit.repeats()) << motion.orbit.words;
+    EXPECT_NEAR(10 * motion.by[0], -15, 1e-8);
+    EXPECT_NEAR(motion.orbit.point.time, 2 * pi / 20, 1e-10);
+    EXPECT_NEAR(speeds->greatest(), 20, 1e-8);
+    EXPECT_GT(motion.cost, 0);
+  }
 }
 
 // The brake holds until 0.5 s; then the motor runs as if it had never been.
