@@ -33,11 +33,12 @@ Orbit orbit_at(const Scene& scene, const Effects& effects, const Moment& moment,
 
 }  // namespace
 
-std::string choose_kept_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at) {
+std::string choose_kept_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at,
+                               const Orbit* known) {
   if (at.any()) return {};
   const std::vector<Moment> earlier = earlier_moments(scene);
   if (earlier.empty()) return {};
-  const Orbit last = orbit_at(scene, effects, {}, options);
+  const Orbit last = known ? *known : orbit_at(scene, effects, {}, options);
   if (last.repeats() || (last.kind != Orbit::Kind::at_rest && last.kind != Orbit::Kind::equilibrium)) return {};
   for (const Moment& moment : earlier) {
     if (!orbit_at(scene, effects, moment, options).repeats()) continue;

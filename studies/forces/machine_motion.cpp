@@ -12,6 +12,7 @@
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "engine/orbit/follow_period.h"
+#include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/validity/outside_data.h"
@@ -125,6 +126,7 @@ MachineMotion::Crank MachineMotion::crank_in(const Model& model, const std::stri
 
 MachineMotion::MachineMotion(const AskedMechanism& asked, const Effects& effects, const ForcesOptions& options)
     : options_(options),
+      mechanism_(asked.name),
       settings_(asked.scene.run),
       effects_(effects.describe()),
       model_(compile_network(asked.network, asked.scene, effects)),
@@ -146,8 +148,20 @@ double MachineMotion::rated_speed() const {
 }
 
 std::optional<SimulatedMotion> MachineMotion::solve(OutputLoads& loads, Account out) const {
-  std::string why_not;
   const Orbit found = orbit();
+  Moment at;
+  const std::string later = choose_kept_moment(model_->scene, model_->effects, search_options(), at, &found);
+  if (later.empty()) return motion_of(found, loads, out);
+  out.notes.push_back(later);
+  const Scene then = as_of(model_->scene, model_->effects, at);
+  AskedMechanism asked(then, mechanism_);
+  asked.network = network_as_of(then, at);
+  const MachineMotion machine(asked, model_->effects, options_);
+  return machine.motion_of(machine.orbit(), loads, out);
+}
+
+std::optional<SimulatedMotion> MachineMotion::motion_of(const Orbit& found, OutputLoads& loads, Account out) const {
+  std::string why_not;
   auto motion = kept_motion(loads, found, why_not);
   if (!motion && found.kind != Orbit::Kind::interrupted) motion = last_cycle(loads, why_not, out);
   if (found.kind == Orbit::Kind::interrupted) out.complete = false, out.diagnosis = found.words;
@@ -170,13 +184,17 @@ bool MachineMotion::is_driven() const {
                      [](const WorkAccount& a) { return a.kind == kurbel::Account::driving; });
 }
 
-Orbit MachineMotion::orbit() const {
+OrbitOptions MachineMotion::search_options() const {
   OrbitOptions options = orbit_options(settings_, options_.watch.interrupted);
   options.tolerance = map_tolerance;
   options.progress = [this](const std::string& what, double part) { options_.watch.at(what, part); };
   if (!is_driven()) options.most_rounds = rounds_undriven;
+  return options;
+}
+
+Orbit MachineMotion::orbit() const {
   try {
-    return find_orbit(model_, options);
+    return find_orbit(model_, search_options());
   } catch (const std::invalid_argument& refused) {
     Orbit none;
     none.words = refused.what();

@@ -1,7 +1,7 @@
 // machine_motion.h — the second problem's motion: how the compiled machine moves the crank in the cycle that it keeps.
 //
 // The machine is the scene's, with its effects, and the cycle that of its steady motion (engine/orbit/orbit.h): where the
-// scene's own start leads to. Where nothing comes again, the last whole cycle of the scene's run stands in for it, and by
+// scene's own start leads to; of a machine that rests in the end, the last one that it keeps before. Where nothing comes again, the last whole cycle of the scene's run stands in for it, and by
 // how much its next cycles would differ is an error of every figure.
 #pragma once
 
@@ -61,8 +61,10 @@ class MachineMotion {
   struct Sampled;
   struct Window;
   static Crank crank_in(const Model& model, const std::string& component);
+  OrbitOptions search_options() const;
   Orbit orbit() const;
   bool is_driven() const;
+  std::optional<SimulatedMotion> motion_of(const Orbit& found, OutputLoads& loads, Account out) const;
   std::optional<SimulatedMotion> kept_motion(OutputLoads& loads, const Orbit& orbit, std::string& why_not) const;
   Window round_of(const ReturnMap& map, const Eigen::VectorXd& z, double tolerance, double cycle) const;
   Sampled along_round(OutputLoads& loads, const ReturnMap& map, const Eigen::VectorXd& z, double tolerance) const;
@@ -78,6 +80,7 @@ class MachineMotion {
   void check_sense(const MotionAlong& along, int direction) const;
 
   const ForcesOptions& options_;
+  std::string mechanism_;
   RunSettings settings_;
   std::string effects_;
   std::shared_ptr<const Model> model_;

@@ -93,14 +93,16 @@ void find_barred_ranges(const Model& model, double factor, const std::function<S
   }
 }
 
-void judge_limits(const std::shared_ptr<const Model>& machine, const Orbit& orbit, bool at_orbit, const Watch& watch,
-                  ModesStudy& found) {
+void judge_limits(const MachineAndOrbit& here, const std::optional<MachineAndOrbit>& end, bool at_orbit,
+                  const Watch& watch, ModesStudy& found) {
+  const auto& [machine, orbit] = here;
   RunUp run_up;
   SteadyLoads loads;
   if (any_limits(found.limited)) {
     const std::vector<LimitedJoint> joints = joints_of(*machine, found.limited);
     const SteadyLoads kept = steady_loads(orbit, machine, joints);
-    run_up = find_run_up(machine, orbit, kept, joints, watch);
+    run_up = end ? find_run_up(end->machine, end->orbit, steady_loads(end->orbit, end->machine, joints), joints, watch)
+                 : find_run_up(machine, orbit, kept, joints, watch);
     loads = kept;
     if (!at_orbit || !kept.found) {
       loads = {.found = true, .words = "the linear response at " + found.speed_unit.text(found.drive.at.speed, 5)};

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "engine/orbit/orbit.h"
 #include "studies/modes/modes.h"
@@ -16,9 +17,16 @@ JointLoad load_of(const JointResponse& response);
 void find_barred_ranges(const Model& model, double factor, const std::function<SpeedResponse(double speed)>& at,
                         ModesStudy& found);
 
-// Fills `verdicts` of all joints with limits, and notes. `machine` with all its effects, `steady motion` where its own start
-// leads; `at_regime`: the study's operating point is that motion, else loads are those of the linear response `here`.
-void judge_limits(const std::shared_ptr<const Model>& machine, const Orbit& orbit, bool at_orbit, const Watch& watch,
-                  ModesStudy& found);
+// A machine with all its effects, and where its own start leads.
+struct MachineAndOrbit {
+  std::shared_ptr<const Model> machine;
+  Orbit orbit;
+};
+
+// Fills `verdicts` of all joints with limits, and notes. `kept`: the steady motion; `end`: of a machine that leaves it again,
+// where to: then the way from rest goes there. `at_orbit`: the study's operating point is that motion, else loads are those of
+// the linear response `here`.
+void judge_limits(const MachineAndOrbit& kept, const std::optional<MachineAndOrbit>& end, bool at_orbit,
+                  const Watch& watch, ModesStudy& found);
 
 }  // namespace kurbel

@@ -11,6 +11,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/kept_moment.h"
 #include "studies/history/torque_history.h"
 #include "studies/modes/critical_speeds.h"
 #include "studies/modes/drive_limits.h"
@@ -207,16 +208,30 @@ class Study {
         "and on the way to it; a larger budget in [run] gives the start more time");
   }
 
-  void look_for_orbit() {
+  OrbitOptions search_options() const {
     OrbitOptions options = orbit_options(scene_.run, options_.watch.interrupted);
     if (has_rocking_crank(*model_)) options.most_rounds = rounds_of_rocking;
     options.progress = [this](const std::string& what, double part) { options_.watch.at(what, 0.1 * part); };
+    return options;
+  }
+  void look_for_orbit() {
     orbit_.emplace();
     try {
-      orbit_ = find_orbit(model_, options);
+      orbit_ = find_orbit(model_, search_options());
     } catch (const std::invalid_argument& refused) {
       orbit_->words = refused.what();
     }
+  }
+  // A machine that rests in the end is linearised in the last motion that it keeps; the way from rest is the whole one.
+  void choose_moment() {
+    if (options_.speed || options_.angle) return;
+    const std::string later = choose_kept_moment(given_, effects_, search_options(), options_.at, &*orbit_);
+    if (later.empty()) return;
+    end_ = MachineAndOrbit{model_, std::move(*orbit_)};
+    found_.notes.push_back(later);
+    scene_ = as_of(given_, effects_, options_.at);
+    model_ = compile_network(network_as_of(scene_, options_.at), scene_, effects_);
+    look_for_orbit();
   }
 
   void sample_orbit() {
@@ -230,7 +245,7 @@ class Study {
   }
 
   void find_orbit_cycle() {
-    search_start([this] { look_for_orbit(), sample_orbit(); });
+    search_start([this] { look_for_orbit(), choose_moment(), sample_orbit(); });
     if (found_.start_unknown) found_.orbit = orbit_->words;
     if (samples_ && samples_->mean->speed == 0) rest_ = samples_->mean, samples_.reset();  // the link stands
     if (!samples_ && !rest_ && !swings_about_rest())
@@ -378,7 +393,7 @@ class Study {
   // A speed that is asked for is judged by the linear response at it; peaks are those of a run-up all the same.
   void judge_all_limits() {
     if (!orbit_ && any_limits(found_.limited)) search_start([this] { look_for_orbit(); });
-    judge_limits(model_, orbit_.value_or(Orbit{}), !options_.speed && !options_.angle, options_.watch, found_);
+    judge_limits({model_, orbit_.value_or(Orbit{})}, end_, !options_.speed && !options_.angle, options_.watch, found_);
   }
 
   void find_stresses() {
@@ -395,7 +410,7 @@ class Study {
     const std::string& link = model_->network.nodes[at(model_->reduction_node)].component;
     double highest = 0;
     for (const Mode& mode : found_.modes) highest = std::max(highest, mode.magnitude());
-    found_.history = simulate_torque(scene_, effects_,
+    found_.history = simulate_torque(end_ ? given_ : scene_, effects_,
                                      {.torque = options_.torque, .link = link, .highest = highest, .watch = watch});
     if (found_.history->complete) return;
     found_.complete = false, found_.diagnosis = found_.history->diagnosis;
@@ -407,6 +422,7 @@ class Study {
   Scene scene_;
   std::shared_ptr<const Model> model_;
   std::optional<Orbit> orbit_;
+  std::optional<MachineAndOrbit> end_;      // where all that is switched leads to, unless it is orbit_
   std::shared_ptr<const MeanMotion> rest_;  // where the link stands and others turn
   std::optional<CycleSamples> samples_;
   std::string at_work_;

@@ -30,7 +30,7 @@ namespace kurbel {
 struct ModesOptions {
   int count = 20;                    // of modes, rigid motion not counted
   std::optional<double> speed = {};  // of the reduction link [rad/s]; default: that of the steady motion
-  Moment at = {};                    // as the machine is then; default: when all is switched
+  Moment at = {};                    // as the machine is then; default: when all is switched, or kept_moment.h's
   std::optional<double> angle = {};  // holds the link there instead of averaging over the cycle [rad]
   double slowest = 0, fastest = 0;   // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
   double orders = 0;                 // highest order; 0: 12, or what reaches the second mode, up to 24

@@ -132,7 +132,7 @@ class Reducer {
     r_.cycle = along_->cycle().way();
     r_.sense = along_->cycle().sense;
     r_.to_ratio = along_->mean_ratio();
-    r_.speed = along_->cycle().mid_speed();
+    r_.speed = r_.sense * along_->cycle().mid_speed();
     r_.speed_source = "along the steady cycle that the scene's own start leads to: its mid speed";
   }
   // The rigid machine still tells inertia, and torques at some speed.
@@ -374,6 +374,12 @@ class Reducer {
           fmt::format("torques and reduced inertia are those along the steady cycle with the scene's effects, for {} "
                       "{} not of one angle and its speed; I_r = 2T/ω², I_drive = I_r − I_em",
                       fmt::join(beyond_, ", "), beyond_.size() == 1 ? "is" : "are"));
+      if (r_.sense < 0)
+        r_.notes.push_back(
+            fmt::format("\"{}\" turns backwards: torques count along its motion, M_d > 0 drives it on", r_.link));
+      if (r_.mean_drive.value < -r_.mean_drive.error.value_or(rounding * std::abs(r_.mean_drive.value)))
+        r_.notes.push_back(fmt::format("the drive brakes in the mean: it takes {} from the machine",
+                                       with_unit(-r_.mean_drive.value * along_->cycle().mean_speed(), "W", 4)));
       return;
     }
     if (!beyond_.empty()) r_.notes.push_back("classical: " + left_out());

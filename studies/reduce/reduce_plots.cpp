@@ -82,7 +82,9 @@ std::vector<std::size_t> acting(const MachineReduction& r) {
   return list;
 }
 
-bool is_dust(const Harmonic& h, const Spectrum& s) { return h.amplitude.value < 1e-10 * std::sqrt(s.mean_square); }
+bool is_dust(const Harmonic& h, const Spectrum& s) {
+  return std::abs(h.amplitude.value) < 1e-10 * std::sqrt(s.mean_square);
+}
 
 std::string speed_text(const MachineReduction& r) {
   return fmt::format("torques at {} of {} ({})", r.speed_unit.text(r.speed), r.link, r.speed_source);
