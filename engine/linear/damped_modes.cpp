@@ -167,6 +167,7 @@ class DampedNewton {
   bool refine(Complex& lambda, Eigen::VectorXcd& v, double& change) {
     Eigen::VectorXcd x = Eigen::VectorXcd::Zero(n_ + states_);
     x.head(n_) = v;
+    refined_ = x;
     for (int iteration = 0; iteration < 30; ++iteration) {
       const Sparse q = lambda * lambda * mass_ + lambda * damping_ + stiffness_;
       if (!solver_.factorise(q)) return true;  // λ is an eigenvalue to the last bit
@@ -177,14 +178,56 @@ class DampedNewton {
       x = w.normalized();
       lambda = drive_.is_symmetric() ? root(x, lambda) : lambda - step;
       v = x.head(n_);
+      refined_ = x;
       change = std::abs(lambda - before);
       if (change <= 1e-12 * std::abs(lambda)) return true;
     }
     return false;
   }
 
+  // Of the pair refined last. The left vector of first order follows from that of Q.
+  EnergyParts energy(Complex lambda) {
+    const Eigen::VectorXcd left = drive_.is_symmetric() ? refined_ : left_vector(lambda);
+    const Eigen::VectorXcd q = refined_.head(n_), w = left.head(n_);
+    Eigen::VectorXcd twist = q, by_twist;
+    if (drive_.at.angle) {
+      by_twist = -((drive_.stiffness + drive_.other_stiffness).transpose() * w);
+    } else {
+      twist = drive_.twists * q;
+      by_twist = drive_.torque_by_twist.transpose() * w;
+    }
+    if (states_ > 0) {
+      const Eigen::VectorXcd z = left.tail(states_);
+      const Eigen::VectorXcd by_own = drive_.own_by_twist.transpose() * z;
+      if (drive_.at.angle)
+        by_twist += drive_.twists.transpose() * by_own + drive_.own_by_angle.transpose() * z;
+      else
+        by_twist += by_own;
+    }
+    const VectorXd own = left.tail(states_).cwiseProduct(refined_.tail(states_)).cwiseAbs();
+    EnergyParts parts{.springs = by_twist.cwiseProduct(twist).cwiseAbs().sum() / std::abs(lambda),
+                      .inertias = std::abs(lambda) * w.cwiseProduct(q).cwiseAbs().dot(drive_.inertia),
+                      .own = {}};
+    const double all = parts.springs + parts.inertias + own.sum();
+    if (!(all > 0 && std::isfinite(all))) return {};
+    parts.springs /= all, parts.inertias /= all;
+    for (const double part : own) parts.own.push_back(part / all);
+    return parts;
+  }
+
  private:
   using Sparse = ComplexSparseMatrix;
+
+  Eigen::VectorXcd left_vector(Complex lambda) {
+    const auto transposed = [this](Complex s) {
+      return Sparse((s * s * mass_ + s * damping_ + stiffness_).transpose());
+    };
+    constexpr double beside = 1e-12;  // where λ is an eigenvalue to the last bit
+    Eigen::VectorXcd u = refined_;
+    if (!solver_.factorise(transposed(lambda)) && !solver_.factorise(transposed((1 + beside) * lambda))) return u;
+    for (int iteration = 0; iteration < 2; ++iteration) u = solver_.solve(u).normalized();
+    return u;
+  }
 
   static void add(const SparseMatrix& m, Index row, Index column, double factor,
                   std::vector<Eigen::Triplet<Complex>>& to) {
@@ -210,6 +253,7 @@ class DampedNewton {
   Index n_, states_;
   Sparse mass_, damping_, stiffness_;
   ComplexSparseLu solver_;
+  Eigen::VectorXcd refined_;  // [q, z]
 };
 
 std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedModes& undamped) {
@@ -229,6 +273,7 @@ std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedMo
     if (known) continue;
     modes.push_back(normalised(lambda, v));
     modes.back().error = std::max(change, 1e-14 * std::abs(lambda));
+    modes.back().energy = newton.energy(lambda);
   }
   sort_modes(modes);
   return modes;

@@ -51,7 +51,7 @@ struct DampedMode {
   Eigen::VectorXcd shape;       // per coordinate; largest entry 1
   double error = 0;             // of λ [1/s]
   double in_own_states = 0;     // share of its vector in the elements' own states: 1 where the machine hardly moves
-  EnergyParts energy = {};      // by the dense solver
+  EnergyParts energy = {};
   double natural() const { return std::abs(lambda); }                      // [rad/s]
   double ratio() const { return (0 - lambda.real()) / std::abs(lambda); }  // ζ, never −0; < 0: grows by itself
 };

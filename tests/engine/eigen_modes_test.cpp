@@ -227,9 +227,13 @@ TEST(DampedModes, NewtonOnTheSparseProblemFindsTheRootsOfTheDenseOne) {
     const std::vector<DampedMode> dense = damped_modes(d, m);
     EXPECT_EQ(sparse.size(), 8u);
     for (const DampedMode& s : sparse) {
-      double nearest = HUGE_VAL;
-      for (const DampedMode& x : dense) nearest = std::min(nearest, std::abs(x.lambda - s.lambda));
-      EXPECT_LT(nearest, 1e-9 * std::abs(s.lambda));
+      const DampedMode& x =
+          *std::min_element(dense.begin(), dense.end(), [&](const DampedMode& a, const DampedMode& b) {
+            return std::abs(a.lambda - s.lambda) < std::abs(b.lambda - s.lambda);
+          });
+      EXPECT_LT(std::abs(x.lambda - s.lambda), 1e-9 * std::abs(s.lambda));
+      EXPECT_NEAR(s.energy.springs, x.energy.springs, 1e-6);
+      EXPECT_NEAR(s.energy.inertias, x.energy.inertias, 1e-6);
     }
   }
 }
