@@ -48,6 +48,11 @@ class Study {
       if (!listed_ && !at_the_state) throw;
       if (!listed_) found_ = std::move(*at_the_state);
       end_early();
+    } catch (
+        const std::invalid_argument& refused) {  // no small motions about the steady one: friction holds every shaft
+      if (listed_ || !at_the_state) throw;
+      found_ = std::move(*at_the_state);
+      found_.notes.push_back(fmt::format("not assessed is what depends on the steady motion: {}", refused.what()));
     }
     return std::move(found_);
   }

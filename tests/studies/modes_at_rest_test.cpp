@@ -147,6 +147,18 @@ elasticity = true
   EXPECT_NEAR(m.modes[1].magnitude(), fast, 1e-3 * fast);
 }
 
+// A table that sticks and slips: friction holds it where its round begins, so that nothing can vibrate about that motion. Its
+// natural frequency is that of the spring all the same.
+TEST(ModesAtRest, WhatFrictionHoldsHasItsNaturalFrequencies) {
+  const Scene scene = test::scene_file("scenes/stick_slip.toml");
+  const ModesStudy m = find_modes(scene, scene.effects, {});
+  ASSERT_EQ(m.modes.size(), 1u);
+  EXPECT_NEAR(m.modes[0].omega, std::sqrt(900.0 / 12), 1e-9 * m.modes[0].omega);
+  ASSERT_FALSE(m.notes.empty());
+  EXPECT_NE(m.notes.back().find("held by friction"), std::string::npos) << m.notes.back();
+  EXPECT_NE(findings_of(m).answers.size(), 0u);
+}
+
 // Upside down it falls: λ = +√(m g l/J), told, and no frequency is made of it.
 TEST(ModesAtRest, RestUpsideDownIsToldToGrow) {
   const ModesStudy m = modes_of(pendulum(0), [] {
