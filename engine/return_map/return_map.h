@@ -40,6 +40,7 @@ class ReturnMap {
   const Model& model() const { return *shared_; }
   std::shared_ptr<const Model> shared_model() const { return shared_; }
   const Periodicity& periodicity() const { return periodicity_; }
+  bool has_own_period() const { return own_period_; }  // that no law gives
 
   // The section goes through this state, with the link turning at about this speed [rad/s].
   void go_through(State state, std::vector<char> sticks_throughout, double link_speed);

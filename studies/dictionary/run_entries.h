@@ -199,7 +199,8 @@ inline constexpr Definition of_a_cycle[] = {
     // what swings, over the link's angle
     {"speed_order", "amplitude of an order of a speed", "rad/s", "ORDER.SHAFT", "11.10", of_cycles,
      "amplitude of the part of a shaft's speed that swings ORDER times in a turn of the reduction link, in steady "
-     "motion, over the link's angle; a cycle of two turns has halves. Told are those of at least 1 % of the largest",
+     "motion, over the link's angle; a cycle of two turns has halves. Of a vibration about a place: ORDER times in its "
+     "period, over time. Told are those of at least 1 % of the largest",
      "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r)",
      "half of what the speed goes from its least to its greatest value, which all orders make together"},
     {"speed_order_phase", "phase of an order of a speed", "deg", "ORDER.SHAFT", "11.10", of_cycles,
@@ -207,10 +208,18 @@ inline constexpr Definition of_a_cycle[] = {
      "their error",
      "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r), −180° < ψ_r ≤ 180°",
      "an angle of the link, which is ψ_r over the order; a lead over some other order"},
+    {"angle_order", "amplitude of an order of a vibration", "rad", "ORDER.SHAFT", "11.10", of_cycles,
+     "amplitude of the part of a shaft's angle that swings ORDER times in the period of a vibration about a place, in "
+     "steady motion, over time. Told are those of at least 1 % of the largest",
+     "φ(t) = φ̄ + Σ a_r cos(2π r t/T − ψ_r)",
+     "half the way between the extreme angles, which all orders make together: vibration_amplitude"},
+    {"angle_order_phase", "phase of an order of a vibration", "deg", "ORDER.SHAFT", "11.10", of_cycles,
+     "ψ_r of that part: it is greatest where ORDER times 360° t/T is ψ_r; of amplitudes beyond their error",
+     "φ(t) = φ̄ + Σ a_r cos(2π r t/T − ψ_r), −180° < ψ_r ≤ 180°", "an angle of the shaft"},
     {"torque_order", "amplitude of an order of a torque", "N*m", "ORDER.COMPONENT", "11.10", of_cycles,
      "amplitude of the part of a torque that swings ORDER times in a turn of the reduction link, in steady motion, "
-     "over "
-     "the link's angle; a cycle of two turns has halves. Told are those of at least 1 % of the largest",
+     "over the link's angle; a cycle of two turns has halves. Of a vibration about a place: ORDER times in its period, "
+     "over time. Told are those of at least 1 % of the largest",
      "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r)",
      "of the linear forced response at a constant speed, which modes tells; the alternating torque of all orders"},
     {"torque_order_phase", "phase of an order of a torque", "deg", "ORDER.COMPONENT", "11.10", of_cycles,

@@ -32,6 +32,11 @@ std::vector<ToldOrder> told_orders(const SteadyCycle& c) {
   return rows;
 }
 
+// "Orders per turn of crank", "Orders of the vibration".
+std::string counted(const SteadyStudy& s, const SteadyCycle& c) {
+  return c.point.vibrates() ? "of the vibration" : "per turn of " + s.link;
+}
+
 Rows orders_table(const SteadyStudy& s, const SteadyCycle& c) {
   const SpeedUnit speed = c.model->scene.speed_unit;
   const auto cells = [speed](const ToldOrder& row) { return figure_cells(row.order.amplitude(), row.of->unit, speed); };
@@ -39,7 +44,7 @@ Rows orders_table(const SteadyStudy& s, const SteadyCycle& c) {
     const std::optional<Estimate> found = row.order.phase();
     return found ? std::optional(in_degrees * *found) : std::nullopt;
   };
-  return table_of("", fmt::format("Orders per turn of {}, {} model", s.link, c.label), told_orders(c))
+  return table_of("", fmt::format("Orders {}, {} model", counted(s, c), c.label), told_orders(c))
       .fold()
       .not_on_terminal()
       .explained_by([](const ToldOrder& row) {
@@ -65,8 +70,10 @@ const OrdersOf* orders_named(const SteadyCycle& c, const std::string& name) {
 
 // All orders up to the highest that matters in one of the models; none: nothing swings.
 std::optional<Plot> bars_of_orders(const SteadyStudy& s, const std::string& name, const std::string& title) {
-  Plot plot{
-      .title = title, .x = {fmt::format("order (per turn of {})", s.link), ""}, .y = {"amplitude", ""}, .bars = true};
+  Plot plot{.title = title,
+            .x = {fmt::format("order ({})", counted(s, s.cycles.back())), ""},
+            .y = {"amplitude", ""},
+            .bars = true};
   double last = 0;
   for (const SteadyCycle& c : s.cycles)
     if (const OrdersOf* of = orders_named(c, name))

@@ -72,12 +72,21 @@ std::vector<OrderChannel> channels_with_orders(const Model& m) {
   return list;
 }
 
+// A vibration: its orders are over time.
+struct OverTime {
+  double from = 0, period = 0;  // [s]
+  double angle(double t) const { return turn * (t - from) / period; }
+  double speed() const { return turn / period; }
+};
+
 // ∫x dφ, ∫x² dφ and ∫x e^(−irφ) dφ of every channel, and the link's least speed on its way.
 class OrderIntegrals final : public Observer {
  public:
-  OrderIntegrals(const Model& m, const std::vector<OrderChannel>& channels, double lowest, double turned)
+  OrderIntegrals(const Model& m, const std::vector<OrderChannel>& channels, double lowest, double turned,
+                 std::optional<OverTime> vibration)
       : m_(m),
         channels_(channels),
+        vibration_(vibration),
         lowest_(lowest),
         sense_(turned < 0 ? -1 : 1),
         waves_(std::clamp(static_cast<std::size_t>(std::llround(highest / lowest)), fewest_waves, most_waves)),
@@ -89,7 +98,7 @@ class OrderIntegrals final : public Observer {
   // Pieces so short that the highest order makes no more than a quarter of a turn in one.
   void step(StepView& view) override {
     const double a = view.t_previous(), h = view.t() - a;
-    const double from = link_angle(view, view.at(a)), to = link_angle(view, view.at(view.t()));
+    const double from = angle(view, a), to = angle(view, view.t());
     const double way = std::abs(to - from);
     const int pieces = 1 + static_cast<int>(4 * static_cast<double>(waves_) * lowest_ * way / turn);
     for (int p = 0; p < pieces; ++p)
@@ -108,15 +117,15 @@ class OrderIntegrals final : public Observer {
   double slowest() const { return slowest_; }  // in the sense in which it turns [rad/s]
 
  private:
-  double link_angle(StepView& view, std::span<const double> y) const {
-    return view.equations().angle_with_turns(at(m_.reduction_angle), y);
+  double angle(StepView& view, double t) const {
+    if (vibration_) return vibration_->angle(t);
+    return view.equations().angle_with_turns(at(m_.reduction_angle), view.at(t));
   }
   void add(StepView& view, double t, double weight) {
-    const std::span<const double> y = view.at(t);
-    const double phi = link_angle(view, y);
-    const Snapshot& s = view.equations().snapshot(t, y);
+    const double phi = angle(view, t);
+    const Snapshot& s = view.snapshot(t);
     const TrackedAngle& link = m_.angles[at(m_.reduction_angle)];
-    const double omega = link.gain * s.now.speed[link.shaft];
+    const double omega = vibration_ ? vibration_->speed() : link.gain * s.now.speed[link.shaft];
     slowest_ = std::min(slowest_, sense_ * omega);
     std::complex<double> wave = 1;
     const std::complex<double> longest = std::polar(1.0, -lowest_ * phi);
@@ -130,12 +139,26 @@ class OrderIntegrals final : public Observer {
 
   const Model& m_;
   const std::vector<OrderChannel>& channels_;
+  std::optional<OverTime> vibration_;
   double lowest_, sense_;
   std::size_t waves_;
   std::vector<double> first_, square_;
   std::vector<std::complex<double>> sums_, wave_;  // channel after channel; e^(−irφ) at one point
   double slowest_ = HUGE_VAL;
 };
+
+// Of a shaft's angle, in a vibration: those of its speed over i r 2π/T.
+OrdersOf angle_of(const OrdersOf& speed, double of_vibration) {
+  OrdersOf angle{.channel = Name::make(quantities::angle, speed.channel.of),
+                 .unit = "rad",
+                 .scale = 1,
+                 .repeated = speed.repeated};
+  for (const Order& o : speed.orders) {
+    angle.orders.push_back({.order = o.order, .wave = o.wave / std::complex<double>(0, o.order * of_vibration)});
+    angle.mean_square += 0.5 * std::norm(angle.orders.back().wave);
+  }
+  return angle;
+}
 
 Name name_of_order(const OrdersOf& of, Functional functional, double order) {
   return Name::numbered({of.channel.what.channel, functional, QuantityKind::Window::cycle}, fmt::format("{:g}", order),
@@ -201,20 +224,30 @@ OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, do
   const std::string link = m.node_label(m.reduction_node);
   const std::string standing = fmt::format(
       "no orders: \"{}\" stands or turns back in the period of the motion, so that they have no angle", link);
-  if (!(std::abs(turned) > slowest_part)) return {.none = point.vibrates() ? "" : standing};
+  std::optional<OverTime> vibration;
+  if (point.vibrates()) {
+    vibration = {.from = map.has_own_period() ? map.start_time() : 0, .period = point.time};
+    turned = turn;
+  } else if (!(std::abs(turned) > slowest_part)) {
+    return {.none = standing};
+  }
   const std::optional<double> lowest = lowest_order(turned);
   if (!lowest)
     return {.none = fmt::format("no orders: in the period of the motion \"{}\" turns {:.6g} times, which is no whole "
                                 "number, so that what comes again is at another angle each time",
                                 link, std::abs(turned) / turn)};
   const std::vector<OrderChannel> channels = channels_with_orders(m);
-  OrderIntegrals integrals(m, channels, *lowest, turned);
+  OrderIntegrals integrals(m, channels, *lowest, turned, vibration);
   Equations equations(map.shared_model(), true);  // its quadratures keep steps short that torques alone would ask for
   const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&integrals});
   if (!outcome.diagnosis.empty()) return {.none = "no orders: " + outcome.diagnosis};
   if (!(integrals.slowest() > slowest_part * m.speed_scale)) return {.none = standing};
   OrdersOfRound round;
-  for (std::size_t k = 0; k < channels.size(); ++k) round.all.push_back(integrals.orders(k, turned));
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    round.all.push_back(integrals.orders(k, turned));
+    if (vibration && round.all.back().channel.what == quantities::speed)
+      round.all.push_back(angle_of(round.all.back(), vibration->speed()));
+  }
   return round;
 }
 

@@ -1,8 +1,10 @@
-// orders.h — orders of speeds and torques over one period of steady motion, over the angle of the reduction link.
+// orders.h — orders of speeds and torques over one period of steady motion, over the angle of the reduction link; of a
+// vibration about a place over its time.
 //
 //     x(φ) = x̄ + Σ a_r cos(r φ − ψ_r),   a_r e^(−iψ_r) = (2/Φ) ∫ x(φ) e^(−irφ) dφ                    (theory 11.10)
 // φ: the link's angle; Φ: what it turns in a period of the motion; r: whole multiples of 2π/Φ, halves over two turns. The
-// integrals are those of the solution itself, by Gauss's points within every step.
+// integrals are those of the solution itself, by Gauss's points within every step. Of a vibration about a place with the
+// period T φ is 2π t/T, from where the period begins where no law gives it; and there are orders of the shafts' angles.
 #pragma once
 
 #include <complex>
@@ -17,7 +19,7 @@
 namespace kurbel {
 
 struct Order {
-  double order = 0;                  // r, per turn of the link
+  double order = 0;                  // r, per turn of the link, or per period of a vibration
   std::complex<double> wave = {};    // a e^(−iψ)
   std::optional<double> error = {};  // of the wave; empty: not measured
 
@@ -48,8 +50,8 @@ struct OrdersOfRound {
 };
 
 // Goes once round from the map's fixed point, in which the link turns by `turned` [rad]. Speeds of all shafts, torques of
-// all joints, motors and loads that a run records. None where the link stands or turns back on its way, or where it turns
-// by no whole number of turns and by no whole part of two, so that its angle does not say where the motion is.
+// all joints, motors and loads that a run records; of a vibration angles of all shafts. None where the link turns in the mean,
+// but stands or turns back on its way, or where it turns by no whole number of turns and by no whole part of two, so that its angle does not say where the motion is.
 OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, double tolerance, double turned);
 
 // Adds to the errors what others have found otherwise: at least what the steps resolve, a part of the rated quantity, and a

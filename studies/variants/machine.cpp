@@ -257,8 +257,13 @@ std::vector<SweptFigure> figures_of(const MachineQuestion& question) {
 // Amplitude or phase of one order: there are hundreds, which nobody asks for all at once.
 static bool is_order(const SweptFigure& figure) {
   using namespace quantities;
-  return is_asked_for(figure.name, word(speed_order)) || is_asked_for(figure.name, word(speed_order_phase)) ||
-         is_asked_for(figure.name, word(torque_order)) || is_asked_for(figure.name, word(torque_order_phase));
+  for (QuantityKind kind :
+       {speed_order, torque_order, QuantityKind{angle.channel, Functional::order, QuantityKind::Window::cycle}})
+    for (const Functional functional : {Functional::order, Functional::order_phase}) {
+      kind.functional = functional;
+      if (is_asked_for(figure.name, word(kind))) return true;
+    }
+  return false;
 }
 
 std::vector<SweptFigure> chosen(const std::vector<SweptFigure>& known, const std::vector<std::string>& asked) {

@@ -339,6 +339,18 @@ TEST(SwingsAboutZero, AreASteadyMotion) {
   EXPECT_NEAR(figure_of(cycle, "cycle_max_speed.disc").value, w * amplitude, 1e-8);
   EXPECT_NEAR(figure_of(cycle, "vibration_amplitude.disc").value, amplitude, 1e-10);
   EXPECT_NEAR(figure_of(cycle, "vibration_frequency").value, 13, 1e-12);
+  // Its orders: the first alone, with the phase of M sin ωt, which a whole cycle of the excitation tells.
+  for (const auto& [name, exact] :
+       {std::pair{"angle_order.1.disc", amplitude}, {"speed_order.1.disc", w * amplitude}}) {
+    const Figure& order = figure_of(cycle, name);
+    ASSERT_TRUE(order.error);
+    EXPECT_NEAR(order.value, exact, std::max(*order.error, 1e-9 * exact));
+    EXPECT_LT(*order.error, 1e-6 * exact);
+  }
+  const double behind = std::atan2(40 * w, 1e4 - w * w) + pi / 2;
+  const Figure& phase = figure_of(cycle, "angle_order_phase.1.disc");
+  EXPECT_NEAR(std::cos(phase.value * pi / 180 - behind), 1, 1e-10) << phase.value;
+  EXPECT_EQ(cycle.find("angle_order.2.disc"), nullptr);
 }
 
 // Without damping nothing asks for a period: the disc vibrates at ω = √(k/J) with the amplitude ω₀/ω of its start.
@@ -365,6 +377,8 @@ run = {{ start = {{ on = "disc", speed = "{} rad/s" }}, until = "4 s" }}
     EXPECT_NEAR(frequency.value, w / (2 * pi), 1e-8 * w);
     EXPECT_NEAR(way.value, speed / w, 1e-6 * speed / w);
     EXPECT_NEAR(way.value, speed / w, *way.error);
+    const Figure& order = figure_of(cycle, "angle_order.1.disc");
+    EXPECT_NEAR(order.value, speed / w, *order.error + *way.error);
   }
 }
 
