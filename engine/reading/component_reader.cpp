@@ -14,8 +14,8 @@ namespace {
 using Type = DocumentValue::Type;
 
 const std::vector<std::string>& reserved_names() {
-  static const std::vector<std::string> names = {"title",   "description", "line", "branch",
-                                                 "effects", "sequence",    "run",  "constants"};
+  static const std::vector<std::string> names = {"title",    "description", "line",      "branch",   "effects",
+                                                 "sequence", "run",         "operation", "constants"};
   return names;
 }
 
@@ -56,6 +56,20 @@ void read_on(SceneReading& r, const Section& section, const DocumentValue& value
   r.scene.lines.push_back({value.text, {section.name}, value.at, {value.at}});
 }
 
+// `orders = [5]`: blades or teeth of any component that has no such key of its own.
+void read_orders(SceneReading& r, const std::string& what, const std::string& name, const DocumentValue& value) {
+  std::vector<double>& orders = r.scene.operation.orders[name];
+  if (value.type != Type::list || value.items.empty())
+    return r.refuse(value.at, fmt::format("{}: orders = {}; must be a list of numbers per turn of its shaft, e.g. [5]",
+                                          what, value.describe()));
+  for (const DocumentValue& item : value.items) {
+    const bool number = item.type == Type::integer || item.type == Type::number;
+    if (!number || !(item.number > 0 && item.number <= 1e5))
+      r.refuse(item.at, fmt::format("{}: orders: {}; must be a number > 0 and ≤ 100000", what, item.describe()));
+    orders.push_back(item.number);
+  }
+}
+
 // Each of [table] is used by name; else it is a component that lacks its kind.
 bool tables_are_tables(SceneReading& r, const DocumentEntry& tables) {
   bool any = false;
@@ -72,7 +86,7 @@ bool read_component(SceneReading& r, const DocumentEntry& entry) {
   const std::string& name = entry.key;
   // A slip of the pen in [effects] or [run], and no component at all.
   const auto table_meant =
-      entry.value.find("kind") ? std::nullopt : nearest(name, {"effects", "sequence", "run", "branch"});
+      entry.value.find("kind") ? std::nullopt : nearest(name, {"effects", "sequence", "run", "operation", "branch"});
   if (table_meant) {
     r.refuse(entry.at,
              fmt::format("unknown table [{}] — did you mean [{}]? A component needs its \"kind\"", name, *table_meant));
@@ -94,8 +108,12 @@ bool read_component(SceneReading& r, const DocumentEntry& entry) {
   const DocumentEntry* on = entry.value.find("on");
   std::vector<std::string> read_elsewhere = {"kind"};
   if (on || kind->placement == Placement::inline_one) read_elsewhere.push_back("on");
-  Section section = read_section(table, *kind, name, fmt::format("{} \"{}\"", kind->name, name), r.messages,
-                                 read_elsewhere, r.allowed);
+  const std::string what = fmt::format("{} \"{}\"", kind->name, name);
+  if (const DocumentEntry* orders = entry.value.find("orders")) {
+    read_orders(r, what, name, orders->value);
+    read_elsewhere.push_back("orders");
+  }
+  Section section = read_section(table, *kind, name, what, r.messages, read_elsewhere, r.allowed);
   if (on) read_on(r, section, on->value);
   r.index[name] = r.scene.components.size();
   r.scene.components.push_back(std::move(section));

@@ -94,6 +94,7 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   read_effects(r);
   read_sequence_table(r);
   read_run(r);
+  read_operation(r);
   if (!r.messages.empty()) try_components(r);
   r.messages.throw_if_any();
   place_by_output(r);

@@ -1,6 +1,8 @@
-// run_reader.cpp — [run], with its start and its output.
+// run_reader.cpp — [run], with its start and its output, and [operation].
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -184,6 +186,110 @@ void read_run(SceneReading& r) {
   // In the document, which lives as long as the reading: what is told of an output is looked at later.
   if (const DocumentEntry* start = run ? run->value.find("start") : nullptr) read_start(r, start->value);
   if (const DocumentEntry* output = table.find("output")) read_output(r, output->value);
+}
+
+namespace {
+
+// "6", "2 mains", "6 output - 6 mains": terms of a number, 1 unless given, and what it multiplies, the output unless named.
+bool parse_harmonic(std::string_view text, Operation::Harmonic& harmonic) {
+  std::size_t i = 0;
+  const auto skip = [&] { i = std::min(text.find_first_not_of(' ', i), text.size()); };
+  for (bool first = true; skip(), i < text.size(); first = false) {
+    double sign = 1, number = 1;
+    if (text[i] == '+' || text[i] == '-')
+      sign = text[i++] == '-' ? -1 : 1, skip();
+    else if (!first)
+      return false;
+    const auto [end, fault] = std::from_chars(text.data() + i, text.data() + text.size(), number);
+    const bool told = fault == std::errc{};
+    if (told) i = static_cast<std::size_t>(end - text.data()), skip();
+    const std::size_t begin = i;
+    while (i < text.size() && text[i] >= 'a' && text[i] <= 'z') ++i;
+    const std::string_view name = text.substr(begin, i - begin);
+    if ((name.empty() && !told) || !(number > 0 && number <= 1e4)) return false;
+    if (!name.empty() && name != "output" && name != "mains") return false;
+    (name == "mains" ? harmonic.mains : harmonic.output) += sign * number;
+  }
+  return harmonic.output != 0 || harmonic.mains != 0;
+}
+
+void read_converter(SceneReading& r, const DocumentValue& value) {
+  if (value.type != Type::list)
+    return r.refuse(value.at, fmt::format("[operation]: converter = {}; must be a list of harmonics, e.g. [\"6\", "
+                                          "\"6 output - 6 mains\"]",
+                                          value.describe()));
+  for (const DocumentValue& item : value.items) {
+    Operation::Harmonic harmonic{.text = item.text};
+    if (item.type == Type::integer || item.type == Type::number)
+      harmonic = {fmt::format("{:g}", item.number), item.number, 0};
+    else if (item.type != Type::text || !parse_harmonic(item.text, harmonic))
+      harmonic.output = harmonic.mains = 0;
+    if (!(harmonic.output != 0 || harmonic.mains != 0) || !std::isfinite(harmonic.output))
+      r.refuse(item.at,
+               fmt::format("[operation]: converter: {} is no harmonic; write multiples of its output and of the "
+                           "mains, e.g. \"6\", \"2 mains\", \"6 output - 6 mains\"",
+                           item.describe()));
+    r.scene.operation.converter.push_back(std::move(harmonic));
+  }
+}
+
+void check_component(SceneReading& r, const Section& section, const char* key, std::string& name) {
+  if (!section.given(key)) return;
+  name = section.text(key);
+  if (!r.find(name) && !r.unreadable.count(name))
+    r.refuse(section.where(key),
+             fmt::format("[operation]: {} = \"{}\" is no component{}; allowed: {}", key, name,
+                         suggestion(name, r.component_names()), shortened_list(r.component_names())));
+}
+
+// What a converter's frequencies are made of must be known.
+void check_converter(SceneReading& r, Location at) {
+  const Operation& o = r.scene.operation;
+  const Section* motor = o.motor.empty() ? nullptr : r.find(o.motor);
+  const bool known = motor && motor->kind->name == "induction motor";
+  if (o.converter.empty()) {
+    if (!o.motor.empty() || o.pole_pairs)
+      r.refuse(at, "[operation]: \"motor\" and \"pole_pairs\" belong to \"converter\", the list of its harmonics");
+    return;
+  }
+  if (o.motor.empty()) return r.refuse(at, "[operation]: \"motor\" is missing: which one does the converter feed?");
+  if (!motor) return;
+  if (!o.pole_pairs && !known)
+    r.refuse(at, fmt::format("[operation]: \"pole_pairs\" is missing: those of \"{}\"", o.motor));
+  for (const Operation::Harmonic& harmonic : o.converter)
+    if (harmonic.mains != 0 && !o.mains)
+      return r.refuse(at,
+                      fmt::format("[operation]: \"mains\" is missing, of which converter: \"{}\" speaks; write e.g. "
+                                  "mains = \"50 Hz\"",
+                                  harmonic.text));
+}
+
+}  // namespace
+
+void read_operation(SceneReading& r) {
+  static const Kind kind{.name = "operation", .keys = operation_keys()};
+  const DocumentEntry* entry = r.document.find("operation");
+  if (!entry) return;
+  if (entry->value.type != Type::table)
+    return r.refuse(entry->at,
+                    fmt::format("operation = {}; must be a table, e.g. operation = {{ speeds = [\"1340 rpm\", "
+                                "\"1640 rpm\"] }}",
+                                entry->value.describe()));
+  DocumentValue table = entry->value;
+  table.at = entry->at;
+  const Section section = read_section(table, kind, "operation", "[operation]", r.messages, {"converter"});
+  Operation& o = r.scene.operation;
+  o.margin = section.number("margin");
+  if (section.has("speeds")) o.speeds = section["speeds"].numbers;
+  if (section.has("mains")) o.mains = section.number("mains");
+  if (section.has("pole_pairs")) o.pole_pairs = static_cast<int>(section.number("pole_pairs"));
+  check_component(r, section, "on", o.on);
+  check_component(r, section, "motor", o.motor);
+  if (const DocumentEntry* converter = table.find("converter")) read_converter(r, converter->value);
+  if (!section.sound) return;
+  if (o.speeds.size() > 2 || (o.speeds.size() == 2 && !(o.speeds[0] < o.speeds[1])))
+    r.refuse(section.where("speeds"), "[operation]: speeds: give one speed, or the slowest and the fastest");
+  check_converter(r, section.at);
 }
 
 }  // namespace kurbel

@@ -48,6 +48,7 @@ void check_connections(SceneReading& r);       // connections.cpp: every name ex
 void put_in_canonical_order(SceneReading& r);  // of lines and components, whatever their order in the file
 void read_effects(SceneReading& r);            // effects_reader.cpp
 void read_run(SceneReading& r);                // run_reader.cpp
+void read_operation(SceneReading& r);          // of the same file
 void place_by_output(SceneReading& r);  // output_start.cpp: angle and speed of the crank from those of its output
 
 }  // namespace kurbel

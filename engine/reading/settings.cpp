@@ -224,7 +224,7 @@ SettledText::Edit SettledText::brought_in(std::size_t setting, const std::vector
 
 // Components are not made here.
 void SettledText::check_section(std::size_t setting, const Segment& first, const DocumentValue& document) const {
-  const std::vector<std::string> sections = {"title", "run", "effects", "sequence"};
+  const std::vector<std::string> sections = {"title", "run", "effects", "sequence", "operation"};
   if (std::find(sections.begin(), sections.end(), first.name) != sections.end()) return;
   const std::vector<std::string> names = keys_of(document);
   refuse(setting, first.place,

@@ -1,4 +1,4 @@
-// scene.cpp — which methods integrate which model, and the keys of [run].
+// scene.cpp — which methods integrate which model, and the keys of [run] and [operation].
 #include "engine/scene/scene.h"
 
 #include <fmt/format.h>
@@ -78,6 +78,28 @@ const std::vector<Key>& run_keys() {
       defaulted("budget", "s", "300 s", positive,
                 "processor time after which an integration, or a study that is not made of runs, is stopped with a "
                 "diagnosis"),
+  };
+  return keys;
+}
+
+const std::vector<Key>& operation_keys() {
+  static const std::vector<Key> keys = {
+      {.name = "speeds",
+       .type = KeyType::quantities,
+       .unit = "rad/s",
+       .domain = positive,
+       .doc = "speed at which the machine runs for long, or the slowest and the fastest; default: the rated speed"},
+      {.name = "on", .type = KeyType::text, .doc = "component whose speeds these are; default: the reduction link"},
+      defaulted("margin", "", "0.1", {.low = 0, .high = 1, .high_open = true},
+                "least distance wanted between an excitation's frequencies in that range and every natural frequency, "
+                "of the excitation's"),
+      quantity("mains", "Hz", positive,
+               "frequency of the mains, whose 1× and 2× excite; default: that of the induction motors on the mains"),
+      {.name = "motor", .type = KeyType::text, .doc = "that a frequency converter feeds, with `converter`"},
+      {.name = "pole_pairs",
+       .type = KeyType::integer,
+       .domain = {.low = 1, .high = 100},
+       .doc = "of that motor: the output frequency is pole_pairs times its speed, slip left out; default: by its data"},
   };
   return keys;
 }

@@ -56,6 +56,23 @@ struct Sequence {
   bool repeat = false;
 };
 
+// [operation]: where the machine runs for long, and what excites it besides its own laws.
+struct Operation {
+  // A harmonic of a frequency converter: output · its output frequency + mains · the mains', as "6 output - 6 mains".
+  struct Harmonic {
+    std::string text;
+    double output = 0, mains = 0;
+  };
+  std::vector<double> speeds;        // the speed, or the slowest and the fastest [rad/s]; empty: not said
+  std::string on;                    // component whose they are; empty: the reduction link
+  double margin = 0.1;               // wanted between natural frequencies and excitations, of these
+  std::optional<double> mains = {};  // [Hz]
+  std::vector<Harmonic> converter;
+  std::string motor;                                  // that the converter feeds
+  std::optional<int> pole_pairs = {};                 // of that motor; none: as its data say
+  std::map<std::string, std::vector<double>> orders;  // that components excite besides: blades, teeth
+};
+
 // A row of components along a shaft, beginning at a component of another line ("" for the main line).
 struct Line {
   std::string from = {};  // "gearbox.out"
@@ -74,6 +91,7 @@ struct Scene {
   Effects effects;
   Sequence sequence;
   RunSettings run;
+  Operation operation;
   SpeedUnit speed_unit;  // of the first speed in the file
   int finer_shafts = 0;  // steps by which continuous shafts are cut finer than they need: told by no key
 
@@ -86,7 +104,8 @@ struct Scene {
 const std::vector<std::string>& methods_of(const std::string& model);
 void check_method(const std::string& method, const std::string& model);
 
-// Keys of [run], for the docs.
+// Keys of [run] and of [operation], for the docs.
 const std::vector<Key>& run_keys();
+const std::vector<Key>& operation_keys();
 
 }  // namespace kurbel

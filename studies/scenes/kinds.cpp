@@ -140,12 +140,13 @@ std::vector<const Kind*> kinds_with_nested() {
 std::vector<std::string> names_of_keys() {
   std::vector<std::string> names;
   for (const Kind* kind : kinds_with_nested()) names.push_back(kind->name);
-  names.push_back("run");
+  names.insert(names.end(), {"run", "operation"});
   return names;
 }
 
 std::string keys_of(const std::string& name) {
   if (name == "run") return "[run]: what is simulated, and how well.\n\n" + aligned(run_keys());
+  if (name == "operation") return "[operation]: where the machine runs for long.\n\n" + aligned(operation_keys());
   std::string text;
   for (const Kind* kind : kinds_with_nested()) {
     if (kind->name != name) continue;
@@ -271,7 +272,8 @@ std::string keys_in_markdown() {
       "| `[effects]` | `elasticity = true`, `false` or a list of components; the effects below, `true` or `false` |\n"
       "| `[constants]` | names with their values, which formulas may use: `p0 = \"1 bar\"` |\n"
       "| `[table.NAME]` | a table that others take by `use = \"table.NAME\"` |\n"
-      "| `[sequence]` | `steps = [...]`, each waiting for the one before it; `repeat = true` or `false` |\n\n"
+      "| `[sequence]` | `steps = [...]`, each waiting for the one before it; `repeat = true` or `false` |\n"
+      "| `[operation]` | where the machine runs for long; separation margins of `kurbel modes` |\n\n"
       "## `[effects]`\n\n"
       "| effect | what it adds | needs | states, events | matters | unless mentioned |\n|---|---|---|---|---|---|\n"
       "| `elasticity` | couplings and shafts twist | a stiffness | a twist and a speed each | where an excitation "
@@ -312,6 +314,16 @@ std::string keys_in_markdown() {
       "(`\"extended\"`, `\"folded\"`; of a rocker `\"greatest\"`, `\"least\"`), unless told the one along its "
       "velocity, "
       "at rest the one towards the folded end.\n\n"
+      "## `[operation]`\n\n" +
+      rows(operation_keys()) +
+      "| `converter` | list of texts | — | | harmonics of the frequency converter that feeds `motor`: \"6\" of its "
+      "output "
+      "frequency, \"2 mains\", \"6 output - 6 mains\" |\n\n"
+      "What excites, for the separation margins of `kurbel modes`, besides the scene's own laws: 1× and 2× of every "
+      "shaft, "
+      "meshing teeth, the mains, and `orders = [5]` in a component's table: blades or teeth, of the turn of its shaft "
+      "(of "
+      "one with two shafts, `.in`).\n\n"
       "## Components\n\n";
   Printed printed;
   for (const Kind& kind : all_kinds()) text += chapter(kind, "###", printed);

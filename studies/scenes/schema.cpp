@@ -183,6 +183,10 @@ Json kind_schema(const Kind& kind, bool kind_required) {
     properties["on"] = {{"type", "string"},
                         {"description", "component on whose shaft this one sits, in place of a position in a line"}};
   properties["use"] = used_table();
+  if (kind.placement != Placement::nested) {
+    properties["orders"] = list_of({{"type", "number"}, {"exclusiveMinimum", 0}});
+    properties["orders"]["description"] = "blades, teeth: orders of its shaft's turn that excite besides";
+  }
   properties.update(properties_of(kind.keys));
   std::vector<std::string> required;
   for (const Key& key : kind.keys)
@@ -218,6 +222,14 @@ Json run_schema() {
   properties["output"] = list_of(text());
   properties["output"]["description"] = "components in trajectory.csv; default: all";
   properties["start"] = start_schema();
+  return table_of(properties);
+}
+
+Json operation_schema() {
+  Json properties = properties_of(operation_keys());
+  properties["converter"] = list_of({{"anyOf", {text(), {{"type", "number"}}}}});
+  properties["converter"]["description"] =
+      "harmonics of a frequency converter, of its output and of the mains: \"6\", \"2 mains\", \"6 output - 6 mains\"";
   return table_of(properties);
 }
 
@@ -281,7 +293,8 @@ std::string scene_schema() {
                    {"table", {{"anyOf", {named_tables, {{"oneOf", kinds}}}}}},  // or a component of that name
                    {"effects", table_of(effects)},
                    {"sequence", sequence_schema()},
-                   {"run", run_schema()}}},
+                   {"run", run_schema()},
+                   {"operation", operation_schema()}}},
                  {"required", {"line"}},
                  {"additionalProperties", {{"description", "a component"}, {"oneOf", kinds}}},
                  {"$defs", definitions}};
