@@ -96,6 +96,26 @@ Trace trace_of(const MeasuredSignal& s, std::vector<double> x, std::vector<doubl
   return trace;
 }
 
+// Of a cycle whose mean speed is not the record's; empty: it is, or the record has no speed.
+std::string other_speed(const SteadyCycle& c, const Measurement& m, const Alignment& a) {
+  constexpr double alike = 0.01;
+  const auto mean = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  };
+  for (std::size_t k = 0; k < m.signals.size(); ++k) {
+    const Residuals& r = a.signals[k];
+    if (!m.signals[k].channel.starts_with("speed.") || r.measured.empty()) continue;
+    const double here = mean(r.simulated), record = mean(r.measured) + r.offset;
+    if (!(std::abs(here - record) > alike * std::abs(record))) continue;
+    const SpeedUnit& unit = c.model->scene.speed_unit;
+    return fmt::format(
+        "{} model: its {} is {} in the mean, the record's {}: torques and fluctuations are those of another "
+        "speed; --mean-speed asks for the cycle of the record's",
+        c.label, m.signals[k].channel, unit.text(here, 4), unit.text(record, 4));
+  }
+  return {};
+}
+
 std::string none_in_common(const Measurement& m) {
   return fmt::format("{} is not laid over it: {}", m.file,
                      m.shift.fit ? "no shift can be found of what does not vary" : "there is no time in common");
@@ -179,6 +199,7 @@ Overlay lay_over(const Measurement& measurement, SteadyStudy& study) {
       overlay.notes.push_back(c.label + " model: " + none_in_common(measurement));
       continue;
     }
+    if (std::string other = other_speed(c, measurement, *alignment); !other.empty()) overlay.notes.push_back(other);
     add_figures(c.figures, measurement, *alignment);
     add_over_angle(c, measurement, *alignment);
     model.alignment = *alignment;

@@ -43,19 +43,24 @@ std::string conclusion_of(const Sizing& s) {
                                       s.title, exact.flywheel, s.flywheel, s.delta, basis_of(s))
                                 : fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", s.title,
                                               exact.flywheel, s.flywheel, s.delta, basis_of(s));
+  text +=
+      fmt::format(", at a mid speed of {} of {} ({})", s.speed_unit.text(s.mid_speed, 4), s.link, s.mid_speed_source);
   if (s.soft) {
     const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
     text += s.soft->flywheel > 0 ? fmt::format("; with {} counted {:.6g} kg·m² do ({:.3g} % {})", slope_of_what(s),
                                                s.soft->flywheel, std::abs(less), less >= 0 ? "less" : "more")
                                  : fmt::format("; with {} counted none is needed", slope_of_what(s));
   }
-  if (const DeltaReached* rigid = reached(s, SizedModel::rigid))
-    text += fmt::format("; simulated rigid it reaches {:.5g}", rigid->crank.value);
-  if (const DeltaReached* elastic = reached(s, SizedModel::elastic))
-    text += fmt::format(", elastic {:.5g} at the crank{}", elastic->crank.value,
-                        s.motor.empty() ? "" : fmt::format(" and {:.5g} at the motor", elastic->motor.value));
   if (!s.meeting_words.empty()) text += "; " + s.meeting_words;
   return text;
+}
+
+// What the sized machine has, a sentence a model: δ is demanded of the crank, and judged there.
+std::string words_of(const Sizing& s, const DeltaReached& r) {
+  return fmt::format(
+      "{} it has δ = {:.5g} at the crank, where {:g} is demanded{}",
+      r.model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", r.crank.value, s.delta,
+      s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.5g} at the motor", r.motor.value));
 }
 
 std::string comparison_with_scene(const Sizing& s) {
@@ -330,6 +335,8 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
 // Simulated as it really is, it may not keep what it was sized for.
 void add_answers(Findings& f, const Sizing& s) {
   f.conclude(s.complete, conclusion_of(s));
+  for (const SizedModel model : {SizedModel::rigid, SizedModel::elastic})
+    if (const DeltaReached* r = s.needed ? reached(s, model) : nullptr) f.conclude(true, words_of(s, *r));
   const DeltaReached* real = reached(s, SizedModel::elastic);
   if (!real) real = reached(s, SizedModel::rigid);
   constexpr double visible = 1.02;

@@ -222,10 +222,8 @@ class Study {
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
     const OperatingPoint* p = out_.diagram->working_point();
     if (p && cycle.kind == Orbit::Kind::at_rest)
-      return fmt::format(
-          "stall: in the mean the drive would hold {} ({}), but from the scene's own start {}. More inertia, a faster "
-          "start, or a drive with a steeper characteristic is needed",
-          scene_.speed_unit.text(p->speed.value, 5), with_unit(p->torque.value, "N*m", 4), cycle.why);
+      return fmt::format("stall: in the mean the drive would hold {} ({}), but from the scene's own start {}",
+                         scene_.speed_unit.text(p->speed.value, 5), with_unit(p->torque.value, "N*m", 4), cycle.why);
     return cycle.why;
   }
   static bool is_interrupted(const SteadyCycle& cycle) {

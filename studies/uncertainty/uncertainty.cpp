@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "engine/scene/units.h"
@@ -25,6 +26,7 @@ class UncertaintyWork {
   UncertaintyWork(const MachineQuestion& question, const UncertaintyOptions& options)
       : question_(question), options_(options), scene_(VariedScene(question, {}).at({})) {
     study_.title = scene_.heading(), study_.scene_file = question.file, study_.scene_text = scene_.text;
+    study_.speed_unit = scene_.speed_unit;
     study_.parameters = tolerated_parameters(scene_);
     for (const Tolerated& t : study_.parameters) swept_.push_back(t.swept());
     varied_.emplace(question_, swept_);
@@ -157,6 +159,7 @@ class UncertaintyWork {
     study_.drawn = rows.size();
     study_.failed = static_cast<std::size_t>(
         std::count_if(rows.begin(), rows.end(), [](const SweepRow& r) { return r.state == RowState::failed; }));
+    name_failures(rows);
     for (std::size_t f = 0; f < numbers_.size(); ++f) {
       std::vector<double> y;
       for (const SweepRow& r : rows)
@@ -171,6 +174,24 @@ class UncertaintyWork {
       LimitCount& count = study_.limits.emplace_back(LimitCount{.limit = limit.given});
       for (const SweepRow& r : rows) count.take_up(side_of(limit, r));
       count.end(rows.size());
+    }
+  }
+
+  // Why samples failed, a note for each reason, with the values of the first of them.
+  void name_failures(const std::vector<SweepRow>& rows) {
+    std::map<std::string, std::pair<std::size_t, const SweepRow*>> reasons;
+    for (const SweepRow& r : rows)
+      if (r.state == RowState::failed) {
+        auto& [count, first] = reasons[r.diagnosis.substr(0, r.diagnosis.find('\n'))];
+        if (count++ == 0) first = &r;
+      }
+    for (const auto& [reason, found] : reasons) {
+      std::string values;
+      for (std::size_t p = 0; p < swept_.size(); ++p)
+        values += fmt::format("{}{} = {:.6g}{}{}", p ? ", " : "", swept_[p].path, found.second->parameters[p],
+                              swept_[p].unit.empty() ? "" : " ", pretty_unit(swept_[p].unit));
+      study_.notes.push_back(fmt::format("{} of {} machines drawn failed, and hold no limit: {}; the first with {}",
+                                         found.first, rows.size(), reason, values));
     }
   }
 
@@ -240,15 +261,20 @@ class UncertaintyWork {
     });
     if (figure != study_.figures.end()) {
       const ToleranceShare& most = figure->shares.front();
-      const std::string unit = figure->figure.unit.empty() ? "" : " " + pretty_unit(figure->figure.unit);
+      const bool speed = figure->figure.unit == "rad/s";
+      const std::string& name = speed ? study_.speed_unit.name : figure->figure.unit;
+      const std::string unit = name.empty() ? "" : " " + pretty_unit(name);
+      const auto told = [&](double x) { return speed ? study_.speed_unit.of(x) : x; };
       text += fmt::format("{}{} is {:.5g}{} with a deviation of {:.2g}{} by the tolerances", text.empty() ? "" : "; ",
-                          figure->figure.name, figure->value, unit, figure->deviation(), unit);
+                          figure->figure.name, told(figure->value), unit, told(figure->deviation()), unit);
       text += figure->is_linear() ? fmt::format("; a tighter {} would help most: without its tolerance {:.2g}{}",
-                                                swept_[most.parameter].path, most.without, unit)
+                                                swept_[most.parameter].path, told(most.without), unit)
                                   : fmt::format(", not in proportion to them; small changes of {} move it most",
                                                 swept_[most.parameter].path);
     }
     if (text.empty()) text = "No figure hangs on the tolerances that are given";
+    if (study_.failed > 0)
+      text += fmt::format("; {} of {} machines drawn failed, as the notes say", study_.failed, study_.drawn);
   }
 
   MachineQuestion question_;

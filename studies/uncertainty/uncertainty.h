@@ -72,6 +72,7 @@ struct UncertaintyStudy {
   std::vector<LimitCount> limits;  // a machine that does not run holds none
   std::vector<std::string> notes;
   std::size_t drawn = 0, failed = 0;
+  SpeedUnit speed_unit;  // that people are told speeds in
   std::string conclusion;
   bool complete = true;
   std::string diagnosis;

@@ -12,20 +12,35 @@ namespace {
 
 std::string as_unit(const std::string& unit) { return pretty_unit(unit); }
 
+// A speed in the scene's unit, all else in SI.
+double told(const UncertaintyStudy& s, const std::string& unit, double value) {
+  return unit == "rad/s" ? s.speed_unit.of(value) : value;
+}
+std::string told_unit(const UncertaintyStudy& s, const std::string& unit) {
+  return as_unit(unit == "rad/s" ? s.speed_unit.name : unit);
+}
+
 Rows figure_table(const UncertaintyStudy& s) {
-  return table_of("figures", "Figures of machines within these tolerances", s.figures)
-      .column("figure", "figure", [](const FigureUncertainty& f) { return f.figure.name; })
-      .column("value", "as given", &FigureUncertainty::value)
-      .column("numerical", "numerical error", &FigureUncertainty::numerical, {.digits = 1})
-      .column("by_gradients", "deviation by gradients", &FigureUncertainty::by_gradients, {.digits = 3})
-      .column("noise_floor", "noise floor", &FigureUncertainty::noise_floor, {.digits = 1})
-      .column("by_samples", "by samples", &FigureUncertainty::by_samples, {.digits = 3})
-      .column("mean", "mean", &FigureUncertainty::mean)
-      .column("low", "95 % from", &FigureUncertainty::low, {.digits = 5})
-      .column("high", "to", &FigureUncertainty::high, {.digits = 5})
-      .column(
-          "unit", "unit", [](const FigureUncertainty& f) { return f.figure.unit; }, as_unit)
-      .column("samples", "samples", &FigureUncertainty::samples);
+  using F = FigureUncertainty;
+  auto table = table_of("figures", "Figures of machines within these tolerances", s.figures);
+  table.column("figure", "figure", [](const F& f) { return f.figure.name; });
+  const auto quantity = [&](const char* key, const char* heading, auto member, int digits) {
+    table.only_for_programs(key, member).only_for_people(heading, [&, member, digits](const F& f) {
+      const std::optional<double> value = std::invoke(member, f);
+      return read_as(value ? std::optional(told(s, f.figure.unit, *value)) : value, {.digits = digits});
+    });
+  };
+  quantity("value", "as given", &F::value, 6);
+  quantity("numerical", "numerical error", &F::numerical, 1);
+  quantity("by_gradients", "deviation by gradients", &F::by_gradients, 3);
+  quantity("noise_floor", "noise floor", &F::noise_floor, 1);
+  quantity("by_samples", "by samples", &F::by_samples, 3);
+  quantity("mean", "mean", &F::mean, 6);
+  quantity("low", "95 % from", &F::low, 5);
+  quantity("high", "to", &F::high, 5);
+  return table.only_for_programs("unit", [](const F& f) { return f.figure.unit; })
+      .only_for_people("unit", [&](const F& f) { return told_unit(s, f.figure.unit); })
+      .column("samples", "samples", &F::samples);
 }
 
 struct ShareRow {
@@ -146,9 +161,12 @@ Findings findings_of(const UncertaintyStudy& s) {
              .diagnosis = s.diagnosis};
   f.conclude(s.complete, s.conclusion);
   for (const FigureUncertainty& figure : s.figures)
-    if (figure.by_gradients > 0 && f.figures.size() < 4)
-      f.figures.push_back({figure.figure.name, figure.value, figure.figure.unit, 2 * figure.deviation(),
-                           "two deviations of the tolerances", 0, figure.figure.name});
+    if (figure.by_gradients > 0 && f.figures.size() < 4) {
+      const std::string& unit = figure.figure.unit;
+      f.figures.push_back({figure.figure.name, told(s, unit, figure.value), unit == "rad/s" ? s.speed_unit.name : unit,
+                           told(s, unit, 2 * figure.deviation()), "two deviations of the tolerances", 0,
+                           figure.figure.name});
+    }
   const Chapter limits = f.chapter("Limits"), figures = f.chapter("Figures"),
                 shares = f.chapter("Which tolerance matters"), biases = f.chapter("Known biases"),
                 given = f.chapter("Tolerances");
