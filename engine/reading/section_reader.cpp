@@ -28,6 +28,8 @@ std::string example_of(const Key& key) {
       return first_example_of(key.unit);
     case KeyType::integers:
       return "[19, 95]";
+    case KeyType::quantities:
+      return key.unit.empty() ? "[0, 0]" : fmt::format("[{}]", first_example_of(key.unit));
     case KeyType::curve:
       return fmt::format("{{ over = \"{}\", unit = [\"{}\", \"{}\"], points = [[0, 0], [1, 1]] }}", key.choices.front(),
                          unit_over(key.choices.front()), key.unit);
@@ -38,6 +40,8 @@ std::string example_of(const Key& key) {
           text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", nested.name, example_of(nested));
       return fmt::format("[{{ {} }}]", text);
     }
+    case KeyType::named:
+      return fmt::format("{{ A = {} }}", example_of(key.nested->front().keys.front()));
     default:
       return "…";
   }
@@ -107,6 +111,30 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
   return sound;
 }
 
+// { A = [0, 0], B = { at = [1, 0] } }: what is no table is the value of the first key of one.
+bool read_named(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,
+                DataFiles allowed, Setting& setting) {
+  if (value.type != Type::table || value.entries.empty() || value.entries.size() > most_items) {
+    messages.add(value.at, fmt::format("{} = {}; must be a table with a name of yours for each, e.g. {}", what,
+                                       value.describe(), example_of(key)));
+    return false;
+  }
+  const Kind& kind = key.nested->front();
+  bool sound = true;
+  for (const DocumentEntry& entry : value.entries) {
+    DocumentValue table = entry.value;
+    if (table.type != Type::table) {
+      table = {};
+      table.at = entry.at, table.end = entry.value.end;
+      table.entries.push_back({kind.keys.front().name, entry.at, entry.value});
+    }
+    const std::string name = what + "." + entry.key;
+    setting.sections.push_back(read_section(table, kind, entry.key, name, messages, {}, allowed));
+    sound = sound && setting.sections.back().sound;
+  }
+  return sound;
+}
+
 bool read_setting(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,
                   DataFiles allowed, Setting& setting) {
   const auto refuse = [&](const std::string& allowed) {
@@ -139,6 +167,8 @@ bool read_setting(const DocumentValue& value, const Key& key, const std::string&
       return read_list(value, key, what, messages, setting);
     case KeyType::sections:
       return read_nested(value, key, what, messages, allowed, setting);
+    case KeyType::named:
+      return read_named(value, key, what, messages, allowed, setting);
   }
   return false;
 }

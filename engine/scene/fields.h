@@ -352,7 +352,7 @@ class Fields {
   }
   template <class M, class B, class T, class Put>
   Fields& nest(Key key, M B::*member, const Tables<T>& tables, bool list, Put put) {
-    key.type = KeyType::sections;
+    key.type = tables.named ? KeyType::named : KeyType::sections;
     key.nested = &tables.kinds();
     return enter(std::vector<Key>{key}, member, [=, &tables](D& data, const Place& place) {
       const Setting* setting = fields_detail::found(key, *place.section);
@@ -360,6 +360,7 @@ class Fields {
       for (std::size_t i = 0; i < setting->sections.size(); ++i) {
         std::string what = place.what + ": " + key.name;
         if (tables.numbered) what += "[" + std::to_string(i + 1) + "]";
+        if (tables.named) what += "." + setting->sections[i].name;
         put(data, tables.read_at({&setting->sections[i], place.messages, std::move(what)}));
       }
     });
@@ -376,6 +377,7 @@ template <class T>
 class Tables {
  public:
   bool numbered = false;  // faults name a table by its place in the list: stages[2]
+  bool named = false;     // the user names each: points.A; a table of one kind whose first key may stand for it
 
   template <class G>
   requires std::is_constructible_v<T, Reading<G>> Tables& add(std::string name, std::string doc,

@@ -38,6 +38,7 @@ enum class KeyType {
   text,      // free text, or one of `choices`
   curve,     // a table: over, unit, points or file
   sections,  // one table or a list of tables, each of one of the `nested` kinds
+  named,  // a table of names that the user chooses, each with a table of the `nested` kind or the value of its first key
 };
 
 struct Key {
@@ -49,7 +50,7 @@ struct Key {
   std::string doc = "";
   bool required = false;
   std::vector<std::string> choices = {};      // of a text; of a curve: what it may be given over
-  const std::vector<Kind>* nested = nullptr;  // of sections
+  const std::vector<Kind>* nested = nullptr;  // of sections, of named ones
   std::string effect = "";                    // giving it gives the scene parameters for these effects, by spaces
 
   bool gives(const std::string& asked) const {

@@ -4,6 +4,23 @@
 #include <algorithm>
 
 namespace kurbel {
+namespace {
+
+const Key* key_of(const Section& section, const std::string& name) {
+  const auto key =
+      std::find_if(section.kind->keys.begin(), section.kind->keys.end(), [&](const Key& k) { return k.name == name; });
+  return key == section.kind->keys.end() ? nullptr : &*key;
+}
+
+// What stands for the whole of a named table.
+QuantityPlace first_quantity(const Section& section) {
+  const Key& first = section.kind->keys.front();
+  const Setting* const setting = section.find(first.name);
+  if (!setting || !setting->given || first.type != KeyType::quantity) return {};
+  return {setting, &first};
+}
+
+}  // namespace
 
 QuantityPlace quantity_place(const std::vector<Section>& sections, const std::string& path) {
   const std::size_t dot = path.find('.');
@@ -17,14 +34,25 @@ QuantityPlace quantity_place(const std::vector<Section>& sections, const std::st
     const Setting* const setting = in->find(path.substr(begin, end - begin));
     if (!setting || !setting->given) return {};
     if (end == std::string::npos) {
-      const auto key = std::find_if(in->kind->keys.begin(), in->kind->keys.end(),
-                                    [&](const Key& k) { return k.name == setting->key; });
-      if (key == in->kind->keys.end() || key->type != KeyType::quantity) return {};
-      return {setting, &*key};
+      const Key* const key = key_of(*in, setting->key);
+      if (!key || key->type != KeyType::quantity) return {};
+      return {setting, key};
+    }
+    begin = end + 1;
+    const Key* const key = key_of(*in, setting->key);
+    if (key && key->type == KeyType::named) {
+      const std::size_t next = path.find('.', begin);
+      const std::string name = path.substr(begin, next - begin);
+      const auto named = std::find_if(setting->sections.begin(), setting->sections.end(),
+                                      [&](const Section& s) { return s.name == name; });
+      if (named == setting->sections.end()) return {};
+      in = &*named;
+      if (next == std::string::npos) return first_quantity(*in);
+      begin = next + 1;
+      continue;
     }
     if (setting->sections.size() != 1) return {};
     in = &setting->sections[0];
-    begin = end + 1;
   }
 }
 

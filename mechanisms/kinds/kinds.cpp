@@ -4,7 +4,8 @@
 namespace kurbel {
 
 std::vector<Kind> mechanism_kinds() {
-  return {slider_crank_kind(), four_bar_kind(), quick_return_kind(), slotted_lever_kind(), knuckle_press_kind()};
+  return {slider_crank_kind(),  four_bar_kind(),      quick_return_kind(),
+          slotted_lever_kind(), knuckle_press_kind(), linkage_kind()};
 }
 
 }  // namespace kurbel

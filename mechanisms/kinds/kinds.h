@@ -12,6 +12,7 @@ std::vector<Kind> mechanism_kinds();
 // One file each.
 Kind four_bar_kind();
 Kind knuckle_press_kind();
+Kind linkage_kind();
 Kind quick_return_kind();
 Kind slider_crank_kind();
 Kind slotted_lever_kind();

@@ -43,6 +43,7 @@ struct LinkageDrawing {
   std::vector<int> fixed;   // joints that are bearings in the frame
   int output = 0;           // joint that the load is shown at
   bool rocks = false;       // the output is an angle
+  std::vector<std::string> names = {};  // of the joints; empty: O, A, B …
 };
 
 // Simbody's model of a mechanism, sampled one configuration at a time. Costs some 20 µs a sample; not thread-safe.

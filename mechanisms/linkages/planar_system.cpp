@@ -67,10 +67,13 @@ class SampledBodies final : public MechanismBodies {
     sample.inertia_slope = reduced.slope;
     sample.inertia_curvature = reduced.curvature;
     sample.closure_determinant = planar_->sign_at(planar_->within_a_cycle(phi)) * reduced.determinant;
-    if (const int q = planar_->output_coordinate; q >= 0) {
-      sample.output_position = state_.getQ()[q];
-      sample.output_velocity_ratio = reduced.q1[q];
-      sample.output_acceleration_ratio = reduced.q2[q];
+    if (!planar_->output_coordinates.empty()) {
+      sample.output_position = planar_->output_from;
+      for (const int q : planar_->output_coordinates) {
+        sample.output_position += state_.getQ()[q];
+        sample.output_velocity_ratio += reduced.q1[q];
+        sample.output_acceleration_ratio += reduced.q2[q];
+      }
     } else {
       const PointMotion& output = reduced.points[planar_->output_point];
       sample.output_position = output.position[0];
@@ -115,11 +118,19 @@ void PlanarSystem::set_output(const MobilizedBody& body, const Vec3& station) { 
 
 State PlanarSystem::realize_topology() {
   system.realizeTopology();
-  reduction = std::make_unique<SimbodyReduction>(system, matter, 0, points);
+  reduction = std::make_unique<SimbodyReduction>(system, matter, 0, points, redundant);
   const State& state = system.getDefaultState();
   for (SimTK::MobilizedBodyIndex k(1); k < matter.getNumBodies(); ++k)
     if (matter.getMobilizedBody(k).getFirstQIndex(state) != k - 1)
       throw std::logic_error("planar_system: coordinates are not in the order of the bodies");
+  if (drawn_at) {
+    State drawn = state;
+    drawn.updQ()[0] = *drawn_at;
+    const std::vector<double> others = start(*drawn_at);
+    for (std::size_t k = 0; k < others.size(); ++k) drawn.updQ()[int(k) + 1] = others[k];
+    reduction->close(drawn);
+    determinant_sign = std::copysign(1.0, reduction->reduce(drawn).determinant);
+  }
   return state;
 }
 
@@ -170,7 +181,7 @@ double PlanarSystem::sign_at(double phi) const {
 
 double PlanarSystem::within_a_cycle(double phi) const {
   const long double turn = 2 * std::acos(-1.0L);
-  return follow ? double(std::remainder(static_cast<long double>(phi), 2 * turn)) : within_a_turn(phi);
+  return follow || turns > 1 ? double(std::remainder(static_cast<long double>(phi), 2 * turn)) : within_a_turn(phi);
 }
 
 std::unique_ptr<MechanismBodies> sampled(std::unique_ptr<PlanarSystem> planar) {

@@ -29,8 +29,11 @@ struct PlanarSystem {
   SimTK::GeneralForceSubsystem forces{system};
   std::string kind;  // "four-bar", for messages
   double gravity = 0;
-  double elevation = 0;         // of +x above the horizontal [rad]; +y is 90° ahead of +x
-  double determinant_sign = 1;  // of the closures' determinant on the right branch
+  double elevation = 0;            // of +x above the horizontal [rad]; +y is 90° ahead of +x
+  double determinant_sign = 1;     // of the closures' determinant on the right branch
+  std::optional<double> drawn_at;  // φ of a position that is on the right branch: that sign is read off there
+  bool redundant = false;          // more closures than coordinates, of which some say nothing new
+  int turns = 1;                   // of the crank until the links come back, of one without change points
   // Coordinates after the crank's near the right branch: where Newton's method starts.
   std::function<std::vector<double>(double phi)> start;
   // Of a mechanism that passes change points, else empty: the coordinates after the crank's on the branch that the
@@ -48,9 +51,12 @@ struct PlanarSystem {
   // A mass whose weight acts at a body's station.
   void add_weight(double mass, const SimTK::MobilizedBody& body, const SimTK::Vec3& station);
   void add_joint(const SimTK::MobilizedBody& body, const SimTK::Vec3& station);  // drawn
-  // The output is a station's way along x, or a coordinate: the angle of a link on a fixed bearing.
+  // The output is a station's way along x, or an angle: `from` with the coordinates of the pins between frame and link.
   void set_output(const SimTK::MobilizedBody& body, const SimTK::Vec3& station);
-  void set_output(int coordinate) { output_coordinate = coordinate; }
+  void set_output(std::vector<int> coordinates, double from) {
+    output_coordinates = std::move(coordinates), output_from = from;
+  }
+  void set_output(int coordinate) { set_output({coordinate}, 0); }  // of a link on a fixed bearing
 
   // --- then ---
   // Ends the construction (forces may be added before) and returns the state that the system starts from.
@@ -70,7 +76,8 @@ struct PlanarSystem {
   std::vector<Weight> weights;
   std::vector<std::size_t> joint_points;
   std::size_t output_point = 0;
-  int output_coordinate = -1;                   // −1: the output slides
+  std::vector<int> output_coordinates;          // empty: the output slides
+  double output_from = 0;                       // [rad]
   std::unique_ptr<SimbodyReduction> reduction;  // made by realize_topology()
 
  private:

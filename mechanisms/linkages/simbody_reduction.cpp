@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <stdexcept>
@@ -52,11 +53,12 @@ double plane_angle(const SimTK::Rotation& rotation) {
 }  // namespace
 
 SimbodyReduction::SimbodyReduction(const SimTK::MultibodySystem& system, const SimTK::SimbodyMatterSubsystem& matter,
-                                   int coordinate, std::vector<TrackedPoint> points)
+                                   int coordinate, std::vector<TrackedPoint> points, bool redundant)
     : system_(system), matter_(matter), coordinate_(coordinate), points_(std::move(points)) {
   read_joints();
   read_closures();
-  if (closures_.size() + 2 != joints_.size())  // one coordinate a joint; the ground is no joint
+  // One coordinate a joint; the ground is no joint.
+  if (redundant ? closures_.size() + 2 < joints_.size() : closures_.size() + 2 != joints_.size())
     throw std::logic_error("simbody_reduction: the mechanism must have one degree of freedom and no redundant closure");
 }
 
@@ -128,7 +130,9 @@ void SimbodyReduction::close(State& state) const {
       moved[dependent(j)] += difference;
       derivative.col(j) = (closure_errors(moved) - errors) / difference;
     }
-    const Extended correction = derivative.partialPivLu().solve(-errors);
+    const bool square = derivative.rows() == derivative.cols();
+    const Extended correction = square ? Extended(derivative.partialPivLu().solve(-errors))
+                                       : Extended(derivative.colPivHouseholderQr().solve(-errors));
     for (int j = 0; j < n - 1; ++j) q[dependent(j)] += correction[j];
 
     step = correction.lpNorm<Eigen::Infinity>();
@@ -248,12 +252,22 @@ Reduction SimbodyReduction::reduce(State& state, const KnownDerivatives* known) 
   Eigen::MatrixXd g_dependent(g.nrow(), g.ncol() - 1);
   for (int i = 0; i < g.nrow(); ++i)
     for (int j = 0; j < g.ncol() - 1; ++j) g_dependent(i, j) = g(i, dependent(j));
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(g_dependent);
-  result.determinant = factors.determinant();
+  const bool square = g_dependent.rows() == g_dependent.cols();
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> of_redundant;
+  if (square) {
+    factors.compute(g_dependent);
+    result.determinant = factors.determinant();
+  } else {
+    of_redundant.compute(g_dependent);
+    result.determinant = std::fabs(of_redundant.matrixR().diagonal().prod());
+  }
   // G · solution + bias = 0 with 0 at the reduction coordinate.
   const auto solve = [&](const Vector& bias, const Vector* given) {
     if (given) return kept(g, bias, *given, state.getQ()[coordinate_]);
-    const Eigen::VectorXd solution = factors.solve(-Eigen::Map<const Eigen::VectorXd>(&bias[0], bias.size()));
+    const Eigen::Map<const Eigen::VectorXd> given_bias(&bias[0], bias.size());
+    const Eigen::VectorXd solution =
+        square ? Eigen::VectorXd(factors.solve(-given_bias)) : Eigen::VectorXd(of_redundant.solve(-given_bias));
     Vector all(g.ncol(), 0.0);
     for (int j = 0; j < g.ncol() - 1; ++j) all[dependent(j)] = solution[j];
     return all;

@@ -60,8 +60,10 @@ struct BodyMotion {
 
 class SimbodyReduction {
  public:
+  // `redundant`: there may be more closures than dependent coordinates, which then follow by least squares; the determinant
+  // is the root of that of the normal equations.
   SimbodyReduction(const SimTK::MultibodySystem& system, const SimTK::SimbodyMatterSubsystem& matter, int coordinate,
-                   std::vector<TrackedPoint> points);
+                   std::vector<TrackedPoint> points, bool redundant = false);
 
   // Newton's method on the closure error: moves the dependent coordinates of `state` until its loops close to rounding.
   // It goes to the assembly branch that the state is near; the caller checks which by reduce().determinant.

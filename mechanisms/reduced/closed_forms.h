@@ -5,6 +5,9 @@
 // Derivatives by Taylor series, I_r and M_g by theory 2.1 and 2.2 over all links.
 #pragma once
 
+#include <vector>
+
+#include "mechanisms/bodies/linkage_bodies.h"
 #include "mechanisms/linkages/four_bar.h"
 #include "mechanisms/linkages/knuckle_press.h"
 #include "mechanisms/linkages/mechanism_bodies.h"
@@ -18,7 +21,7 @@ namespace kurbel {
 // A mechanism at φ as bodies and the joints between them, every length and angle a series in φ. Axes of the mechanism,
 // origin on the crank's axis.
 struct PlanarLinkage {
-  static constexpr int frame = -1, most_bodies = 5, most_joints = 7;
+  static constexpr int frame = -1, most_bodies = 16;
   struct Body {
     const char* name;     // "crank"
     double mass;          // [kg]
@@ -35,8 +38,9 @@ struct PlanarLinkage {
     bool slides = false;
     Direction along = {};  // of the slide
   };
-  Body bodies[most_bodies];  // the crank first, the one that the load acts on last
-  Joint joints[most_joints];
+  PlanarLinkage() { bodies.reserve(5), joints.reserve(7); }
+  std::vector<Body> bodies;  // the crank first, the one that the load acts on last
+  std::vector<Joint> joints;
   int body_count = 0, joint_count = 0;
   bool rocks = false;                 // the load is a torque on the last body; else a force along +x on …
   Path load_at;                       // … this point of it
@@ -45,8 +49,8 @@ struct PlanarLinkage {
   // Of a linkage that passes change points: what is 0 there and of one sign between them; reactions go with its inverse.
   long double sine = 1;
 
-  void add(const Body& body) { bodies[body_count++] = body; }
-  void join(const Joint& joint) { joints[joint_count++] = joint; }
+  void add(const Body& body) { bodies.push_back(body), ++body_count; }
+  void join(const Joint& joint) { joints.push_back(joint), ++joint_count; }
 };
 
 // For data without faults.
@@ -55,6 +59,7 @@ PlanarLinkage linkage_of(const FourBarData& data, long double phi);
 PlanarLinkage linkage_of(const QuickReturnData& data, long double phi);
 PlanarLinkage linkage_of(const KnucklePressData& data, long double phi);
 PlanarLinkage linkage_of(const SlottedLeverData& data, long double phi);
+PlanarLinkage linkage_of(const LinkageData& data, long double phi);
 
 // As a ReducedSample, which says what is what.
 struct ClosedForm {
@@ -70,5 +75,6 @@ ClosedForm closed_form(const FourBarData& data, long double phi);
 ClosedForm closed_form(const QuickReturnData& data, long double phi);
 ClosedForm closed_form(const KnucklePressData& data, long double phi);
 ClosedForm closed_form(const SlottedLeverData& data, long double phi);
+ClosedForm closed_form(const LinkageData& data, long double phi);
 
 }  // namespace kurbel

@@ -40,10 +40,11 @@ std::string words_of(const CrankCycle& cycle) {
 
 std::string words_of_arc(const Mechanism& mechanism) {
   const CrankArc& arc = *mechanism.arc();
-  return fmt::format(
-      "crank rocks between φ = {:.4g}° and {:.4g}°, where {}", (arc.middle - arc.half) / degree,
-      (arc.middle + arc.half) / degree,
-      mechanism.rocks() ? "coupler and rocker lie in one line" : "the rod stands square to the slider's line");
+  return fmt::format("crank rocks between φ = {:.4g}° and {:.4g}°, where {}", (arc.middle - arc.half) / degree,
+                     (arc.middle + arc.half) / degree,
+                     !mechanism.data.locks().empty() ? mechanism.data.locks()
+                     : mechanism.rocks()             ? "coupler and rocker lie in one line"
+                                                     : "the rod stands square to the slider's line");
 }
 
 std::string limit_reached(const Mechanism& mechanism, int end) {

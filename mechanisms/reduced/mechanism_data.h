@@ -10,10 +10,15 @@
 //     double D::gravity                                         [m/s²]
 // and, of one whose crank may be unable to turn,
 //     std::optional<CrankArc> arc_of(const D&);                 within which angles it rocks
+//     std::string locks_of(const D&);                           what happens at their ends, in words
+// and, of one that is described link by link,
+//     std::vector<std::string> words_about(const D&);           its structure, its transmission angles
+//     std::string undetermined_reactions(const D&);             why reactions have no values; empty: they have
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <typeindex>
 #include <utility>
 #include <vector>
@@ -42,6 +47,9 @@ class MechanismData {
   bool rocks() const { return rocks_; }  // the output is an angle
   double gravity() const { return held_->gravity(); }
   std::optional<CrankArc> arc() const { return held_->arc(); }  // empty: the crank turns
+  std::string locks() const { return held_->locks(); }          // empty: as the named mechanisms do
+  std::vector<std::string> about() const { return held_->about(); }
+  std::string undetermined() const { return held_->undetermined(); }
 
  private:
   struct Held {
@@ -54,6 +62,9 @@ class MechanismData {
     virtual LinkageDrawing drawing() const = 0;
     virtual double gravity() const = 0;
     virtual std::optional<CrankArc> arc() const = 0;
+    virtual std::string locks() const = 0;
+    virtual std::vector<std::string> about() const = 0;
+    virtual std::string undetermined() const = 0;
   };
   template <class D>
   struct Of final : Held {
@@ -69,6 +80,24 @@ class MechanismData {
     std::optional<CrankArc> arc() const override {
       if constexpr (requires { arc_of(data); })
         return arc_of(data);
+      else
+        return {};
+    }
+    std::string locks() const override {
+      if constexpr (requires { locks_of(data); })
+        return locks_of(data);
+      else
+        return {};
+    }
+    std::vector<std::string> about() const override {
+      if constexpr (requires { words_about(data); })
+        return words_about(data);
+      else
+        return {};
+    }
+    std::string undetermined() const override {
+      if constexpr (requires { undetermined_reactions(data); })
+        return undetermined_reactions(data);
       else
         return {};
     }

@@ -206,7 +206,7 @@ std::string scale_loads(Scene& scene, double factor) {
       for (const std::string& key : scale(section, torques, factor)) changed.push_back(section.name + "." + key);
     for (Setting& setting : section.settings)
       for (Section& nested : setting.sections)
-        if (setting.key == "load" || setting.key == "loads")
+        if (setting.key == "load" || setting.key == "loads" || setting.key == "torque")
           for (const std::string& key : scale(nested, forces, factor)) changed.push_back(section.name + ".load." + key);
   }
   return joined_words(changed);

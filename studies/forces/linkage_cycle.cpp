@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -370,6 +371,8 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   const Effects effects = options.effects.value_or(scene.effects);
   const MachineMotion machine(asked, effects, options);
   const MechanismData& data = asked.mechanism().data;
+  if (const std::string why = data.undetermined(); !why.empty())
+    throw std::invalid_argument(fmt::format("{}: {}; ask run, steady or reduce", asked.name, why));
   out.rocks = data.rocks();
   OutputLoads loads(asked, effects);
   const CrankSpeed speed = prescribed_speed(machine, options);

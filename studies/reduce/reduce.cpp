@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
@@ -18,6 +17,7 @@
 #include "engine/values/dense_tables.h"
 #include "studies/cycle/classical.h"
 #include "studies/reduce/along_cycle.h"
+#include "studies/reduce/mechanism_words.h"
 #include "studies/reduce/targets.h"
 #include "studies/validity/outside_data.h"
 #include "studies/validity/substitutes.h"
@@ -78,7 +78,7 @@ class Reducer {
     const Model& m = model();  // without a cycle it is another one
     for (const WorkAccount& account : m.accounts)
       r_.accounts.push_back(fmt::format("{} ({})", account.name, name_of(account.kind)));
-    r_.constant_inertia = on_link() / square(r_.to_ratio);
+    r_.constant_inertia = on_link() / (r_.to_ratio * r_.to_ratio);
     for (int k = 0; k < options_.positions; ++k) r_.positions.push_back(position(k, r_.cycle * k / options_.positions));
     add_curve();
     add_spectra();
@@ -93,7 +93,6 @@ class Reducer {
 
  private:
   const Model& model() const { return machine_ ? machine_->model() : *model_; }
-  static double square(double x) { return x * x; }
   double on_link() const { return machine_ ? machine_->constant_inertia() : constant_inertia(*model_); }
 
   void choose_basis() {
@@ -211,7 +210,7 @@ class Reducer {
         return p;
       }
     }
-    const double squared = square(ratio);
+    const double squared = ratio * ratio;
     p.inertia = on_link.inertia / squared;
     p.mechanism_inertia = mechanism / squared;
     p.drive_inertia = machine_ ? machine_->constant_inertia() / squared : p.inertia - p.mechanism_inertia;
@@ -342,7 +341,8 @@ class Reducer {
   }
 
   void add_notes() {
-    for (const std::string& note : substitutes(model())) r_.notes.push_back(note);
+    for (const auto notes_of : {substitutes, mechanism_words})
+      for (const std::string& note : notes_of(model())) r_.notes.push_back(note);
     if (const std::string words = words_of_dense_tables(scene_); !words.empty()) r_.notes.push_back(words);
     if (machine_ && machine_->uses_time())
       r_.notes.push_back("some torque depends on time; the torques are those at t = 0");

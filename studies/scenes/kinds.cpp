@@ -37,6 +37,8 @@ std::string type_of(const Key& key) {
       return fmt::format("table over {} → {}", listed(key.choices), pretty_unit(key.unit));
     case KeyType::sections:
       return "table(s)";
+    case KeyType::named:
+      return "table of names";
   }
   return "";
 }

@@ -125,6 +125,11 @@ Json nested(const Key& key) {
   return {{"anyOf", {table, list_of(table)}}};
 }
 
+Json value_schema(const Key& key);
+
+// Its table, or the value of the first key.
+Json named(const Kind& kind) { return {{"anyOf", {value_schema(kind.keys.front()), kind_schema(kind, false)}}}; }
+
 std::string description(const Key& key) {
   std::string doc = key.doc;
   if (key.type == KeyType::quantity || key.type == KeyType::quantities) {
@@ -162,6 +167,9 @@ Json value_schema(const Key& key) {
       break;
     case KeyType::sections:
       schema = nested(key);
+      break;
+    case KeyType::named:
+      schema = {{"type", "object"}, {"additionalProperties", named(key.nested->front())}, {"minProperties", 1}};
       break;
   }
   if ((key.type == KeyType::quantities || key.type == KeyType::integers) && key.fallback != "[]")

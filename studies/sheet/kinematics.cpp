@@ -71,7 +71,10 @@ std::vector<PlanePoint> MechanismOnSheet::joints(double crank_angle) const {
   return mechanism.bodies->joints(mechanism.reduced->cycle().within(crank_angle));
 }
 
-std::string MechanismOnSheet::letter(std::size_t joint) const { return std::string(1, "OABCDEFGHK"[joint % 10]); }
+std::string MechanismOnSheet::letter(std::size_t joint) const {
+  const std::vector<std::string> names = mechanism.data.drawing().names;
+  return names.empty() ? std::string(1, "OABCDEFGHK"[joint % 10]) : names[joint];
+}
 
 void check_goes_round(const Mechanism& m) {
   if (m.arc())

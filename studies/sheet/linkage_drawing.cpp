@@ -112,7 +112,7 @@ class LinkageDrawer {
       if (link.shape == "slider" || link.shape == "block") continue;
       std::vector<Spot> spots;
       for (const int joint : link.joints) spots.push_back(spot(joints[index(joint)]));
-      if (link.shape == "slot") extend(spots);
+      if (link.shape == "slot") extend(link, spots);
       c_.curve(spots, pen);
     }
     for (std::size_t k = 0; k < joints.size(); ++k)
@@ -120,9 +120,7 @@ class LinkageDrawer {
   }
 
   // A slotted lever goes on beyond the block, as far as the block ever is from its bearing.
-  void extend(std::vector<Spot>& spots) const {
-    const LinkageDrawing::Link& slot = *std::find_if(drawing_.links.begin(), drawing_.links.end(),
-                                                     [](const auto& link) { return link.shape == "slot"; });
+  void extend(const LinkageDrawing::Link& slot, std::vector<Spot>& spots) const {
     const std::size_t bearing = index(slot.joints[0]), block = index(slot.joints[1]);
     double longest = 0;
     for (const Joints& j : path_)

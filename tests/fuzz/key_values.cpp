@@ -258,6 +258,16 @@ DocumentValue value_for(const Key& key, Random& random, double wild) {
       if (items.size() == 1 && random.chance(0.7)) return items.front();
       return list_value(std::move(items));
     }
+    case KeyType::named: {
+      DocumentValue table = table_value();
+      for (const char* name : {"A", "B", "C", "D"}) {
+        const Kind& kind = key.nested->front();
+        if (random.chance(0.3)) continue;
+        put(table, name,
+            random.chance(0.5) ? table_for(kind, random, wild, false) : value_for(kind.keys.front(), random, wild));
+      }
+      return table;
+    }
   }
   return {};
 }

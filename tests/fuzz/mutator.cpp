@@ -98,8 +98,14 @@ const Kind* kind_of(const DocumentValue& table, const std::vector<Kind>& kinds) 
 void collect(DocumentValue& table, const std::vector<Key>& keys, std::vector<KnownTable>& found) {
   found.push_back({&table, &keys});
   for (const Key& key : keys) {
-    DocumentEntry* entry = key.type == KeyType::sections ? find(table, key.name) : nullptr;
+    const bool named = key.type == KeyType::named;
+    DocumentEntry* entry = named || key.type == KeyType::sections ? find(table, key.name) : nullptr;
     if (!entry) continue;
+    if (named) {
+      for (DocumentEntry& one : entry->value.entries)
+        if (one.value.type == Type::table) collect(one.value, key.nested->front().keys, found);
+      continue;
+    }
     const auto visit = [&](DocumentValue& value) {
       if (value.type != Type::table) return;
       const Kind* kind = key.nested->size() == 1 ? &key.nested->front() : kind_of(value, *key.nested);

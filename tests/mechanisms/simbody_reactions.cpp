@@ -120,7 +120,8 @@ MechanismReactions reactions_in(std::unique_ptr<PlanarSystem> planar, double phi
                                 double load) {
   const Vec3 down = -planar->gravity * planar->up();
   const SimTK::Force::UniformGravity weight(planar->forces, planar->matter, down);
-  if (const int q = planar->output_coordinate; q >= 0) {
+  if (!planar->output_coordinates.empty()) {
+    const int q = planar->output_coordinates.front();
     SimTK::Force::ConstantTorque(planar->forces, planar->matter.updMobilizedBody(SimTK::MobilizedBodyIndex(q + 1)),
                                  Vec3(0, 0, load));
   } else {

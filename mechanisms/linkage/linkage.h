@@ -1,0 +1,118 @@
+// linkage.h — a planar linkage over the angle of its driving link: where every link stands, how far the driving link turns.
+//
+// φ is the angle of the driving link from +x of the sketch, counter-clockwise: of the way from its bearing to the next of
+// its points. Axes of the mechanism: origin in that bearing; +x along the output's direction, of an output that rocks +x of
+// the sketch.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanisms/linkage/assur_groups.h"
+#include "mechanisms/linkage/dyads.h"
+#include "mechanisms/linkage/newton_group.h"
+#include "mechanisms/loops/loops.h"
+
+namespace kurbel {
+
+// The least margin of a dyad along the motion (dyads.h), and where.
+struct LeastMargin {
+  long double margin = 1, phi = 0;  // 1, [rad]
+};
+
+class Linkage {
+ public:
+  // Takes it apart, goes through a turn of the driving link and says in faults() what is wrong; costs some milliseconds.
+  explicit Linkage(LinkageSketch sketch);
+
+  const LinkageFaults& faults() const { return faults_; }
+  const LinkageSketch& sketch() const { return sketch_; }
+
+  // --- of a linkage without faults ---
+  const LinkageStructure& structure() const { return structure_; }
+  long double drawn_at() const { return drawn_at_; }           // φ of the sketch [rad]
+  const std::optional<CrankArc>& arc() const { return arc_; }  // of a driving link that locks; empty: it turns
+  int turns() const { return turns_; }                         // of the driving link until all stands where it stood
+  // Where all links stand. Throws std::runtime_error with the group and φ where it cannot be closed.
+  LinkPoses poses(long double phi) const;
+  // Groups that hold more joints than they need; their reactions are not determined.
+  bool is_redundant() const;
+
+  SketchSpot spot_of(int point) const;      // of the sketch's point, in the mechanism's axes [m]
+  SketchSpot centre_of(int link) const;     // centre of mass [m]
+  SketchSpot direction_of(int link) const;  // from its first point to its second one, a unit vector; of one point: +x
+  int output_point() const;                 // of an output that rocks: a bearing of it, else its first point
+  const std::vector<LeastMargin>& least_margins() const { return least_; }  // in the order of the groups; dyads alone
+
+  // Names that last as long as the program: of a link, of a joint ("pin A", "slide ram").
+  const char* link_name(int link) const { return link_names_[static_cast<std::size_t>(link)]; }
+  const char* joint_name(std::size_t joint) const { return joint_names_[joint]; }
+
+  // "class II: RRR (coupler, rocker), RRP (rod, ram); degrees of freedom 3·5 − 2·7 = 1"
+  std::string structure_in_words() const;
+  // "coupler and rocker lie in one line": where a driving link that locks does so.
+  std::string locks_in_words() const;
+  // "transmission angle of RRR (coupler, rocker) at least 41.2° (φ = 0°)"
+  std::vector<std::string> transmission_in_words() const;
+
+ private:
+  using Shifts = std::vector<std::vector<LinkShift>>;  // of the groups by Newton's method, in their order
+  struct Node {
+    long double phi = 0;
+    Shifts shifts;
+  };
+  struct Closed {
+    explicit Closed(std::size_t links) : poses(links) {}
+    LinkPoses poses;
+    Shifts shifts;
+    std::vector<long double> margin;  // by group; of one by Newton's method 1
+    int failed = -1;                  // the group that cannot be closed
+    GroupClosure how;                 // of that group
+  };
+  bool check();
+  bool check_links();
+  Closed close(long double phi, const Shifts& start) const;
+  Shifts predicted(const Node& from, long double phi) const;
+  Shifts start_near(long double phi) const;
+  bool start_at_sketch(Node& node);
+  struct Way {
+    std::vector<Node> nodes;
+    std::optional<Closed> stopped;  // by what
+  };
+  Way march(const Node& from, long double angle) const;
+  void explore();
+  bool comes_back(const Node& begin, const Node& end) const;
+  void find_margins();
+  void refuse(const std::string& at, std::string text) { faults_.push_back({at, std::move(text)}); }
+  bool touches(const Way& way, long double sense) const;
+  void refuse_stop(const Closed& stopped, long double phi);
+  void refuse_change_point(int group, long double phi);
+  std::string stop_in_words(const Closed& stopped) const;
+
+  LinkageSketch sketch_;
+  LinkageStructure structure_;
+  LinkageFaults faults_;
+  std::vector<const char*> link_names_, joint_names_;
+  long double drawn_at_ = 0, size_ = 0;
+  std::vector<Node> nodes_;  // ascending in φ; of one that turns over its cycle
+  std::optional<CrankArc> arc_;
+  std::string lower_lock_, upper_lock_;
+  int turns_ = 1;
+  std::vector<LeastMargin> least_;
+};
+
+// As a kind of mechanism: copies share the linkage.
+struct LinkageData {
+  std::shared_ptr<const Linkage> linkage;  // without faults
+  double gravity = 0;                      // [m/s²], ≥ 0
+};
+std::vector<double> values_of(const LinkageData& data);  // all of them
+std::optional<CrankArc> arc_of(const LinkageData& data);
+std::string locks_of(const LinkageData& data);
+std::vector<std::string> words_about(const LinkageData& data);
+// Why reactions have no values; empty: they have.
+std::string undetermined_reactions(const LinkageData& data);
+
+}  // namespace kurbel

@@ -1,0 +1,226 @@
+// linkage_range.cpp — the driving link is turned from the sketch on until all stands where it stood, or until it locks.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanisms/linkage/linkage.h"
+
+namespace kurbel {
+namespace {
+
+const long double whole_turn = 2 * std::acos(-1.0L);
+constexpr int steps_of_turn = 360;
+constexpr long double least_step = 1e-13L;   // [rad]: how well the place of a lock is found
+constexpr long double least_margin = 1e-6L;  // nearer to a dead position rounding would choose the branch
+
+std::string in_degrees_of(long double phi) {
+  return fmt::format("{:.4g}°", static_cast<double>(phi * 360 / whole_turn));
+}
+
+}  // namespace
+
+bool Linkage::start_at_sketch(Node& node) {
+  node = {drawn_at_, {}};
+  for (const AssurGroup& group : structure_.groups)
+    if (!group.is_dyad()) node.shifts.emplace_back(group.links.size());
+  const Closed closed = close(drawn_at_, node.shifts);
+  std::optional<std::size_t> dead;
+  for (std::size_t k = 0; k < closed.margin.size() && !dead; ++k)
+    if (!(closed.margin[k] > least_margin)) dead = k;
+  if (dead) {
+    const AssurGroup& group = structure_.groups[*dead];
+    refuse("points",
+           fmt::format("the linkage is drawn in a position in which {}, which leaves its branch open; draw it in "
+                       "another position",
+                       group.is_dyad() ? dead_position_of(group, sketch_)
+                                       : "the links " + links_of(group, sketch_) + " are not determined"));
+    return false;
+  }
+  node.shifts = closed.shifts;
+  return true;
+}
+
+// Steps are halved until what Newton's method corrects is little, so that no other branch is taken.
+Linkage::Way Linkage::march(const Node& from, long double angle) const {
+  constexpr long double most_corrected = 0.01L;  // of the size, and of a radian
+  const long double sense = angle < 0 ? -1 : 1, end = from.phi + angle;
+  Way way;
+  way.nodes.push_back(from);
+  for (long double step = whole_turn / steps_of_turn; sense * (end - way.nodes.back().phi) > 0;) {
+    const Node& last = way.nodes.back();
+    const bool at_end = sense * (end - last.phi) <= step * (1 + 1e-9L);
+    const long double phi = at_end ? end : last.phi + sense * step;
+    const Shifts start = predicted(last, phi);
+    Closed closed = close(phi, start);
+    bool good = closed.failed < 0;
+    for (std::size_t g = 0; good && g < start.size(); ++g)
+      for (std::size_t i = 0; i < start[g].size(); ++i) {
+        const LinkShift &a = start[g][i], &b = closed.shifts[g][i];
+        const auto off = [](const Taylor& u, const Taylor& v) { return std::fabs(u.value() - v.value()); };
+        good = good && off(a.x, b.x) < most_corrected * size_ && off(a.y, b.y) < most_corrected * size_ &&
+               off(a.angle, b.angle) < most_corrected;
+      }
+    if (good) {
+      way.nodes.push_back({phi, std::move(closed.shifts)});
+      step = std::min(1.5L * step, whole_turn / steps_of_turn);
+      continue;
+    }
+    step /= 2;
+    if (step > least_step) continue;
+    way.stopped = std::move(closed);
+    break;
+  }
+  return way;
+}
+
+bool Linkage::comes_back(const Node& begin, const Node& end) const {
+  constexpr long double same = 1e-9L;
+  for (std::size_t g = 0; g < begin.shifts.size(); ++g)
+    for (std::size_t i = 0; i < begin.shifts[g].size(); ++i) {
+      const LinkShift &a = begin.shifts[g][i], &b = end.shifts[g][i];
+      if (std::fabs(a.x.value() - b.x.value()) > same * size_ || std::fabs(a.y.value() - b.y.value()) > same * size_ ||
+          std::fabs(std::remainder(a.angle.value() - b.angle.value(), whole_turn)) > same)
+        return false;
+    }
+  return true;
+}
+
+// A margin that is positive again beyond touches zero there: the links pass through one line.
+bool Linkage::touches(const Way& way, long double sense) const {
+  constexpr long double beyond = 1e-5L;
+  if (!structure_.groups[static_cast<std::size_t>(way.stopped->failed)].is_dyad()) return false;
+  const long double phi = way.nodes.back().phi + sense * beyond;
+  const Closed closed = close(phi, predicted(way.nodes.back(), phi));
+  return closed.failed < 0 || closed.failed > way.stopped->failed;
+}
+
+void Linkage::explore() {
+  constexpr long double least_way = 1e-3L;  // [rad]
+  Node begin;
+  if (!start_at_sketch(begin)) return;
+  Way forward = march(begin, whole_turn);
+  for (turns_ = 1; !forward.stopped && turns_ < 2 && !comes_back(begin, forward.nodes.back()); ++turns_) {
+    Way more = march(forward.nodes.back(), whole_turn);
+    forward.nodes.insert(forward.nodes.end(), std::next(more.nodes.begin()), more.nodes.end());
+    forward.stopped = std::move(more.stopped);
+  }
+  if (!forward.stopped) {
+    nodes_ = std::move(forward.nodes);
+    if (!comes_back(nodes_.front(), nodes_.back()))
+      refuse("points",
+             "the links stand otherwise after two turns of the driving link; a cycle of more turns is not "
+             "computed: change a length, or let another link drive");
+    return;
+  }
+  turns_ = 1;
+  const long double upper = forward.nodes.back().phi;
+  const auto stops = [&](const Way& way, long double sense) {  // for another reason than a lock
+    const long double phi = way.nodes.back().phi;
+    if (touches(way, sense))
+      refuse_change_point(way.stopped->failed, phi);
+    else if (structure_.groups[static_cast<std::size_t>(way.stopped->failed)].superfluous > 0 &&
+             std::fabs(phi - begin.phi) < least_way)
+      refuse_stop(*way.stopped, phi);
+    return !faults_.empty();
+  };
+  if (stops(forward, 1)) return;
+  Way back = march(begin, -whole_turn);
+  if (back.stopped && stops(back, -1)) return;
+  const long double lower = back.nodes.back().phi;
+  if (!back.stopped || upper - lower < least_way) return refuse_stop(*forward.stopped, upper);
+  nodes_.assign(back.nodes.rbegin(), back.nodes.rend());
+  nodes_.insert(nodes_.end(), std::next(forward.nodes.begin()), forward.nodes.end());
+  arc_ = CrankArc{static_cast<double>((lower + upper) / 2), static_cast<double>((upper - lower) / 2)};
+  lower_lock_ = stop_in_words(*back.stopped), upper_lock_ = stop_in_words(*forward.stopped);
+}
+
+void Linkage::refuse_change_point(int group, long double phi) {
+  refuse("points", fmt::format("at φ = {} {}, or so nearly that rounding would choose how the links go on: a change "
+                               "point. Change a length clearly; the kinds four-bar, slider-crank and inverted "
+                               "slider-crank know how theirs are passed",
+                               in_degrees_of(phi),
+                               dead_position_of(structure_.groups[static_cast<std::size_t>(group)], sketch_)));
+}
+
+void Linkage::refuse_stop(const Closed& stopped, long double phi) {
+  const AssurGroup& group = structure_.groups[static_cast<std::size_t>(stopped.failed)];
+  if (group.superfluous > 0)
+    refuse("links",
+           fmt::format("the links {} have {}, and their lengths let them move no "
+                       "further than φ = {} (drawn at {}): leave a link out, or make the lengths those of a "
+                       "linkage that moves, as the parallel ones of a parallelogram",
+                       links_of(group, sketch_), superfluous_of(group), in_degrees_of(phi), in_degrees_of(drawn_at_)));
+  else
+    refuse("links", fmt::format("{} hardly moves: at φ = {} {}; drawn at {}", sketch_.name_of(sketch_.driver),
+                                in_degrees_of(phi), stop_in_words(stopped), in_degrees_of(drawn_at_)));
+}
+
+std::string Linkage::stop_in_words(const Closed& stopped) const {
+  return dead_position_of(structure_.groups[static_cast<std::size_t>(stopped.failed)], sketch_);
+}
+
+// Between the nodes as well: a dip between two of them would be a lock that was stepped over.
+void Linkage::find_margins() {
+  least_.assign(structure_.groups.size(), {});
+  const auto margin_at = [&](std::size_t group, long double phi) {
+    const Closed closed = close(phi, start_near(phi));
+    return group < closed.margin.size() ? closed.margin[group] : -1.0L;
+  };
+  std::vector<std::vector<long double>> at(structure_.groups.size());
+  for (const Node& node : nodes_)
+    for (std::size_t g = 0; g < at.size(); ++g) at[g].push_back(margin_at(g, node.phi));
+  for (std::size_t g = 0; g < at.size(); ++g) {
+    if (!structure_.groups[g].is_dyad()) continue;
+    const auto least = std::min_element(at[g].begin(), at[g].end());
+    const auto k = static_cast<std::size_t>(least - at[g].begin());
+    long double from = nodes_[k > 0 ? k - 1 : 0].phi, to = nodes_[std::min(k + 1, nodes_.size() - 1)].phi;
+    for (int i = 0; i < 60; ++i) {
+      const long double a = from + (to - from) * 0.382L, b = from + (to - from) * 0.618L;
+      if (margin_at(g, a) < margin_at(g, b))
+        to = b;
+      else
+        from = a;
+    }
+    const long double phi = (from + to) / 2;
+    least_[g] = {margin_at(g, phi), phi};
+    if (arc_ || least_[g].margin > least_margin) continue;
+    refuse_change_point(static_cast<int>(g), phi);
+    return;
+  }
+}
+
+std::string Linkage::structure_in_words() const {
+  int highest = 2;
+  std::string groups;
+  for (const AssurGroup& group : structure_.groups) {
+    highest = std::max(highest, group.group_class);
+    groups += fmt::format("{}{} ({})", groups.empty() ? "" : ", ", name_of(group), links_of(group, sketch_));
+    if (group.superfluous > 0) groups += fmt::format(" with {}", superfluous_of(group));
+  }
+  const char* const roman[] = {"II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X"};
+  const int n = static_cast<int>(sketch_.links.size());
+  return fmt::format("linkage of class {}: {} drives {}; degrees of freedom 3·{} − 2·{} = {}{}",
+                     roman[std::min(highest - 2, 8)], sketch_.name_of(sketch_.driver), groups, n,
+                     structure_.joints.size(), structure_.freedom,
+                     structure_.freedom == 1 ? "" : " by count, 1 along its motion");
+}
+
+std::string Linkage::locks_in_words() const {
+  return lower_lock_ == upper_lock_ ? lower_lock_ : lower_lock_ + ", and " + upper_lock_;
+}
+
+std::vector<std::string> Linkage::transmission_in_words() const {
+  std::vector<std::string> words;
+  for (std::size_t g = 0; g < least_.size(); ++g) {
+    const AssurGroup& group = structure_.groups[g];
+    if (group.form != AssurGroup::Form::rrr && group.form != AssurGroup::Form::rrp) continue;
+    const long double sine = std::sqrt(std::clamp(least_[g].margin, 0.0L, 1.0L));
+    words.push_back(fmt::format("transmission angle of {} ({}) at least {:.4g}°, at φ = {}", name_of(group),
+                                links_of(group, sketch_), static_cast<double>(std::asin(sine) * 360 / whole_turn),
+                                in_degrees_of(std::remainder(least_[g].phi, whole_turn))));
+  }
+  return words;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,432 @@
+// linkage_test.cpp — linkages drawn as sketches: dyads and Newton's groups against closed forms, the named mechanisms, each
+// other and Simbody's bodies; what is refused, and in which words.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "mechanisms/reduced/mechanism_data.h"
+#include "tests/mechanisms/linkage_examples.h"
+#include "tests/mechanisms/mechanism_examples.h"
+
+namespace kurbel::linkage_test {
+namespace {
+
+using std::numbers::pi;
+using test::SketchOf;
+
+constexpr int sample_channels = 8;
+
+std::vector<double> values_in(const ReducedSample& s) {
+  return {s.inertia,         s.inertia_slope,         s.inertia_curvature,
+          s.output_position, s.output_velocity_ratio, s.output_acceleration_ratio,
+          s.gravity_torque,  s.gravity_torque_slope};
+}
+
+void expect_sound(const LinkageData& data) {
+  for (const LinkageFault& fault : data.linkage->faults()) ADD_FAILURE() << fault.at << ": " << fault.text;
+}
+
+// Simbody's bodies and the series agree within this part of each channel's largest value.
+void expect_both_extractions(const LinkageData& data, double within, int samples = 60) {
+  expect_sound(data);
+  if (!data.linkage->faults().empty()) return;
+  const auto bodies = make_bodies(data);
+  const MechanismData as_data(data);
+  double scale[sample_channels] = {};
+  std::vector<ReducedSample> first, second;
+  const auto arc = data.linkage->arc();
+  for (int i = 0; i < samples; ++i) {
+    const double part = (i + 0.37) / samples;
+    const double phi = arc ? arc->middle + 0.9 * arc->half * (2 * part - 1) : 2 * pi * data.linkage->turns() * part;
+    first.push_back(bodies->sample(phi)), second.push_back(closed_sample(as_data, phi));
+    const std::vector<double> values = values_in(second.back());
+    for (int c = 0; c < sample_channels; ++c)
+      scale[c] = std::max(scale[c], std::abs(values[static_cast<std::size_t>(c)]));
+    scale[6] = std::max(scale[6], second.back().gravity_torque_scale);
+  }
+  scale[1] = std::max(scale[1], 0.1 * scale[0]), scale[2] = std::max(scale[2], scale[0]);
+  scale[5] = std::max(scale[5], 0.1 * scale[4]);
+  scale[7] = std::max(scale[7], scale[6]);
+  if (data.linkage->sketch().output.rocks()) scale[3] = std::max(scale[3], 1.0);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const std::vector<double> a = values_in(first[i]), b = values_in(second[i]);
+    for (std::size_t c = 0; c < sample_channels; ++c) {
+      double off = a[c] - b[c];
+      if (c == 3 && data.linkage->sketch().output.rocks()) off = std::remainder(off, 2 * pi);
+      EXPECT_LE(std::abs(off), within * scale[c]) << "channel " << c << ", sample " << i;
+    }
+  }
+}
+
+// All distances of points on one link are those of the sketch.
+void expect_rigid(const LinkageData& data) {
+  expect_sound(data);
+  if (!data.linkage->faults().empty()) return;
+  const Linkage& l = *data.linkage;
+  long double longest = 0, off = 0;
+  for (int i = 0; i < 50; ++i) {
+    const auto arc = l.arc();
+    const long double part = (i + 0.37L) / 50;
+    const LinkPoses poses = l.poses(arc ? arc->middle + 0.9L * arc->half * (2 * part - 1) : 2 * pi * l.turns() * part);
+    // Every joint holds, seen from both of its links.
+    for (const LinkageJoint& j : l.structure().joints) {
+      const LinkPose &a = poses[j.a], &b = poses[j.b];
+      longest = std::max(longest, length(j.at));
+      const Path apart = b(j.at) - a(j.at);
+      if (!j.slides) {
+        for (int k = 0; k <= Taylor::order; ++k)
+          off =
+              std::max({off, std::fabs(apart.x.c[k]) * std::pow(0.1L, k), std::fabs(apart.y.c[k]) * std::pow(0.1L, k)});
+      } else {
+        off = std::max(off, std::fabs(cross(poses[j.other(j.carrier)].turned(j.along), apart).value()));
+        off =
+            std::max(off, std::fabs(a.turn.cos.value() * b.turn.sin.value() - a.turn.sin.value() * b.turn.cos.value()));
+      }
+    }
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const Direction& turn = poses[static_cast<int>(k)].turn;
+      off = std::max(off, std::fabs(std::hypot(turn.cos.value(), turn.sin.value()) - 1));
+    }
+  }
+  EXPECT_LE(off, 1e-13L * longest);
+}
+
+// --- closed forms ---
+
+SketchOf scotch_yoke() {
+  SketchOf of;
+  of.point('O', 0, 0).point('A', 0.06, 0).point('Y', 0.3, 0).frame("O");
+  of.link("crank", "OA", 4, 0.02).com(0.01, 0).link("block", "A", 1.2).link("yoke", "Y", 85);
+  of.slide("block", pi / 2, "yoke").slide("yoke", 0).moves("yoke", 'Y', 0);
+  return of;
+}
+
+TEST(Linkage, ScotchYokeIsACosine) {
+  const LinkageData data = scotch_yoke().data();
+  expect_rigid(data);
+  expect_both_extractions(data, 1e-13);
+  ASSERT_EQ(data.linkage->structure().groups.size(), 1u);
+  EXPECT_EQ(name_of(data.linkage->structure().groups[0]), "RPP");
+  const auto bodies = make_bodies(data);
+  for (int i = 0; i < 24; ++i) {
+    const double phi = 0.26 * i, s = std::sin(phi), c = std::cos(phi);
+    const ReducedSample f = bodies->sample(phi);
+    EXPECT_NEAR(f.output_position, 0.24 + 0.06 * c, 1e-15);
+    EXPECT_NEAR(f.output_velocity_ratio, -0.06 * s, 1e-15);
+    EXPECT_NEAR(f.inertia, 0.02 + 4 * 1e-4 + 1.2 * 0.0036 + 85 * 0.0036 * s * s, 1e-14);
+    EXPECT_NEAR(f.inertia_slope, 85 * 0.0036 * 2 * s * c, 1e-13);
+    EXPECT_NEAR(f.inertia_curvature, 85 * 0.0036 * 2 * std::cos(2 * phi), 1e-13);
+  }
+}
+
+TEST(Linkage, PeaucelliersPointMovesOnAStraightLine) {
+  const LinkageData data = test::peaucellier().data();
+  expect_rigid(data);
+  expect_both_extractions(data, 1e-12);
+  const Linkage& l = *data.linkage;
+  ASSERT_TRUE(l.arc());  // at its ends arm and side lie in one line: 2 r cos(φ/2) = a − b
+  EXPECT_NEAR(l.arc()->middle, 0, 1e-10);
+  EXPECT_NEAR(l.arc()->half, 2 * std::acos(0.13 / 0.2), 1e-10);
+  EXPECT_EQ(l.structure().groups.size(), 3u);
+  const int p = 5, link = 6;
+  for (int i = -9; i <= 9; ++i) {
+    const Path at = l.poses(l.arc()->half * i / 10)[link](l.spot_of(p));
+    // The output's axis is the line: what lies across it stands still, with all derivatives. Origin in Q.
+    EXPECT_NEAR(static_cast<double>(-at.y.value()), (0.28 * 0.28 - 0.15 * 0.15) / 0.2 - 0.1, 1e-15);
+    for (int k = 1; k <= Taylor::order; ++k) EXPECT_NEAR(static_cast<double>(at.y.c[k]), 0, 1e-13);
+  }
+}
+
+// --- the named mechanisms ---
+
+void expect_same(const MechanismData& a, const MechanismData& b, double within) {
+  const auto first = a.make_bodies(), other = b.make_bodies();
+  double scale[sample_channels] = {};
+  for (int i = 0; i < 40; ++i) {
+    const std::vector<double> values = values_in(closed_sample(a, 0.16 * i));
+    for (std::size_t c = 0; c < sample_channels; ++c) scale[c] = std::max(scale[c], std::abs(values[c]));
+  }
+  scale[1] = std::max(scale[1], 0.01 * scale[0]), scale[2] = std::max(scale[2], 0.01 * scale[0]);
+  for (int i = 0; i < 40; ++i) {
+    const double phi = 0.16 * i + 0.05;
+    const std::vector<double> wanted = values_in(closed_sample(a, phi));
+    for (const std::vector<double>& got : {values_in(other->sample(phi)), values_in(closed_sample(b, phi))})
+      for (std::size_t c = 0; c < sample_channels; ++c) {
+        const double off = c == 3 && a.rocks() ? std::remainder(got[c] - wanted[c], 2 * pi) : got[c] - wanted[c];
+        EXPECT_LE(std::abs(off), within * scale[c]) << "channel " << c << " at " << phi;
+      }
+    EXPECT_NEAR(other->potential_energy(phi), first->potential_energy(phi), within * (1 + scale[6]));
+    EXPECT_NEAR(other->kinetic_energy(phi, 3), first->kinetic_energy(phi, 3), within * 4.5 * scale[0]);
+  }
+}
+
+TEST(Linkage, AFourBarIsTheFourBar) {
+  FourBarData d;
+  d.crank = 0.08, d.coupler = 0.39, d.rocker = 0.17, d.ground = 0.37;
+  d.crank_body = {12, -0.017, 0.6}, d.coupler_body = {7, 0.15, 0.08}, d.rocker_body = {22, 0.09, 0.7};
+  d.gravity = 9.81, d.ground_angle = 0.4;
+  const PlanarLinkage there = linkage_of(d, 0.8L);
+  SketchOf of;
+  const auto place = [&](const Path& p) { return std::pair(double(p.x.value()), double(p.y.value())); };
+  const auto [ax, ay] = place(there.joints[1].at);
+  const auto [bx, by] = place(there.joints[2].at);
+  of.point('O', 0, 0).point('A', ax, ay).point('B', bx, by).point('D', d.ground, 0).frame("OD");
+  of.link("crank", "OA", 12, 0.6 - 12 * 0.017 * 0.017);
+  of.com(double(there.bodies[0].com.x.value()), double(there.bodies[0].com.y.value()));
+  of.link("coupler", "AB", 7, 0.08).com(double(there.bodies[1].com.x.value()), double(there.bodies[1].com.y.value()));
+  of.link("rocker", "DB", 22, 0.7 - 22 * 0.09 * 0.09);
+  of.com(double(there.bodies[2].com.x.value()), double(there.bodies[2].com.y.value()));
+  of.rocks("rocker");
+  of.s.gravity = 9.81, of.s.elevation = 0.4;
+  const LinkageData data = of.data();
+  expect_rigid(data);
+  expect_same(d, data, 1e-12);
+}
+
+TEST(Linkage, ASliderCrankIsTheSliderCrank) {
+  SliderCrankData d = full_mechanism(2.5, 0.02);
+  SketchOf of;
+  const PlanarLinkage there = linkage_of(d, 0.5L);
+  const auto x = [](const Path& p) { return double(p.x.value()); };
+  const auto y = [](const Path& p) { return double(p.y.value()); };
+  of.point('O', 0, 0).point('A', x(there.joints[1].at), y(there.joints[1].at));
+  of.point('B', x(there.joints[2].at), y(there.joints[2].at)).frame("O");
+  of.link("crank", "OA", d.crank_mass, d.crank_inertia - d.crank_mass * d.crank_com * d.crank_com);
+  of.com(x(there.bodies[0].com), y(there.bodies[0].com));
+  of.link("rod", "AB", d.rod_mass, d.rod_inertia).com(x(there.bodies[1].com), y(there.bodies[1].com));
+  of.link("slider", "B", d.slider_mass).slide("slider", 0).moves("slider", 'B', 0);
+  of.s.gravity = d.gravity, of.s.elevation = d.stroke_angle;
+  const LinkageData data = of.data();
+  expect_rigid(data);
+  expect_same(d, data, 1e-12);
+}
+
+TEST(Linkage, ASlottedLeverIsTheInvertedSliderCrank) {
+  SlottedLeverData d;
+  d.crank = 0.1, d.ground = 0.25;
+  d.crank_body = {3, 0.02, 0.1}, d.lever_body = {6, 0.2, 0.5};
+  d.block_mass = 1.5, d.block_inertia = 0.01, d.gravity = 9.81;
+  SketchOf of;
+  const double ax = 0.1 * std::cos(1.1), ay = 0.1 * std::sin(1.1), reach = std::hypot(ax - 0.25, ay);
+  of.point('O', 0, 0).point('A', ax, ay).point('D', 0.25, 0);
+  of.point('E', 0.25 + 0.4 * (ax - 0.25) / reach, 0.4 * ay / reach).frame("OD");
+  of.link("crank", "OA", 3, 0.1 - 3 * 0.0004).com(0.2 * ax, 0.2 * ay);
+  of.link("block", "A", 1.5, 0.01);
+  of.link("lever", "DE", 6, 0.5 - 6 * 0.04).com(0.25 + 0.2 * (ax - 0.25) / reach, 0.2 * ay / reach);
+  of.slide("block", std::atan2(ay, ax - 0.25), "lever").rocks("lever");
+  of.s.gravity = 9.81;
+  const LinkageData data = of.data();
+  expect_rigid(data);
+  expect_same(d, data, 1e-12);
+}
+
+// --- groups of higher class ---
+
+// Driven by its crank the chain is two dyads; driven by its lever, four links in one group.
+TEST(Linkage, StephensonsChainDrivenFromItsOtherLoopIsOfClassIII) {
+  SketchOf of = test::stephenson();
+  const LinkageData by_crank = of.data();
+  expect_rigid(by_crank);
+  expect_both_extractions(by_crank, 1e-12);
+  EXPECT_EQ(by_crank.linkage->structure().groups.size(), 2u);
+  const LinkageData by_lever = of.drives("lever").rocks("crank").data();
+  expect_rigid(by_lever);
+  expect_both_extractions(by_lever, 1e-11);
+  ASSERT_EQ(by_lever.linkage->structure().groups.size(), 1u);
+  EXPECT_EQ(name_of(by_lever.linkage->structure().groups[0]), "class III of order 3");
+  ASSERT_TRUE(by_lever.linkage->arc());
+  // The same positions, wherever the lever comes with the crank within the arc.
+  int compared = 0;
+  const Linkage &a = *by_crank.linkage, &b = *by_lever.linkage;
+  for (int i = 0; i < 72; ++i) {
+    const LinkPoses there = a.poses(a.drawn_at() + (i - 36) * pi / 180);
+    const Path end = there[4](a.spot_of(5)) - there[4](a.spot_of(6));
+    const double psi = b.arc()->near(static_cast<double>(std::atan2(end.y.value(), end.x.value())));
+    if (std::abs(psi - b.arc()->middle) > 0.9 * b.arc()->half) continue;
+    const LinkPoses here = b.poses(psi);
+    const SketchSpot shift = a.spot_of(0) - b.spot_of(0);
+    const Path crank = here[0](b.spot_of(1)), other = there[0](a.spot_of(1));
+    // The other branch of the lever's position is another crank's.
+    if (std::abs(static_cast<double>(crank.x.value() + shift.x - other.x.value())) > 0.02) continue;
+    ++compared;
+    EXPECT_NEAR(static_cast<double>(crank.x.value() + shift.x), static_cast<double>(other.x.value()), 1e-13) << i;
+    EXPECT_NEAR(static_cast<double>(crank.y.value() + shift.y), static_cast<double>(other.y.value()), 1e-13) << i;
+  }
+  EXPECT_GT(compared, 10);
+}
+
+// Newton's method on a dyad finds what its closed form finds.
+TEST(Linkage, NewtonsMethodOnADyadFindsItsClosedForm) {
+  const LinkageData data = test::stephenson().data();
+  const Linkage& l = *data.linkage;
+  for (int i = 0; i < 20; ++i) {
+    const long double phi = l.drawn_at() + 0.01L * i;
+    const LinkPoses wanted = l.poses(phi);
+    LinkPoses poses(5);
+    poses.of(0) = wanted[0];
+    for (AssurGroup group : l.structure().groups) {
+      group.form = AssurGroup::Form::newton;
+      std::vector<LinkShift> shifts(2);
+      ASSERT_TRUE(close_by_newton(group, l.structure().joints, 0.4L, poses, shifts).closed);
+    }
+    for (int link = 1; link < 5; ++link)
+      for (int k = 0; k <= Taylor::order; ++k) {
+        EXPECT_NEAR(double(poses[link].at.x.c[k]), double(wanted[link].at.x.c[k]), 1e-15) << link << k;
+        EXPECT_NEAR(double(poses[link].turn.sin.c[k]), double(wanted[link].turn.sin.c[k]), 1e-14) << link << k;
+      }
+  }
+}
+
+SketchOf locomotive(double third) {
+  SketchOf of;
+  of.point('O', 0, 0).point('A', 0.1, 0.02).point('C', 0.4, 0).point('B', 0.5, 0.02);
+  of.point('E', 0.2, 0.1).point('D', 0.3, 0.12 + third).frame("OCE");
+  of.link("crank", "OA", 1, 0.01).link("coupler", "ABD", 3, 0.05).link("rocker", "CB", 1, 0.01);
+  of.link("third", "ED", 1, 0.01).rocks("rocker");
+  return of;
+}
+
+// Three parallel cranks: by count it cannot move, in truth the coupler only shifts, through what were change points of two.
+TEST(Linkage, AParallelogramWithARedundantRodTurns) {
+  const LinkageData data = locomotive(0).data();
+  expect_rigid(data);
+  const Linkage& l = *data.linkage;
+  EXPECT_EQ(l.structure().freedom, 0);
+  EXPECT_TRUE(l.is_redundant());
+  EXPECT_FALSE(l.arc());
+  expect_both_extractions(data, 1e-12);
+  for (int i = 0; i < 60; ++i) {
+    const LinkPoses poses = l.poses(0.11L * i);
+    EXPECT_NEAR(double(poses[1].turn.sin.value()), 0, 1e-14);
+    EXPECT_NEAR(double(poses[3].turn.rate().value()), 1, 1e-14);
+  }
+  EXPECT_NE(undetermined_reactions(data).find("not assessed"), std::string::npos);
+}
+
+TEST(Linkage, ARedundantRodOfAnotherLengthIsRefused) {
+  const LinkageData data = locomotive(0.003).data();
+  ASSERT_EQ(data.linkage->faults().size(), 1u);
+  EXPECT_NE(data.linkage->faults()[0].text.find("1 closure more than they need"), std::string::npos)
+      << data.linkage->faults()[0].text;
+}
+
+// --- random linkages ---
+
+// Up to three dyads behind a crank, each on points of links that stand already; masses anywhere.
+SketchOf random_linkage(std::mt19937& random) {
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  SketchOf of;
+  const double phi = uniform(0, 2 * pi), r = uniform(0.05, 0.12);
+  of.point('O', 0, 0).point('A', r * std::cos(phi), r * std::sin(phi)).frame("O");
+  of.link("crank", "OA", uniform(0, 3), 0.01);
+  std::string free = "A";  // points of moving links that a dyad may begin at
+  char next = 'B';
+  const int dyads = 1 + static_cast<int>(uniform(0, 2.999));
+  for (int i = 0; i < dyads; ++i) {
+    const char from = free[static_cast<std::size_t>(uniform(0, static_cast<double>(free.size()) - 1e-9))];
+    const auto& p =
+        *std::find_if(of.s.points.begin(), of.s.points.end(), [&](const auto& q) { return q.name[0] == from; });
+    const double x = p.x, y = p.y;
+    const char inner = next++, outer = next++, extra = next++;
+    const std::string a = "a" + std::to_string(i), b = "b" + std::to_string(i);
+    of.point(inner, x + uniform(0.25, 0.5), y + uniform(-0.3, 0.3));
+    const double ix = of.s.points.back().x, iy = of.s.points.back().y;
+    of.point(extra, x + uniform(0.1, 0.4), y + uniform(-0.4, 0.4));
+    of.link(a, std::string(1, from) + inner + extra, uniform(0.2, 5), uniform(0.001, 0.1));
+    const int form = static_cast<int>(uniform(0, 2.999));
+    if (form == 0) {  // RRR
+      of.point(outer, ix + uniform(-0.1, 0.2), iy - uniform(0.25, 0.5));
+      of.s.frame_points.push_back(static_cast<int>(of.s.points.size()) - 1);
+      of.link(b, std::string(1, outer) + inner, uniform(0.2, 5), uniform(0.001, 0.1));
+      of.rocks(b);
+    } else if (form == 1) {  // RRP
+      of.link(b, std::string(1, inner), uniform(0.2, 5));
+      const double angle = uniform(-0.5, 0.5);
+      of.slide(b, angle).moves(b, inner, angle);
+    } else {  // RPR: the link from the inner point slides in one that turns on the frame
+      of.s.links.pop_back();
+      of.point(outer, ix + uniform(0.1, 0.3), iy + uniform(-0.2, 0.2));
+      of.s.frame_points.push_back(static_cast<int>(of.s.points.size()) - 1);
+      of.link(a, std::string(1, from) + inner + extra, uniform(0.2, 5), uniform(0.001, 0.1));
+      of.link(b, std::string(1, outer) + next, 1);
+      of.s.links.pop_back();
+      of.point(next, ix, iy + 0.3);
+      of.link(b, std::string(1, outer) + next++, uniform(0.2, 5), uniform(0.001, 0.1));
+      of.slide(a, std::atan2(of.s.points[of.s.points.size() - 2].y - y, of.s.points[of.s.points.size() - 2].x - x), b);
+      of.rocks(b);
+    }
+    free += inner, free += extra;
+  }
+  of.s.gravity = 9.81, of.s.elevation = uniform(-3, 3);
+  return of;
+}
+
+TEST(Linkage, OfRandomDyadsBothExtractionsAgree) {
+  std::mt19937 random(46);
+  int good = 0, refused = 0;
+  for (int tried = 0; good < 60 && tried < 3000; ++tried) {
+    const LinkageData data = random_linkage(random).data();
+    const Linkage& l = *data.linkage;
+    if (!l.faults().empty()) {
+      ++refused;
+      continue;
+    }
+    if (l.arc()) continue;
+    const double sine = std::sin(10 * pi / 180);
+    const auto clear = [&](const LeastMargin& m) { return m.margin > sine * sine; };
+    if (!std::all_of(l.least_margins().begin(), l.least_margins().end(), clear)) continue;
+    SCOPED_TRACE(l.structure_in_words());
+    ++good;
+    expect_rigid(data);
+    expect_both_extractions(data, 1e-12, 24);
+  }
+  EXPECT_EQ(good, 60) << refused << " refused";
+}
+
+// --- what is refused ---
+
+std::string fault_of(const SketchOf& of) {
+  const LinkageData data = of.data();
+  return data.linkage->faults().empty() ? "" : data.linkage->faults()[0].text;
+}
+
+TEST(Linkage, WhatDoesNotMoveAsItShouldIsSaidInWords) {
+  SketchOf loose = test::stephenson();
+  loose.s.links[4].points.erase(loose.s.links[4].points.begin());  // the lever has no bearing
+  loose.moves("rod", 'E', 0);
+  EXPECT_NE(fault_of(loose).find("3·5 − 2·6 = 3"), std::string::npos) << fault_of(loose);
+  EXPECT_NE(fault_of(loose).find("rod, lever"), std::string::npos) << fault_of(loose);
+
+  SketchOf alone = test::stephenson();
+  alone.point('X', 1, 1).point('Y', 1, 2).link("alone", "XY");
+  EXPECT_NE(fault_of(alone).find("alone is connected with nothing"), std::string::npos) << fault_of(alone);
+
+  SketchOf dead;
+  dead.point('O', 0, 0).point('A', 0.1, 0).point('B', 0.3, 0).point('C', 0.5, 0).frame("OC");
+  dead.link("crank", "OA", 1, 1).link("coupler", "AB").link("rocker", "CB").rocks("rocker");
+  EXPECT_NE(fault_of(dead).find("coupler and rocker lie in one line"), std::string::npos) << fault_of(dead);
+
+  SketchOf change;  // a parallelogram without a third crank
+  change.point('O', 0, 0).point('A', 0, 0.1).point('B', 0.3, 0.1).point('C', 0.3, 0).frame("OC");
+  change.link("crank", "OA", 1, 1).link("coupler", "AB").link("rocker", "CB").rocks("rocker");
+  EXPECT_NE(fault_of(change).find("a change point"), std::string::npos) << fault_of(change);
+}
+
+TEST(Linkage, ACrankThatLocksRocksWithinItsArc) {
+  SketchOf of;
+  of.point('O', 0, 0).point('A', 0, 0.3).point('B', 0.3, 0.35).point('C', 0.4, 0).frame("OC");
+  of.link("crank", "OA", 1, 1).link("coupler", "AB", 1, 0.01).link("rocker", "CB", 1, 0.02).rocks("rocker");
+  const LinkageData data = of.data();
+  expect_rigid(data);
+  const FourBarLoop loop = {0.3L, std::hypot(0.3L, 0.05L), std::hypot(0.1L, 0.35L), 0.4L};
+  ASSERT_TRUE(data.linkage->arc() && loop.arc());
+  EXPECT_NEAR(data.linkage->arc()->half, loop.arc()->half, 1e-9);
+  EXPECT_NEAR(data.linkage->arc()->near(loop.arc()->middle), data.linkage->arc()->middle, 1e-9);
+  EXPECT_EQ(data.linkage->locks_in_words(), "coupler and rocker lie in one line");
+}
+
+}  // namespace
+}  // namespace kurbel::linkage_test
