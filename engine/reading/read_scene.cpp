@@ -10,6 +10,7 @@
 #include "engine/reading/scene_reading.h"
 #include "engine/reading/sequence_reader.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 
 namespace kurbel {
 
@@ -101,7 +102,7 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   r.messages.throw_if_any();
   Location first;
   find_speed_unit(r.document, first, r.scene.speed_unit);
-  return std::move(r.scene);
+  return with_fewer_points(std::move(r.scene));
 }
 
 Scene parse_scene(const SettledText& settled, const std::vector<Kind>& kinds, DataFiles allowed) {

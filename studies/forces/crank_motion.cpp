@@ -15,6 +15,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 #include "mechanisms/kinds/kinds.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/validity/outside_data.h"
@@ -86,7 +87,7 @@ AskedMechanism::AskedMechanism(const Scene& of, const std::string& wanted)
     : scene(of),
       name(chosen_mechanism(of, wanted).name),
       kind(chosen_mechanism(of, wanted).kind->name),
-      network(build_network(of)) {}
+      network(build_network(with_rougher_tables(of, 0))) {}
 
 const Mechanism& AskedMechanism::mechanism() const { return *find_mechanism(network, name); }
 

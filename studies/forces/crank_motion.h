@@ -21,7 +21,7 @@ ActingLoads acting_loads(const Model& model, std::size_t element, const Instant&
 
 struct Mechanism;
 
-// A mechanism of a scene, and the network that it stands in, as drawn: before any effect.
+// A mechanism of a scene, and the network that it stands in, as drawn: before any effect, its tables as they are given.
 struct AskedMechanism {
   // The one of this name, or the first. Throws as chosen_mechanism and build_network.
   AskedMechanism(const Scene& scene, const std::string& wanted);

@@ -14,6 +14,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/force_cycle.h"
 #include "studies/forces/linkage_cycle.h"
@@ -215,7 +216,7 @@ class Study {
     const double scale =
         std::max(missed.greatest_torque, rounding_of_torque * std::abs(cycle.reaction[1].value) * out_.data.radius);
     cycle.machine_residual = scale > 0 ? missed.torque / scale : 0;
-    if (machine_->deforms() || *cycle.machine_residual > same_physics) {
+    if (machine_->deforms() || *cycle.machine_residual > same_physics + left_by_tables(asked_.scene)) {
       add_missed(missed, out_.data, cycle);
       out_.notes.push_back(words_of(missed, cycle));
     }

@@ -14,6 +14,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/machine_motion.h"
 
@@ -334,9 +335,9 @@ namespace {
 
 // The machine's own torque on the crank, held against that of the links' equilibrium: where they differ (inertia that is
 // taken at its mean), the difference is an error, and is told.
-void hold_against_machine(const MechanismData& data, OutputLoads& loads, const SimulatedMotion& simulated,
-                          LinkageCycle& cycle, std::vector<std::string>& notes) {
-  constexpr double same_physics = 1e-7;  // tables of the mechanism
+void hold_against_machine(const Scene& scene, const MechanismData& data, OutputLoads& loads,
+                          const SimulatedMotion& simulated, LinkageCycle& cycle, std::vector<std::string>& notes) {
+  const double same_physics = 1e-7 + left_by_tables(scene);  // tables of the mechanism, and of its loads
   constexpr double least = 1e-3;  // of what the joints' forces make at their places: less is no torque to measure by
   double missed = 0, greatest = 0;
   for (std::size_t i = 0; i < simulated.machine.size(); ++i) {
@@ -393,7 +394,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   out.simulated = linkage_cycle(data, loads, motion->along);
   for (const SimulatedMotion::Other& other : motion->others)
     out.simulated->widen_to(linkage_cycle(data, loads, other.motion), other.times);
-  hold_against_machine(data, loads, *motion, *out.simulated, out.notes);
+  hold_against_machine(scene, data, loads, *motion, *out.simulated, out.notes);
   tell_outside_data(out, motion->outside_data, *out.simulated, true);
   out.simulated->label = "simulated";
   out.simulated->description = motion->description;

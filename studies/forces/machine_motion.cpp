@@ -14,6 +14,7 @@
 #include "engine/orbit/follow_period.h"
 #include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/validity/outside_data.h"
 
@@ -125,13 +126,18 @@ MachineMotion::Crank MachineMotion::crank_in(const Model& model, const std::stri
 }
 
 MachineMotion::MachineMotion(const AskedMechanism& asked, const Effects& effects, const ForcesOptions& options)
+    : MachineMotion(compile(asked.scene, effects), asked.name, options, {}) {}
+
+MachineMotion::MachineMotion(std::shared_ptr<const Model> model, const std::string& mechanism,
+                             const ForcesOptions& options, const Moment& at)
     : options_(options),
-      mechanism_(asked.name),
-      settings_(asked.scene.run),
-      effects_(effects.describe()),
-      model_(compile_network(asked.network, asked.scene, effects)),
-      crank_(crank_in(*model_, asked.name)),
-      forces_(model_, asked.name) {}
+      at_(at),
+      mechanism_(mechanism),
+      settings_(model->scene.run),
+      effects_(model->effects.describe()),
+      model_(std::move(model)),
+      crank_(crank_in(*model_, mechanism)),
+      forces_(model_, mechanism) {}
 
 bool MachineMotion::deforms() const { return forces_.deforms(); }
 bool MachineMotion::is_elastic() const { return !model_->elastic.empty(); }
@@ -154,9 +160,8 @@ std::optional<SimulatedMotion> MachineMotion::solve(OutputLoads& loads, Account 
   if (later.empty()) return motion_of(found, loads, out);
   out.notes.push_back(later);
   const Scene then = as_of(model_->scene, model_->effects, at);
-  AskedMechanism asked(then, mechanism_);
-  asked.network = network_as_of(then, at);
-  const MachineMotion machine(asked, model_->effects, options_);
+  const MachineMotion machine(compile_network(network_as_of(then, at), then, model_->effects), mechanism_, options_,
+                              at);
   return machine.motion_of(machine.orbit(), loads, out);
 }
 
@@ -202,6 +207,14 @@ Orbit MachineMotion::orbit() const {
   }
 }
 
+// The same machine with its dense tables taken rougher; null: it has none.
+std::shared_ptr<const Model> MachineMotion::model_elsewhere() const {
+  constexpr double rougher = 4;
+  if (tables_within(model_->scene) == 0) return nullptr;
+  const Scene scene = with_rougher_tables(model_->scene, rougher);
+  return compile_network(network_as_of(scene, at_), scene, model_->effects);
+}
+
 struct MachineMotion::Sampled {
   MotionAlong along;
   std::vector<MachineForces> machine;
@@ -215,7 +228,7 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
   try {
     SimulatedMotion motion;
     Sampled tight = along_round(loads, *orbit.map, orbit.point.z, map_tolerance);
-    const auto [loose, other] = looser_twin(*orbit.map, orbit.point, looser_tolerance);
+    const auto [loose, other] = looser_twin(*orbit.map, orbit.point, looser_tolerance, model_elsewhere());
     motion.others.push_back(
         {along_round(loads, *loose, other.found ? other.z : orbit.point.z, looser_tolerance).along, 1});
     if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(orbit.still_changes, enough)), 1});

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/model/model.h"
+#include "engine/orbit/moment.h"
 #include "engine/orbit/orbit.h"
 #include "studies/forces/crank_motion.h"
 #include "studies/forces/deformed_mechanism.h"
@@ -61,6 +62,9 @@ class MachineMotion {
   struct Sampled;
   struct Window;
   static Crank crank_in(const Model& model, const std::string& component);
+  MachineMotion(std::shared_ptr<const Model> model, const std::string& mechanism, const ForcesOptions& options,
+                const Moment& at);
+  std::shared_ptr<const Model> model_elsewhere() const;
   OrbitOptions search_options() const;
   Orbit orbit() const;
   bool is_driven() const;
@@ -80,6 +84,7 @@ class MachineMotion {
   void check_sense(const MotionAlong& along, int direction) const;
 
   const ForcesOptions& options_;
+  Moment at_;  // that the model is of
   std::string mechanism_;
   RunSettings settings_;
   std::string effects_;

@@ -9,6 +9,7 @@
 
 #include "engine/numerics/index.h"
 #include "engine/run/recorders.h"
+#include "engine/values/dense_tables.h"
 
 namespace kurbel {
 namespace {
@@ -158,7 +159,9 @@ class Search {
         const auto apart = [&](const RunUp::Peak& other) {
           return std::abs(std::abs(other.torque.value) - std::abs(out_.peaks[i].torque.value));
         };
-        out_.peaks[i].torque.error = std::max(apart(coarse[i]), 2 * apart(elsewhere[i])) + 1e-9 * joints_[i].rated;
+        const double scale = std::max(joints_[i].rated, std::abs(out_.peaks[i].torque.value));
+        out_.peaks[i].torque.error = std::max(apart(coarse[i]), 2 * apart(elsewhere[i])) + 1e-9 * joints_[i].rated +
+                                     left_by_tables(machine_->scene) * scale;
       }
     } catch (const std::runtime_error& error) {
       none(error.what());

@@ -51,7 +51,7 @@ void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineRe
 class Reducer {
  public:
   Reducer(const Scene& scene, const ReduceOptions& options)
-      : scene_(as_of(with_fewer_points(scene), scene.effects, options.at)), options_(options) {
+      : scene_(as_of(scene, scene.effects, options.at)), options_(options) {
     if (options.positions < 1 || options.positions > 100000)
       throw std::invalid_argument(fmt::format("--positions {}: must be 1 … 100000", options.positions));
     if (options.orders < 0 || options.orders > 1000)
@@ -343,7 +343,6 @@ class Reducer {
   void add_notes() {
     for (const auto notes_of : {substitutes, mechanism_words})
       for (const std::string& note : notes_of(model())) r_.notes.push_back(note);
-    if (const std::string words = words_of_dense_tables(scene_); !words.empty()) r_.notes.push_back(words);
     if (machine_ && machine_->uses_time())
       r_.notes.push_back("some torque depends on time; the torques are those at t = 0");
     if (machine_ && !machine_->periodic())

@@ -12,6 +12,7 @@
 #include "engine/numerics/index.h"
 #include "engine/rigid/work_equation.h"
 #include "engine/run/checkpoint.h"
+#include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/motion_claims.h"
@@ -214,10 +215,16 @@ class Simulation {
     const double of_figures = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get())),
                  of_energy = fine_->energy->largest(settings_.accuracy);
     measure_errors(fine_->last_state, witnesses(coarse_.get(), elsewhere_.get(), &OneRun::last_state));
+    const double tables = left_by_tables(model_->scene);
+    for (std::vector<Figure>* figures : {&fine_->figures, &fine_->last_state})
+      for (Figure& f : *figures)
+        if (f.error && !f.exact) *f.error += tables * std::max(std::abs(f.value), f.scale);
     if (coarse_)
       add_event_errors(fine_->outcome.events, coarse_->outcome.events, weight_of_coarse_, result_.event_errors);
     if (elsewhere_)
       add_event_errors(fine_->outcome.events, elsewhere_->outcome.events, weight_of_elsewhere, result_.event_errors);
+    for (std::size_t k = 0; k < result_.event_errors.size(); ++k)
+      if (std::optional<double>& error = result_.event_errors[k]) *error += tables * fine_->outcome.events[k].t;
     result_.measured_accuracy = std::max(of_figures, of_energy);
     result_.errors_measured = true;
     result_.accuracy_confirmed = confirmed();

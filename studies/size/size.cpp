@@ -12,6 +12,7 @@
 #include "engine/numerics/roots.h"
 #include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
+#include "engine/values/dense_tables.h"
 #include "studies/cycle/classical.h"
 #include "studies/size/reach_sized.h"
 #include "studies/steady/cycle_search.h"
@@ -332,10 +333,15 @@ class Sizer {
                             mertsalov(looser, mechanism, speed, s_.delta).inertia,
                             inertia_by_fluctuation(looser.fluctuation(), speed, s_.delta)};
     const auto error = [](double a, double b, double size) { return *estimate_from(a, b, 1e-12 * size).error; };
-    for (std::size_t k = 0; k < std::size(other); ++k)
-      s_.methods[k].error = error(s_.methods[k].drive_inertia, other[k], std::abs(s_.methods[k].drive_inertia)) /
+    const double fluctuation = s_.diagram.fluctuation(), work = s_.diagram.load_work.largest();
+    const double by_tables = left_by_tables(scene_) * work;  // [J]
+    for (std::size_t k = 0; k < std::size(other); ++k) {
+      const double inertia = std::abs(s_.methods[k].drive_inertia);
+      s_.methods[k].error = (error(s_.methods[k].drive_inertia, other[k], inertia) +
+                             (by_tables > 0 ? by_tables / fluctuation * inertia : 0)) /
                             square(s_.flywheel_ratio);
-    s_.fluctuation_error = error(s_.diagram.fluctuation(), looser.fluctuation(), s_.diagram.load_work.largest());
+    }
+    s_.fluctuation_error = error(fluctuation, looser.fluctuation(), work) + by_tables;
   }
 
   SteadyRigidCycle steady(double drive_inertia) {

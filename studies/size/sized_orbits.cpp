@@ -9,6 +9,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/values/dense_tables.h"
 #include "studies/cycle/classical.h"
 #include "studies/scenes/kinds.h"
 #include "studies/steady/cycle_search.h"
@@ -114,13 +115,17 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
     r.stops = orbit.kind == Orbit::Kind::at_rest;
     r.why = orbit.words;
     if (!orbit.repeats()) return r;
-    fill(r, orbit_cycle(orbit, {motor}), model->node_ratio[kurbel::at(motor)]);
+    const OrbitCycle cycle = orbit_cycle(orbit, {motor});
+    fill(r, cycle, model->node_ratio[kurbel::at(motor)]);
     r.notes = static_curve_notes(*orbit.map, orbit.point);
     for (std::string& sentence : substitutes(*model)) r.notes.push_back(std::move(sentence));
     for (std::string& sentence : outside_data(*orbit.map, orbit.point)) r.notes.push_back(std::move(sentence));
     if (!with_error) return r;
     if (const auto looser = looser_orbit_cycle(orbit, {motor})) {
-      const double left = orbit.point.still_to_come();  // what the run has still to settle
+      // What the run has still to settle, and what dense tables leave of δ = ΔA/(I ω²).
+      const double left = orbit.point.still_to_come() + left_by_tables(sized) * cycle.cycle.load.largest() *
+                                                            cycle.way() /
+                                                            (cycle.inertia.mean() * std::pow(cycle.mid_speed(), 2));
       for (const auto& [delta, other] :
            {std::pair{&r.crank, looser->delta()}, std::pair{&r.motor, delta_of(looser->others.front())}}) {
         *delta = estimate_from(delta->value, other, least_error * delta->value);

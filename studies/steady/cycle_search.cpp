@@ -321,11 +321,11 @@ class Search {
   // The same machine with its mechanisms extracted anew, where they work from tables, and its dense tables taken rougher.
   std::shared_ptr<const Model> model_elsewhere() const {
     constexpr double rougher = 4;
-    const double within = tables_within(scene_);
-    if (within == 0 && !has_tables(network_)) return out_.model;
+    const bool dense = tables_within(scene_) > 0;
+    if (!dense && !has_tables(network_)) return out_.model;
     Search other = *this;
-    if (within > 0) {
-      other.scene_ = with_tables_within(scene_, rougher * within);
+    if (dense) {
+      other.scene_ = with_rougher_tables(scene_, rougher);
       other.network_ = network_as_of(other.scene_, options_.at);
     }
     const Network net = options_.holds_speed() ? other.network_with(held_) : other.network_;

@@ -16,7 +16,6 @@
 #include "engine/orbit/link_speeds.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
-#include "engine/values/dense_tables.h"
 #include "studies/findings/figure_text.h"
 #include "studies/steady/cycle_search.h"
 
@@ -109,7 +108,6 @@ class Study {
     else if (options_.at.any())
       out_.notes.push_back(
           fmt::format("the machine as it is {}: what is switched later is left out", options_.at.describe()));
-    if (const std::string words = words_of_dense_tables(scene_); !words.empty()) out_.notes.push_back(words);
     find_diagram(*model);
     refuse_family();
     for (const Effects& effects : effects_)
@@ -311,8 +309,7 @@ std::vector<Effects> effects_side_by_side(const Scene& scene) {
 
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options) {
   const Deadline deadline(scene.run.budget);
-  const Scene taken = with_fewer_points(scene);
-  return Study(taken, effects, options).run();
+  return Study(scene, effects, options).run();
 }
 
 }  // namespace kurbel

@@ -6,12 +6,14 @@
 #include <algorithm>
 
 #include "engine/reading/mirrored.h"
+#include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 
 std::vector<std::string> substitutes(const Model& model) {
   std::vector<std::string> notes;
+  if (std::string words = words_of_dense_tables(model.scene); !words.empty()) notes.push_back(std::move(words));
   for (const Network::ShaftElement& e : model.network.elements) {
     if (const MechanismElement* element = mechanism_of(e)) {
       for (const SliderLoad& load : element->mechanism().loads)

@@ -1,5 +1,5 @@
-// substitutes.h — what stands for something that a scene does not give: diagrams of cylinders that do not fire, the lag of
-// fluxes whose circuit is not known.
+// substitutes.h — what stands for something that a scene does not give, or not so: diagrams of cylinders that do not fire, the
+// lag of fluxes whose circuit is not known, dense tables by fewer pieces.
 #pragma once
 
 #include <string>

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "studies/forces/forces.h"
 #include "studies/reduce/reduce.h"
+#include "studies/run/simulate.h"
 #include "studies/steady/cycle_search.h"
 #include "tests/support/scenes.h"
 
@@ -53,28 +56,46 @@ accuracy = 1e-5
                      table);
 }
 
-TEST(DenseTables, AreTakenOnlyWhereThereAreManyPointsAndNoEdgesToRound) {
-  const Scene few = scene_from(engine(500)), many = scene_from(engine(1200));
-  EXPECT_EQ(tables_within(with_tables_within(few, 1e-5)), 0);
-  EXPECT_EQ(tables_within(many), 0);
-  EXPECT_EQ(tables_within(with_tables_within(many, 1e-5)), 1e-5);
-  EXPECT_EQ(words_of_dense_tables(many), "");
-  EXPECT_NE(words_of_dense_tables(with_tables_within(many, 1e-5)).find("crank.load.force (1201 points)"),
-            std::string::npos);
+bool tells_of_tables(const std::vector<std::string>& notes) {
+  return std::any_of(notes.begin(), notes.end(),
+                     [](const std::string& note) { return note.find("re-tabulated") != std::string::npos; });
+}
+
+TEST(DenseTables, AreTakenWhereItPaysAndNoEdgesAreRounded) {
+  const Scene few = scene_from(engine(150)), many = scene_from(engine(1200));
+  EXPECT_EQ(tables_within(few), 0);
+  EXPECT_NEAR(tables_within(many), 1e-5 / 3, 1e-20);
+  EXPECT_NEAR(tables_within(with_rougher_tables(many, 4)), 4e-5 / 3, 1e-20);
+  EXPECT_EQ(tables_within(with_rougher_tables(many, 0)), 0);
+  EXPECT_EQ(words_of_dense_tables(few), "");
+  EXPECT_NE(words_of_dense_tables(many).find("crank.load.force (1201 points)"), std::string::npos);
   const Scene rounded = scene_from([] {
     std::string text = engine(1200);
     return text.replace(text.find("work = "), 0, "rounding_angle = \"2 deg\", ");
   }());
-  EXPECT_EQ(tables_within(with_tables_within(rounded, 1e-5)), 0);
+  EXPECT_EQ(tables_within(rounded), 0);
+}
+
+// A point of every degree costs no more than one of every tenth of a degree; noise of a measurement stays as it is.
+TEST(DenseTables, TheThresholdIsByCost) {
+  EXPECT_GT(tables_within(scene_from(engine(720))), 0);
+  const Scene scene = scene_from(engine(720));
+  Scene closer = scene;
+  for (Setting& setting : closer.components[0].settings)
+    for (Section& load : setting.sections)
+      for (Setting& force : load.settings)
+        for (std::size_t i = 0; i + 1 < force.curve.y.size(); ++i)
+          force.curve.y[i] += (i % 3 == 0 ? 5.0 : -3.0), force.curve.within = 0;
+  EXPECT_EQ(tables_within(with_fewer_points(closer)), 0);
 }
 
 TEST(DenseTables, SteadyMotionIsThatOfTheTableWithinItsErrors) {
   const Scene scene = scene_from(engine(1200));
-  const SteadyCycle exact = search_cycle(scene, scene.effects, {.start_search = false});
+  const SteadyCycle exact = search_cycle(with_rougher_tables(scene, 0), scene.effects, {.start_search = false});
   const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
   ASSERT_TRUE(exact.found && study.complete) << exact.why << study.diagnosis;
   const SteadyCycle& fewer = study.cycles.front();
-  EXPECT_NE(study.notes.front().find("re-tabulated"), std::string::npos) << study.notes.front();
+  EXPECT_TRUE(tells_of_tables(fewer.notes));
   int compared = 0;
   for (const Figure& f : fewer.figures)
     if (const Figure* g = exact.find(f.name); g && f.error) {
@@ -88,9 +109,8 @@ TEST(DenseTables, SteadyMotionIsThatOfTheTableWithinItsErrors) {
 
 TEST(DenseTables, AReductionStatesWhatTheyLeaveOpen) {
   const Scene dense = scene_from(engine(1200));
-  Scene closer = dense;
-  closer.run.accuracy = 1e-9;
-  const MachineReduction a = reduce(dense, {}), b = reduce(closer, {});
+  const MachineReduction a = reduce(dense, {}), b = reduce(with_rougher_tables(dense, 0), {});
+  EXPECT_TRUE(tells_of_tables(a.notes));
   ASSERT_TRUE(a.mean_drive.error && b.mean_drive.error);
   EXPECT_LE(std::abs(a.mean_drive.value - b.mean_drive.value), *a.mean_drive.error + *b.mean_drive.error);
   ASSERT_EQ(a.spectra.size(), b.spectra.size());
@@ -100,6 +120,35 @@ TEST(DenseTables, AReductionStatesWhatTheyLeaveOpen) {
       ASSERT_TRUE(x.error && y.error);
       EXPECT_LE(std::abs(x.value - y.value), *x.error + *y.error) << a.spectra[i].name << " " << n;
     }
+}
+
+// Runs and forces of the same machine, by fewer pieces and as the table is given.
+TEST(DenseTables, ARunStatesWhatTheyLeaveOpen) {
+  Scene scene = scene_from(engine(1200));
+  scene.run.until = 2;
+  const Result fewer = simulate(scene, scene.effects, "", {}),
+               exact = simulate(with_rougher_tables(scene, 0), scene.effects, "", {});
+  EXPECT_TRUE(tells_of_tables(fewer.notes));
+  int compared = 0;
+  for (const Figure& f : fewer.figures)
+    if (const Figure* g = find(exact.figures, f.name); g && f.error) {
+      ++compared;
+      EXPECT_LE(std::abs(f.value - g->value), *f.error + g->error.value_or(0)) << f.name << " " << f.value;
+    }
+  EXPECT_GT(compared, 20);
+}
+
+TEST(DenseTables, ForcesStateWhatTheyLeaveOpen) {
+  const Scene scene = scene_from(engine(1200));
+  const Forces fewer = find_forces(scene, {}), exact = find_forces(with_rougher_tables(scene, 0), {});
+  ASSERT_TRUE(fewer.simulated && exact.simulated);
+  for (std::size_t k = 0; k < joint_count; ++k) {
+    EXPECT_EQ(fewer.prescribed->reaction[k].value, exact.prescribed->reaction[k].value);
+    const Peak &a = fewer.simulated->reaction[k], &b = exact.simulated->reaction[k];
+    EXPECT_LE(std::abs(a.value - b.value), *a.error + *b.error) << k;
+    EXPECT_LT(*a.error, 1e-4 * std::abs(a.value)) << k;
+  }
+  EXPECT_TRUE(tells_of_tables(fewer.notes));
 }
 
 }  // namespace
