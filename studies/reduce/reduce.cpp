@@ -167,7 +167,7 @@ class Reducer {
       r_.to_output = true;
       r_.to_rocker = slider_->rocks();
       r_.turns_back = least_ratio() < 0.15 * largest_ratio();
-      if (r_.turns_back) note_dead_centres();
+      note_motion_of_output();
       return;
     }
     target_node_ = node_named(model(), to);
@@ -175,12 +175,21 @@ class Reducer {
     r_.to_ratio = model().node_ratio[at(target_node_)];
   }
 
-  void note_dead_centres() {
+  // Whether what moves to and fro may be the reduction link itself.
+  void note_motion_of_output() {
+    const bool rocks = r_.to_rocker;
+    const std::string equation = rocks ? "I_r ε + ½ I_r′ ω² = M_d − M_c" : "m_r a + ½ m_r′ v² = F_d − F_c";
     r_.notes.push_back(
-        fmt::format("{} goes to and fro: beside its dead centres what is reduced to it grows as 1/x′² and 1/x′, and "
-                    "figures hold between them; its mean velocity over a cycle is zero, so that it has no δ: that of "
-                    "\"{}\" is told by kurbel steady",
-                    r_.to, r_.link));
+        r_.turns_back
+            ? fmt::format("{} goes to and fro: beside its dead centres what is reduced to it grows as 1/x′² and 1/x′, "
+                          "and figures hold between them; its mean velocity over a cycle is zero, so that it has no δ: "
+                          "that of \"{}\" is told by kurbel steady. Between two dead centres it moves by {}, but no "
+                          "motion goes through them that way: kurbel run integrates it over time",
+                          r_.to, r_.link, equation)
+            : fmt::format("{} may be the reduction link: it moves by {} throughout, which is the equation of \"{}\" "
+                          "over x′; kurbel run integrates it over time and records its position, velocity and "
+                          "acceleration",
+                          r_.to, equation, r_.link));
   }
 
   // On the link first; then all inertias over the square of the ratio, all torques over the ratio.
@@ -358,9 +367,7 @@ class Reducer {
           left_out += fmt::format("{}{} ({:.4g}°)", left_out.empty() ? "" : ", ", p.number, p.phi * 360 / turn);
       if (!left_out.empty())
         r_.notes.push_back(fmt::format(
-            "left out: position {}: a dead centre, where {} stands still; {} are infinite there, so that no motion is "
-            "integrated over its way but over time or angle",
-            left_out, r_.to,
+            "left out: position {}: a dead centre, where {} stands still; {} are infinite there", left_out, r_.to,
             r_.to_rocker ? "reduced inertia I_r/x′² and torque M/x′"
                          : "reduced mass m_r = I_r/x′² and force F_r = M/x′"));
     }

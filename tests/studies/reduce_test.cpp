@@ -115,6 +115,25 @@ TEST(Reduce, DeadCentresOfTheSliderAreLeftOutWithTheReason) {
   EXPECT_EQ(csv.find("—"), std::string::npos);
 }
 
+// A linear motor of 200 N against 50 N·s/m moves 40 kg: m_r = 40 kg and F_r = 200 N − 50 N·s/m · 2 m/s wherever it stands.
+TEST(Reduce, ALinearMotorMovesByItsReducedMassAndForce) {
+  const Scene scene = test::scene_from(R"(
+line = ["carriage"]
+carriage = { kind = "slide", radius = "0.5 m", mass = "40 kg", force = "-200 N", acts = "always", work = "driving", damping = "50 N*s/m" }
+run = { start = "rest", until = "1 s" }
+)");
+  const MachineReduction r = reduce(scene, options_of(12, "carriage.slider", 4));
+  EXPECT_FALSE(r.turns_back);
+  for (const ReducedPosition& p : r.positions) {
+    EXPECT_NEAR(p.inertia, 40, 1e-9);
+    EXPECT_NEAR(p.slope, 0, 1e-9);
+    EXPECT_NEAR(p.drive - p.load, 100, 1e-9);
+  }
+  EXPECT_TRUE(std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& note) {
+    return note.find("may be the reduction link: it moves by m_r a + ½ m_r′ v² = F_d − F_c") != std::string::npos;
+  }));
+}
+
 TEST(Reduce, AnotherShaftTakesInertiaOverTheSquareAndTorqueOverTheRatio) {
   const Scene scene = test::scene_from(press_scene);
   ReduceOptions options;
