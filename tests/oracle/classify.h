@@ -1,0 +1,48 @@
+// classify.h — what a machine did, by definitions on sampled states and commands in force; nothing of the program's own words.
+//
+// usual speed, usual torque: rated ones of the reduction link, as the model has them. A shaft turns above 1e-3 of its usual
+// speed; a torque acts above 1e-6 of the usual one.
+//
+//   begins      "at rest": the link does not turn at the first point; else "turning"
+//   moves       the link turns at any point
+//   end         "rests":      it does not turn at the end, and is held there or has not turned for the last 2 % of the time
+//               "vibrates":   in the last quarter of the time it turns in both senses, twice at least, and the angle that it
+//                             gained is less than a quarter of the way it went
+//               "forwards", "backwards": else, by the sense of the last 2 % of the time
+//   rests_since the last point at which it turned, of one that rests; 0 where it never did
+//   driven      a source is within its window of time and not told 0;  drives: and gives a torque that acts
+//   pushed      at the end a source whose own shaft stands gives more than 1e-3 of the usual torque, or a clutch, limiter or
+//               belt slips under torque
+//   does_not_start   begins at rest, never moves, and is pushed at the end
+//   stalls      turned at 1 % of the usual speed at least, rests at the end, and is pushed there
+//   falls       at the end it turns backwards at 1 % of the usual speed at least, more than half a turn behind its foremost
+//               point, began at rest or forwards, and no source drives it backwards
+//   turns_back  at the end it turns against what drives it, at 1 % of the usual speed at least, and lies more than half a turn
+//               behind the foremost point in the sense of the drive, or of the start
+//   no_round    a machine with a cycle has not turned by one cycle, moved, and rests or vibrates at the end, driven
+//   rounds      whole cycles of the link's angle, whichever way
+//   steady      of the time since the last command, window of time or start:
+//               "yes"  cycles repeat: the mean speeds of the last p cycles and of the p before them differ by less than 0.1 %,
+//                      extremes by less than 0.5 % of the mean speed, p = 1 … 6, and the mean speed of the last eighth differs
+//                      by less than 1 % from that of the eighth before it, where an eighth has a period
+//               "no"   for no p that fits do they differ by less than 1 %, or the eighths differ by more than 5 %
+//               else "unclear"; without a cycle ten equal parts of that time stand for the cycles, and p = 1
+//   run_up      when the link's speed enters for good the range of the last p cycles, wider by 1 % of the mean speed
+//   driven_part the same, of the time up to which any source is on, where none is at the end
+//   stands_within    share of the time of the last p cycles in which the link does not turn
+//   later       the same machine run on to four times the time: its speed in the mean of the last tenth, what it does at the end
+//   contacts    lets_go: slips at a command of 1 that has not changed since it held; engages: slips otherwise while it is told
+//               more than 0; open: told 0;  a slip counts from 1e-3 of the usual speed, or 1e-2 rad in all
+//   limits      of ratings that the scene states: greatest value sampled over the limit
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "tests/oracle/observed.h"
+
+namespace kurbel::oracle {
+
+// `seen`: to the scene's own end; `later`: the same machine for longer, null: not run.
+nlohmann::json classify(const Observed& seen, const Observed* later);
+
+}  // namespace kurbel::oracle

@@ -1,0 +1,332 @@
+"""What is said of a machine held against what it did: contradictions, and severe things that nobody says.
+
+    judge(answer) → [Finding(kind, label, words)]      answer: a line of kurbel_oracle
+"""
+from dataclasses import dataclass
+
+from told import Told
+
+NEAR = 0.01     # of a speed or torque: further apart is another one
+TURNS = 1e-3    # of the usual speed: a shaft turns (classify.h)
+CLEARLY = 0.05  # of the time: too late to be rounding
+
+
+@dataclass(frozen=True)
+class Finding:
+    kind: str   # "contradiction", "omission"
+    label: str  # of its class
+    words: str  # what is said, and what is true
+
+
+def differs(a, b, part=NEAR, least=0.0):
+    return abs(a - b) > part * max(abs(a), abs(b)) + least
+
+
+class Judge:
+    def __init__(self, answer):
+        self.truth, self.run, self.steady = answer["truth"], Told(answer.get("run", {})), Told(answer.get("steady", {}))
+        self.answer, self.found = answer, []
+        self.motion, self.later = self.truth.get("motion"), self.truth.get("later")
+
+    def contradiction(self, label, words):
+        self.found.append(Finding("contradiction", label, words))
+
+    def omission(self, label, words):
+        self.found.append(Finding("omission", label, words))
+
+    @property
+    def usual(self):
+        return self.motion["usual_speed"]
+
+    # Components that hold something at the end, by the engine's own account of what stands.
+    def holders(self):
+        names = []
+        for words in self.truth["held"]:
+            part = words.split(" is held at the end by ")[-1].split(":")[0]
+            names += [n.strip() for n in part.split(",")]
+        return names
+
+    def all(self):
+        if not self.motion or not self.truth["complete"] or self.truth["prescribed"]:
+            return []
+        if "refused" not in self.answer.get("run", {"refused": 1}) and self.run.summary.get("complete"):
+            for rule in (self.steadiness, self.boundaries, self.rest, self.starting, self.stalling, self.turning_back, self.running_away,
+                         self.round, self.final_speed, self.contacts, self.brakes, self.limits, self.reserves, self.motors):
+                rule()
+        if "refused" not in self.answer.get("steady", {"refused": 1}):
+            self.steady_study()
+        return self.found
+
+    # --- run: motion ---
+
+    def steadiness(self):
+        if not self.run.says("steady"):
+            return
+        p, m = self.run.periods, self.motion
+        off = p.get("run_down_begin")
+        part = self.truth.get("driven_part") if off is not None else m
+        if part is None:
+            return self.contradiction("runs down although it is driven", f"said: drive off from {off}; a source is on to the end")
+        claimed = self.run.value(f"mean_speed.{self.truth['link']}")
+        claimed = claimed if claimed is not None else self.run.value(f"mid_speed.{self.truth['link']}")
+        if off is None and m["end"] in ("rests", "vibrates"):
+            self.contradiction("runs steadily, but " + m["end"], f"speed at the end {m['speed_at_end']:.4g} rad/s")
+        elif part["steady"] == "no":
+            self.contradiction("runs steadily, but does not", f"drift {part['drift']:.3g} between eighths of the time, {part['laps']} laps")
+        stands, least, greatest = (part.get(k) or 0 for k in ("stands_within", "least_speed", "greatest_speed"))
+        if stands > 0.01 or least <= 0 < greatest:
+            self.contradiction("runs steadily, but stops or turns back within each period",
+                               f"stands {100 * stands:.0f} % of it, {least:.4g} … {greatest:.4g} rad/s")
+        elif claimed is not None and part["steady"] == "yes" and differs(claimed, part["mean_speed"], 0.02):
+            self.contradiction("steady speed is another", f"said {claimed:.5g}, sampled {part['mean_speed']:.5g} rad/s")
+        l = self.later
+        if off is None and l and l["complete"] and not self.truth["sequence"] and l["switched_last"] <= m["until"]:
+            if differs(m["speed_at_end"] if not m["cycle"] else m.get("mean_speed", 0), l["mean_speed_of_last_tenth"], 0.03):
+                self.contradiction("runs steadily, but goes on to another motion",
+                                   f"{m.get('mean_speed', m['speed_at_end']):.5g} rad/s at the end, {l['mean_speed_of_last_tenth']:.5g} after four times the time")
+        delta = self.run.value(f"delta.{self.truth['link']}")
+        if delta is not None and delta >= 2:
+            self.contradiction("δ of a motion that stops", f"δ = {delta:.4g}")
+
+    def boundaries(self):
+        """One definition of run-up, steady motion and run-down, everywhere."""
+        p, until = self.run.periods, self.motion["until"]
+        table = self.run.works_table()
+        up, down = p.get("run_up_end"), p.get("run_down_begin")
+        if up is not None and "run up" in table and differs(up, table["run up"][1], 1e-4):
+            self.contradiction("two ends of the run-up", f"said {up:.5g} s, table of works {table['run up'][1]:.5g} s")
+        if down is not None and "run down" in table and differs(down, table["run down"][0], 1e-4):
+            self.contradiction("two begins of the run-down", f"said {down:.5g} s, table of works {table['run down'][0]:.5g} s")
+        driving = self.run.value("work_of_run_down.driving")
+        whole = sum(abs(v) for v in (self.run.summary.get("energy_balance", {}).get("work") or {}).values())
+        if driving is not None and abs(driving) > 1e-6 * whole:
+            self.contradiction("run-down with driving work", f"{driving:.4g} J of {whole:.4g} J turned over")
+        part = self.truth.get("driven_part", self.motion) if down is not None else self.motion
+        if self.run.says("steady") and part["steady"] == "yes" and "run_up" in part:
+            cycle = self.motion["cycle"] / max(abs(part["mean_speed"]), 1e-9) if self.motion["cycle"] else 0
+            if abs((up or 0) - part["run_up"]) > CLEARLY * until + 1.5 * cycle:
+                self.contradiction("run-up ends elsewhere", f"said {up}, sampled {part['run_up']:.4g} s")
+        if down is not None and self.truth.get("driven_part") and abs(down - self.truth["driven_part"]["until"]) > 0.001 * until:
+            self.contradiction("run-down begins elsewhere", f"said {down:.5g}, the last source is on until {self.truth['driven_part']['until']:.5g} s")
+
+    def rest(self):
+        m, p = self.motion, self.run.periods
+        at = p.get("standstill")
+        if at is not None:
+            if m["end"] != "rests":
+                self.contradiction("rests, but does not", f"standstill said at {at:.4g} s; {m['end']} at the end")
+            elif not m["moves"]:
+                self.contradiction("comes to rest, but never moved", f"standstill said at {at:.4g} s")
+            elif abs(at - m["rests_since"]) > 0.02 * m["until"]:
+                self.contradiction("comes to rest at another time", f"said {at:.4g}, sampled {m['rests_since']:.4g} s")
+        at_rest = any(w in self.run.conclusion for w in ("is at rest", "ends at rest", "is all but at rest", "all but at rest"))
+        if at_rest and abs(m["speed_at_end"]) > 0.02 * self.usual:
+            self.contradiction("at rest, but turns", f"{m['speed_at_end']:.4g} rad/s at the end")
+        acting = abs(m["load_at_end"]) + (abs(m["drive_at_end"]) if m["pushed_at_end"] else 0)
+        if m["end"] == "rests" and m["held_at_end"] and acting > 1e-3 * m["usual_torque"] and self.holders() and \
+                not (m["does_not_start"] or m["stalls"] or self.braked_by_command()):
+            if not any(f'"{h}"' in self.run.conclusion for h in self.holders()):
+                self.omission("rests under load, and what holds it is not said",
+                              f"{', '.join(self.holders())} holds {m['load_at_end']:.4g} N·m; said: {self.run.sentences[0]}")
+        if not m["moves"] and m["end"] == "rests" and not m["does_not_start"] and \
+                any(w in self.run.conclusion for w in ("comes to rest", "runs down", "rests at")):
+            self.contradiction("stops, but never moved", self.run.sentences[0])
+
+    def starting(self):
+        m, r = self.motion, self.run
+        if r.says("does not start"):
+            if m["moves"]:
+                self.contradiction("does not start, but moves", f"fastest {m['fastest']:.4g} of usually {self.usual:.4g} rad/s")
+            elif "its loads hold" in r.conclusion and self.held_by_others():
+                self.contradiction("does not start: \"its loads hold\", but others do", f"held by {', '.join(self.holders())}")
+            elif not m["pushed_at_end"]:
+                self.contradiction("does not start, but nothing pushes", f"drive {m['drive_at_end']:.4g} N·m")
+        elif m["does_not_start"] and not r.says("stalls") and not r.bad_motion:
+            self.omission("does not start", f"a source pushes and nothing moves; said: {r.sentences[0]}")
+
+    # Brakes, gears that lock themselves: no load.
+    def held_by_others(self):
+        kinds = {c["component"]: c["kind"] for c in self.truth["contacts"]}
+        holders = self.holders()
+        return bool(holders) and all(kinds.get(h) == "brake" or h in ("gear", "worm", "gearbox") for h in holders)
+
+    def stalling(self):
+        m, r = self.motion, self.run
+        if r.says("stalls"):
+            if m["end"] != "rests":
+                self.contradiction("stalls, but turns", f"{m['speed_at_end']:.4g} rad/s at the end")
+            elif not m["moves"]:
+                self.contradiction("stalls, but never moved", r.sentences[0])
+            elif not m["pushed_at_end"]:
+                self.contradiction("stalls, but nothing pushes", r.sentences[0])
+            elif "the load can hold" in r.conclusion and self.held_by_others():
+                self.contradiction("stalls: \"the load can hold\", but others do", f"held by {', '.join(self.holders())}")
+        elif m["stalls"] and not m["does_not_start"] and not r.bad_motion and not self.braked_by_command():
+            self.omission("stalls", f"rests since {m['rests_since']:.4g} s under a source that pushes; said: {r.sentences[0]}")
+
+    # A brake that the sequence put on last: the machine is meant to stand.
+    def braked_by_command(self):
+        return self.truth["sequence"] and any(c["kind"] == "brake" and c["command_at_end"] > 0 for c in self.truth["contacts"])
+
+    def turning_back(self):
+        m, r = self.motion, self.run
+        if r.says("turns back") and not (m["speed_at_end"] < 0 and (m["turns_back"] or m["falls"])):
+            self.contradiction("turns back, but does not", f"{m['speed_at_end']:.4g} rad/s at the end")
+        negative = any(w in r.conclusion for w in ("backwards", "turns back", "at -", "away: -", "falls"))
+        if m["falls"] and not negative:
+            self.omission("falls or turns back", f"{m['speed_at_end']:.4g} rad/s at the end, fastest {m['fastest']:.4g}; said: {r.sentences[0]}")
+        elif m["falls"] and not (r.says("turns back") or "falls" in r.conclusion or "backwards" in r.conclusion):
+            self.omission("falls or turns back, told by a sign alone", f"{m['speed_at_end']:.4g} rad/s at the end; said: {r.sentences[0]}")
+
+    def running_away(self):
+        m, l, r = self.motion, self.later, self.run
+        if not l or not l["complete"] or l["switched_last"] > m["until"]:
+            return
+        end, last = abs(m["speed_at_end"]), abs(l["mean_speed_of_last_tenth"])
+        grows = last > 1.3 * end and last > 1.3 * abs(l["mean_speed_before"])
+        if r.says("runs away") and not grows:
+            self.contradiction("runs away, but settles", f"{end:.4g} rad/s at the end, {last:.4g} after four times the time")
+        if grows and end > 1.5 * self.usual and not r.says("runs away") and not r.says("turns back") and not self.truth["sequence"] and \
+                not (r.says("not steady") or m["falls"]):
+            self.omission("runs away", f"{end:.4g} rad/s at the end, {last:.4g} after four times the time, usual {self.usual:.4g}; said: {r.sentences[0]}")
+
+    def round(self):
+        m, r = self.motion, self.run
+        if r.says("no round") and m["rounds"] >= 1:
+            self.contradiction("does not get round, but does", f"{m['rounds']:.0f} cycles")
+        if m["no_round"] and not r.bad_motion and not self.braked_by_command() and not m["stalls"]:
+            self.omission("does not get round", f"{m['end']} at the end; said: {r.sentences[0]}")
+        if m["end"] == "vibrates" and r.says("ends") and "at rest" in r.conclusion and m["fastest"] > 0.05 * self.usual and \
+                abs(m["speed_at_end"]) > TURNS * self.usual:
+            self.contradiction("at rest, but vibrates", f"{m['speed_at_end']:.4g} rad/s at the end")
+
+    def final_speed(self):
+        said = self.run.value(f"final_speed.{self.truth['link']}")
+        if said is not None and abs(said - self.motion["speed_at_end"]) > 0.02 * max(self.usual, self.motion["fastest"]):
+            self.contradiction("final speed is another", f"said {said:.5g}, sampled {self.motion['speed_at_end']:.5g} rad/s")
+
+    # --- run: contacts, limits ---
+
+    def contacts(self):
+        r, severe = self.run, []
+        for c in self.truth["contacts"]:
+            name, kind = c["component"], c["kind"]
+            if kind == "brake":
+                continue
+            if r.says("lets go", name) and c["lets_go"] == 0:
+                label = "lets go although closed, but was not closed" if c["holds"] == 0 or c["command_at_end"] < 1 else "lets go although closed, but does not"
+                self.contradiction(label, f"\"{name}\": held {c['holds']:.3g} s, open {c['open']:.3g} s, slipped {c['times_slipping']} times")
+            elif r.says("lets go", name) and r.counts.get(name) and abs(r.counts[name] - c["lets_go"]) > max(1, 0.2 * c["lets_go"]):
+                self.contradiction("lets go another number of times", f"\"{name}\": said {r.counts[name]}, sampled {c['lets_go']}")
+            if r.says("slips to the end", name):
+                if kind == "one-way clutch":
+                    self.contradiction("a freewheel that overruns \"slips\"", f"\"{name}\" runs ahead by {c['slip_at_end']:.4g} rad/s")
+                elif not c["slips_to_the_end"] and c["at_end"] != "slips":
+                    self.contradiction("slips to the end, but does not", f"\"{name}\" {c['at_end']} at the end")
+                elif c["command_at_end"] < 1:
+                    self.contradiction("slips to the end \"that it can transmit\" while it is partly open", f"\"{name}\" is told {c['command_at_end']:.3g}")
+            if kind == "one-way clutch":
+                continue
+            slips = r.mentions(name, "slip", "lets go")
+            if c["slips_to_the_end"] and c["torque_of_last"] > 1e-3 * self.motion["usual_torque"]:
+                severe.append(name)
+                if not slips:
+                    self.omission(f"{kind} slips to the end", f"\"{name}\" by {c['slip_at_end']:.4g} rad/s since {c['slips_since']:.4g} s; said: {r.conclusion[:160]}")
+            elif c["lets_go"] >= 1 and c["deepest"] > 0.1:
+                severe.append(name)
+                if not slips:
+                    self.omission(f"closed {kind} slips on the way", f"\"{name}\" {c['lets_go']} times, up to {c['deepest']:.3g} rad; said: {r.conclusion[:160]}")
+        if severe and any(w in r.conclusion for w in (" ratings hold", "Its rating holds", "its rating holds")):
+            self.contradiction("all ratings hold, beside a closed contact that slips", ", ".join(severe))
+
+    def brakes(self):
+        r, m = self.run, self.motion
+        for c in self.truth["contacts"]:
+            name = c["component"]
+            if c["kind"] != "brake":
+                continue
+            said = r.says("brake too weak", name) or r.says("brake not done", name)
+            turns = c["at_end"] == "slips" and abs(c["slip_at_end"]) > TURNS * c["usual_speed"]
+            if said and not turns:
+                self.contradiction("does not stop it, but has", f"\"{name}\" {c['at_end']} at the end")
+            if turns and not said and c["command_at_end"] > 0 and m["until"] - c["slips_since"] > CLEARLY * m["until"] and not r.mentions(name):
+                self.omission("brake is on and the machine turns", f"\"{name}\" slips at {c['slip_at_end']:.4g} rad/s since {c['slips_since']:.4g} s; said: {r.sentences[0]}")
+
+    WORDS = {"heat": "heat of an engagement", "heat power": "mean heat power", "tension": "strand force", "reserve": "reserve against slip",
+             "maximum torque": "maximum torque", "shear stress": "shear stress", "rim speed": "rim speed", "rim stress": "hoop stress"}
+
+    def limits(self):
+        for limit in self.truth["limits"]:
+            head = self.WORDS.get(limit["what"])
+            if not head:
+                continue
+            told = next((v for v in self.run.ratings if v["component"] == limit["component"] and v["requirement"].startswith(head)), None)
+            use = limit["value"] / limit["limit"]
+            what = f"\"{limit['component']}\", {limit['what']}: sampled {100 * use:.0f} % of {limit['limit']:.4g} {limit['unit']}"
+            if not told:
+                if use > 1.01:
+                    self.omission("limit exceeded, and not judged", what)
+            elif use > 1.01 and told["verdict"] == "holds":
+                self.contradiction("limit holds, but is exceeded", f"{what}; said {told['value']:.4g}")
+            elif use < 0.9 and told["verdict"] == "exceeded" and not told.get("bound"):
+                self.contradiction("limit exceeded, but is not", f"{what}; said {told['value']:.4g}")
+            elif use > 1.01 and "EXCEEDED" not in self.run.conclusion:
+                self.omission("limit exceeded, and not in the conclusion", what)
+            elif told and not told.get("bound") and differs(told["value"], limit["value"], 0.05) and told["verdict"] != "undecided" and \
+                    limit["what"] in ("heat", "heat power", "rim speed"):
+                self.contradiction("value of a limit is another", f"{what}; said {told['value']:.5g}, sampled {limit['value']:.5g}")
+
+    def reserves(self):
+        for c in self.truth["contacts"]:
+            said = self.run.value(f"torque_reserve.{c['component']}")
+            if said is None or c["kind"] not in ("clutch", "torque limiter"):
+                continue
+            if c["greatest_held_torque"] <= 0:
+                self.contradiction("reserve of a clutch that never held", f"\"{c['component']}\" torque_reserve = {said:.4g}")
+            elif c["capacity"] and said > 0 and c["lets_go"] == 0 and differs(said, c["capacity"] / c["greatest_held_torque"], 0.05):
+                self.contradiction("reserve is another", f"\"{c['component']}\" said {said:.4g}, sampled {c['capacity'] / c['greatest_held_torque']:.4g}")
+
+    def motors(self):
+        m, r = self.motion, self.run
+        for motor in self.truth["motors"]:
+            name = motor["component"]
+            if motor["stands"] and abs(motor["torque"]) > 0.1 * motor["rated_torque"] and not r.bad_motion and not self.braked_by_command():
+                self.omission("motor stands under torque", f"\"{name}\" gives {motor['torque']:.4g} N·m (rated {motor['rated_torque']:.4g}) at rest; said: {r.sentences[0]}")
+            if motor["kind"] == "induction motor" and r.says("hangs", name) and motor["speed"] > 0.9 * motor["rated_speed"]:
+                self.contradiction("does not come up to speed, but has", f"\"{name}\" {motor['speed']:.4g} of {motor['rated_speed']:.4g} rad/s")
+            hot = motor["late_rms_torque"] > 1.05 * motor["rated_torque"] > 0
+            if hot and m["steady"] == "yes" and motor["command"] != 0 and not r.mentions(name, "hot", "EXCEEDED", "hangs", "stands", "stalls", "does not start"):
+                self.omission("motor beyond its rated torque in steady motion",
+                              f"\"{name}\" RMS {motor['late_rms_torque']:.4g} of {motor['rated_torque']:.4g} N·m in the last quarter; said: {r.conclusion[:200]}")
+
+    # --- steady ---
+
+    def steady_study(self):
+        s, l, m = self.steady, self.later, self.motion
+        rests = s.time_of(r"comes to rest at TIME")
+        if rests is not None:
+            where = l if l and l["complete"] else m
+            if not m["moves"] and not where["moves"]:
+                self.contradiction("steady: comes to rest, but never moved", f"said at {rests:.4g} s")
+            elif where["end"] == "rests" and abs(rests - where["rests_since"]) > 0.02 * where["until"] and not self.truth["sequence"]:
+                self.contradiction("steady: comes to rest at another time", f"said {rests:.4g}, sampled {where['rests_since']:.4g} s")
+        if not l or not l["complete"] or self.truth["sequence"] or l["switched_last"] > 0:
+            return
+        cycles = [c for c in s.summary.get("cycles", ()) if c.get("found")]
+        cycle = cycles[-1] if cycles and cycles[-1].get("effects") == self.run.summary.get("model", {}).get("effects") else None
+        if cycle and l["steady"] == "yes" and "In the end" not in s.conclusion:
+            mean = next((f["value"] for f in cycle["figures"] if f["name"] == f"mean_speed.{self.truth['link']}"), None)
+            if mean is not None and differs(mean, l["mean_speed"], 0.02):
+                self.contradiction("steady: another speed than the run comes to", f"said {mean:.5g}, sampled {l['mean_speed']:.5g} rad/s")
+        if cycle and l["end"] == "rests" and "In the end" not in s.conclusion:
+            mean = next((f["value"] for f in cycle["figures"] if f["name"] == f"mean_speed.{self.truth['link']}"), None)
+            if mean is not None and abs(mean) > 0.01 * self.usual:
+                self.contradiction("steady: a cycle, but it comes to rest", f"said {mean:.5g} rad/s; rests since {l['rests_since']:.4g} s; {s.conclusion[:120]}")
+        if not s.summary.get("complete", True) and l["steady"] == "yes" and abs(l["mean_speed"]) > 0.01 * self.usual:
+            self.contradiction("steady: finds no cycle where the run settles", f"{s.conclusion[:200]}; sampled {l['mean_speed']:.5g} rad/s")
+
+
+def judge(answer):
+    if "refused" in answer["truth"]:
+        return []
+    return Judge(answer).all()

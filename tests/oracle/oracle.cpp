@@ -1,0 +1,86 @@
+// oracle.cpp — a program: what each scene's machine did by the classifier, and what the studies say of it, a line of JSON each.
+//
+//     kurbel_oracle FILE…                      scenes one after the other; without any their names come by standard input
+//     kurbel_oracle --classify FILE…           the classifier alone
+//
+// {"scene": …, "truth": classify.h, "run": summary of `run`, "steady": summary of `steady`, "cpu": …}; what was refused
+// stands as {"refused": why} in its place.
+#include <fmt/format.h>
+#include <kurbel/kurbel.h>
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "engine/numerics/deadline.h"
+#include "studies/scenes/kinds.h"
+#include "tests/oracle/classify.h"
+
+namespace {
+
+using namespace kurbel;
+using nlohmann::json;
+
+constexpr double budget = 5;         // of an integration [s]
+constexpr double cheap = 0.3;        // a run that took less goes on for longer
+constexpr double times_as_long = 4;  // than the scene says
+
+template <class Of>
+json unless_refused(Of&& of) {
+  try {
+    return of();
+  } catch (const std::exception& error) {
+    return {{"refused", error.what()}};
+  }
+}
+
+json truth_of(const std::string& file) {
+  const Scene scene = read_scene(file, all_kinds());
+  const auto model = compile(scene, scene.effects);
+  const oracle::Observed seen = oracle::observe(model, scene.run.until, budget);
+  if (!seen.outcome.complete || seen.cpu_seconds > cheap) return oracle::classify(seen, nullptr);
+  const oracle::Observed later = oracle::observe(model, times_as_long * scene.run.until, budget);
+  return oracle::classify(seen, &later);
+}
+
+json answers_of(const std::string& file, bool of_run) {
+  const Machine machine = Machine::from_file(file);
+  if (of_run) {
+    const Study told = run(machine, {.plots = false}).study();
+    json summary = json::parse(told.json());
+    summary["text"] = told.text();  // has the table of works by periods, which is for people alone
+    return summary;
+  }
+  return json::parse(study("steady", machine).json());
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::vector<std::string> files(arguments + 1, arguments + count);
+  bool classify_alone = false;
+  std::erase_if(files, [&](const std::string& text) {
+    const bool is = text == "--classify";
+    classify_alone = classify_alone || is;
+    return is;
+  });
+  const auto answer = [&](const std::string& file) {
+    const double begin = processor_time();
+    json line{{"scene", file}};
+    line["truth"] = unless_refused([&] { return truth_of(file); });
+    line["cpu_truth"] = processor_time() - begin;
+    if (!classify_alone && !line["truth"].contains("refused")) {
+      line["run"] = unless_refused([&] { return answers_of(file, true); });
+      line["steady"] = unless_refused([&] { return answers_of(file, false); });
+    }
+    line["cpu"] = processor_time() - begin;
+    fmt::print("{}\n", line.dump());
+    std::fflush(stdout);
+  };
+  for (const std::string& file : files) answer(file);
+  if (files.empty())
+    for (std::string file; std::getline(std::cin, file);)
+      if (!file.empty()) answer(file);
+}

@@ -1,0 +1,160 @@
+"""scripts/oracle --check: is a falsified sentence found, and nothing where words and motion agree?"""
+import copy
+import sys
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import machines  # noqa: E402
+from judge import judge  # noqa: E402
+
+
+def motion(**changes):
+    return {"cycle": 6.2831853, "usual_speed": 30.0, "usual_torque": 20.0, "until": 10.0, "begins": "at rest", "moves": True, "end": "forwards",
+            "speed_at_end": 30.0, "held_at_end": False, "fastest": 31.0, "rests_since": 10.0, "driven_at_end": True, "drives_at_end": True,
+            "drive_at_end": 12.0, "load_at_end": -12.0, "drives_until": 10.0, "pushed_at_end": False, "falls": False,
+            "does_not_start": False, "stalls": False, "turns_back": False, "no_round": False, "rounds": 40, "angle_gained": 250.0,
+            "switched_last": 0.0, "laps": 40, "steady": "yes", "drift": 1e-6, "period": 1, "mean_speed": 30.0, "least_speed": 29.0,
+            "greatest_speed": 31.0, "stands_within": 0.0, "run_up": 1.0, **changes}
+
+
+def contact(kind="clutch", **changes):
+    return {"component": "clutch", "kind": kind, "capacity": 100.0, "usual_speed": 30.0, "open": 0.0, "holds": 9.0, "slips": 1.0,
+            "times_slipping": 1, "lets_go": 0, "engages": 1, "first_let_go": None, "longest": 0.0, "deepest": 0.0,
+            "greatest_held_torque": 50.0, "heat": 10.0, "hottest": 10.0, "at_end": "holds", "slips_since": 1.0, "command_at_end": 1.0,
+            "slip_at_end": 0.0, "torque_of_last": 50.0, "slips_to_the_end": False, **changes}
+
+
+def answer(conclusion='"press" runs steadily at 30 rad/s from 1 s on.', truth=None, contacts=(), limits=(), periods=None, figures=None, ratings=(),
+           later=None, steady=None, held=(), motors=(), sequence=0, text=""):
+    m = motion(**(truth or {}))
+    figures = {"mean_speed.press": 30.0, "final_speed.press": m["speed_at_end"], **(figures or {})}
+    periods = {"run_up_end": 1.0, "run_down_begin": None, "standstill": None, "steady": True, **(periods or {})}
+    later = {**m, "until": 40.0, "rests_since": 40.0 if m["end"] != "rests" else m["rests_since"], "complete": True,
+             "mean_speed_of_last_tenth": m["speed_at_end"], "mean_speed_before": m["speed_at_end"], **(later or {})}
+    return {"scene": "x.toml",
+            "truth": {"complete": True, "prescribed": False, "link": "press", "sequence": sequence, "repeats": False, "motion": m, "later": later,
+                      "contacts": list(contacts), "motors": list(motors), "limits": list(limits), "held": list(held)},
+            "run": {"complete": True, "conclusion": conclusion, "periods": periods, "model": {"effects": "none"}, "ratings": list(ratings), "text": text,
+                    "figures": [{"name": n, "value": v} for n, v in figures.items()], "energy_balance": {"work": {"driving": 100.0}}},
+            "steady": steady or {"complete": True, "conclusion": "Steady cycle, rigid: mean speed 30 rad/s.", "cycles": [
+                {"found": True, "effects": "none", "figures": [{"name": "mean_speed.press", "value": 30.0}]}]}}
+
+
+REST = {"end": "rests", "speed_at_end": 0.0, "steady": "no", "held_at_end": True, "rests_since": 5.0, "drive_at_end": 0.0,
+        "drives_at_end": False}
+NEVER = {**REST, "moves": False, "fastest": 0.0, "rests_since": 0.0}
+NOTHING = {"complete": True, "conclusion": "", "cycles": []}
+HELD = ['"press" is held at the end by brake: -8.8 N·m act; forwards: 12 N·m are held, 21 N·m are missing']
+HOT = {"component": "clutch", "what": "heat", "value": 12.0, "limit": 10.0, "unit": "J"}
+TELLS = {"component": "clutch", "requirement": "heat of an engagement: W ≤ W_allowable", "value": 12.0, "limit": 10.0, "verdict": "exceeded"}
+MOTOR = {"component": "motor", "kind": "induction motor", "rated_torque": 20.0, "rated_speed": 30.0, "torque": 12.0, "speed": 30.0, "command": 1.0,
+         "greatest_torque": 50.0, "rms_torque": 12.0, "late_rms_torque": 12.0, "stands": False}
+
+# Class of the finding → an answer that falsifies a sentence, or lacks one.
+FALSE = {
+    "runs steadily, but rests": answer(truth=REST, steady=NOTHING),
+    "runs steadily, but does not": answer(truth={"steady": "no", "drift": 0.2}),
+    "runs steadily, but stops or turns back within each period": answer(truth={"stands_within": 0.5, "least_speed": -0.1}),
+    "runs steadily, but goes on to another motion": answer(later={"mean_speed_of_last_tenth": 60.0, "steady": "unclear"}),
+    "steady speed is another": answer(figures={"mean_speed.press": 33.0}),
+    "δ of a motion that stops": answer(figures={"delta.press": 2.063}),
+    "two ends of the run-up": answer(text="  run up            0       1.8439   5.0"),
+    "two begins of the run-down": answer('"press" runs steadily at 30 rad/s from 1 s on, runs down from 8 s.', periods={"run_down_begin": 8.0},
+                                         text="  run down   7.5  10  5.0"),
+    "runs down although it is driven": answer(periods={"run_down_begin": 8.0}),
+    "run-down with driving work": answer(figures={"work_of_run_down.driving": 3.0}),
+    "run-up ends elsewhere": answer(periods={"run_up_end": 3.0}),
+    "rests, but does not": answer('"press" is at 30 rad/s after 10 s.', periods={"standstill": 5.0}),
+    "comes to rest, but never moved": answer('"press" is at rest after 10 s.', NEVER, periods={"standstill": 5.0}, steady=NOTHING),
+    "comes to rest at another time": answer('"press" is at rest after 10 s.', REST, periods={"standstill": 7.0}, steady=NOTHING),
+    "at rest, but turns": answer('"press" is at rest after 10 s.'),
+    "rests under load, and what holds it is not said": answer('"press" is at rest after 10 s.', REST, held=HELD, steady=NOTHING),
+    "does not start, but moves": answer('"press" does not start: its loads hold the 5 N·m that drive it.'),
+    "does not start: \"its loads hold\", but others do": answer(
+        '"press" does not start: its loads hold the 5 N·m that drive it.', {**NEVER, "does_not_start": True, "pushed_at_end": True},
+        contacts=[contact("brake", component="brake")], held=HELD, steady=NOTHING),
+    "does not start": answer('"press" is at rest after 10 s.', {**NEVER, "does_not_start": True, "pushed_at_end": True}, steady=NOTHING),
+    "stalls, but turns": answer('"press" stalls at 3° after 2 s: the load can hold the 5 N·m.'),
+    "stalls, but never moved": answer('"press" stalls at 3° after 2 s: the load can hold the 5 N·m.', NEVER, steady=NOTHING),
+    "stalls": answer('"press" is at rest after 10 s.', {**REST, "stalls": True, "pushed_at_end": True}, steady=NOTHING),
+    "turns back, but does not": answer('"press" turns backwards, at 3 rad/s at the end.'),
+    "falls or turns back": answer('"press" runs steadily at 30 rad/s.', {"falls": True, "end": "backwards", "speed_at_end": -30.0, "steady": "unclear"}),
+    "runs away, but settles": answer('"press" runs away: 90 rad/s at the end.'),
+    "runs away": answer('"press" is at 60 rad/s after 10 s.', {"speed_at_end": 60.0, "steady": "unclear"}, later={
+        "mean_speed_of_last_tenth": 200.0, "mean_speed_before": 90.0}),
+    "does not get round, but does": answer('"press" does not get round: it is at 50° at the end.'),
+    "does not get round": answer('"press" is at 0 rad/s after 10 s.', {**REST, "end": "vibrates", "no_round": True, "rounds": 0}, steady=NOTHING),
+    "final speed is another": answer('"press" is at 20 rad/s after 10 s.', figures={"final_speed.press": 20.0}),
+    "lets go although closed, but was not closed": answer('"clutch" lets go twice although it is closed, first at 1 s.',
+                                                          contacts=[contact(command_at_end=0.0, holds=0.0, open=10.0, at_end="open")]),
+    "lets go although closed, but does not": answer('"clutch" lets go twice although it is closed, first at 1 s.', contacts=[contact()]),
+    "lets go another number of times": answer('"clutch" lets go twice although it is closed, first at 1 s.', contacts=[contact(lets_go=9, deepest=1.0)]),
+    "a freewheel that overruns \"slips\"": answer('"clutch" slips to the end, by 3 rad/s.', contacts=[
+        contact("one-way clutch", at_end="slips", slips_to_the_end=True, slip_at_end=-3.0)]),
+    "slips to the end, but does not": answer('"clutch" slips to the end, by 3 rad/s.', contacts=[contact()]),
+    "clutch slips to the end": answer(contacts=[contact(at_end="slips", slips_to_the_end=True, slip_at_end=3.0)]),
+    "belt slips to the end": answer(contacts=[contact("belt", at_end="slips", slips_to_the_end=True, slip_at_end=3.0)]),
+    "closed clutch slips on the way": answer(contacts=[contact(lets_go=10, deepest=0.5)]),
+    "all ratings hold, beside a closed contact that slips": answer(
+        '"press" runs steadily at 30 rad/s from 1 s on. All 4 ratings hold. "clutch" lets go 10 times although it is closed.',
+        contacts=[contact(lets_go=10, deepest=0.5)]),
+    "does not stop it, but has": answer('"clutch" does not stop it: it slips at 3 rad/s.', contacts=[contact("brake")]),
+    "brake is on and the machine turns": answer(contacts=[contact("brake", at_end="slips", slip_at_end=30.0, slips_since=2.0)]),
+    "limit exceeded, and not judged": answer(limits=[HOT]),
+    "limit holds, but is exceeded": answer(limits=[HOT], ratings=[{**TELLS, "verdict": "holds", "value": 9.0}]),
+    "limit exceeded, but is not": answer('A rating is EXCEEDED.', limits=[{**HOT, "value": 5.0}], ratings=[TELLS]),
+    "limit exceeded, and not in the conclusion": answer(limits=[HOT], ratings=[TELLS]),
+    "reserve of a clutch that never held": answer(figures={"torque_reserve.clutch": 8.65e-8}, contacts=[contact(greatest_held_torque=0.0)]),
+    "reserve is another": answer(figures={"torque_reserve.clutch": 3.0}, contacts=[contact()]),
+    "motor stands under torque": answer(motors=[{**MOTOR, "speed": 0.0, "stands": True}]),
+    "does not come up to speed, but has": answer('"motor" does not come up to speed: it hangs at 12 rad/s.', motors=[MOTOR]),
+    "motor beyond its rated torque in steady motion": answer(motors=[{**MOTOR, "late_rms_torque": 30.0}]),
+    "steady: comes to rest, but never moved": answer('"press" is at rest after 10 s.', NEVER, steady={
+        "complete": False, "conclusion": "No steady cycle: the machine comes to rest at 377 s and stays there.", "cycles": []}),
+    "steady: comes to rest at another time": answer('"press" is at rest after 10 s.', REST, steady={
+        "complete": False, "conclusion": "No steady cycle: the machine comes to rest at 9.5 s and stays there.", "cycles": []}),
+    "steady: another speed than the run comes to": answer(figures={"mean_speed.press": 30.0}, steady={
+        "complete": True, "conclusion": "Steady cycle", "cycles": [
+            {"found": True, "effects": "none", "figures": [{"name": "mean_speed.press", "value": 50.0}]}]}),
+    "steady: finds no cycle where the run settles": answer(steady={"complete": False, "conclusion": "No cycle.", "cycles": []}),
+}
+# Said as it is.
+TRUE = {
+    "steady": answer(),
+    "rests": answer('"press" is at rest after 10 s.', REST, periods={"standstill": 5.0}, steady=NOTHING),
+    "held": answer('"press" is at rest after 10 s: "brake" holds the 8.8 N·m that act.', REST, held=HELD, steady=NOTHING),
+    "does not start": answer('"press" does not start: its loads hold the 5 N·m that drive it.', {**NEVER, "does_not_start": True, "pushed_at_end": True},
+                             steady=NOTHING),
+    "lets go": answer('"press" runs steadily at 30 rad/s from 1 s on. "clutch" lets go 10 times although it is closed, first at 1 s.',
+                      contacts=[contact(lets_go=10, deepest=0.5)]),
+    "exceeded": answer('A rating is EXCEEDED, "clutch".', limits=[HOT], ratings=[TELLS]),
+    "falls": answer('"press" turns backwards, at -30 rad/s at the end.', {"falls": True, "end": "backwards", "speed_at_end": -30.0, "steady": "unclear"},
+                    periods={"steady": False}),
+}
+
+
+class Sees(unittest.TestCase):
+    def test_every_falsified_sentence(self):
+        for label, told in FALSE.items():
+            with self.subTest(label):
+                self.assertIn(label, [f.label for f in judge(told)])
+
+    def test_nothing_where_words_and_motion_agree(self):
+        for name, told in TRUE.items():
+            with self.subTest(name):
+                self.assertEqual(judge(copy.deepcopy(told)), [])
+
+
+class Machines(unittest.TestCase):
+    def test_a_number_has_one_machine(self):
+        self.assertEqual(machines.machine("3", 14), machines.machine("3", 14))
+        self.assertNotEqual(machines.machine("3", 14).text, machines.machine("3", 15).text)
+
+    def test_all_families_come(self):
+        self.assertEqual({machines.machine("1", k).family for k in range(300)}, set(machines.FAMILIES))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,83 @@
+"""What a summary says of a machine, as facts: from typed claims where it has them, else from the sentences of its conclusion."""
+import re
+
+NUMBER = r"[-−+]?[\d.]+(?:e[-+]?\d+)?"
+TIMES = {"once": 1, "twice": 2}
+FACTORS = {"µs": 1e-6, "ms": 1e-3, "s": 1, "min": 60, "h": 3600}
+TIME = rf"({NUMBER}) (µs|ms|s|min|h)\b"
+
+# Name of what is said, and the sentence that says it; the first group is the component.
+SENTENCES = {
+    "stalls": r'"([^"]+)" stalls at ',
+    "does not start": r'"([^"]+)" does not start',
+    "turns back": r'"([^"]+)" turns backwards',
+    "runs away": r'"([^"]+)" runs away',
+    "hangs": r'"([^"]+)" does not come up to speed',
+    "no round": r'"([^"]+)" does not get round',
+    "slips to the end": r'"([^"]+)" slips to the end',
+    "brake too weak": r'"([^"]+)" does not stop it',
+    "brake not done": r'"([^"]+)" has not stopped it by the end',
+    "lets go": r'"([^"]+)" lets go (once|twice|\d+ times) although it is closed',
+    "slips at times": r'"([^"]+)" slips (once|twice|\d+ times), first',
+    "steady": r'"([^"]+)" runs steadily at ',
+    "sequence done": r'"([^"]+)" goes through its operating sequence',
+    "not steady": r'"([^"]+)" has not come to a steady motion',
+    "ends": r'"([^"]+)" is (at rest|all but at rest|at )',
+    "too hot": r'"([^"]+)" gets too hot',
+}
+# What tells that the machine's motion is not what it should be.
+BAD_MOTION = ("stalls", "does not start", "turns back", "runs away", "hangs", "no round", "slips to the end", "brake too weak",
+              "brake not done")
+
+
+class Told:
+    def __init__(self, summary):
+        self.summary = summary
+        self.conclusion = summary.get("conclusion", "").replace("−", "-")
+        self.text = summary.get("text", "")
+        self.claims = {}  # name → list of components
+        for name, pattern in SENTENCES.items():
+            found = re.findall(pattern, self.conclusion)
+            if found:
+                self.claims[name] = [f[0] if isinstance(f, tuple) else f for f in found]
+        self.counts = {c: TIMES.get(n) or int(n.split()[0]) for c, n in
+                       re.findall(r'"([^"]+)" (?:lets go|slips) (once|twice|\d+ times)', self.conclusion)}
+
+    def says(self, name, component=None):
+        return name in self.claims and (component is None or component in self.claims[name])
+
+    @property
+    def bad_motion(self):
+        return [name for name in BAD_MOTION if name in self.claims]
+
+    def mentions(self, component, *words):
+        """A sentence of the conclusion names the component with one of these words."""
+        return any(f'"{component}"' in s and (not words or any(w in s for w in words)) for s in self.sentences)
+
+    @property
+    def sentences(self):
+        return re.split(r"(?<=[a-zA-Z\d)%\"°])\. (?=[\"A-Z\d])", self.conclusion)
+
+    def time_of(self, pattern):
+        found = re.search(pattern.replace("TIME", TIME), self.conclusion)
+        return found and float(found.group(1)) * FACTORS[found.group(2)]
+
+    def figure(self, name):
+        return next((f for f in self.summary.get("figures", ()) if f["name"] == name), None)
+
+    def value(self, name):
+        f = self.figure(name)
+        return f["value"] if f else None
+
+    @property
+    def periods(self):
+        return self.summary.get("periods") or {}
+
+    @property
+    def ratings(self):
+        return self.summary.get("ratings") or []
+
+    def works_table(self):
+        """{"run up": (from, to), …} of the table of works by periods, which people are shown."""
+        rows = re.findall(rf"^\s*(run up|steady motion|run down)\s+({NUMBER})\s+({NUMBER})\s", self.text.replace("−", "-"), re.M)
+        return {name: (float(a), float(b)) for name, a, b in rows}
