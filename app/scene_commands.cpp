@@ -20,6 +20,7 @@
 #include "studies/scenes/kinds.h"
 #include "studies/scenes/schema.h"
 #include "studies/scenes/templates.h"
+#include "studies/scenes/train_sheet.h"
 
 namespace kurbel::app::scene_commands {
 namespace {
@@ -62,19 +63,18 @@ std::string as_word(const std::string& path) {
   return quoted + "'";
 }
 
-// Writes a scene to start from and, for editors, the schema beside it; refuses to overwrite.
-int new_scene(const std::string& kind, const std::string& file) {
-  const SceneTemplate& scene = template_named(kind);
-  const fs::path path = file.empty() ? fs::path(kind + ".toml") : fs::path(file);
+// Writes a scene to start from and, for editors, the schema beside it; refuses to overwrite. `again`: the command with which
+// another file is named.
+int write_scene(std::string_view text, const std::string& doc, const fs::path& path, const std::string& again) {
   const fs::path schema = path.parent_path() / "scene.schema.json";
-  const std::string_view body = scene.text.substr(scene.text.starts_with("#:schema") ? scene.text.find('\n') + 1 : 0);
+  const std::string_view body = text.substr(text.starts_with("#:schema") ? text.find('\n') + 1 : 0);
   const bool taken = fs::exists(fs::symlink_status(path));
   if (taken || !write_whole(path, fmt::format("#:schema ./scene.schema.json\n{}", body), Existing::keep))
     throw std::invalid_argument(fmt::format(
-        "{} exists already and is left as it is; name another file: kurbel new {} FILE", path.string(), kind));
+        "{} exists already and is left as it is; name another file: kurbel new {} FILE", path.string(), again));
   const bool fresh = !fs::exists(fs::symlink_status(schema)) && write_whole(schema, scene_schema(), Existing::keep);
   const std::string word = as_word(path.string());
-  say(fmt::format("wrote {} — {}\n", path.string(), scene.doc));
+  say(fmt::format("wrote {} — {}\n", path.string(), doc));
   if (fresh) say(fmt::format("wrote {} — editors complete and check keys by it\n", schema.string()));
   say(
       fmt::format("next:\n"
@@ -84,6 +84,20 @@ int new_scene(const std::string& kind, const std::string& file) {
                   "  kurbel keys coupling{1}    what a component may hold; `kurbel keys` without a kind: everything\n",
                   word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' ')));
   return exit_done;
+}
+
+int new_scene(const std::string& kind, const std::string& file) {
+  const SceneTemplate& scene = template_named(kind);
+  return write_scene(scene.text, scene.doc, file.empty() ? fs::path(kind + ".toml") : fs::path(file), kind);
+}
+
+// Of a mass–elastic sheet; what the scene's own reader and compiler refuse is told before anything is written.
+int new_from_sheet(const std::string& sheet, const std::string& file) {
+  const std::string text = scene_of_sheet(sheet);
+  const fs::path path = file.empty() ? fs::path(sheet).filename().replace_extension(".toml") : fs::path(file);
+  const Scene scene = parse_scene(text, path.string(), all_kinds());
+  compile(scene, scene.effects);
+  return write_scene(text, "the train of " + sheet, path, "--from " + as_word(sheet));
 }
 
 // All keys as Markdown, or those of one kind as text for a terminal.
@@ -136,16 +150,24 @@ void set_up_with_scene(OptionList& command, int& code) {
 
 void set_up_new(OptionList& command, int& code) {
   struct Wanted {
-    std::string kind, file;
+    std::string kind, file, sheet;
     bool list = false;
   };
   const auto wanted = std::make_shared<Wanted>();
   command.add_option("kind", wanted->kind, names_of_templates());
   command.add_option("file", wanted->file, "file to write (default: KIND.toml); one that exists is never overwritten");
   command.add_flag("--list", wanted->list, "only the names of the kinds, a line each");
+  command.add_option(
+      "--from", wanted->sheet,
+      "mass–elastic sheet of a train, .csv or .xlsx: station, inertia, stiffness, speed ratio, diameter; a "
+      "list of discs and shafts with a column \"to\". In place of the kind");
   command.action([&code, wanted] {
     code = exit_done;
-    if (!wanted->list)
+    if (!wanted->sheet.empty() && !wanted->file.empty())
+      throw std::invalid_argument("--from makes the scene of the sheet: leave the kind out");
+    if (!wanted->sheet.empty())
+      code = new_from_sheet(wanted->sheet, wanted->kind);
+    else if (!wanted->list)
       code = new_scene(wanted->kind, wanted->file);
     else
       for (const SceneTemplate& scene : scene_templates()) say(fmt::format("{}\n", scene.name));
@@ -206,9 +228,11 @@ const Verb new_verb{
       .name = "new",
       .arguments = "press",
       .help = "write a commented scene to start from",
-      .does = "writes a commented scene to start from: " + names_of_templates() +
-              "; a file that exists is never overwritten. Beside it, where there is none, the schema by "
-              "which editors complete and check keys"},
+      .does =
+          "writes a commented scene to start from: " + names_of_templates() +
+          "; or the train of a maker's mass–elastic sheet (`--from`); a file that exists is never overwritten. Beside "
+          "it, where there is none, the schema by "
+          "which editors complete and check keys"},
      set_up_new,
      false}};
 const Verb keys_verb{

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <optional>
 
@@ -137,7 +138,45 @@ void collect(const DocumentValue& value, const std::string& path, std::vector<To
     collect(value.items[i], fmt::format("{}[{}]", path, i + 1), list, messages);
 }
 
+// In double throughout: boost's constants in long double are set at every start of the program, and not under valgrind.
+using Normal =
+    boost::math::normal_distribution<double,
+                                     boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+
 }  // namespace
+
+double deviation(const Tolerance& t) {
+  using enum Tolerance::Distribution;
+  const double a = t.low, b = t.high, c = t.value;
+  if (t.distribution == normal) return (b - a) / 2 / t.k;
+  if (t.distribution == uniform) return (b - a) / std::sqrt(12.0);
+  return std::sqrt((a * a + b * b + c * c - a * b - a * c - b * c) / 18);
+}
+
+double share_below(const Tolerance& t, double x) {
+  using enum Tolerance::Distribution;
+  const double a = t.low, b = t.high, c = t.value;
+  if (t.distribution == normal) {
+    if (std::isinf(x)) return x > 0 ? 1 : 0;
+    return boost::math::cdf(Normal(c, deviation(t)), x);
+  }
+  if (x <= a) return 0;
+  if (x >= b) return 1;
+  if (t.distribution == uniform) return (x - a) / (b - a);
+  return x < c ? (x - a) * (x - a) / ((b - a) * (c - a)) : 1 - (b - x) * (b - x) / ((b - a) * (b - c));
+}
+
+double quantile(const Tolerance& t, double share) {
+  using enum Tolerance::Distribution;
+  const double a = t.low, b = t.high, c = t.value;
+  if (t.distribution == normal) {
+    constexpr double least = 1e-300, most = 1 - 1e-16;
+    return boost::math::quantile(Normal(c, deviation(t)), std::clamp(share, least, most));
+  }
+  if (t.distribution == uniform) return a + share * (b - a);
+  const double at_mode = (c - a) / (b - a);
+  return share < at_mode ? a + std::sqrt(share * (b - a) * (c - a)) : b - std::sqrt((1 - share) * (b - a) * (b - c));
+}
 
 bool has_tolerance(const DocumentValue& table) {
   return table.type == Type::table && table.find("value") &&

@@ -26,6 +26,11 @@ struct Tolerance {
   Location at;
 };
 
+// Of its distribution as given, in its unit: standard deviation, share below a value, value above that share.
+double deviation(const Tolerance& tolerance);
+double share_below(const Tolerance& tolerance, double value);
+double quantile(const Tolerance& tolerance, double share);
+
 // A table that gives a value with a tolerance.
 bool has_tolerance(const DocumentValue& table);
 // What such a table says; faults go into the messages.

@@ -408,17 +408,19 @@ TableNumbers TableFile::numbers(const std::vector<int>& columns, Messages& messa
   return numbers;
 }
 
-std::vector<std::vector<TableCell>> TableFile::cells() const {
+std::vector<std::vector<TableCell>> TableFile::cells(bool may_be_empty) const {
   std::vector<std::vector<TableCell>> rows;
   for (std::size_t i = data_; i < lines_.size(); ++i) {
-    const Cells cells = cells_of(lines_[i]);
+    Cells cells = cells_of(lines_[i]);
+    if (may_be_empty && cells.size() < headings_.size())
+      cells.resize(headings_.size(), lines_[i].text.substr(lines_[i].text.size()));
     if (cells.size() != headings_.size())
       refuse(lines_[i], fmt::format("{} cells under {} headings; cells are separated by {}", cells.size(),
                                     headings_.size(), in_words(separator_)));
     std::vector<TableCell>& row = rows.emplace_back();
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const Location at = place(lines_[i], cells[k], static_cast<int>(k) + 1);
-      if (cells[k].empty())
+      if (cells[k].empty() && !may_be_empty)
         throw SceneError({{path_, at, fmt::format("a cell under {} is empty", in_quotes(headings_[k].text))}});
       std::string text(cells[k]);
       if (decimal_ == ',' && is_number_like(text)) std::replace(text.begin(), text.end(), ',', '.');

@@ -52,8 +52,9 @@ class TableFile {
 
   // Columns by their numbers from 1. Rows where all of them are empty are passed over; bad cells go into `messages`.
   TableNumbers numbers(const std::vector<int>& columns, Messages& messages) const;
-  // All rows below the headings, one cell for each heading. Throws SceneError at a row with more, fewer or empty ones.
-  std::vector<std::vector<TableCell>> cells() const;
+  // All rows below the headings, one cell for each heading. Throws SceneError at a row with more, and unless cells may be
+  // empty, at one with fewer or empty ones.
+  std::vector<std::vector<TableCell>> cells(bool may_be_empty = false) const;
 
  private:
   struct Line {

@@ -139,6 +139,13 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{belt_slips, bears, warning, anything, "a belt slips and grips again", "at: first; value: how often",
               "\"belts\" slips once, first at 0.01642 s, and grips again", "run, compare"},
+    ClaimKind{
+        margin_missed, bears, warning, below,
+        "at an operating speed of the scene a natural frequency lies nearer to an excitation than the margin wanted",
+        "value: the least margin; limit: the margin wanted",
+        "2 pairs of a natural frequency and an excitation lie within ± 10 % at 1340 … 1640 rpm: mode 1 at 24.1 Hz and "
+        "1× motor, and more",
+        "modes"},
     ClaimKind{limit_undecided, bears, note, anything, "the limit lies within the error of what is held against it",
               "value, limit, error: as the requirement has them",
               "1 of 3 limits undecided, \"coupling\", vibratory torque (steady): 100 % of what is allowed",
@@ -152,6 +159,13 @@ constexpr std::array kinds = {
               "a limit that the scene states is of a load case that this command does not compute",
               "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
               "run, compare, steady, modes"},
+    ClaimKind{
+        margin_kept, bears, note, above,
+        "at the operating speeds of the scene every natural frequency keeps the margin wanted from every excitation",
+        "value: the least margin; limit: the margin wanted",
+        "Every natural frequency keeps ± 10 % from all 4 excitations at 1340 … 1640 rpm; the nearest are mode 1 at "
+        "24.1 Hz and 1× motor",
+        "modes"},
     ClaimKind{speeds_barred, bears, note, anything, "within the range of speeds a joint is beyond a limit or a rule",
               "value, limit: where it is exceeded most [N·m]", "2 barred ranges, worst 310 … 355 rpm (main_coupling)",
               "modes"},

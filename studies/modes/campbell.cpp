@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numbers>
+#include <optional>
 
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
@@ -24,57 +25,38 @@ std::string readable(std::string name) {
   return name;
 }
 
-const Mode* mode_of(const ModesStudy& m, int number) {
-  for (const Mode& mode : m.modes)
-    if (mode.number == number) return &mode;
-  return nullptr;
-}
-
-// What excites an order at the operating speed most: components by the sums of their torques.
-std::string source_of(const ModesStudy& m, std::size_t harmonic) {
-  std::map<std::string, double> strength;
-  const double speed = m.drive.at.speed;
-  const bool by_shaft = m.drive.size() == static_cast<Eigen::Index>(m.shaft_names.size());
-  for (const OrderSource& s : m.excitations.at_speed(speed)) {
-    const bool on_shaft = s.kind == LeftOver::torque && by_shaft && s.index >= 0;
-    if (on_shaft || s.kind == LeftOver::torque || s.kind == LeftOver::joint_torque)
-      strength[on_shaft ? m.shaft_names[static_cast<std::size_t>(s.index)] : s.component] +=
-          std::abs(s.at(harmonic, speed));
-  }
-  std::string name;
-  double most = 0;
-  for (const auto& [component, sum] : strength)
-    if (sum > most * (1 + 1e-9)) most = sum, name = component;
-  const auto like =
-      std::count_if(strength.begin(), strength.end(), [&](const auto& s) { return s.second > 0.5 * most; });
-  if (name.empty() || like < 2) return readable(name);
-  // cylinder1 … cylinder4: "4 × cylinder"
-  const std::string stem = name.substr(0, name.find_last_not_of("0123456789") + 1);
-  const bool alike = std::all_of(strength.begin(), strength.end(), [&](const auto& s) {
-    return !(s.second > 0.5 * most) || s.first.substr(0, s.first.find_last_not_of("0123456789") + 1) == stem;
-  });
-  return alike && !stem.empty() ? fmt::format("{} × {}", like, readable(stem))
-                                : fmt::format("{} and {} more", readable(name), like - 1);
-}
-
-// Orders of the severest critical speeds first, then those with the largest torques.
-std::vector<std::size_t> orders_shown(const ModesStudy& m) {
-  std::vector<std::size_t> shown;
-  const auto show = [&](std::size_t r) {
-    if (shown.size() < rays_shown && std::find(shown.begin(), shown.end(), r) == shown.end()) shown.push_back(r);
+// Orders of the severest critical speeds first, then what comes within its margin, then those with the largest torques, then
+// the orders of the reduction link; in the order of their slopes. Frequencies that hang on no speed, and converters, all.
+std::vector<const ExcitationLine*> lines_drawn(const ModesStudy& m) {
+  using Kind = ExcitationLine::Kind;
+  std::vector<const ExcitationLine*> shown;
+  std::size_t rays = 0;
+  const auto show = [&](const ExcitationLine& line) {
+    const bool is_ray = line.kind == Kind::order;
+    if ((is_ray && rays == rays_shown) || std::find(shown.begin(), shown.end(), &line) != shown.end()) return;
+    shown.push_back(&line), rays += is_ray;
+  };
+  const auto show_harmonic = [&](std::size_t r) {
+    for (const ExcitationLine& line : m.margins.lines)
+      if (line.harmonic == r) show(line);
   };
   const std::vector<std::size_t> severe = severest_critical(m, 12);
   for (const std::size_t i : severe)
     if (const double most = m.critical[severe.front()].share;
         std::isinf(most) || m.critical[i].share > least_circle * most)
-      show(m.critical[i].harmonic);
+      show_harmonic(m.critical[i].harmonic);
+  for (const Margin& row : m.margins.rows)
+    if (row.within) show(m.margins.lines[row.line]);
   std::vector<std::pair<double, std::size_t>> strength;
   for (std::size_t r = 1; r <= m.excitations.harmonics; ++r)
     strength.emplace_back(-m.excitations.strength(r, m.drive.at.speed), r);
   std::sort(strength.begin(), strength.end());
   for (const auto& [negative, r] : strength)
-    if (negative < least_ray * strength.front().first) show(r);
-  std::sort(shown.begin(), shown.end());
+    if (negative < least_ray * strength.front().first) show_harmonic(r);
+  for (const ExcitationLine& line : m.margins.lines)
+    if (line.kind != Kind::order || line.order == 1 || line.order == 2) show(line);
+  std::stable_sort(shown.begin(), shown.end(),
+                   [](const ExcitationLine* a, const ExcitationLine* b) { return a->order < b->order; });
   return shown;
 }
 
@@ -94,8 +76,12 @@ double top_of(const ModesStudy& m) {
       most = size, strongest = r;
   if (strongest > 0)
     top = std::max(top, std::min(most_above * top, m.excitations.order(strongest) * hertz(std::abs(m.drive.at.speed))));
+  const double lowest = top;
+  for (const Margin& row : m.margins.rows)
+    if (row.within) top = std::max(top, hertz(m.margins.modes[row.mode].omega));
   if (severe.empty())
-    for (const std::size_t r : orders_shown(m)) top = std::max(top, m.excitations.order(r) * hertz(m.fastest));
+    for (const ExcitationLine* line : lines_drawn(m))
+      top = std::max(top, std::min(most_above * lowest, hertz(line->at(m.fastest))));
   return 1.15 * top;
 }
 
@@ -113,38 +99,75 @@ std::string modes_above(const ModesStudy& m, double top) {
   return number == 0 ? "" : "Above the diagram, where no order of weight meets a mode: " + text + ". ";
 }
 
-// From the origin to the edge of the diagram.
-Series ray(const ModesStudy& m, double order, double top, std::string name, Role role) {
-  const double end = std::min(m.fastest, top / (order * hertz(1)));
-  return {.name = name,
-          .role = role,
-          .x = {m.speed_unit.of(m.slowest), m.speed_unit.of(end)},
-          .y = {order * hertz(m.slowest), order * hertz(end)},
-          .text_at_end = name};
+// Through the diagram, as far as its edge; none where it lies above.
+std::optional<Series> ray(const ModesStudy& m, const ExcitationLine& line, double top) {
+  const auto at = [&](double speed) { return hertz(line.at(speed)); };
+  double from = m.slowest, to = m.fastest;
+  const double meets_edge = line.order > 0 ? (2 * std::numbers::pi * top - line.fixed) / line.order : HUGE_VAL;
+  if (at(from) >= top) return {};  // of a converter's line, too, that comes down from above
+  to = std::min(to, meets_edge);
+  Series s{.name = fmt::format("{} · {}", line.order, line.label), .text_at_end = line.label};
+  const bool is_ray = line.kind == ExcitationLine::Kind::order;
+  s.role = is_ray ? Role::rigid : Role::reference, s.dashed = !is_ray;
+  s.add(m.speed_unit.of(from), at(from));
+  if (const double bottom = line.order > 0 ? -line.fixed / line.order : 0; bottom > from && bottom < to)
+    s.add(m.speed_unit.of(bottom), 0);
+  s.add(m.speed_unit.of(to), at(to));
+  return s;
 }
 
-std::string words_of(const ModesStudy& m, const CriticalSpeed& c) {
-  const Mode* mode = mode_of(m, c.mode);
-  return fmt::format(
-      "{}{}\norder {:g}{}\nmode {}{}\n{} in {}\n{:.3g} % of what it may bear", m.speed_unit.text(c.speed, 4),
-      c.peak ? fmt::format(", swings most at {}", m.speed_unit.text(*c.peak, 4)) : "", c.order,
-      source_of(m, c.harmonic).empty() ? "" : " of " + source_of(m, c.harmonic), c.mode,
-      mode ? ": " + name_of(m, *mode) : "", torque_text(c.amplitude), readable(m.joint_names[c.joint]), 100 * c.share);
+// "6×: 4 × cylinder"
+std::string legend_of(const std::vector<const ExcitationLine*>& lines) {
+  std::string text;
+  for (const ExcitationLine* line : lines)
+    if (!line->source.empty() && line->source != "every shaft")
+      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", line->label, line->source);
+  return text.empty() ? "" : text + ". ";
 }
 
-// Circles whose areas go with their severity.
-Series circles(const ModesStudy& m, const std::vector<std::size_t>& orders) {
-  Series s{.name = "critical speeds, larger ones severer", .role = Role::vermillion};
+std::string words_of(const ModesStudy& m, const Margin& row) {
+  const MarginMode& mode = m.margins.modes[row.mode];
+  const ExcitationLine& line = m.margins.lines[row.line];
+  std::string text = fmt::format("{}, {:+.3g} % off the operating speeds\n{}{}\nmode {}: {}\n",
+                                 m.speed_unit.text(*row.crossing, 4), 100 * row.margin, line.label,
+                                 line.source.empty() ? "" : " of " + line.source, mode.number, mode.name);
+  if (!row.not_assessed.empty()) return text + "response not assessed: " + row.not_assessed;
+  return text + fmt::format("{} in {}\n{:.3g} % of what it may bear", torque_text(row.response->amplitude),
+                            readable(row.response->joint), 100 * row.response->share);
+}
+
+// Where the lines shown meet the modes: larger where more is borne of what may be.
+std::vector<Series> meetings(const ModesStudy& m, const std::vector<const ExcitationLine*>& lines, double top) {
+  Series kept{.name = "meetings, larger ones severer", .role = Role::orange},
+      within{.name = fmt::format("within ± {:.3g} % of the operating speeds", 100 * m.margins.speeds.margin),
+             .role = Role::vermillion};
   double most = 0;
-  for (const CriticalSpeed& c : m.critical) most = std::max(most, c.share);
-  for (const CriticalSpeed& c : m.critical) {
-    if (std::find(orders.begin(), orders.end(), c.harmonic) == orders.end()) continue;
-    if (!(c.share > least_circle * most) && !std::isinf(c.share)) continue;
-    s.add(m.speed_unit.of(c.speed), hertz(c.order * c.speed));
-    s.sizes.push_back(std::isinf(c.share) ? 3 : std::isinf(most) ? 1 : 0.7 + 2.3 * std::sqrt(c.share / most));
-    s.labels.push_back(words_of(m, c));
+  for (const CriticalSpeed& c : m.critical)
+    if (std::isfinite(c.share)) most = std::max(most, c.share);
+  for (const Margin& row : m.margins.rows) {
+    const double frequency = hertz(m.margins.modes[row.mode].omega);
+    if (!row.crossing || *row.crossing < m.slowest || *row.crossing > m.fastest || frequency > top) continue;
+    if (std::find(lines.begin(), lines.end(), &m.margins.lines[row.line]) == lines.end()) continue;
+    Series& s = row.within ? within : kept;
+    s.add(m.speed_unit.of(*row.crossing), frequency);
+    const double share = row.not_assessed.empty() ? row.response->share : std::nan("");
+    s.sizes.push_back(std::isinf(share) ? 3 : share > 0 && most > 0 ? 0.7 + 2.3 * std::sqrt(share / most) : 0.7);
+    s.labels.push_back(words_of(m, row));
   }
-  return marks(s);
+  std::vector<Series> all;
+  for (Series* s : {&kept, &within})
+    if (!s->x.empty()) all.push_back(marks(std::move(*s)));
+  return all;
+}
+
+// Where it runs for long, and the margin wanted beside that.
+void add_operating_bands(const ModesStudy& m, std::vector<Band>& bands) {
+  const OperatingSpeeds& run = m.margins.speeds;
+  if (!run.known()) return;
+  const double from = m.speed_unit.of(run.slowest), to = m.speed_unit.of(run.fastest);
+  bands.push_back(
+      {from * (1 - run.margin), to * (1 + run.margin), fmt::format("± {:.3g} %", 100 * run.margin), Role::sky});
+  if (from < to) bands.push_back({from, to, "operating range", Role::green});
 }
 
 // Barred ranges of all joints, those that touch as one.
@@ -163,8 +186,9 @@ std::vector<Band> bands_of(const ModesStudy& m) {
     if (!s.kept)
       bands.push_back({m.speed_unit.of(m.sweep[s.begin].speed), m.speed_unit.of(m.sweep[s.end - 1].speed), "not kept",
                        Role::rigid});
+  add_operating_bands(m, bands);
   const double speed = m.speed_unit.of(std::abs(m.drive.at.speed));
-  if (speed > 0)
+  if (speed > 0 && !(m.margins.speeds.slowest < m.margins.speeds.fastest))
     bands.push_back(
         {speed, speed, "operating speed " + m.speed_unit.text(std::abs(m.drive.at.speed), 4), Role::reference});
   return bands;
@@ -240,31 +264,23 @@ std::vector<std::size_t> severest_critical(const ModesStudy& m, std::size_t coun
 
 Plot campbell_plot(const ModesStudy& m) {
   const double top = top_of(m);
-  Plot plot{
-      .title = "Campbell diagram: where excitation orders meet the modes",
-      .x = {.label = "speed of " + m.link,
-            .unit = m.speed_unit.name,
-            .least = m.speed_unit.of(m.slowest),
-            .greatest = m.speed_unit.of(m.fastest)},
-      .y = {.label = "frequency", .unit = "Hz", .least = 0, .greatest = top},
-      .note = "Level lines: modes. Grey rays: orders of the turn of " + m.link + ", with what excites them most. ",
-      .wide = true,
-      .bands = bands_of(m)};
-  const std::vector<std::size_t> orders = orders_shown(m);
-  for (const std::size_t r : orders) {
-    if (m.excitations.order(r) * hertz(m.slowest) >= top) continue;
-    const std::string source = source_of(m, r);
-    plot.series.push_back(ray(m, m.excitations.order(r), top,
-                              fmt::format("{:g}{}", m.excitations.order(r), source.empty() ? "" : " · " + source),
-                              Role::rigid));
-  }
-  for (const GearMesh& mesh : m.excitations.meshes) {
-    Series meshing = dashed(ray(m, mesh.order, top, fmt::format("mesh {}", readable(mesh.name)), Role::reference));
-    if (meshing.x.back() - plot.x.least.value_or(0) > 0.15 * (m.speed_unit.of(m.fastest) - plot.x.least.value_or(0)))
-      plot.series.push_back(std::move(meshing));
+  Plot plot{.title = "Campbell diagram: where excitation orders meet the modes",
+            .x = {.label = "speed of " + m.link,
+                  .unit = m.speed_unit.name,
+                  .least = m.speed_unit.of(m.slowest),
+                  .greatest = m.speed_unit.of(m.fastest)},
+            .y = {.label = "frequency", .unit = "Hz", .least = 0, .greatest = top},
+            .note = "Level lines: modes. Grey rays: orders, of the turn of " + m.link + " where no shaft is named. ",
+            .wide = true,
+            .bands = bands_of(m)};
+  const std::vector<const ExcitationLine*> lines = lines_drawn(m);
+  for (const ExcitationLine* line : lines) {
+    if (std::optional<Series> drawn = ray(m, *line, top))
+      plot.series.push_back(std::move(*drawn));
     else
-      plot.note += fmt::format("Mesh of {}: order {:.5g}, mostly above the diagram. ", readable(mesh.name), mesh.order);
+      plot.note += fmt::format("{} lies above the diagram. ", capitalised(line->label));
   }
+  plot.note += legend_of(lines);
   std::size_t named = 0;
   for (const Mode& mode : m.modes) {
     const double f = hertz(frequency_of_resonance(m.drive, mode));
@@ -275,20 +291,9 @@ Plot campbell_plot(const ModesStudy& m) {
                            .y = {f, f},
                            .text_at_start = fmt::format("{}  {}, {:.4g} Hz", mode.number, name_of(m, mode), f)});
   }
-  for (const FrequencySource& f : m.excitations.by_frequency)
-    if (hertz(f.omega) <= top)
-      plot.series.push_back(dashed({.name = "frequency of " + readable(f.component),
-                                    .role = Role::reference,
-                                    .x = {m.speed_unit.of(m.slowest), m.speed_unit.of(m.fastest)},
-                                    .y = {hertz(f.omega), hertz(f.omega)},
-                                    .text_at_end = readable(f.component)}));
   if (std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) { return s.dashed; }))
-    plot.note += "Dotted: frequencies and tooth meshes. ";
-  Series met = circles(m, orders);
-  if (!met.x.empty()) {
-    plot.note += "Circles: critical speeds, the larger the more of what its joint may bear. ";
-    plot.series.push_back(std::move(met));
-  }
+    plot.note += "Dotted: frequencies, converters and tooth meshes. ";
+  for (Series& met : meetings(m, lines, top)) plot.series.push_back(std::move(met));
   plot.note += modes_above(m, top);
   for (const ParametricZone& z : m.zones)
     if (z.half_width > 0) plot.marks.push_back({m.speed_unit.of(z.centre), fmt::format("parametric, mode {}", z.mode)});
@@ -321,16 +326,17 @@ Plot waterfall_plot(const ModesStudy& m, const TorqueHistory& h) {
     if (const double f = hertz(mode.magnitude()); f <= end)
       plot.bands.push_back({f, f, fmt::format("mode {}", mode.number), Role::orange});
   if (!over_speed) return plot;
-  for (const std::size_t r : orders_shown(m)) {
-    const double per_unit = m.excitations.order(r) * hertz(m.speed_unit.size);
+  for (const ExcitationLine* line : lines_drawn(m)) {
+    if (line->fixed != 0) continue;
+    const double per_unit = line->order * hertz(m.speed_unit.size);
     const double low = windows.at.front(), high = std::min(windows.at.back(), end / per_unit);
     if (low < high)
-      plot.series.push_back({.name = fmt::format("order {:g}", m.excitations.order(r)),
+      plot.series.push_back({.name = fmt::format("order {:g}", line->order),
                              .role = Role::rigid,
                              .x = {per_unit * low, per_unit * high},
                              .y = {low, high},
                              .dashed = true,
-                             .text_at_end = fmt::format("{:g}", m.excitations.order(r))});
+                             .text_at_end = line->label});
   }
   return plot;
 }

@@ -6,15 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
+#include "engine/scene/quantity_place.h"
+#include "studies/modes/campbell.h"
 
 namespace kurbel {
 namespace {
 
 constexpr int sweep_points = 240;
 constexpr std::size_t most_solves = 400'000;  // of n-by-n systems in a sweep, over n
-constexpr double least_strength = 1e-6;       // of the strongest order
 constexpr double hardly_swings = 0.5;         // ζ
 constexpr int looks_at_a_peak = 2;            // each takes some two digits
 
@@ -97,22 +100,23 @@ class OrderCurve {
 }  // namespace
 
 double frequency_of_resonance(const LinearDrive& drive, const Mode& mode) {
-  return drive.own_states() > 0 ? mode.magnitude() : mode.omega;
+  constexpr double twisted = 0.01;  // share of the mode's twist energy
+  if (drive.own_states() == 0 || mode.of_own_states) return mode.omega;
+  for (std::size_t j = 0; j < mode.shares.joint.size(); ++j)
+    if (mode.shares.joint[j] > twisted && drive.joint_by_own.row(static_cast<Eigen::Index>(j)).norm() > 0)
+      return mode.magnitude();
+  return mode.omega;
 }
 
 void find_critical_speeds(ModesStudy& found) {
   const Excitations& x = found.excitations;
   if (x.by_order.empty() || found.joint_names.empty()) return;
-  const auto strength = [&](std::size_t r, double speed) {
-    return x.strength(r, std::copysign(speed, found.drive.at.speed));
-  };
-  double strongest = 0;
-  for (std::size_t r = 1; r <= x.harmonics; ++r) strongest = std::max(strongest, strength(r, found.fastest));
+  const std::vector<char> acting = acting_harmonics(x, std::copysign(found.fastest, found.drive.at.speed));
   for (const Mode& mode : found.modes)
     for (std::size_t r = 1; r <= x.harmonics; ++r) {
-      if (!x.is_looked_at(r)) continue;
+      if (!acting[r]) continue;
       const double speed = frequency_of_resonance(found.drive, mode) / x.order(r);
-      if (speed < found.slowest || speed > found.fastest || strength(r, speed) < least_strength * strongest) continue;
+      if (speed < found.slowest || speed > found.fastest) continue;
       found.critical.push_back({.speed = speed, .mode = mode.number, .order = x.order(r), .harmonic = r});
     }
   std::sort(found.critical.begin(), found.critical.end(),
@@ -230,14 +234,111 @@ void leave_out_what_is_not_kept(ModesStudy& found) {
                            found.speed_unit.text(found.sweep[s.end - 1].speed, 4));
   if (where.empty()) return;
   const auto is_kept = [&](const CriticalSpeed& c) { return found.sweep[nearest_of(found.sweep, c.speed)].kept; };
-  const std::size_t before = found.critical.size();
-  std::erase_if(found.critical, [&](const CriticalSpeed& c) { return !is_kept(c); });
-  const std::size_t gone = before - found.critical.size();
+  const auto kept = std::stable_partition(found.critical.begin(), found.critical.end(), is_kept);
+  found.not_kept.assign(kept, found.critical.end());
+  found.critical.erase(kept, found.critical.end());
+  const std::size_t gone = found.not_kept.size();
   found.notes.push_back(fmt::format(
       "at {} the machine does not stay by itself: small motions grow (a motor beyond its breakdown), or the "
       "speed would swing by more than itself; {}what is barred there and spot checks are left out. Passing "
       "through on the way up is judged by the start",
-      where, gone > 0 ? fmt::format("{} critical speed{}, ", gone, gone == 1 ? "" : "s") : ""));
+      where, gone > 0 ? fmt::format("{} critical speed{} (with the margins), ", gone, gone == 1 ? "" : "s") : ""));
+}
+
+namespace {
+
+// Of orders, and at the operating point of laws of fixed frequency, in the joint that each mode twists most.
+std::vector<CrossingResponse> responses_of(const ModesStudy& found) {
+  std::vector<CrossingResponse> all;
+  const auto add = [&](const CriticalSpeed& c, const char* why) {
+    all.push_back({.mode = c.mode,
+                   .harmonic = c.harmonic,
+                   .joint = found.joint_names[c.joint],
+                   .amplitude = c.amplitude,
+                   .share = c.share,
+                   .not_assessed = why});
+  };
+  for (const CriticalSpeed& c : found.critical) add(c, "");
+  for (const CriticalSpeed& c : found.not_kept) add(c, "the machine does not stay there by itself");
+  std::map<double, Forcing> laws;
+  for (const FrequencySource& f : found.excitations.by_frequency)
+    laws.try_emplace(f.omega, Forcing::none(found.drive)).first->second.add(f.kind, f.index, f.amplitude);
+  if (laws.empty() || found.joint_names.empty()) return all;
+  FrequencyResponse response(found.drive);
+  for (const auto& [omega, forcing] : laws) {
+    const std::vector<FrequencyResponse::JointSwing> swings = response.swings(omega, forcing);
+    for (const Mode& mode : found.modes)
+      if (const std::size_t j = joint_of(mode); !mode.of_own_states)
+        all.push_back({.mode = mode.number,
+                       .fixed = omega,
+                       .joint = found.joint_names[j],
+                       .amplitude = std::abs(swings[j].torque)});
+  }
+  return all;
+}
+
+// What could not be among them.
+void note_missing_margins(ModesStudy& found) {
+  const Margins& m = found.margins;
+  if (m.modes.empty()) return;
+  double highest = 0;
+  for (const ExcitationLine& line : m.lines) highest = std::max(highest, line.at(m.speeds.fastest));
+  if (!found.undamped.complete && (1 + m.speeds.margin) * highest > m.modes.back().omega)
+    found.notes.push_back(fmt::format(
+        "margins: modes above {:.5g} Hz are not listed, and excitations reach {:.5g} Hz; --count gives more",
+        m.modes.back().omega / turn, highest / turn));
+  if (!found.excitations.by_order.empty())
+    found.notes.push_back(
+        fmt::format("margins: orders of the scene's laws are listed up to {:g} of {}; --orders gives more",
+                    found.excitations.order(found.excitations.harmonics), found.link));
+}
+
+// Undamped, in the order of the modes of `found`, with another value of what has a tolerance; none where that has no place.
+std::vector<double> frequencies_with(const Tolerance& t, double value, Scene scene, const Effects& effects,
+                                     const ModesOptions& options, const ModesStudy& found) {
+  std::vector<double> omega;
+  Setting* const setting = t.value != 0 ? quantity_at(scene.components, t.path) : nullptr;
+  if (!setting) return omega;
+  setting->number *= value / t.value;
+  const ModesStudy study = find_modes(scene, effects,
+                                      {.count = options.count,
+                                       .speed = found.drive.at.speed,
+                                       .at = options.at,
+                                       .angle = options.angle,
+                                       .modes_alone = true,
+                                       .start = false});
+  for (const Mode& mode : study.modes)
+    if (!mode.of_own_states) omega.push_back(mode.omega);
+  return omega;
+}
+
+}  // namespace
+
+void find_margins(const Scene& scene, const Effects& effects, const ModesOptions& options, ModesStudy& found) {
+  Margins& m = found.margins;
+  const bool by_shaft = found.drive.size() == static_cast<Eigen::Index>(found.shaft_names.size());
+  const double speed = std::copysign(found.fastest, found.drive.at.speed);
+  m.lines = excitation_lines(*found.drive.model, found.excitations, speed,
+                             by_shaft ? found.shaft_names : std::vector<std::string>{}, found.notes);
+  for (const Mode& mode : found.modes)
+    if (!mode.of_own_states)
+      m.modes.push_back(
+          {.number = mode.number,
+           .omega = frequency_of_resonance(found.drive, mode),
+           .ratio = mode.ratio,
+           .name = modes::name_of(found, mode),
+           .damping = damping_of(found.drive, found.joint_names, mode.shape,
+                                 mode.lambda.imag() > 0 ? std::optional(mode.lambda.real()) : std::nullopt)});
+  find_rows(responses_of(found), found.slowest, found.fastest, m);
+  if (m.rows.empty()) return;
+  note_missing_margins(found);
+  const auto frequencies = [&](const Tolerance& t, double value) {
+    std::vector<double> omega = frequencies_with(t, value, scene, effects, options, found);
+    if (omega.empty() && value == t.value)
+      found.notes.push_back(fmt::format("margins: the tolerance of {} is not counted", t.path));
+    return omega;
+  };
+  add_tolerances(tolerances_of(scene.text, scene.file), frequencies, m);
 }
 
 }  // namespace kurbel

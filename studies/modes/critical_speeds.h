@@ -9,8 +9,8 @@
 
 namespace kurbel {
 
-// At which an order meets a mode, r Ω = ω_n [rad/s]: undamped, as is usual; with states of elements, which stiffen or
-// soften the drive, |λ| of the damped swing.
+// At which an order meets a mode, r Ω = ω_n [rad/s]: undamped, as is usual; where joints that the mode twists have states of
+// their own, which stiffen them, |λ| of the damped swing.
 double frequency_of_resonance(const LinearDrive& drive, const Mode& mode);
 
 // Fills `critical`: where an order that has any strength meets a mode within the range, by speed.
@@ -38,8 +38,12 @@ bool grows(const LinearDrive& drive);
 // lasts. Where the operating point is none that is kept, nothing is told of the others.
 void judge_kept_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response);
 
-// Takes the critical speeds away that are not kept, and notes what is left out.
+// Puts the critical speeds that are not kept into `not_kept`, and notes what is left out.
 void leave_out_what_is_not_kept(ModesStudy& found);
+
+// Fills `margins` from the operating speeds, modes, excitations and critical speeds that are there; for tolerances by the
+// modes of the scene with other values, at the same speed, all as geared.
+void find_margins(const Scene& scene, const Effects& effects, const ModesOptions& options, ModesStudy& found);
 
 // A stretch of the sweep whose speeds are all kept, or all not.
 struct SpeedStretch {

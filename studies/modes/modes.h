@@ -22,6 +22,7 @@
 #include "studies/history/torque_history.h"
 #include "studies/limits/barred_ranges.h"
 #include "studies/limits/verdicts.h"
+#include "studies/margins/margins.h"
 #include "studies/response/forced_response.h"
 #include "studies/shafts/shaft_stress.h"
 
@@ -136,6 +137,8 @@ struct ModesStudy {
   Excitations excitations;
   double slowest = 0, fastest = 0, highest_order = 0;
   std::vector<CriticalSpeed> critical;  // by speed
+  std::vector<CriticalSpeed> not_kept;  // those at which the machine does not stay by itself
+  Margins margins;
   std::vector<ParametricZone> zones;
   SpeedResponse here;                  // at the operating point
   std::optional<SpeedResponse> cycle;  // what the joints really do there, from the full equations

@@ -9,6 +9,7 @@
 #include "engine/numerics/index.h"
 #include "studies/findings/figure_text.h"
 #include "studies/limits/limits_findings.h"
+#include "studies/margins/margins_findings.h"
 #include "studies/modes/campbell.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/modes_plots.h"
@@ -356,6 +357,13 @@ void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
   f.show(in, Text{.title = "", .body = "Check: " + method_text(m) + " (Sylvester's law of inertia)."});
 }
 
+void say_margins(Findings& f, Chapter in, const ModesStudy& m) {
+  if (m.margins.rows.empty()) return;
+  f.tell("operating_range", operating_range(m.margins));
+  f.say(in, margin_table(m.margins, m.speed_unit));
+  f.tables.push_back({"margins", [&m] { return margin_table(m.margins, m.speed_unit).data(); }});
+}
+
 void say_stresses(Findings& f, Chapter in, const ModesStudy& m) {
   if (!m.stresses.any()) return;
   f.draw(in, [&m] { return stress_plots(m.stresses); });
@@ -395,8 +403,9 @@ Findings findings_of(const ModesStudy& m) {
   f.claim(limit_claims(m.verdicts, "limit"));
   f.claim(barred_claim(m.barred, m.limited, m.speed_unit));
   f.claim(stress_claim(m.stresses));
+  f.claim(margin_claim(m.margins, m.speed_unit));
   const Chapter limits = f.chapter("Limits (theory 12.9)"), modes = f.chapter("Modes (theory 12.2, 12.3)"),
-                campbell = f.chapter("Critical speeds (theory 12.6)"),
+                campbell = f.chapter("Critical speeds and margins (theory 12.6, 12.17)"),
                 forced = f.chapter("Forced response (theory 12.7)"),
                 stresses = f.chapter("Stresses of shafts (theory 12.14, 12.16)"),
                 history = f.chapter("Simulated torque"), notes = f.chapter("Notes");
@@ -405,10 +414,11 @@ Findings findings_of(const ModesStudy& m) {
   f.say(modes, Sentences{.lines = {point_text(m)}, .indent = "  ", .page = false, .apart = true});
   say_modes(f, modes, m);
   const bool is_shaken = is_forced(m);
-  if (is_shaken) f.draw(campbell, [&m] { return campbell_plot(m); });
+  if (!m.modes.empty() && !m.margins.lines.empty()) f.draw(campbell, [&m] { return campbell_plot(m); });
   f.say(forced, response_table(m));
   say_spots(f, forced, m);
   if (is_shaken) f.draw(forced, [&m] { return response_plots(m); });
+  say_margins(f, campbell, m);
   f.say(campbell, critical_table(m));
   f.say(forced, barred_table(m.barred, m.limited, m.speed_unit));
   f.say(campbell, zone_table(m));

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <stdexcept>
 
@@ -13,11 +12,6 @@
 
 namespace kurbel {
 namespace {
-
-// In double throughout: boost's constants in long double are set at every start of the program, and not under valgrind.
-using Normal =
-    boost::math::normal_distribution<double,
-                                     boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
 
 using enum Tolerance::Distribution;
 
@@ -37,43 +31,15 @@ Tolerated::Tolerated(const Tolerance& tolerance, const Domain& domain) : given_(
   low_ = inwards(domain.low / factor, domain.low_open, HUGE_VAL);
   high_ = inwards(domain.high / factor, domain.high_open, -HUGE_VAL);
   if (given_.distribution != normal) low_ = std::max(low_, given_.low), high_ = std::min(high_, given_.high);
-  bottom_ = distribution(low_), top_ = distribution(high_);
+  bottom_ = share_below(given_, low_), top_ = share_below(given_, high_);
   if (!(top_ > bottom_))
     throw std::invalid_argument(fmt::format("{}: nothing of its tolerance lies where the key may", given_.path));
 }
 
-double Tolerated::deviation() const {
-  const double a = given_.low, b = given_.high, c = given_.value;
-  if (given_.distribution == normal) return (b - a) / 2 / given_.k;
-  if (given_.distribution == uniform) return (b - a) / std::sqrt(12.0);
-  return std::sqrt((a * a + b * b + c * c - a * b - a * c - b * c) / 18);
-}
-
-double Tolerated::distribution(double x) const {
-  const double a = given_.low, b = given_.high, c = given_.value;
-  if (given_.distribution == normal) {
-    if (std::isinf(x)) return x > 0 ? 1 : 0;
-    return boost::math::cdf(Normal(c, deviation()), x);
-  }
-  if (x <= a) return 0;
-  if (x >= b) return 1;
-  if (given_.distribution == uniform) return (x - a) / (b - a);
-  return x < c ? (x - a) * (x - a) / ((b - a) * (c - a)) : 1 - (b - x) * (b - x) / ((b - a) * (b - c));
-}
-
-double Tolerated::inverse(double share) const {
-  const double a = given_.low, b = given_.high, c = given_.value;
-  if (given_.distribution == normal) {
-    constexpr double least = 1e-300, most = 1 - 1e-16;
-    return boost::math::quantile(Normal(c, deviation()), std::clamp(share, least, most));
-  }
-  if (given_.distribution == uniform) return a + share * (b - a);
-  const double at_mode = (c - a) / (b - a);
-  return share < at_mode ? a + std::sqrt(share * (b - a) * (c - a)) : b - std::sqrt((1 - share) * (b - a) * (b - c));
-}
+double Tolerated::deviation() const { return kurbel::deviation(given_); }
 
 double Tolerated::quantile(double share) const {
-  return std::clamp(inverse(bottom_ + share * (top_ - bottom_)), low_, high_);
+  return std::clamp(kurbel::quantile(given_, bottom_ + share * (top_ - bottom_)), low_, high_);
 }
 
 SweptParameter Tolerated::swept() const {

@@ -26,9 +26,6 @@ class Tolerated {
   std::string in_words() const;  // "900 kN·m/rad ± 10 %, normal (k = 2)"
 
  private:
-  double distribution(double x) const;
-  double inverse(double share) const;
-
   Tolerance given_;
   double low_, high_, bottom_, top_;
 };

@@ -1,0 +1,134 @@
+// margins_findings.cpp — rows and words of separation margins.
+#include "studies/margins/margins_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/numerics/angles.h"
+#include "studies/findings/figure_text.h"
+
+namespace kurbel {
+namespace {
+
+constexpr std::size_t nearest_shown = 12, most_shown = 60;
+
+std::string percent(double margin) {
+  return std::isfinite(margin) ? fmt::format("{:+.4g}", 100 * margin) : std::string("—");
+}
+
+std::vector<std::size_t> shown(const Margins& m) {
+  const auto within = static_cast<std::size_t>(
+      std::count_if(m.rows.begin(), m.rows.end(), [](const Margin& row) { return row.within; }));
+  std::vector<std::size_t> rows = numbers_below(std::min(m.rows.size(), std::max(nearest_shown, within)));
+  if (rows.size() > most_shown) rows.resize(most_shown);
+  return rows;
+}
+
+// "mode 1 (19.97 Hz) and 1×, which meet at 1198 rpm, −17.6 %"
+std::string pair_text(const Margins& m, const Margin& row, const SpeedUnit& unit) {
+  const MarginMode& mode = m.modes[row.mode];
+  std::string text = fmt::format("mode {} ({:.4g} Hz) and {}", mode.number, mode.omega / turn, m.lines[row.line].label);
+  if (row.crossing) text += fmt::format(", which meet at {}", unit.text(*row.crossing, 4));
+  return text + fmt::format(", {} %", percent(row.margin));
+}
+
+// "—" where it was not computed.
+double amplitude_of(const Margin& row) {
+  return row.response && row.not_assessed.empty() ? row.response->amplitude : std::nan("");
+}
+
+}  // namespace
+
+std::string range_text(const OperatingSpeeds& s, const SpeedUnit& unit) {
+  if (!(s.slowest < s.fastest)) return unit.text(s.fastest, 5);
+  return fmt::format("{:.5g} … {}", unit.of(s.slowest), unit.text(s.fastest, 5));
+}
+
+Rows margin_table(const Margins& m, const SpeedUnit& unit) {
+  const std::vector<std::size_t> told = shown(m);
+  const std::string heading =
+      fmt::format("separation margins at {} ({}): {} of {} pairs of a mode and an excitation, the nearest first",
+                  range_text(m.speeds, unit), m.speeds.words, told.size(), m.rows.size());
+  const auto mode = [&m](const Margin& row) -> const MarginMode& { return m.modes[row.mode]; };
+  const auto line = [&m](const Margin& row) -> const ExcitationLine& { return m.lines[row.line]; };
+  auto table = table_of("margins", "Separation margins", m.rows);
+  table.headed(heading).text_in(3).people_see(told);
+  table.column("mode", "mode", [&](const Margin& row) { return mode(row).number; })
+      .also_in_file()
+      .column("excitation", "excitation", [&](const Margin& row) { return line(row).label; })
+      .also_in_file()
+      .column("source", "of", [&](const Margin& row) { return line(row).source; })
+      .also_in_file()
+      .column("frequency", "f_n [Hz]", [&](const Margin& row) { return mode(row).omega / turn; }, {.digits = 5})
+      .also_in_file("Hz")
+      .only_for_programs("order", [&](const Margin& row) { return line(row).order; })
+      .also_in_file()
+      .only_for_programs("fixed_frequency", [&](const Margin& row) { return line(row).fixed / turn; })
+      .also_in_file("Hz")
+      .column("crossing", fmt::format("meet at [{}]", unit.name), &Margin::crossing,
+              {.factor = unit.of(1), .otherwise = "none"})
+      .also_in_file("rad/s")
+      .column("margin", "margin [%]", &Margin::margin, percent)
+      .also_in_file()
+      .column("within", fmt::format("± {:.3g} %", 100 * m.speeds.margin), &Margin::within,
+              [](bool within) { return within ? "WITHIN" : "kept"; });
+  if (!m.tolerances.empty())
+    table.only_for_programs("margin_low", &Margin::low)
+        .also_in_file()
+        .only_for_programs("margin_high", &Margin::high)
+        .also_in_file()
+        .only_for_people("95 % of it by tolerances [%]",
+                         [](const Margin& row) { return percent(row.low) + " … " + percent(row.high); })
+        .column("kept_probability", "kept with probability [%]",
+                [](const Margin& row) { return row.kept ? row.kept->value : std::nan(""); },
+                {.factor = 100, .digits = 3})
+        .also_in_file();
+  return table.column("amplitude", "torque where they meet [N·m]", amplitude_of, {.digits = 4})
+      .also_in_file("N*m")
+      .column("joint", "in", [](const Margin& row) { return row.response ? row.response->joint : std::string("—"); })
+      .column("share", "of what it may bear [%]",
+              [](const Margin& row) {
+                return row.response && row.not_assessed.empty() ? row.response->share : std::nan("");
+              },
+              {.factor = 100, .digits = 4})
+      .also_in_file()
+      .column("damping_ratio", "ζ", [&](const Margin& row) { return mode(row).ratio; }, {.digits = 3})
+      .also_in_file()
+      .column("damping", "damping by", [&](const Margin& row) { return mode(row).damping; })
+      .only_for_programs("assessed", [](const Margin& row) { return row.not_assessed.empty(); })
+      .column("not_assessed", "severity", &Margin::not_assessed,
+              [](const std::string& why) { return why.empty() ? "assessed" : "not assessed: " + why; });
+}
+
+Record operating_range(const Margins& m) {
+  return {{"slowest", m.speeds.slowest},
+          {"fastest", m.speeds.fastest},
+          {"margin", m.speeds.margin},
+          {"of", m.speeds.words},
+          {"tolerances", List(m.tolerances.begin(), m.tolerances.end())}};
+}
+
+std::optional<Claim> margin_claim(const Margins& m, const SpeedUnit& unit) {
+  if (!m.speeds.said || m.rows.empty()) return {};
+  const Evidence nearest_row{.value = std::abs(m.rows.front().margin), .limit = m.speeds.margin};
+  const std::string range = range_text(m.speeds, unit), limit = fmt::format("± {:.3g} %", 100 * m.speeds.margin);
+  const auto within = std::count_if(m.rows.begin(), m.rows.end(), [](const Margin& row) { return row.within; });
+  const std::string nearest = pair_text(m, m.rows.front(), unit);
+  if (within == 0)
+    return claimed(Predicate::margin_kept,
+                   fmt::format("Every natural frequency keeps {} from all {} excitations at {}; the nearest are {}",
+                               limit, m.lines.size(), range, nearest),
+                   "", nearest_row);
+  const auto open = std::count_if(m.rows.begin(), m.rows.end(),
+                                  [](const Margin& row) { return row.within && !row.not_assessed.empty(); });
+  return claimed(
+      Predicate::margin_missed,
+      fmt::format("{} pair{} of a natural frequency and an excitation lie{} within {} at {}: {}{}{}", within,
+                  within == 1 ? "" : "s", within == 1 ? "s" : "", limit, range, nearest, within > 1 ? ", and more" : "",
+                  open == 0 ? "" : fmt::format("; the response is not assessed for {} of them", open)),
+      "", nearest_row);
+}
+
+}  // namespace kurbel

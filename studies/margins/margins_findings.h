@@ -1,0 +1,24 @@
+// margins_findings.h — what is said of separation margins: a table, a sentence.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/scene/speed_unit.h"
+#include "studies/claims/claim.h"
+#include "studies/findings/findings.h"
+#include "studies/margins/margins.h"
+
+namespace kurbel {
+
+// "1340 … 1640 rpm"
+std::string range_text(const OperatingSpeeds& speeds, const SpeedUnit& unit);
+
+// People see all rows within what is wanted and the nearest besides; programs and the file all.
+Rows margin_table(const Margins& margins, const SpeedUnit& unit);
+Record operating_range(const Margins& margins);
+
+// None where the scene does not say where it runs.
+std::optional<Claim> margin_claim(const Margins& margins, const SpeedUnit& unit);
+
+}  // namespace kurbel
