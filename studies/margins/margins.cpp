@@ -111,7 +111,8 @@ void find_response(const std::vector<CrossingResponse>& responses, double slowes
   const MarginMode& mode = of.modes[row.mode];
   for (const CrossingResponse& r : responses) {
     const bool same_line = line.harmonic ? r.harmonic == *line.harmonic
-                                         : r.harmonic == 0 && line.order == 0 && line.in_scene && r.fixed == line.fixed;
+                                         : r.harmonic == 0 && line.order == 0 && line.in_scene &&
+                                               std::abs(r.fixed - line.fixed) <= 1e-6 * line.fixed;
     if (r.mode == mode.number && same_line) row.response = r;
   }
   row.not_assessed = row.response                              ? row.response->not_assessed

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
@@ -300,15 +301,18 @@ std::vector<double> frequencies_with(const Tolerance& t, double value, Scene sce
   Setting* const setting = t.value != 0 ? quantity_at(scene.components, t.path) : nullptr;
   if (!setting) return omega;
   setting->number *= value / t.value;
-  const ModesStudy study = find_modes(scene, effects,
-                                      {.count = options.count,
-                                       .speed = found.drive.at.speed,
-                                       .at = options.at,
-                                       .angle = options.angle,
-                                       .modes_alone = true,
-                                       .start = false});
-  for (const Mode& mode : study.modes)
-    if (!mode.of_own_states) omega.push_back(mode.omega);
+  const ModesOptions same{.count = options.count,
+                          .speed = found.drive.at.speed,
+                          .at = options.at,
+                          .angle = options.angle,
+                          .modes_alone = true,
+                          .start = false};
+  try {
+    for (const Mode& mode : find_modes(scene, effects, same).modes)
+      if (!mode.of_own_states) omega.push_back(mode.omega);
+  } catch (const std::runtime_error&) {  // no machine, or no modes, with that value
+  } catch (const std::logic_error&) {
+  }
   return omega;
 }
 

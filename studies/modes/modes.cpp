@@ -82,7 +82,7 @@ class Study {
     find_barred_ranges(
         *model_, options_.barred_factor, [this](double speed) { return respond(drive_at(speed), found_.excitations); },
         found_);
-    if (!options_.response_alone && !found_.rests_at) find_margins(given_, effects_, options_, found_);
+    if (!options_.response_alone) find_margins(given_, effects_, options_, found_);
     if (!options_.angle) check_spots_of_range();
     if (!options_.torque.empty()) add_history();
     if (options_.response_alone) return;
@@ -309,8 +309,10 @@ class Study {
 
   void choose_range() {
     const double speed = std::abs(found_.drive.at.speed);
-    const OperatingSpeeds& run = found_.margins.speeds = operating_speeds(
-        *model_, options_.speed, found_.drive.at.orbit ? std::optional(found_.drive.at.orbit->speed) : std::nullopt);
+    OperatingSpeeds& run = found_.margins.speeds;
+    if (!found_.rests_at)
+      run = operating_speeds(*model_, options_.speed,
+                             found_.drive.at.orbit ? std::optional(found_.drive.at.orbit->speed) : std::nullopt);
     found_.fastest = options_.fastest > 0 ? options_.fastest : 1.25 * (speed > 0 ? speed : model_->speed_scale);
     if (run.said && options_.fastest == 0) found_.fastest = std::max(found_.fastest, (1.05 + run.margin) * run.fastest);
     found_.slowest = options_.slowest > 0 ? options_.slowest : 0.05 * found_.fastest;

@@ -414,7 +414,7 @@ Findings findings_of(const ModesStudy& m) {
   f.say(modes, Sentences{.lines = {point_text(m)}, .indent = "  ", .page = false, .apart = true});
   say_modes(f, modes, m);
   const bool is_shaken = is_forced(m);
-  if (!m.modes.empty() && !m.margins.lines.empty()) f.draw(campbell, [&m] { return campbell_plot(m); });
+  if (is_shaken || !m.margins.rows.empty()) f.draw(campbell, [&m] { return campbell_plot(m); });
   f.say(forced, response_table(m));
   say_spots(f, forced, m);
   if (is_shaken) f.draw(forced, [&m] { return response_plots(m); });
