@@ -215,7 +215,7 @@ TEST(Margins, StandInTheDiagramWithoutAnyExcitation) {
   for (const char* band : {"operating range", "± 10 %"})
     EXPECT_TRUE(std::any_of(plot.bands.begin(), plot.bands.end(), [&](const Band& b) { return b.text == band; }))
         << band;
-  EXPECT_NE(margin_sentence(study.margins, study.speed_unit).find("± 10 %"), std::string::npos);
+  EXPECT_NE(margin_claim(study.margins, study.speed_unit).value().text.find("± 10 %"), std::string::npos);
 }
 
 // A joint that turns unevenly excites by its twist alone: its order counts beside another's torque.
