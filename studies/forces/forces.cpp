@@ -13,9 +13,12 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/roots.h"
+#include "engine/rigid/rigid_machine.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/cycle/classical.h"
+#include "studies/cycle/machine_cycle.h"
 #include "studies/forces/force_cycle.h"
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
@@ -272,8 +275,26 @@ std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effec
   }
 }
 
+namespace {
+
+// Of the crank, where the mean torques of drive and loads of the rigid machine balance, as `size` and `reduce` take it; none:
+// no torque depends on the speed, nothing balances, or a sequence sets what drives.
+std::optional<double> operating_speed_of(const MachineMotion& machine) try {
+  const Model& m = machine.model();
+  if (!m.scene.sequence.steps.empty() || machine.start_speed() < 0) return {};
+  RigidMachine rigid(compile(m.scene, classical_effects(m.scene)));
+  if (!rigid.uses_speed() || !rigid.periodic()) return {};
+  return operating_speed(rigid).speed * machine.rated_speed() / m.speed_scale;
+} catch (const std::invalid_argument&) {  // nothing balances, or no rigid machine tells torques
+  return {};
+}
+
+}  // namespace
+
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {
   if (options.speed) return {*options.speed, "as asked for"};
+  if (const std::optional<double> operating = operating_speed_of(machine))
+    return {*operating, "operating speed: there the mean torques of drive and load balance"};
   if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
   return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
 }

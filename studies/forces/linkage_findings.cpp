@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/scene/units.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/forces/forces_findings.h"
 #include "studies/forces/forces_plots.h"
@@ -37,6 +38,7 @@ Findings begin_findings(const AboutForces& f, const CycleOfForces& front, const 
               .diagnosis = f.diagnosis,
               .footer = report_footer()};
   to.conclude(f.complete, conclusion);
+  if (f.complete) to.conclude(true, capitalised(front.description));
   for (const std::string& sentence : f.outside_data) to.claim(Predicate::outside_data, sentence);
   to.tell("mechanism", f.mechanism);
   return to;

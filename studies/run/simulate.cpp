@@ -291,12 +291,11 @@ class Simulation {
       options.progress = [&](double fraction) {
         options_.watch.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
       };
-    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,
-                                        run->speed.get(),      run->energy.get(),   run->ranges.get()};
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,    run->speed.get(),
+                                        run->energy.get(),     run->ranges.get(),   run->slips.get()};
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
-    if (!run->slips->joints().empty()) observers.push_back(run->slips.get());
     // Plots need no tighter run than the first, and the runs that are timed stay free of them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);

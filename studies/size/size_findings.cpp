@@ -8,6 +8,7 @@
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/output.h"
+#include "studies/limits/verdicts.h"
 #include "studies/sheet/scales.h"
 #include "studies/size/size.h"
 #include "studies/size/size_plots.h"
@@ -350,6 +351,25 @@ void add_answers(Findings& f, const Sizing& s) {
         s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
 }
 
+// Rim speed and stress of the flywheel as it is to be built, at the greatest speed of the cycle.
+void judge_dimensions(Findings& f, const Sizing& s) {
+  if (!s.dimensions) return;
+  const FlywheelDimensions& d = *s.dimensions;
+  const auto judge = [&](const std::string& what, double value, double limit, const char* unit) {
+    const bool holds = value <= limit;
+    std::optional<Claim> claim =
+        claimed(holds ? Predicate::limit_held : Predicate::limit_exceeded,
+                fmt::format("the flywheel of {} has a {} of {}, {:.0f} % of what is allowed{}", d.material.name, what,
+                            told_shortly(value, unit), 100 * value / limit, holds ? "" : ": EXCEEDED"),
+                s.flywheel, {.value = value, .limit = limit, .unit = unit});
+    if (!claim) return;
+    claim->load_case = load_case::steady, claim->in_conclusion = !holds;
+    f.claim(std::move(claim));
+  };
+  judge("rim speed", d.rim_speed, d.rim_speed_limit, "m/s");
+  judge("stress", d.stress, d.allowed_stress, "Pa");
+}
+
 }  // namespace
 
 Findings findings_of(const Sizing& s) {
@@ -360,6 +380,7 @@ Findings findings_of(const Sizing& s) {
              .complete = s.complete,
              .diagnosis = s.diagnosis};
   add_answers(f, s);
+  judge_dimensions(f, s);
   const Chapter cycle = f.chapter("One cycle"), synthesis = f.chapter("Inertia for the demanded δ"),
                 motor = f.chapter("With the torques as they are over the speed, rigid and elastic"),
                 body = f.chapter("Dimensions"), scales = f.chapter("Scales of the diagrams"),

@@ -11,7 +11,6 @@
 
 #include "engine/scene/units.h"
 #include "studies/answers/measured_names.h"
-#include "studies/answers/run_claims.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/trace.h"
@@ -328,20 +327,6 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
 
 // --- all of it ---
 
-// What the study comes to: of the last model, whose figures are its evidence.
-std::optional<Claim> claim_of(const SteadyStudy& s) {
-  if (s.cycles.empty()) return claimed(Predicate::incomplete, s.conclusion);
-  const SteadyCycle& c = s.cycles.back();
-  const Figure* mean = c.find("mean_speed." + s.link);
-  const Figure* told = c.kind == Orbit::Kind::vibrating ? c.find("vibration_frequency") : mean;
-  const Predicate what = !s.complete                        ? Predicate::incomplete
-                         : c.kind == Orbit::Kind::vibrating ? Predicate::vibrates
-                                                            : Predicate::runs_steadily;
-  return claimed(
-      what, s.conclusion, s.link,
-      s.complete && told ? Evidence{.value = told->value, .error = told->error, .unit = told->unit} : Evidence{});
-}
-
 void add_key_figures(Findings& f, const SteadyStudy& s) {
   const SpeedUnit unit = speed_unit_of(s);
   for (const SteadyCycle& c : s.cycles) {
@@ -403,25 +388,8 @@ Findings findings_of(const SteadyStudy& s) {
              .complete = s.complete,
              .diagnosis = s.diagnosis,
              .opening = Findings::Opening::title_and_conclusion};
-  f.claim(claim_of(s));
-  for (const SteadyCycle& c : s.cycles)
-    if (c.found && !c.uncertain && !c.neutral)
-      f.claim(
-          claimed(Predicate::steady_motion_unstable,
-                  fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), {},
-                  {.value = c.point.largest(),
-                   .limit = 1,
-                   .error = c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front())}));
-  const SteadyCycle& last = s.cycles.back();
-  for (const std::string& sentence : last.outside_data) f.claim(Predicate::outside_data, capitalised(sentence));
-  for (const MotorUse& use : last.motors) {
-    const Figure* rms = last.find("rms_drive_torque." + use.component);
-    if (use.rated)
-      f.claim(overload_claim(
-          *last.model, use.component,
-          {*use.thermal(), rms && rms->error ? std::optional(*rms->error / *use.rated) : std::nullopt}, true));
-  }
-  const std::vector<Verdict> ratings = steady_ratings(last);
+  const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());
+  f.claims = claims_of(s);
   f.claim(limit_claims(ratings, "rating"));
   const Chapter cycle = f.chapter("Steady cycle");
   f.chapter(chapter_of_measurement);

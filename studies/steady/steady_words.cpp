@@ -8,6 +8,8 @@
 #include "engine/numerics/angles.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
+#include "studies/answers/run_claims.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 
 namespace kurbel {
@@ -64,6 +66,37 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
                                     ? ": nothing, the machine has a cycle of this speed as it is"
                                     : ""));
   return words;
+}
+
+Claims claims_of(const SteadyStudy& s) {
+  Claims claims;
+  const SteadyCycle& last = s.cycles.back();
+  const bool vibrates = last.kind == Orbit::Kind::vibrating;
+  const Figure* told = last.find(vibrates ? "vibration_frequency" : "mean_speed." + s.link);
+  add(claims, claimed(!s.complete ? Predicate::incomplete
+                      : vibrates  ? Predicate::vibrates
+                                  : Predicate::runs_steadily,
+                      s.conclusion, s.link,
+                      s.complete && told ? Evidence{.value = told->value, .error = told->error, .unit = told->unit}
+                                         : Evidence{}));
+  for (const SteadyCycle& c : s.cycles)
+    if (c.found && !c.uncertain && !c.neutral)
+      add(claims,
+          claimed(Predicate::steady_motion_unstable,
+                  fmt::format("In the {} model the steady motion does not last: it is {}", c.label, c.stability), {},
+                  {.value = c.point.largest(),
+                   .limit = 1,
+                   .error = c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front())}));
+  for (const std::string& sentence : last.outside_data)
+    add(claims, claimed(Predicate::outside_data, capitalised(sentence)));
+  for (const MotorUse& use : last.motors) {
+    const Figure* rms = last.find("rms_drive_torque." + use.component);
+    const std::optional<double> error = rms ? rms->error : std::nullopt;
+    if (use.rated)
+      add(claims, overload_claim(*last.model, use.component,
+                                 {*use.thermal(), error ? std::optional(*error / *use.rated) : std::nullopt}, true));
+  }
+  return claims;
 }
 
 std::vector<std::string> words_of_diagram(const SteadyStudy& s) {

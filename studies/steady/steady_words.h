@@ -18,6 +18,9 @@ std::vector<std::string> words_of(const SteadyCycle& cycle);
 std::vector<std::string> words_of_diagram(const SteadyStudy& study);
 Record operating_point(const OperatingDiagram& diagram, const OperatingPoint& point);  // the same for programs
 std::vector<std::string> words_of_start(const SteadyStudy& study);
+// What the study comes to, by the last model's figures; which motion does not last; what lies outside of data; motors that get
+// too hot.
+Claims claims_of(const SteadyStudy& study);
 std::string complex_text(std::complex<double> z);  // "0.3 + 0.4 i"
 
 }  // namespace kurbel
