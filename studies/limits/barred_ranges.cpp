@@ -32,16 +32,15 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
     if (limit > 0 && (most.reason.empty() || torque / limit > most.share())) most = {torque, limit, reason};
   };
   const double largest = std::abs(load.largest().value);
-  consider(load.swing.value,
-           l.vibratory / (l.temperature_factor * l.frequency_factor(load.frequency_factor)), "vibratory_torque");
+  consider(load.swing.value, l.vibratory / (l.temperature_factor * l.frequency_factor(load.frequency_factor)),
+           "vibratory_torque");
   consider(largest, l.maximum / l.temperature_factor, "maximum_torque");
   consider(largest, l.shear_stress * l.polar_modulus / l.application_factor, "allowable_shear_stress");
   const double amplitude = load.amplitude().value;
   if (l.shaft.vibratory) consider(amplitude, *l.shaft.vibratory * l.polar_modulus, "allowable_vibratory_stress");
   if (l.shaft.endurance)
     consider(amplitude,
-             amplitude * *l.shaft.endurance * l.polar_modulus /
-                 l.shaft.fatigue_stress(amplitude, load.middle().value),
+             amplitude * *l.shaft.endurance * l.polar_modulus / l.shaft.fatigue_stress(amplitude, load.middle().value),
              "endurance_limit");
   // Heat grows with the square of the swing.
   if (l.power > 0 && load.power.value > 0)

@@ -80,6 +80,7 @@ class Rater {
   std::string load_case_of(std::optional<double> at) const {
     return only_case_.empty() ? load_case_at(result_, at) : only_case_;
   }
+  bool is_steady(std::optional<double> at) const { return load_case_of(at) == load_case::steady; }
   // `mends` tells what would hold; it gets how many times too large the value may be.
   template <class Mends>
   Verdict& add(const char* requirement, const Estimate& value, std::optional<double> at, double limit, const char* unit,
@@ -169,21 +170,21 @@ class Rater {
     return largest;
   }
 
-  // DIN 740-2: where starts weigh more than the mean torque, how much of that acts is not known here, and none counts.
+  // S_z is of starts. DIN 740-2: where they weigh more than the mean torque, how much of that acts is not known here, and none counts.
   void coupling(const CouplingLimits& limits) {
     const Figure* largest = largest_torque();
     if (limits.maximum > 0 && largest) {
-      const double factor = limits.temperature_factor * limits.start_factor;
+      const double start_factor = is_steady(largest->at) ? 1 : limits.start_factor;
+      const double factor = limits.temperature_factor * start_factor;
       Verdict& v =
           add(requirement::maximum, factor * abs(*largest), largest->at, limits.maximum, "N*m", [&](double times) {
             Remedy key = remedy("maximum_torque", limits.maximum * times, "N*m");
             key.tried = true;  // nothing of the motion depends on it
             return Mend{.remedy = key};
           });
-      v.bound = limits.start_factor > 1;
+      v.bound = start_factor > 1;
       v.factor = factor;
-      if (factor != 1)
-        v.factors = fmt::format("S_t = {:g}, S_z = {:g}", limits.temperature_factor, limits.start_factor);
+      if (factor != 1) v.factors = fmt::format("S_t = {:g}, S_z = {:g}", limits.temperature_factor, start_factor);
     }
     if (limits.nominal > 0) leave("nominal torque: K_A S_t |T_mean| ≤ T_KN", limits.nominal, "N*m");
     if (limits.vibratory > 0) leave("vibratory torque: S_t S_f T_W ≤ T_KW", limits.vibratory, "N*m");
@@ -198,8 +199,11 @@ class Rater {
   void shaft(const ShaftKeys& shaft) {
     const Figure* largest = largest_torque();
     if (!largest) return;
-    add("shear stress: |T|/W_p ≤ τ_allowable", abs(*largest) / shaft.polar_modulus(), largest->at,
-        *shaft.allowable_shear_stress, "Pa", [&](double times) { return thicker(shaft, times); });
+    const double factor = is_steady(largest->at) ? shaft.application_factor : 1;
+    Verdict& v = add(requirement::shear, factor / shaft.polar_modulus() * abs(*largest), largest->at,
+                     *shaft.allowable_shear_stress, "Pa", [&](double times) { return thicker(shaft, times); });
+    v.factor = factor;
+    if (factor != 1) v.factors = fmt::format("K_A = {:g}", factor);
   }
 
   // The extremes of the whole run, start included: no endless alternation, but no less than that of any part of it.

@@ -2,7 +2,7 @@
 //
 //     engagement: W = ∫ |M_k Δω| dt ≤ allowable_heat, the hottest one         W_total/t ≤ allowable_heat_power
 //     belt:       F₀ + |τ|/(2 r₁) ≤ allowable_tension                         slip_reserve · |τ| ≤ M (Euler, Eytelwein)
-//     shaft:      |T|/W_p ≤ allowable_shear_stress                            W_p = π (D⁴ − d⁴)/(16 D)
+//     shaft:      K_A |T|/W_p ≤ allowable_shear_stress, K_A in steady motion  W_p = π (D⁴ − d⁴)/(16 D)
 //                 from the least torque to the greatest: yield; for Goodman and the maker's amplitude a bound of the
 //                 steady motion: the extremes of one start are no endless alternation
 //     flywheel:   r |ω| ≤ allowable_rim_speed                                 ρ (r ω)² ≤ allowable_rim_stress

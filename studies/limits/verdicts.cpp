@@ -42,7 +42,7 @@ class Judge {
       add("dissipated power: P_W ≤ P_KW", abs(load_.power), limits_.power, "W", load_case::steady, "",
           "dissipated_power");
     if (limits_.shear_stress > 0)
-      largest("shear stress: K_A |T|/W_p ≤ τ_allowable", limits_.shear_stress, "Pa", 1 / limits_.polar_modulus,
+      largest(requirement::shear, limits_.shear_stress, "Pa", 1 / limits_.polar_modulus,
               {"K_A", limits_.application_factor}, fmt::format("W_p = {:.5g} cm³", 1e6 * limits_.polar_modulus));
     if (limits_.shaft.any()) swinging_stress();
   }

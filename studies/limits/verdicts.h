@@ -60,6 +60,7 @@ struct Passing {
 // What is required of a shaft's stress, wherever it is judged.
 namespace requirement {
 inline constexpr const char* maximum = "maximum torque: S_t (T_N + S_z T_S) ≤ T_Kmax";
+inline constexpr const char* shear = "shear stress: K_A |T|/W_p ≤ τ_allowable";  // K_A in steady motion
 inline constexpr const char* vibratory_stress = "vibratory stress: (τ_max − τ_min)/2 ≤ τ_allowable";
 inline constexpr const char* fatigue = "fatigue (Goodman): S (K_f τ_a + τ_W |τ_m|/τ_B) ≤ τ_W";
 inline constexpr const char* yield = "yield: S |τ| ≤ 0.577 σ_S";

@@ -108,8 +108,8 @@ void conclude(Comparison& c) {
   }
   for (const ComparisonRow& row : c.rows) {
     const bool repeats = row.what == quantities::delta;
-    if (row.what == quantities::cycle_fluctuation && row.b->value >= stands_within_the_cycle) continue;
     if (!row.ratio || !(repeats || row.what == quantities::cycle_fluctuation)) continue;
+    if (row.b->value >= stands_within_the_cycle) continue;
     const char* what = repeats ? "δ" : "the fluctuation in the last cycle, which is not steady,";
     c.conclusion += (c.conclusion.empty() ? "" : "; ") +
                     (*row.ratio > 2 ? fmt::format("{} is {:.3g} × as great", what, *row.ratio)
