@@ -41,6 +41,8 @@ std::string at_time(const Figure& figure);                       // "at 1.23 s";
 const Figure* largest_peak(const Result& result);                // of torque in any coupling
 const Figure* first_of(const Result& result, const QuantityKind& what);
 
+// Of cranks that cannot turn.
+std::vector<std::string> notes_on_arcs(const Model& model);
 // The figures asked for, in a sentence without a full stop.
 std::string figures_in_words(const Result& result);
 // Before its figures, and behind them.

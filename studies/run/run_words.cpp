@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/scene/units.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/findings/figure_text.h"
 
@@ -77,6 +78,14 @@ const Figure* first_of(const Result& r, const QuantityKind& what) {
   for (const Figure& f : r.figures)
     if (f.what == what && is_told(f, r)) return &f;
   return nullptr;
+}
+
+std::vector<std::string> notes_on_arcs(const Model& model) {
+  std::vector<std::string> notes;
+  for (const Network::ShaftElement& e : model.network.elements)
+    if (const MechanismElement* element = mechanism_of(e); element && element->mechanism().arc())
+      notes.push_back(fmt::format("\"{}\" cannot turn: its {}", e.component, words_of_arc(element->mechanism())));
+  return notes;
 }
 
 std::string figures_in_words(const Result& r) {

@@ -390,19 +390,11 @@ class Simulation {
     judge_motion(run.outcome, *run.slips);
     tell_outside_data(*run.ranges, result_);
     note_regularised(run.outcome.regularised);
-    note_arcs(m.network);
-    for (auto* of : {&substitutes, &idle_effects})
+    for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects})
       for (std::string& note : (*of)(m)) result_.notes.push_back(std::move(note));
     if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
       result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
-  }
-  // Cranks that cannot turn.
-  void note_arcs(const Network& network) {
-    for (const Network::ShaftElement& e : network.elements)
-      if (const MechanismElement* element = mechanism_of(e); element && element->mechanism().arc())
-        result_.notes.push_back(
-            fmt::format("\"{}\" cannot turn: its {}", e.component, words_of_arc(element->mechanism())));
   }
   void note_regularised(const std::vector<std::string>& list) {
     for (const std::string& what : std::set<std::string>(list.begin(), list.end())) {
