@@ -17,7 +17,13 @@ class LinkageDrafter {
     for (const DrawnJoint& j : joints) size_ = std::max(size_, length(j.at));
     for (std::size_t k = 0; k < s_.links.size(); ++k)
       if (static_cast<int>(k) != s_.driver) add_link(s_.links[k], "link");
-    for (const LinkageSketch::Slide& slide : s_.slides) add_slide(slide);
+    // What the load is shown at: a slider along the output's axis, else the point itself.
+    for (const bool of_output : {true, false})
+      for (const LinkageSketch::Slide& slide : s_.slides)
+        if ((slide.on == LinkageSketch::frame && slide.link == s_.output.link) == of_output) add_slide(slide);
+    const auto is_slider = [](const LinkageDrawing::Link& link) { return link.shape == "slider"; };
+    if (!s_.output.rocks() && std::none_of(links.begin(), links.end(), is_slider))
+      links.push_back({"point", {index_of_point(s_.output.point)}});
     add_link(s_.links[static_cast<std::size_t>(s_.driver)], "crank");
   }
 

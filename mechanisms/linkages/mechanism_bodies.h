@@ -34,7 +34,7 @@ struct PlanePoint {
 // How a mechanism is drawn by its joints (MechanismBodies::joints), and whether its output slides or rocks.
 struct LinkageDrawing {
   struct Link {
-    std::string shape;  // "crank", "link", "slot": a line; "slider" on a joint; "block" on a joint, along the next
+    std::string shape;  // "crank", "link", "slot": a line; "slider", "point" on a joint; "block" on a joint, along the next
     std::vector<int> joints;  // that it goes through
   };
   std::string name;

@@ -957,10 +957,10 @@
     const c = Math.cos(g.direction), s = Math.sin(g.direction), jointAt = jointsOf(g);
     const least = lists => Math.min(...lists.map(list => Math.min(...list))), most = lists => Math.max(...lists.map(list => Math.max(...list)));
     const size = Math.max(most(g.x) - least(g.x), most(g.y) - least(g.y)), body = 0.13 * size, room = 0.3 * size;
-    const slider = g.links.find(link => link.shape === 'slider'), end = slider ? slider.joints[0] : g.output;
+    const slider = g.links.find(link => link.shape === 'slider'), carried = slider || g.links.find(link => link.shape === 'point'), end = carried ? carried.joints[0] : g.output;
     const forced = own.length > 0;
     // Corners of what is seen, in the mechanism's axes.
-    const far = most(g.x) + (slider ? body + (forced ? 0.55 * room : 0) : 0.4 * body), aside = (g.load === 'press' ? 1.25 : 0.75) * body;
+    const far = most(g.x) + (carried ? body + (forced ? 0.55 * room : 0) : 0.4 * body), aside = (g.load === 'press' ? 1.25 : 0.75) * body;
     const way = slider ? [g.y[end][0] - aside, g.y[end][0] + aside] : [];
     const low = Math.min(least(g.y) - 0.3 * body, ...way), high = Math.max(most(g.y) + 0.3 * body, ...way);
     const corners = [least(g.x) - 0.5 * body, far].flatMap(u => [low, high].map(v => [u * c - v * s, -(u * s + v * c)]));
@@ -1033,7 +1033,7 @@
       // The pin's circle, where it comes round: the view of a crank that rocks ends at its arc.
       const radius = Math.hypot(g.x[1][0] - g.x[0][0], g.y[1][0] - g.y[0][0]), spread = list => Math.max(...list) - Math.min(...list);
       if (!ghost && Math.min(spread(g.x[1]), spread(g.y[1])) > 1.9 * radius) draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: radius * scale, class: 'dial'}, parent);
-      const parts = g.links.filter(link => !ghost || link.shape !== 'slot').map(link => {
+      const parts = g.links.filter(link => link.shape !== 'point' && (!ghost || link.shape !== 'slot')).map(link => {
         const filled = link.shape === 'slider' || link.shape === 'block';
         return {link, filled, shape: draw(filled ? 'polygon' : 'polyline', {fill: 'none', ...(ghost ? ghostly : styles[link.shape])}, parent)};
       });
@@ -1067,10 +1067,10 @@
       const force = at(own), shown = loads && Math.abs(force) > 1e-4 * largest;
       group.setAttribute('visibility', shown ? 'visible' : 'hidden');
       if (!shown) return;
-      text.textContent = withPrefix(force, slider ? 'N' : 'N·m');
-      if (slider) {
+      text.textContent = withPrefix(force, carried ? 'N' : 'N·m');
+      if (carried) {
         // A push towards the crank ends at the slider's face, a pull begins there.
-        const [x, y] = points[end], face = x + body * 0.58, length = room * Math.abs(force) / largest, from = force < 0 ? face + length : face, to = force < 0 ? face : face + length;
+        const [x, y] = points[end], face = x + (slider ? body * 0.58 : 0), length = room * Math.abs(force) / largest, from = force < 0 ? face + length : face, to = force < 0 ? face : face + length;
         place(arrow, {d: `M${at2(from, y)} L${at2(to, y)}`});
         drawArrowHead(arrow, head, X(to, y), Y(to, y), g.direction + (force < 0 ? Math.PI : 0), 9);
       } else {

@@ -25,6 +25,7 @@ KURBEL_SCENE(engine, "single_cylinder_engine.toml")
 KURBEL_SCENE(compressor, "compressor.toml")
 KURBEL_SCENE(shaper, "shaper.toml")
 KURBEL_SCENE(knuckle, "knuckle_press.toml")
+KURBEL_SCENE(linkage, "six_link_press.toml")
 KURBEL_SCENE(rocker, "four_bar_rocker.toml")
 KURBEL_SCENE(feeder, "drag_link_feeder.toml")
 KURBEL_SCENE(saw, "straight_line_saw.toml")
@@ -60,6 +61,7 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"compressor", "reciprocating compressor: polytropic indicator diagram, flywheel", compressor()},
       {"shaper", "shaper: crank and slotted lever with quick return, cutting force on the slow stroke", shaper()},
       {"knuckle", "knuckle-joint press: toggle links fall into line at the lower end", knuckle()},
+      {"linkage", "six-link drawing press: any linkage by a sketch of its points", linkage()},
       {"rocker", "shaking screen: crank–rocker four-bar, loads on the rocker", rocker()},
       {"feeder", "drum feeder: drag link, whose output goes round unevenly", feeder()},
       {"saw", "reciprocating saw: rod as long as the crank, through its change points", saw()},

@@ -109,7 +109,7 @@ class LinkageDrawer {
 
   void draw_links(const Joints& joints, Pen pen) {
     for (const LinkageDrawing::Link& link : drawing_.links) {
-      if (link.shape == "slider" || link.shape == "block") continue;
+      if (link.shape == "slider" || link.shape == "block" || link.shape == "point") continue;
       std::vector<Spot> spots;
       for (const int joint : link.joints) spots.push_back(spot(joints[index(joint)]));
       if (link.shape == "slot") extend(link, spots);
