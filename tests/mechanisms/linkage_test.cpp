@@ -386,6 +386,61 @@ TEST(Linkage, OfRandomDyadsBothExtractionsAgree) {
   EXPECT_EQ(good, 60) << refused << " refused";
 }
 
+// --- lengths ---
+
+double distance_in(const LinkageSketch& s, int a, int b) {
+  const auto &p = s.points[static_cast<std::size_t>(a)], &q = s.points[static_cast<std::size_t>(b)];
+  return std::hypot(p.x - q.x, p.y - q.y);
+}
+
+// The sketch is drawn to a tenth of a length's unit; the lengths that are given hold, those that are not stay.
+TEST(Linkage, GivenLengthsMoveTheSketch) {
+  SketchOf of;
+  of.point('O', 0, 0).point('A', 15, 0).point('Z', -38, -7.8).point('B', -24, 31.3).point('C', -27, -45.5);
+  of.point('D', -74.8, 8.1).point('E', -59.2, -28.1).point('F', -43.2, -91.8).frame("OZ");
+  of.link("crank", "OA").link("upper", "AB").link("lower", "AC").link("thigh", "ZBD").link("guide", "ZC");
+  of.link("shank", "DE").link("foot", "CEF").moves("foot", 'F', 0);
+  const std::vector<LinkageSketch::Length> lengths = {
+      {1, 3, 50, "AB"},   {1, 4, 61.9, "AC"}, {2, 3, 41.5, "ZB"}, {2, 4, 39.3, "ZC"}, {2, 5, 40.1, "ZD"},
+      {3, 5, 55.8, "BD"}, {5, 6, 39.4, "DE"}, {4, 6, 36.7, "CE"}, {6, 7, 65.7, "EF"}, {4, 7, 49, "CF"}};
+  EXPECT_TRUE(take_lengths(of.s, lengths).empty());
+  for (const LinkageSketch::Length& l : lengths) EXPECT_NEAR(distance_in(of.s, l.from, l.to), l.value, 1e-13) << l.name;
+  EXPECT_NEAR(distance_in(of.s, 0, 1), 15, 1e-14);
+  EXPECT_NEAR(of.s.points[0].x, 0, 1e-15);
+  EXPECT_NEAR(of.s.points[2].x, -38, 1e-13);
+  expect_rigid(of.data());
+  EXPECT_EQ(of.data().linkage->structure().groups.size(), 3u);
+
+  const LinkageFaults none = take_lengths(of.s, {{1, 7, 10, "AF"}});
+  ASSERT_EQ(none.size(), 1u);
+  EXPECT_NE(none[0].text.find("no link has both A and F"), std::string::npos) << none[0].text;
+  const LinkageFaults open = take_lengths(of.s, {{1, 3, 500, "AB"}});
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_NE(open[0].text.find("cannot be closed"), std::string::npos) << open[0].text;
+}
+
+// A ram keeps its line, a block the offset of its slot.
+TEST(Linkage, GivenLengthsKeepSlides) {
+  SketchOf of;
+  of.point('O', 0, 0).point('A', 103, 38).point('D', 0, -304).point('E', 161, 232).point('R', -18, 236).frame("OD");
+  of.link("crank", "OA").link("block", "A").link("lever", "DE").link("link", "ER").link("ram", "R");
+  const double through = std::atan2(342, 103);
+  of.slide("block", through, "lever").slide("ram", 0).moves("ram", 'R', 0);
+  const double offset = 161 * std::sin(through) - 536 * std::cos(through);  // of E from the slot's line through D
+  EXPECT_TRUE(take_lengths(of.s, {{0, 1, 110, "OA"}, {3, 4, 180, "ER"}, {2, 3, 560, "DE"}}).empty());
+  EXPECT_NEAR(distance_in(of.s, 0, 1), 110, 1e-12);
+  EXPECT_NEAR(distance_in(of.s, 3, 4), 180, 1e-12);
+  EXPECT_NEAR(of.s.points[4].y, 236, 1e-12);
+  EXPECT_EQ(of.s.points[2].y, -304);
+  const double angle = of.s.slides[0].angle, x = of.s.points[3].x, y = of.s.points[3].y + 304;
+  EXPECT_NEAR(x * std::sin(angle) - y * std::cos(angle), offset * 560 / std::hypot(161, 536), 1e-9);
+  const LinkageData data = of.data();
+  expect_rigid(data);
+  ASSERT_EQ(data.linkage->structure().groups.size(), 2u);
+  EXPECT_EQ(name_of(data.linkage->structure().groups[0]), "RPR");
+  EXPECT_EQ(name_of(data.linkage->structure().groups[1]), "RRP");
+}
+
 // --- what is refused ---
 
 std::string fault_of(const SketchOf& of) {
