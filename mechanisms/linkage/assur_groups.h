@@ -1,8 +1,8 @@
 // assur_groups.h — a linkage taken apart: its joints, and the Assur groups that its links form behind the driving link.
 //
 // A group is a set of links that adds no degree of freedom, 3 n = 2 p with its joints to the links before it, and holds no
-// smaller one (Assur, 1914). Two links make a dyad, named by its joints from outside to outside: RRR, RRP, RPR, PRP, RPP
-// (R a pin, P a slide). A set with 3 n < 2 p has more joints than it needs; it moves if its lengths allow that.
+// smaller one (Assur, 1914; theory 9.16). Two links make a dyad, named by its joints from outside to outside: RRR, RRP,
+// RPR, PRP, RPP (R a pin, P a slide). A set with 3 n < 2 p has more joints than it needs; it moves if its lengths allow it.
 #pragma once
 
 #include <string>

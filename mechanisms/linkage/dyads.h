@@ -1,4 +1,4 @@
-// dyads.h — the five dyads in closed form, from the motion of the links that their outer joints stand on (theory 10).
+// dyads.h — the five dyads in closed form, from the motion of the links that their outer joints stand on (theory 9.17).
 //
 //     RRR   two circles about the outer pins cut each other in the inner one        sine: of the angle between the links
 //     RRP   a circle about the outer pin and the inner pin's line                    of the first link against its normal

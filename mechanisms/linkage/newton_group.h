@@ -2,7 +2,8 @@
 //
 // Unknowns of each link: the shift of one of its points and its rotation, both from the sketch. A pin gives two closures
 // (the places differ in x, in y), a slide two (the directions differ, the point leaves the line). Solved in the sense of
-// least squares, so that closures that say nothing new do no harm; the series follow from the same matrix, order by order:
+// least squares, so that closures that say nothing new do no harm; the series follow from the same matrix, order by order
+// (theory 9.18):
 //     J u_k = −(coefficient k of the closures with u_k = 0)
 #pragma once
 
