@@ -375,6 +375,7 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   if (const std::string why = data.undetermined(); !why.empty())
     throw std::invalid_argument(fmt::format("{}: {}; ask run, steady or reduce", asked.name, why));
   out.rocks = data.rocks();
+  for (const std::string& line : data.about()) out.notes.push_back(asked.name + ": " + line);
   OutputLoads loads(asked, effects);
   const CrankSpeed speed = prescribed_speed(machine, options);
   options.watch.say(

@@ -41,7 +41,8 @@ Question forces_question() {
                 .what = "a speed"},
                &ForcesOptions::speed)
           .add({.name = "mechanism",
-                .doc = "which slider-crank, four-bar, quick-return, inverted slider-crank or knuckle press (default: "
+                .doc = "which slider-crank, four-bar, quick-return, inverted slider-crank, knuckle press or linkage "
+                       "(default: "
                        "the first)"},
                &ForcesOptions::mechanism)
           .add(

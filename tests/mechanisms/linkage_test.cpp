@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "mechanisms/reduced/mechanism_data.h"
+#include "mechanisms/reduced/newton_euler.h"
 #include "tests/mechanisms/linkage_examples.h"
 #include "tests/mechanisms/mechanism_examples.h"
 
@@ -163,27 +165,94 @@ void expect_same(const MechanismData& a, const MechanismData& b, double within) 
   }
 }
 
-TEST(Linkage, AFourBarIsTheFourBar) {
+FourBarData named_four_bar() {
   FourBarData d;
   d.crank = 0.08, d.coupler = 0.39, d.rocker = 0.17, d.ground = 0.37;
   d.crank_body = {12, -0.017, 0.6}, d.coupler_body = {7, 0.15, 0.08}, d.rocker_body = {22, 0.09, 0.7};
   d.gravity = 9.81, d.ground_angle = 0.4;
+  return d;
+}
+// Drawn at φ = 0.8.
+LinkageData as_linkage(const FourBarData& d) {
   const PlanarLinkage there = linkage_of(d, 0.8L);
+  const auto x = [](const Path& p) { return double(p.x.value()); };
+  const auto y = [](const Path& p) { return double(p.y.value()); };
   SketchOf of;
-  const auto place = [&](const Path& p) { return std::pair(double(p.x.value()), double(p.y.value())); };
-  const auto [ax, ay] = place(there.joints[1].at);
-  const auto [bx, by] = place(there.joints[2].at);
-  of.point('O', 0, 0).point('A', ax, ay).point('B', bx, by).point('D', d.ground, 0).frame("OD");
-  of.link("crank", "OA", 12, 0.6 - 12 * 0.017 * 0.017);
-  of.com(double(there.bodies[0].com.x.value()), double(there.bodies[0].com.y.value()));
-  of.link("coupler", "AB", 7, 0.08).com(double(there.bodies[1].com.x.value()), double(there.bodies[1].com.y.value()));
-  of.link("rocker", "DB", 22, 0.7 - 22 * 0.09 * 0.09);
-  of.com(double(there.bodies[2].com.x.value()), double(there.bodies[2].com.y.value()));
+  of.point('O', 0, 0).point('A', x(there.joints[1].at), y(there.joints[1].at));
+  of.point('B', x(there.joints[2].at), y(there.joints[2].at)).point('D', d.ground, 0).frame("OD");
+  const char* const points[] = {"OA", "AB", "DB"};
+  for (int k = 0; k < 3; ++k) {
+    const PlanarLinkage::Body& body = there.bodies[static_cast<std::size_t>(k)];
+    of.link(body.name, points[k], body.mass, double(body.inertia)).com(x(body.com), y(body.com));
+  }
   of.rocks("rocker");
-  of.s.gravity = 9.81, of.s.elevation = 0.4;
-  const LinkageData data = of.data();
+  of.s.gravity = d.gravity, of.s.elevation = d.ground_angle;
+  return of.data();
+}
+
+TEST(Linkage, AFourBarIsTheFourBar) {
+  const FourBarData d = named_four_bar();
+  const LinkageData data = as_linkage(d);
   expect_rigid(data);
   expect_same(d, data, 1e-12);
+}
+
+TEST(Linkage, ReactionsOfAFourBarAreTheFourBars) {
+  const FourBarData d = named_four_bar();
+  const LinkageData data = as_linkage(d);
+  for (int i = 0; i < 12; ++i) {
+    const LinkageState state = {0.5 * i, 11, -40, 300};
+    const LinkageForces wanted = forces_in(linkage_of(d, state.phi), state);
+    const LinkageForces got = forces_in(linkage_of(data, state.phi), state);
+    double largest = 0;
+    for (const JointForces& j : wanted.joints) largest = std::max(largest, j.force.magnitude());
+    EXPECT_NEAR(got.torque, wanted.torque, 1e-12 * largest);
+    ASSERT_EQ(got.joints.size(), wanted.joints.size());
+    for (const JointForces& a : wanted.joints)
+      for (const JointForces& b : got.joints) {
+        if (std::string(a.from) != b.from || std::string(a.on) != b.on) continue;
+        EXPECT_NEAR(b.force.x, a.force.x, 1e-12 * largest) << a.name;
+        EXPECT_NEAR(b.force.y, a.force.y, 1e-12 * largest) << a.name;
+      }
+  }
+}
+
+// The torque on the driving link by the links' equilibrium is that of the reduced functions.
+void expect_balanced(const LinkageData& data) {
+  const MechanismData as_data(data);
+  const auto arc = data.linkage->arc();
+  for (int i = 0; i < 20; ++i) {
+    LinkageState state = {0.31 * i, 9, 70, 200};
+    if (arc) state.phi = arc->middle + 0.08 * (i - 10) * arc->half;
+    const LinkageForces f = forces_in(as_data.linkage(state.phi), state);
+    const ReducedSample s = closed_sample(as_data, state.phi);
+    const double terms[] = {s.inertia * state.alpha, 0.5 * s.inertia_slope * state.omega * state.omega,
+                            -s.gravity_torque, -s.output_velocity_ratio * state.load};
+    double torque = 0, largest = 0;
+    for (const double term : terms) torque += term, largest = std::max(largest, std::abs(term));
+    EXPECT_NEAR(f.torque, torque, 1e-12 * largest) << i;
+    EXPECT_LT(f.residual, 1e-14);
+    // The frame bears weights, inertia forces and the load on a point.
+    Force2 frame, rest = f.shaking_force;
+    for (const JointForces& j : f.joints)
+      if (std::string(j.from) == "frame") frame = frame + j.force;
+    double mass = 0, force = 1;
+    for (const LinkageSketch::Link& link : data.linkage->sketch().links) mass += link.mass;
+    const PlanarLinkage l = as_data.linkage(state.phi);
+    rest.x -= mass * l.gravity * std::sin(l.elevation), rest.y -= mass * l.gravity * std::cos(l.elevation);
+    if (!l.rocks) rest.x += state.load;
+    for (const JointForces& j : f.joints) force = std::max(force, j.force.magnitude());
+    EXPECT_NEAR(frame.x, -rest.x, 1e-12 * force) << i;
+    EXPECT_NEAR(frame.y, -rest.y, 1e-12 * force) << i;
+  }
+}
+
+TEST(Linkage, ReactionsBalanceEveryLink) {
+  for (SketchOf of :
+       {scotch_yoke(), test::peaucellier(), test::stephenson(), test::stephenson().drives("lever").rocks("crank")}) {
+    of.s.gravity = 9.81, of.s.elevation = 0.3;
+    expect_balanced(of.data());
+  }
 }
 
 TEST(Linkage, ASliderCrankIsTheSliderCrank) {
