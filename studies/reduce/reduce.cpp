@@ -86,6 +86,7 @@ class Reducer {
     if (!r_.outside_data.empty()) drop_errors();
     r_.chain = elastic_chain(m, target_node_);
     add_notes();
+    r_.paths = point_paths(model());
     if (options_.also)
       for (const double phi : options_.also(r_)) r_.also.push_back(position(-1, phi));
     return std::move(r_);

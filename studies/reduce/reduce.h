@@ -82,6 +82,12 @@ struct Chain {
   double total() const;
 };
 
+// A coupler curve: where a point of a linkage is, at equal steps of its driving link's angle.
+struct PointPath {
+  std::string name;               // "press.D"
+  std::vector<double> phi, x, y;  // [rad]; in the sketch's axes, from the driving link's bearing [m]
+};
+
 struct MachineReduction {
   std::string title, scene_file;
   std::string link, to;    // the reduction link, and what all is reduced to
@@ -106,6 +112,7 @@ struct MachineReduction {
   // Largest over the cycle, on the link: of I_r [kg·m²], M_d and M_c [N·m]. Nothing comes round: none.
   std::optional<double> inertia_error, drive_error, load_error;
   std::vector<std::string> outside_data;  // what torques are taken from beyond the ends of tables; they have no errors
+  std::vector<PointPath> paths;           // of a linkage's points that move, over a cycle of its driving link
   std::vector<std::string> notes;
 };
 
@@ -119,7 +126,7 @@ Chain elastic_chain(const Model& model, int node);
 // "gearbox.in", "flywheel" → node of the network. Throws std::invalid_argument with the names allowed.
 int node_named(const Model& model, const std::string& name);
 
-// Files: positions.csv, harmonics.csv. The reduction must outlive the findings.
+// Files: positions.csv, harmonics.csv, of linkages coupler_curves.csv. The reduction must outlive the findings.
 Findings findings_of(const MachineReduction& reduction);
 
 }  // namespace kurbel

@@ -210,6 +210,25 @@ DataTable harmonics_data(const MachineReduction& r) {
       .data();
 }
 
+DataTable curves_data(const MachineReduction& r) {
+  struct Row {
+    std::string point;
+    double phi, x, y;
+  };
+  std::vector<Row> rows;
+  for (const PointPath& path : r.paths)
+    for (std::size_t i = 0; i < path.phi.size(); ++i) rows.push_back({path.name, path.phi[i], path.x[i], path.y[i]});
+  return data_of(std::move(rows))
+      .in_file("point", {}, &Row::point)
+      .in_file(
+          "φ", "°", [](const Row& row) { return row.phi * in_degrees; }, 15)
+      .in_file(
+          "x", "m", [](const Row& row) { return row.x; }, 15)
+      .in_file(
+          "y", "m", [](const Row& row) { return row.y; }, 15)
+      .data();
+}
+
 // --- formulas ---
 
 Formulas formulas_of(const MachineReduction& r) {
@@ -301,6 +320,7 @@ Findings findings_of(const MachineReduction& r) {
   }
   f.note(notes, r.notes, "");
   f.tables = {{"positions", [&r] { return positions_data(r); }}, {"harmonics", [&r] { return harmonics_data(r); }}};
+  if (!r.paths.empty()) f.tables.push_back({"coupler_curves", [&r] { return curves_data(r); }});
   return f;
 }
 
