@@ -209,6 +209,11 @@ const std::set<std::string>& read_elsewhere() {
   return keys;
 }
 
+// A point of a linkage's sketch, which picks the branch alone where the lengths about it are given.
+bool is_sketched(const std::string& key) {
+  return key.size() == 1 && std::isupper(static_cast<unsigned char>(key[0])) != 0;
+}
+
 std::vector<std::string> scenes() {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(test::source_path("scenes")))
@@ -224,7 +229,7 @@ TEST(NoKeyVanishes, numbers_of_the_scenes_have_an_effect) {
     for (const std::string& idle : idle_numbers(file, test::thorough() ? 0 : first % step, step)) {
       const std::size_t begin = idle.find(": ", idle.find(".toml")) + 2;
       const std::string key = idle.substr(begin, idle.find(' ', begin) - begin);
-      EXPECT_TRUE(read_elsewhere().contains(key)) << idle;
+      EXPECT_TRUE(read_elsewhere().contains(key) || is_sketched(key)) << idle;
     }
     first += 5;
   }
