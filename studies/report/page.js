@@ -296,7 +296,9 @@
     }
     // "6 · 4 × cylinder" and "2  ring against flywheel, 280 Hz": where the page is narrow their numbers alone.
     const short = text => narrow() ? text.split(' ')[0] : text;
-    // A level line's name stands above it where circles, rays and bands leave most room: of places along it the emptiest.
+    // A level line's name stands above it where circles, rays, bands and other names leave most room: of places along it the
+    // emptiest.
+    const named = [];
     const namePlace = (s, text) => {
       const from = x ? x[0] : s.x[0], to = x ? x[1] : s.x[s.x.length - 1], width = Math.min(0.9, 7.2 * (text.length + 2) / (narrow() ? window.innerWidth - 100 : across - 120)) * (to - from);
       const crowd = at => {
@@ -306,11 +308,14 @@
           if (other.sizes) other.x.forEach((cx, i) => { if (within(cx, pad) && y && Math.abs(other.y[i] - s.y[0]) < 0.06 * (y[1] - y[0])) sum += 3; });
           else if (other.textAtEnd && other.x.length === 2 && other.y[1] !== other.y[0] && within(other.x[0] + (s.y[0] - other.y[0]) / (other.y[1] - other.y[0]) * (other.x[1] - other.x[0]), 0)) sum += 0.5;
         }
+        for (const n of named) if (y && Math.abs(n.y - s.y[0]) < 0.05 * (y[1] - y[0]) && n.x < at + width && n.x + n.width > at) sum += 5;
         for (const band of plot.bands || []) if (band.to > at - pad && band.from < at + width + pad) sum += band.from === band.to ? 2 : 0.6;
         return sum;
       };
       const places = Array.from({length: 25}, (_, i) => from + i / 24 * (to - from - width));
-      return places.reduce((a, b) => crowd(b) < crowd(a) - 1e-9 ? b : a);
+      const best = places.reduce((a, b) => crowd(b) < crowd(a) - 1e-9 ? b : a);
+      named.push({x: best, y: s.y[0], width});
+      return best;
     };
     const right = [], top = [];
     for (const s of plot.series) {
@@ -328,13 +333,15 @@
       list.forEach(a => { a[along] = part(a[along], range); });
       list.sort((a, b) => a[along] - b[along]);
       for (let i = 1; i < list.length; ++i) list[i][along] = Math.max(list[i][along], list[i - 1][along] + step);
+      for (let i = list.length - 1, end = 1; i >= 0; --i, end -= step) list[i][along] = Math.min(list[i][along], end);
     };
     if (y) spread(right, 'y', y, 15 / high);
     if (x) spread(top, 'x', x, (narrow() ? 22 : 24) / Math.min(across, window.innerWidth));
     const longest = Math.max(0, ...right.map(a => a.text.length)), ceiling = Math.max(0, ...top.map(a => a.text.length));
+    const beyond = narrow() ? 0 : Math.max(0, ...top.map(a => x ? (a.x - 1) * Math.min(across, window.innerWidth) + a.text.length * 5 : 0));
     right.forEach(a => annotations.push({...a, x: 1, xref: 'paper', yref: y ? 'paper' : 'y', xanchor: 'left', yanchor: 'middle', xshift: 3}));
     top.forEach(a => annotations.push({...a, y: 1, xref: x ? 'paper' : 'x', yref: 'paper', xanchor: narrow() ? 'center' : 'left', yanchor: 'bottom', textangle: narrow() ? 0 : -40}));
-    const margin = {...layout.margin, r: Math.max(layout.margin.r, longest * 6.2 + 8), t: ceiling ? (narrow() ? 24 : ceiling * 4 + 18) : layout.margin.t};
+    const margin = {...layout.margin, r: Math.max(layout.margin.r, longest * 6.2 + 8, beyond + 8), t: ceiling ? (narrow() ? 24 : ceiling * 4 + 18) : layout.margin.t};
     const legend = ceiling ? {...layout.legend, y: -0.22, yanchor: 'top'} : layout.legend;
     annotations.push(...peakWords(plot, layout));
     return {shapes, annotations, margin, legend};
