@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace kurbel {
 namespace {
@@ -31,6 +32,13 @@ Orbit orbit_at(const Scene& scene, const Effects& effects, const Moment& moment,
   return find_orbit(compile_network(network_as_of(then, moment), then, effects), options);
 }
 
+// None of what has no period in common then.
+bool keeps_a_motion(const Scene& scene, const Effects& effects, const Moment& moment, const OrbitOptions& options) try {
+  return orbit_at(scene, effects, moment, options).repeats();
+} catch (const std::invalid_argument&) {
+  return false;
+}
+
 }  // namespace
 
 std::string choose_kept_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at,
@@ -41,7 +49,7 @@ std::string choose_kept_moment(const Scene& scene, const Effects& effects, const
   const Orbit last = known ? *known : orbit_at(scene, effects, {}, options);
   if (last.repeats() || (last.kind != Orbit::Kind::at_rest && last.kind != Orbit::Kind::equilibrium)) return {};
   for (const Moment& moment : earlier) {
-    if (!orbit_at(scene, effects, moment, options).repeats()) continue;
+    if (!keeps_a_motion(scene, effects, moment, options)) continue;
     at = moment;
     return fmt::format("{}; shown is the motion that it keeps {}", last.words.substr(0, last.words.find(';')),
                        moment.describe());
