@@ -30,7 +30,7 @@
 //   run_up      when the link's speed enters for good the range of the last p cycles, wider by 1 % of the mean speed
 //   driven_part the same, of the time up to which any source is on, where none is at the end
 //   stands_within    share of the time of the last p cycles in which the link does not turn
-//   later       the same machine run on to four times the time: its speed in the mean of the last tenth, what it does at the end
+//   later       the same machine run on to several times the time: its speed in the mean of the last tenth, what it does at the end
 //   contacts    lets_go: slips at a command of 1 that has not changed since it held; engages: slips otherwise while it is told
 //               more than 0; open: told 0;  a slip counts from 1e-3 of the usual speed, or 1e-2 rad in all
 //   limits      of ratings that the scene states: greatest value sampled over the limit

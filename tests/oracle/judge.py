@@ -51,7 +51,8 @@ class Judge:
             return []
         if "refused" not in self.answer.get("run", {"refused": 1}) and self.run.summary.get("complete"):
             for rule in (self.steadiness, self.boundaries, self.rest, self.starting, self.stalling, self.turning_back, self.running_away,
-                         self.round, self.final_speed, self.contacts, self.brakes, self.limits, self.reserves, self.motors):
+                         self.round, self.final_speed, self.contacts, self.brakes, self.limits, self.reserves, self.peaks, self.motors,
+                         self.typed):
                 rule()
         if "refused" not in self.answer.get("steady", {"refused": 1}):
             self.steady_study()
@@ -83,7 +84,7 @@ class Judge:
         if off is None and l and l["complete"] and not self.truth["sequence"] and l["switched_last"] <= m["until"]:
             if differs(m["speed_at_end"] if not m["cycle"] else m.get("mean_speed", 0), l["mean_speed_of_last_tenth"], 0.03):
                 self.contradiction("runs steadily, but goes on to another motion",
-                                   f"{m.get('mean_speed', m['speed_at_end']):.5g} rad/s at the end, {l['mean_speed_of_last_tenth']:.5g} after four times the time")
+                                   f"{m.get('mean_speed', m['speed_at_end']):.5g} rad/s at the end, {l['mean_speed_of_last_tenth']:.5g} after {l['until'] / m['until']:.0f} times the time")
         delta = self.run.value(f"delta.{self.truth['link']}")
         if delta is not None and delta >= 2:
             self.contradiction("δ of a motion that stops", f"δ = {delta:.4g}")
@@ -185,14 +186,14 @@ class Judge:
         end, last = abs(m["speed_at_end"]), abs(l["mean_speed_of_last_tenth"])
         grows = last > 1.3 * end and last > 1.3 * abs(l["mean_speed_before"])
         if r.says("runs away") and not grows:
-            self.contradiction("runs away, but settles", f"{end:.4g} rad/s at the end, {last:.4g} after four times the time")
-        if grows and end > 1.5 * self.usual and not r.says("runs away") and not r.says("turns back") and not self.truth["sequence"] and \
+            self.contradiction("runs away, but settles", f"{end:.4g} rad/s at the end, {last:.4g} after {l['until'] / m['until']:.0f} times the time")
+        if grows and last > 2 * end and last > 3 * self.usual and end > 1.5 * self.usual and not r.says("runs away") and not r.says("turns back") and not self.truth["sequence"] and \
                 not (r.says("not steady") or m["falls"]):
-            self.omission("runs away", f"{end:.4g} rad/s at the end, {last:.4g} after four times the time, usual {self.usual:.4g}; said: {r.sentences[0]}")
+            self.omission("runs away", f"{end:.4g} rad/s at the end, {last:.4g} after {l['until'] / m['until']:.0f} times the time, usual {self.usual:.4g}; said: {r.sentences[0]}")
 
     def round(self):
         m, r = self.motion, self.run
-        if r.says("no round") and m["rounds"] >= 1:
+        if r.says("no round") and m["rounds"] >= 2:
             self.contradiction("does not get round, but does", f"{m['rounds']:.0f} cycles")
         if m["no_round"] and not r.bad_motion and not self.braked_by_command() and not m["stalls"]:
             self.omission("does not get round", f"{m['end']} at the end; said: {r.sentences[0]}")
@@ -285,6 +286,44 @@ class Judge:
                 self.contradiction("reserve of a clutch that never held", f"\"{c['component']}\" torque_reserve = {said:.4g}")
             elif c["capacity"] and said > 0 and c["lets_go"] == 0 and differs(said, c["capacity"] / c["greatest_held_torque"], 0.05):
                 self.contradiction("reserve is another", f"\"{c['component']}\" said {said:.4g}, sampled {c['capacity'] / c['greatest_held_torque']:.4g}")
+
+    def peaks(self):
+        for of, sampled in self.truth.get("torques", {}).items():
+            said = self.run.value(f"peak_torque.{of}")
+            if said is None:
+                continue
+            least = 1e-3 * self.motion["usual_torque"]
+            at = (self.run.figure(f"peak_torque.{of}").get("at"))
+            if abs(said) > 1.3 * sampled + least:
+                self.contradiction("a peak torque that the motion does not have",
+                                   f"\"{of}\" said {said:.5g} N·m at {at} s, sampled {sampled:.5g}")
+            elif abs(said) < 0.95 * sampled - least:
+                self.contradiction("a torque greater than the peak that is said", f"\"{of}\" said {said:.5g} N·m, sampled {sampled:.5g}")
+
+    def typed(self):
+        """Claims that no sentence had before they were typed."""
+        m, r = self.motion, self.run
+        contacts = {c["component"]: c for c in self.truth["contacts"]}
+        for name, wrong in (("does not move", m["moves"]), ("starts", m["begins"] != "at rest" or not m["moves"]),
+                            ("at rest", m["end"] != "rests" and abs(m["speed_at_end"]) > 0.02 * self.usual),
+                            ("strokes", not ((m.get("stands_within") or 0) > 0 or (m.get("least_speed") or 0) <= 0)),
+                            ("held by", m["end"] != "rests")):
+            if r.says(name) and wrong:
+                self.contradiction(f"claim \"{name}\" is false", f"{m['end']} at the end, moves: {m['moves']}, begins {m['begins']}")
+        for name, holds in (("engages", lambda c: c["engages"] > 0 or c["slips"] > 0), ("open", lambda c: c["open"] > 0),
+                            ("overruns", lambda c: c["kind"] == "one-way clutch" and c["slips"] > 0)):
+            for component in r.claims.get(name, ()):
+                if component in contacts and not holds(contacts[component]):
+                    self.contradiction(f"claim \"{name}\" is false", f"\"{component}\"")
+        if not r.typed:
+            return
+        for c in self.truth["contacts"]:
+            if c["kind"] == "clutch" and c["open"] > 0 and not r.says("open", c["component"]):
+                self.omission("clutch is open by command", f"\"{c['component']}\" {c['open']:.3g} s")
+            if c["kind"] == "clutch" and c["engages"] > 0 and not r.mentions(c["component"], "slip", "lets go"):
+                self.omission("clutch slips while it engages", f"\"{c['component']}\" {c['engages']} times")
+            if c["kind"] == "one-way clutch" and c["times_slipping"] > 0 and not r.says("overruns", c["component"]):
+                self.omission("freewheel overruns", f"\"{c['component']}\" {c['times_slipping']} times")
 
     def motors(self):
         m, r = self.motion, self.run

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <kurbel/kurbel.h>
 
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -26,6 +27,8 @@ using nlohmann::json;
 constexpr double budget = 5;         // of an integration [s]
 constexpr double cheap = 0.3;        // a run that took less goes on for longer
 constexpr double times_as_long = 4;  // than the scene says
+constexpr double fast = 1.5;         // times the usual speed: does it settle, or run away?
+constexpr double times_to_settle = 60;
 
 template <class Of>
 json unless_refused(Of&& of) {
@@ -41,7 +44,9 @@ json truth_of(const std::string& file) {
   const auto model = compile(scene, scene.effects);
   const oracle::Observed seen = oracle::observe(model, scene.run.until, budget);
   if (!seen.outcome.complete || seen.cpu_seconds > cheap) return oracle::classify(seen, nullptr);
-  const oracle::Observed later = oracle::observe(model, times_as_long * scene.run.until, budget);
+  const bool far = std::abs(seen.moments.back().speed) > fast * model->speed_scale;
+  const oracle::Observed later =
+      oracle::observe(model, (far ? times_to_settle : times_as_long) * scene.run.until, budget);
   return oracle::classify(seen, &later);
 }
 

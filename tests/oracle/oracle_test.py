@@ -1,5 +1,6 @@
 """scripts/oracle --check: is a falsified sentence found, and nothing where words and motion agree?"""
 import copy
+import re
 import sys
 import unittest
 from pathlib import Path
@@ -27,7 +28,7 @@ def contact(kind="clutch", **changes):
 
 
 def answer(conclusion='"press" runs steadily at 30 rad/s from 1 s on.', truth=None, contacts=(), limits=(), periods=None, figures=None, ratings=(),
-           later=None, steady=None, held=(), motors=(), sequence=0, text=""):
+           later=None, steady=None, held=(), motors=(), sequence=0, text="", claims=(), torques=None, driven_part=None):
     m = motion(**(truth or {}))
     figures = {"mean_speed.press": 30.0, "final_speed.press": m["speed_at_end"], **(figures or {})}
     periods = {"run_up_end": 1.0, "run_down_begin": None, "standstill": None, "steady": True, **(periods or {})}
@@ -35,8 +36,10 @@ def answer(conclusion='"press" runs steadily at 30 rad/s from 1 s on.', truth=No
              "mean_speed_of_last_tenth": m["speed_at_end"], "mean_speed_before": m["speed_at_end"], **(later or {})}
     return {"scene": "x.toml",
             "truth": {"complete": True, "prescribed": False, "link": "press", "sequence": sequence, "repeats": False, "motion": m, "later": later,
-                      "contacts": list(contacts), "motors": list(motors), "limits": list(limits), "held": list(held)},
+                      "contacts": list(contacts), "motors": list(motors), "limits": list(limits), "held": list(held),
+                      "torques": torques or {}, **({"driven_part": driven_part} if driven_part else {})},
             "run": {"complete": True, "conclusion": conclusion, "periods": periods, "model": {"effects": "none"}, "ratings": list(ratings), "text": text,
+                    "claims": [{"name": n, "of": of, "text": f'"{of}" {n}'} for n, of in claims],
                     "figures": [{"name": n, "value": v} for n, v in figures.items()], "energy_balance": {"work": {"driving": 100.0}}},
             "steady": steady or {"complete": True, "conclusion": "Steady cycle, rigid: mean speed 30 rad/s.", "cycles": [
                 {"found": True, "effects": "none", "figures": [{"name": "mean_speed.press", "value": 30.0}]}]}}
@@ -108,6 +111,32 @@ FALSE = {
     "limit exceeded, and not in the conclusion": answer(limits=[HOT], ratings=[TELLS]),
     "reserve of a clutch that never held": answer(figures={"torque_reserve.clutch": 8.65e-8}, contacts=[contact(greatest_held_torque=0.0)]),
     "reserve is another": answer(figures={"torque_reserve.clutch": 3.0}, contacts=[contact()]),
+    "at rest, but vibrates": answer('"press" is at rest after 10 s.', {"end": "vibrates", "speed_at_end": 0.3, "steady": "no"}, steady=NOTHING),
+    "slips to the end \"that it can transmit\" while it is partly open": answer('"clutch" slips to the end, by 3 rad/s.', contacts=[
+        contact(at_end="slips", slips_to_the_end=True, command_at_end=0.3, slip_at_end=3.0)]),
+    "value of a limit is another": answer('A rating is EXCEEDED.', limits=[HOT], ratings=[{**TELLS, "value": 20.0}]),
+    "does not start, but nothing pushes": answer('"press" does not start: its loads hold the 5 N·m.', NEVER, steady=NOTHING),
+    "stops, but never moved": answer('"press" comes to rest at 3 s.', NEVER, steady=NOTHING),
+    "stalls: \"the load can hold\", but others do": answer('"press" stalls at 3° after 2 s: the load can hold the 5 N·m.', {
+        **REST, "stalls": True, "pushed_at_end": True}, contacts=[contact("brake", component="brake")], held=HELD, steady=NOTHING),
+    "stalls, but nothing pushes": answer('"press" stalls at 3° after 2 s: the load can hold the 5 N·m.', REST, steady=NOTHING),
+    "steady: a cycle, but it comes to rest": answer('"press" is at 30 rad/s after 10 s.', later={**REST, "rests_since": 30.0}),
+    "falls or turns back, told by a sign alone": answer('"press" is at -30 rad/s after 10 s.', {
+        "falls": True, "end": "backwards", "speed_at_end": -30.0, "steady": "unclear"}),
+    "run-down begins elsewhere": answer(periods={"run_down_begin": 8.0}, driven_part=motion(until=6.0)),
+    "a peak torque that the motion does not have": answer(figures={"peak_torque.clutch": 1403.0}, torques={"clutch": 60.0}),
+    "a torque greater than the peak that is said": answer(figures={"peak_torque.clutch": 50.0}, torques={"clutch": 60.0}),
+    "claim \"does not move\" is false": answer(claims=[("does_not_move", "press")]),
+    "claim \"starts\" is false": answer(truth={"begins": "turning"}, claims=[("starts", "press")]),
+    "claim \"at rest\" is false": answer(claims=[("at_rest", "press")]),
+    "claim \"strokes\" is false": answer(claims=[("works_in_strokes", "press")]),
+    "claim \"held by\" is false": answer(claims=[("held_by", "press")]),
+    "claim \"engages\" is false": answer(claims=[("clutch_slips_engaging", "clutch")], contacts=[contact(engages=0, slips=0.0)]),
+    "claim \"open\" is false": answer(claims=[("clutch_opened_by_command", "clutch")], contacts=[contact()]),
+    "claim \"overruns\" is false": answer(claims=[("freewheel_overruns", "clutch")], contacts=[contact("one-way clutch", slips=0.0)]),
+    "clutch is open by command": answer(claims=[("runs_steadily", "press")], contacts=[contact(open=3.0)]),
+    "clutch slips while it engages": answer(claims=[("runs_steadily", "press")], contacts=[contact()]),
+    "freewheel overruns": answer(claims=[("runs_steadily", "press")], contacts=[contact("one-way clutch")]),
     "motor stands under torque": answer(motors=[{**MOTOR, "speed": 0.0, "stands": True}]),
     "does not come up to speed, but has": answer('"motor" does not come up to speed: it hangs at 12 rad/s.', motors=[MOTOR]),
     "motor beyond its rated torque in steady motion": answer(motors=[{**MOTOR, "late_rms_torque": 30.0}]),
@@ -140,6 +169,12 @@ class Sees(unittest.TestCase):
         for label, told in FALSE.items():
             with self.subTest(label):
                 self.assertIn(label, [f.label for f in judge(told)])
+
+    def test_every_class_has_a_falsified_sentence(self):
+        source = (Path(__file__).resolve().parent / "judge.py").read_text()
+        labels = {label.replace('\\"', '"') for label in re.findall(r'self\.(?:contradiction|omission)\("((?:[^"\\]|\\.)*)"', source)}
+        self.assertGreater(len(labels), 40)
+        self.assertEqual({label for label in labels if label not in FALSE and not label.endswith(", but ")}, set())
 
     def test_nothing_where_words_and_motion_agree(self):
         for name, told in TRUE.items():

@@ -25,6 +25,15 @@ SENTENCES = {
     "ends": r'"([^"]+)" is (at rest|all but at rest|at )',
     "too hot": r'"([^"]+)" gets too hot',
 }
+# The same of typed claims (docs/claims.md).
+PREDICATES = {
+    "stalls": "stalls", "does_not_start": "does not start", "turns_back": "turns back", "runs_away": "runs away", "hangs_below_breakdown": "hangs",
+    "does_not_get_round": "no round", "slips_to_the_end": "slips to the end", "brake_does_not_stop": "brake too weak",
+    "brake_has_not_stopped": "brake not done", "clutch_slips_closed": "lets go", "limiter_slips": "lets go", "belt_slips": "slips at times",
+    "runs_steadily": "steady", "goes_through_sequence": "sequence done", "not_steady_yet": "not steady", "at_rest": "at rest", "moves": "ends",
+    "motor_overloaded": "too hot", "held_by": "held by", "works_in_strokes": "strokes", "does_not_move": "does not move", "starts": "starts",
+    "vibrates": "vibrates", "clutch_slips_engaging": "engages", "clutch_opened_by_command": "open", "freewheel_overruns": "overruns",
+}
 # What tells that the machine's motion is not what it should be.
 BAD_MOTION = ("stalls", "does not start", "turns back", "runs away", "hangs", "no round", "slips to the end", "brake too weak",
               "brake not done")
@@ -36,7 +45,10 @@ class Told:
         self.conclusion = summary.get("conclusion", "").replace("−", "-")
         self.text = summary.get("text", "")
         self.claims = {}  # name → list of components
-        for name, pattern in SENTENCES.items():
+        self.typed = summary.get("claims") or []
+        for claim in self.typed:
+            self.claims.setdefault(PREDICATES.get(claim["name"], claim["name"]), []).append(claim["of"])
+        for name, pattern in SENTENCES.items() if not self.typed else ():
             found = re.findall(pattern, self.conclusion)
             if found:
                 self.claims[name] = [f[0] if isinstance(f, tuple) else f for f in found]
@@ -56,7 +68,11 @@ class Told:
 
     @property
     def sentences(self):
-        return re.split(r"(?<=[a-zA-Z\d)%\"°])\. (?=[\"A-Z\d])", self.conclusion)
+        told = re.split(r"(?<=[a-zA-Z\d)%\"°])\. (?=[\"A-Z\d])", self.conclusion)
+        return told + [c["text"].replace("−", "-") for c in self.typed if c["text"] and c["text"] not in self.conclusion]
+
+    def typed_of(self, name, component=None):
+        return [c for c in self.typed if c["name"] == name and component in (None, c["of"])]
 
     def time_of(self, pattern):
         found = re.search(pattern.replace("TIME", TIME), self.conclusion)
