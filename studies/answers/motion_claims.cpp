@@ -113,15 +113,22 @@ class Judge {
         torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
     return torque;
   }
-  // "gear", "bearing": what opposes motion on shafts that stand, and gears with losses.
+  // Relations whose losses hold what they join.
+  std::vector<std::size_t> gears_that_hold() const {
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < m_.relations.size(); ++k)
+      if (m_.relations[k].loss_account >= 0 && equations_.modes().loss_direction[k] == 0) list.push_back(k);
+    return list;
+  }
+  // "gear", "bearing": what opposes motion on shafts that stand, and gears that their losses hold.
   std::string what_holds() const {
     if (const std::string* brake = brake_that_holds()) return fmt::format("\"{}\"", *brake);
     std::set<std::string> names;
     for (const Network::ShaftElement& e : m_.network.elements)
       if (e.element->is.directional && equations_.at_standstill(at(m_.shaft_of_node[at(e.node)])))
         names.insert(e.component);
-    for (const ShaftRelation& relation : m_.relations)
-      if (relation.loss_account >= 0) names.insert(m_.network.relations[at(relation.relation)].component);
+    for (const std::size_t gear : gears_that_hold())
+      names.insert(m_.network.relations[at(m_.relations[gear].relation)].component);
     std::string text;
     for (const std::string& name : names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
     return text;
@@ -192,7 +199,7 @@ class Judge {
 
   // By a brake that is on, or by what opposes motion against what acts; what never moved is told so first.
   std::optional<Claim> held(double fastest) const {
-    if (!is_held()) return {};
+    if (!is_held() && (now_.now.speed[shaft_] != 0 || gears_that_hold().empty())) return {};
     const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
     const std::string holders = what_holds();
     std::optional<Claim> claim;

@@ -86,7 +86,7 @@ class Rater {
   Verdict& add(const char* requirement, const Estimate& value, std::optional<double> at, double limit, const char* unit,
                const Mends& mends) {
     Verdict v{component_, requirement, value.value, limit, unit, "", value.error.value_or(0)};
-    v.load_case = load_case_of(at);
+    v.load_case = load_case_of(at), v.at = at, v.error_known = value.error.has_value();
     if (v.state() == Compliance::exceeded || v.state() == Compliance::undecided) {
       Mend mend = mends((v.value + v.error) / limit);
       if (mend.remedy) {

@@ -55,7 +55,7 @@ class Judge {
                std::string note, const char* key = nullptr) {
     Verdict v{joint_.name,     std::move(requirement), value.value, limit, std::move(unit),
               std::move(note), value.error.value_or(0)};
-    v.load_case = load_case;
+    v.load_case = load_case, v.error_known = value.error.has_value();
     const double needed = v.value + v.error;
     if (v.state() == Compliance::exceeded && std::isfinite(needed)) {
       std::string mends = fmt::format("by an estimate it holds from {:.3g} times this diameter on, at the same torque",
@@ -305,9 +305,12 @@ Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& wha
     const std::string text = &v == worst                         ? capitalised(sentence_of(verdicts, what))
                              : state == Compliance::not_assessed ? name_of(v) + ": not assessed"
                                                                  : use_in_words(v) + ", " + numbers_in_words(v);
-    std::optional<Claim> claim =
-        claimed(predicate_of(state), text, v.component,
-                {.value = known(v.value), .limit = known(v.limit), .error = known(v.error), .unit = v.unit});
+    std::optional<Claim> claim = claimed(predicate_of(state), text, v.component,
+                                         {.at = v.at,
+                                          .value = known(v.value),
+                                          .limit = known(v.limit),
+                                          .error = v.error_known ? known(v.error) : std::nullopt,
+                                          .unit = v.unit});
     if (!claim) continue;
     claim->load_case = v.load_case, claim->remedy = v.remedy, claim->in_conclusion = &v == worst;
     claims.push_back(std::move(*claim));

@@ -46,6 +46,8 @@ struct Verdict {
   std::string factors = {};           // "S_t = 1.2, S_f = 1.41"
   std::optional<Remedy> remedy = {};  // the key's value from which on it holds
   bool assessed = true;
+  bool error_known = true;
+  std::optional<double> at = {};  // of a run's figure [s]
   double load() const { return value / factor; }
   double share() const { return value / limit; }
   Compliance state() const;
