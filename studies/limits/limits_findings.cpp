@@ -14,6 +14,7 @@ namespace {
 std::string use_of(const Verdict& v) {
   const Compliance state = v.state();
   if (state == Compliance::not_assessed) return "not assessed";
+  if (v.gives_way) return "EXCEEDED";
   const std::string share = std::isfinite(v.value) ? fmt::format("{:.0f} %", 100 * v.share()) : "unbounded";
   return share + (state == Compliance::holds ? " holds" : state == Compliance::exceeded ? " EXCEEDED" : " UNDECIDED");
 }

@@ -40,7 +40,9 @@ std::string load_case_at(const Result& r, std::optional<double> at) {
     if (++told == steps[taken % steps.size()].set.size()) ++taken, told = 0;
   }
   if (taken > 0) return fmt::format("after step {} of the sequence", (taken - 1) % steps.size() + 1);
-  if (!p.steady) return steps.empty() ? load_case::run : load_case::start;
+  const bool starts =
+      std::any_of(r.claims.begin(), r.claims.end(), [](const Claim& c) { return c.predicate == Predicate::starts; });
+  if (!p.steady) return starts ? load_case::start : load_case::run;  // it is still on its way
   if (p.run_down_begin && *at > *p.run_down_begin) return load_case::run_down;
   return p.run_up_end && *at <= *p.run_up_end ? load_case::start : load_case::steady;
 }
@@ -129,16 +131,30 @@ class Rater {
         return Mend{fmt::format("by an estimate it holds with {:.0f} % of these engagements in the same time",
                                 std::floor(100 / times))};
       });
-    if (!rating.engagement && slips_closed())
+    const Claim* slips = slips_closed();
+    if (slips && result_.model->network.kind_of(component_) == "clutch") {
+      Verdict v{component_, "holding torque: |τ| ≤ M_s while it is closed", capacity(), capacity(), "N*m", ""};
+      v.gives_way = true, v.at = slips->evidence.at, v.load_case = load_case_of(v.at);
+      out_.push_back(std::move(v));
+    }
+    if (!rating.engagement && slips)
       out_.push_back(not_assessed(component_, "heat of slipping: W ≤ W_allowable", std::nan(""), "J", load_case::run,
                                   "it slips while closed, and states no allowable_heat"));
   }
-  bool slips_closed() const {
-    return std::any_of(result_.claims.begin(), result_.claims.end(), [&](const Claim& c) {
+  // M_s [N·m].
+  double capacity() const {
+    for (const Network::Joint& joint : result_.model->network.joints)
+      if (joint.component == component_ && joint.element) return joint.element->capacity;
+    return 0;
+  }
+  // Null: it holds while it is closed.
+  const Claim* slips_closed() const {
+    const auto found = std::find_if(result_.claims.begin(), result_.claims.end(), [&](const Claim& c) {
       return c.of == component_ &&
              (c.predicate == Predicate::clutch_slips_closed || c.predicate == Predicate::limiter_slips ||
               c.predicate == Predicate::slips_to_the_end);
     });
+    return found == result_.claims.end() ? nullptr : &*found;
   }
 
   void belt(const BeltRating& b) {

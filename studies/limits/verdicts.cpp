@@ -178,6 +178,7 @@ const char* name_of(Compliance c) { return enumerator_words<Compliance::not_asse
 
 Compliance Verdict::state() const {
   if (!assessed) return Compliance::not_assessed;
+  if (gives_way) return Compliance::exceeded;
   if (std::isnan(value) || std::isnan(error)) return Compliance::undecided;
   if (value + error <= limit) return Compliance::holds;
   if (bound) return Compliance::not_assessed;
@@ -217,11 +218,13 @@ std::string name_of(const Verdict& v) {
 
 // "clutch", heat of an engagement (run): 132 % of what is allowed
 std::string use_in_words(const Verdict& v) {
+  if (v.gives_way) return name_of(v) + ": more than it holds";
   return fmt::format("{}: {:.0f} % of what is allowed", name_of(v), 100 * v.share());
 }
 
 // "9.16 kN·m · 1.2 of 10 kN·m", "; it holds from …"
 std::string numbers_in_words(const Verdict& v) {
+  if (v.gives_way) return "it slips at " + told_shortly(v.limit, v.unit);
   const bool counted = v.factor != 1 && std::isfinite(v.load());
   return fmt::format("{}{} of {}{}", told_shortly(counted ? v.load() : v.value, v.unit),
                      counted ? fmt::format(" · {:.3g}", v.factor) : "", told_shortly(v.limit, v.unit),
@@ -307,7 +310,7 @@ Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& wha
                                                                  : use_in_words(v) + ", " + numbers_in_words(v);
     std::optional<Claim> claim = claimed(predicate_of(state), text, v.component,
                                          {.at = v.at,
-                                          .value = known(v.value),
+                                          .value = v.gives_way ? std::nullopt : known(v.value),
                                           .limit = known(v.limit),
                                           .error = v.error_known ? known(v.error) : std::nullopt,
                                           .unit = v.unit});

@@ -38,9 +38,10 @@ struct Verdict {
   std::string component, requirement;  // "vibratory torque: S_t S_f T_W ≤ T_KW"
   double value = 0, limit = 0;
   std::string unit;
-  std::string note;    // where it is exceeded it begins with what would mend it
-  double error = 0;    // of the value
-  bool bound = false;  // the value is only known to be no more than this
+  std::string note;        // where it is exceeded it begins with what would mend it
+  double error = 0;        // of the value
+  bool bound = false;      // the value is only known to be no more than this
+  bool gives_way = false;  // at its limit it slips: what it was to bear is only known to be more
   std::string load_case = load_case::run;
   double factor = 1;
   std::string factors = {};           // "S_t = 1.2, S_f = 1.41"
