@@ -34,7 +34,11 @@ std::string load_case_at(const Result& r, std::optional<double> at) {
   if (!at || !r.model || r.begins_at > 0) return load_case::run;
   const std::vector<SequenceStep>& steps = r.model->scene.sequence.steps;
   std::size_t taken = 0, told = 0;  // steps; commands of the one under way
-  while (taken < steps.size() && steps[taken].when == SequenceStep::When::at && steps[taken].value <= 0) ++taken;
+  // Those that are due at the start leave no event.
+  const auto due_at_once = [](const SequenceStep& step) {
+    return (step.when == SequenceStep::When::at || step.when == SequenceStep::When::after) && step.value <= 0;
+  };
+  while (taken < steps.size() && due_at_once(steps[taken])) ++taken;
   for (const Event& e : r.events) {
     if (e.kind != EventKind::command || e.t > *at || steps.empty()) continue;
     if (++told == steps[taken % steps.size()].set.size()) ++taken, told = 0;
@@ -407,6 +411,9 @@ std::vector<Verdict> judge_ratings(const Result& result, const std::string& only
   if (!result.complete || !result.model) return verdicts;
   for (const std::string& component : result.model->network.components)
     Rater(result, component, only_case, verdicts).all();
+  // Beside ratings alone, none of which says that all is well: that it slips is said anyway.
+  if (std::none_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.assessed && !v.gives_way; }))
+    std::erase_if(verdicts, [](const Verdict& v) { return v.gives_way; });
   return verdicts;
 }
 
