@@ -76,7 +76,7 @@ class Judge {
     if (!is_held() || !since || (is_commanded() && !motor) || brake_that_holds()) return {};
     const double torque = drive();
     if (torque == 0) return {};
-    return Stall{link(), motor ? motor->component : "", angle(), *since, torque};
+    return Stall{link(), motor ? motor->component : "", angle(), *since, torque, holders_beside("the load")};
   }
   // Where a clutch slips meanwhile, what drives is what that passes on.
   std::string words_of(const Stall& stall) const {
@@ -132,6 +132,15 @@ class Judge {
     std::string text;
     for (const std::string& name : names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
     return text;
+  }
+
+  // "the load", where one is among those that hold, or nobody is known; else their names.
+  std::string holders_beside(const char* load) const {
+    const bool any_load = std::any_of(m_.network.elements.begin(), m_.network.elements.end(), [&](const auto& e) {
+      return e.element->account == Account::useful && equations_.at_standstill(at(m_.shaft_of_node[at(e.node)]));
+    });
+    const std::string names = any_load ? std::string() : what_holds();
+    return names.empty() ? load : names;
   }
 
   // --- claims ---
@@ -193,7 +202,8 @@ class Judge {
     if (is_commanded() || !is_held() || rest() || fastest > stands * m_.speed_scale || brake_that_holds()) return {};
     if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
     return claimed(Predicate::does_not_start,
-                   fmt::format("\"{}\" does not start: its loads hold the {} N·m that drive it", link(), drive()),
+                   fmt::format("\"{}\" does not start: {} hold the {} N·m that drive it", link(),
+                               holders_beside("its loads"), drive()),
                    link(), {.value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }
 
@@ -299,7 +309,7 @@ std::optional<Stall> stalled(Equations& equations, const RunOutcome& outcome) {
 }
 
 std::string in_words(const Stall& s) {
-  return fmt::format("{}the load can hold the {:.4g} N·m that drive there, and holds them to the end", where(s),
+  return fmt::format("{}{} can hold the {:.4g} N·m that drive there, and holds them to the end", where(s), s.holders,
                      s.torque);
 }
 

@@ -14,6 +14,7 @@ struct Stall {
   double angle = 0;         // of the link [rad]
   double time = 0;          // of its rest [s]
   double torque = 0;        // that drives, reduced to the link [N·m]
+  std::string holders;      // who holds it: "the load", "\"bearing\""
 };
 // Nothing: it moves, it is meant to rest, or a brake that is on holds it. `equations`: in the modes of the run's end.
 std::optional<Stall> stalled(Equations& equations, const RunOutcome& outcome);

@@ -136,14 +136,16 @@ class Rater {
                                 std::floor(100 / times))};
       });
     const Claim* slips = slips_closed();
-    if (slips && result_.model->network.kind_of(component_) == "clutch") {
-      Verdict v{component_, "holding torque: |τ| ≤ M_s while it is closed", capacity(), capacity(), "N*m", ""};
-      v.gives_way = true, v.at = slips->evidence.at, v.load_case = load_case_of(v.at);
-      out_.push_back(std::move(v));
-    }
+    if (slips && result_.model->network.kind_of(component_) == "clutch")
+      gives_way("holding torque: |τ| ≤ M_s while it is closed", capacity(), *slips);
     if (!rating.engagement && slips)
       out_.push_back(not_assessed(component_, "heat of slipping: W ≤ W_allowable", std::nan(""), "J", load_case::run,
                                   "it slips while closed, and states no allowable_heat"));
+  }
+  void gives_way(const char* requirement, double limit, const Claim& slips) {
+    Verdict v{component_, requirement, limit, limit, "N*m", ""};
+    v.gives_way = true, v.at = slips.evidence.at, v.load_case = load_case_of(v.at);
+    out_.push_back(std::move(v));
   }
   // M_s [N·m].
   double capacity() const {
@@ -156,7 +158,7 @@ class Rater {
     const auto found = std::find_if(result_.claims.begin(), result_.claims.end(), [&](const Claim& c) {
       return c.of == component_ &&
              (c.predicate == Predicate::clutch_slips_closed || c.predicate == Predicate::limiter_slips ||
-              c.predicate == Predicate::slips_to_the_end);
+              c.predicate == Predicate::belt_slips || c.predicate == Predicate::slips_to_the_end);
     });
     return found == result_.claims.end() ? nullptr : &*found;
   }
@@ -171,6 +173,7 @@ class Rater {
             if (left <= 0) return Mend{"the pretension alone is as much"};
             return Mend{.remedy = remedy("diameter_in", 2 * b.radius * pull / left, "m")};
           });
+    if (const Claim* slips = b.reserve ? nullptr : slips_closed()) gives_way("slip: |τ| ≤ M", b.limit, *slips);
     if (b.reserve && peak) {
       const bool slips = std::abs(peak->value) >= b.limit * (1 - 1e-9);
       add("reserve against slip: S |τ| ≤ M", *b.reserve * abs(*peak), peak->at, b.limit, "N*m", [&](double times) {
