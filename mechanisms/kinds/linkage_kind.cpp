@@ -159,12 +159,12 @@ class SketchReader {
     s_.frame_points =
         points_of(k_.frame, [&](const std::string& text) { sound_ = k_.refuse(&LinkageKeys::frame, text); });
     read_slides();
+    const std::vector<LinkageSketch::Length> given = lengths();
     if (sound_) read_roles();
     if (sound_) check_use();
     if (!sound_) return {};
     s_.gravity = k_.gravity, s_.elevation = k_.sketch_angle;
-    const LinkageFaults faults = take_lengths(s_, lengths());
-    tell(faults);
+    tell(take_lengths(s_, given));
     if (!sound_) return {};
     return s_;
   }
@@ -234,6 +234,7 @@ class SketchReader {
     for (const Reading<PointKeys>& p : k_.points) {
       if (p.at.size() != 2) {
         sound_ = p.refuse(&PointKeys::at, fmt::format("has {} numbers; must be [x, y]", p.at.size()));
+        s_.points.push_back({p.section().name, 0, 0});
         continue;
       }
       s_.points.push_back({p.section().name, p.at[0] * k_.unit, p.at[1] * k_.unit});

@@ -15,7 +15,8 @@ constexpr long double least_step = 1e-13L;   // [rad]: how well the place of a l
 constexpr long double least_margin = 1e-6L;  // nearer to a dead position rounding would choose the branch
 
 std::string in_degrees_of(long double phi) {
-  return fmt::format("{:.4g}°", static_cast<double>(phi * 360 / whole_turn));
+  const double degrees = static_cast<double>(phi * 360 / whole_turn);
+  return fmt::format("{:.4g}°", std::round(1e3 * degrees) / 1e3 + 0.0);
 }
 
 }  // namespace
