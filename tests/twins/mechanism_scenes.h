@@ -141,16 +141,11 @@ lengths      = { OA = "110 mm", ER = "180 mm" }
 sketch_angle = "<?-70|250> deg"
 gravity      = "9.81 m/s2"
 phase        = <a+ 0.4>
+links = { arm = { points = "O A", mass = "9 kg", com = <?[12, 7]|[12, -7]>, inertia = "1.3 kg*m2" }, block = { points = "A", mass = "2.5 kg", inertia = "0.004 kg*m2" }, lever = { points = "D E", mass = "8 kg", inertia = "0.3 kg*m2" }, rod = { points = "E R", mass = "3 kg", inertia = "0.01 kg*m2" }, ram = { points = "R", mass = "40 kg" } }
 load = [
   { kind = "opposing", force = "70 N" },
   { kind = "medium", viscous = "60 N*s/m", work = "harmful" },
 ]
-[crank.links]
-crank = { points = "O A", mass = "9 kg", com = <?[12, 7]|[12, -7]>, inertia = "1.3 kg*m2" }
-block = { points = "A", mass = "2.5 kg", inertia = "0.004 kg*m2" }
-lever = { points = "D E", mass = "8 kg", inertia = "0.3 kg*m2" }
-link  = { points = "E R", mass = "3 kg", inertia = "0.01 kg*m2" }
-ram   = { points = "R", mass = "40 kg" }
 )",
                       1),
       mechanism_scene("quick-return of a shaper", R"(
