@@ -65,7 +65,8 @@ std::string as_word(const std::string& path) {
 
 // Writes a scene to start from and, for editors, the schema beside it; refuses to overwrite. `again`: the command with which
 // another file is named.
-int write_scene(std::string_view text, const std::string& doc, const fs::path& path, const std::string& again) {
+int write_scene(std::string_view text, const std::string& doc, const fs::path& path, const std::string& again,
+                const std::string& first = "") {
   const fs::path schema = path.parent_path() / "scene.schema.json";
   const std::string_view body = text.substr(text.starts_with("#:schema") ? text.find('\n') + 1 : 0);
   const bool taken = fs::exists(fs::symlink_status(path));
@@ -77,12 +78,13 @@ int write_scene(std::string_view text, const std::string& doc, const fs::path& p
   say(fmt::format("wrote {} — {}\n", path.string(), doc));
   if (fresh) say(fmt::format("wrote {} — editors complete and check keys by it\n", schema.string()));
   say(
-      fmt::format("next:\n"
+      fmt::format("next:\n{2}"
                   "  kurbel compare {0}    the rigid against the elastic machine: is rigid good enough?\n"
                   "  kurbel run {0}        the machine as the scene says\n"
                   "  kurbel check {0}      after a change: is the scene sound?\n"
                   "  kurbel keys coupling{1}    what a component may hold; `kurbel keys` without a kind: everything\n",
-                  word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' ')));
+                  word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' '),
+                  first.empty() ? "" : fmt::format("  kurbel modes {}    {}\n", word, first)));
   return exit_done;
 }
 
@@ -97,7 +99,8 @@ int new_from_sheet(const std::string& sheet, const std::string& file) {
   const fs::path path = file.empty() ? fs::path(sheet).filename().replace_extension(".toml") : fs::path(file);
   const Scene scene = parse_scene(text, path.string(), all_kinds());
   compile(scene, scene.effects);
-  return write_scene(text, "the train of " + sheet, path, "--from " + as_word(sheet));
+  return write_scene(text, "the train of " + sheet, path, "--from " + as_word(sheet),
+                     "natural frequencies, and separation margins once [operation] says where it runs");
 }
 
 // All keys as Markdown, or those of one kind as text for a terminal.

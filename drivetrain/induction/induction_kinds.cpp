@@ -98,6 +98,7 @@ InductionData data_of(const InductionKeys& motor, const InductionLaw& law) {
   data.mains = motor.frequency ? *motor.frequency : motor.poles ? motor.mains : mains_at(data.synchronous_speed);
   data.has_circuit = std::holds_alternative<TwoAxisMotor>(law);
   data.by_converter = motor.starting == Starting::frequency_converter;
+  data.rated_speed = motor.rated_speed.value_or(0);
   return data;
 }
 

@@ -25,6 +25,7 @@ struct InductionData {
   double mains = 0;              // f [Hz]; not given: 50 Hz, or 60 Hz where only that makes whole pole pairs
   bool has_circuit = false;      // data of the two-axis model
   bool by_converter = false;     // its supply is no mains
+  double rated_speed = 0;        // ω_n [rad/s]; 0: the scene does not say it
 };
 
 // Of its two-axis circuit, where it has one (Network::data).

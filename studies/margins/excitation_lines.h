@@ -17,8 +17,8 @@ namespace kurbel {
 struct ExcitationLine {
   enum class Kind { order, mesh, mains, converter, frequency };
   Kind kind = Kind::order;
-  std::string label;                         // as the field writes it: "3×", "1× pump", "2× mains"
-  std::string source;                        // "every shaft", "4 × cylinder", "blades of fan"; empty: not known
+  std::string label = {};                    // as the field writes it: "3×", "1× pump", "2× mains"
+  std::string source = {};                   // "every shaft", "4 × cylinder", "blades of fan"; empty: not known
   double order = 0;                          // a, of the reduction link's turn, ≥ 0
   double fixed = 0;                          // b [rad/s]
   std::optional<std::size_t> harmonic = {};  // of Excitations::by_order, where the scene's laws contain it

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "drivetrain/induction/induction_law.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 
@@ -77,10 +78,12 @@ OperatingSpeeds operating_speeds(const Model& m, std::optional<double> asked, st
     return speeds;
   }
   if (asked && *asked != 0) return one(*asked, "asked for");
-  for (const MotorTorque& motor : m.motors)
-    if (const double ratio = std::abs(m.node_ratio[at(motor.node)]);
-        motor.rated_speed != 0 && ratio > 0 && !motor.prescribed)
-      return one(motor.rated_speed / ratio, "rated speed of " + motor.component);
+  for (const MotorTorque& motor : m.motors) {
+    const InductionData* data =
+        m.network.data.find<InductionData>(motor.component);  // else its synchronous speed counts
+    const double rated = data ? data->rated_speed : motor.rated_speed, ratio = std::abs(m.node_ratio[at(motor.node)]);
+    if (rated != 0 && ratio > 0 && !motor.prescribed) return one(rated / ratio, "rated speed of " + motor.component);
+  }
   if (otherwise && *otherwise != 0) return one(*otherwise, "of the steady motion");
   if (m.scene.run.start.speed != 0) return one(usual_speed(m), "of the start");
   return speeds;
@@ -131,15 +134,15 @@ void find_rows(const std::vector<CrossingResponse>& responses, double slowest, d
     for (std::size_t l = 0; l < margins.lines.size(); ++l) {
       const double omega = margins.modes[m].omega;
       std::vector<double> meets = crossings(omega, margins.lines[l]);
-      std::vector<std::optional<double>> places(meets.begin(), meets.end());
-      if (places.empty()) places.emplace_back();
-      for (const std::optional<double>& crossing : places) {  // two where a converter's line comes from above
-        Margin row{.mode = m, .line = l, .crossing = crossing};
-        row.margin = margin_of(omega, margins.lines[l], margins.speeds);
-        row.within = std::abs(row.margin) < margins.speeds.margin * (1 - rounding);
-        find_response(responses, slowest, fastest, margins, row);
-        margins.rows.push_back(std::move(row));
-      }
+      std::stable_sort(meets.begin(), meets.end(),
+                       [&](double a, double b) { return distance(a, margins.speeds) < distance(b, margins.speeds); });
+      Margin row{.mode = m, .line = l};
+      if (!meets.empty()) row.crossing = meets.front();
+      if (meets.size() > 1) row.further_crossing = meets.back();
+      row.margin = margin_of(omega, margins.lines[l], margins.speeds);
+      row.within = std::abs(row.margin) < margins.speeds.margin * (1 - rounding);
+      find_response(responses, slowest, fastest, margins, row);
+      margins.rows.push_back(std::move(row));
     }
   const auto place = [&](const Margin& row) {
     return std::tuple(!row.within, std::abs(row.margin), row.crossing ? distance(*row.crossing, margins.speeds) : 0.0);

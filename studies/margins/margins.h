@@ -51,8 +51,9 @@ struct CrossingResponse {
 
 struct Margin {
   std::size_t mode = 0, line = 0;  // of Margins::modes, lines
-  std::optional<double>
-      crossing;         // speed [rad/s] at which the excitation meets the mode, the nearest to the operating ones
+  // Speeds [rad/s] at which the excitation meets the mode, that next to the operating ones first; two where a converter's line
+  // comes down from above.
+  std::optional<double> crossing = {}, further_crossing = {};
   double margin = 0;    // signed; > 0: the mode lies above
   bool within = false;  // |margin| below what is wanted
   std::optional<CrossingResponse> response = {};

@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t nearest_shown = 12, most_shown = 60;
 
 std::string percent(double margin) {
+  if (margin == 0) return "0";
   return std::isfinite(margin) ? fmt::format("{:+.4g}", 100 * margin) : std::string("—");
 }
 
@@ -31,7 +32,7 @@ std::string pair_text(const Margins& m, const Margin& row, const SpeedUnit& unit
   const MarginMode& mode = m.modes[row.mode];
   std::string text = fmt::format("mode {} ({:.4g} Hz) and {}", mode.number, mode.omega / turn, m.lines[row.line].label);
   if (row.crossing) text += fmt::format(", which meet at {}", unit.text(*row.crossing, 4));
-  return text + fmt::format(", {} %", percent(row.margin));
+  return text + (row.margin == 0 ? ", within the range" : fmt::format(", {} %", percent(row.margin)));
 }
 
 // "—" where it was not computed.
@@ -67,8 +68,15 @@ Rows margin_table(const Margins& m, const SpeedUnit& unit) {
       .also_in_file()
       .only_for_programs("fixed_frequency", [&](const Margin& row) { return line(row).fixed / turn; })
       .also_in_file("Hz")
-      .column("crossing", fmt::format("meet at [{}]", unit.name), &Margin::crossing,
-              {.factor = unit.of(1), .otherwise = "none"})
+      .only_for_people(fmt::format("meet at [{}]", unit.name),
+                       [&](const Margin& row) {
+                         const ReadAs speed{.factor = unit.of(1), .otherwise = "none"};
+                         return read_as(row.crossing, speed) +
+                                (row.further_crossing ? " and " + read_as(row.further_crossing, speed) : "");
+                       })
+      .only_for_programs("crossing", &Margin::crossing)
+      .also_in_file("rad/s")
+      .only_for_programs("further_crossing", &Margin::further_crossing)
       .also_in_file("rad/s")
       .column("margin", "margin [%]", &Margin::margin, percent)
       .also_in_file()

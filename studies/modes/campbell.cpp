@@ -125,11 +125,11 @@ std::string legend_of(const std::vector<const ExcitationLine*>& lines) {
   return text.empty() ? "" : text + ". ";
 }
 
-std::string words_of(const ModesStudy& m, const Margin& row) {
+std::string words_of(const ModesStudy& m, const Margin& row, double speed) {
   const MarginMode& mode = m.margins.modes[row.mode];
   const ExcitationLine& line = m.margins.lines[row.line];
   std::string text = fmt::format("{}, {:+.3g} % off the operating speeds\n{}{}\nmode {}: {}\n",
-                                 m.speed_unit.text(*row.crossing, 4), 100 * row.margin, line.label,
+                                 m.speed_unit.text(speed, 4), 100 * row.margin, line.label,
                                  line.source.empty() ? "" : " of " + line.source, mode.number, mode.name);
   if (!row.not_assessed.empty()) return text + "response not assessed: " + row.not_assessed;
   return text + fmt::format("{} in {}\n{:.3g} % of what it may bear", torque_text(row.response->amplitude),
@@ -146,13 +146,15 @@ std::vector<Series> meetings(const ModesStudy& m, const std::vector<const Excita
     if (std::isfinite(c.share)) most = std::max(most, c.share);
   for (const Margin& row : m.margins.rows) {
     const double frequency = hertz(m.margins.modes[row.mode].omega);
-    if (!row.crossing || *row.crossing < m.slowest || *row.crossing > m.fastest || frequency > top) continue;
-    if (std::find(lines.begin(), lines.end(), &m.margins.lines[row.line]) == lines.end()) continue;
+    if (frequency > top || std::find(lines.begin(), lines.end(), &m.margins.lines[row.line]) == lines.end()) continue;
     Series& s = row.within ? within : kept;
-    s.add(m.speed_unit.of(*row.crossing), frequency);
     const double share = row.not_assessed.empty() ? row.response->share : std::nan("");
-    s.sizes.push_back(std::isinf(share) ? 3 : share > 0 && most > 0 ? 0.7 + 2.3 * std::sqrt(share / most) : 0.7);
-    s.labels.push_back(words_of(m, row));
+    for (const std::optional<double>& speed : {row.crossing, row.further_crossing}) {
+      if (!speed || *speed < m.slowest || *speed > m.fastest) continue;
+      s.add(m.speed_unit.of(*speed), frequency);
+      s.sizes.push_back(std::isinf(share) ? 3 : share > 0 && most > 0 ? 0.7 + 2.3 * std::sqrt(share / most) : 0.7);
+      s.labels.push_back(words_of(m, row, *speed));
+    }
   }
   std::vector<Series> all;
   for (Series* s : {&kept, &within})

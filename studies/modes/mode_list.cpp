@@ -49,7 +49,9 @@ std::vector<char> pair_damped(ModesStudy& found) {
       if (which == found.damped.size()) continue;
       used[which] = 1;
       mode.lambda = found.damped[which].lambda;
-      mode.ratio = found.damped[which].ratio();
+      // What rounding leaves of a drive without damping is none.
+      const double rounding = 1e-12 * std::abs(mode.lambda);
+      mode.ratio = std::abs(mode.lambda.real()) > rounding ? found.damped[which].ratio() : 0;
       mode.lambda_error = found.damped[which].error;
       mode.energy = found.damped[which].energy;
     }

@@ -143,9 +143,9 @@ TEST(Margins, OfAConverterHaveBothCrossingsOfADifference) {
   ASSERT_EQ(meets.size(), 2u);
   EXPECT_NEAR(meets[0], (600 * M_PI - omega) / 12, 1e-9);
   EXPECT_NEAR(meets[1], (600 * M_PI + omega) / 12, 1e-9);
-  EXPECT_EQ(
-      std::count_if(m.rows.begin(), m.rows.end(), [&](const Margin& row) { return &m.lines[row.line] == difference; }),
-      2);
+  const Margin* row = row_of(m, 1, "6 output - 6 mains");
+  ASSERT_TRUE(row && row->crossing && row->further_crossing);
+  EXPECT_EQ(*row->crossing + *row->further_crossing, meets[0] + meets[1]);
   EXPECT_TRUE(line_of(m, "1× mains") && line_of(m, "2× mains"));
 }
 
