@@ -35,9 +35,22 @@ std::string pair_text(const Margins& m, const Margin& row, const SpeedUnit& unit
   return text + (row.margin == 0 ? ", within the range" : fmt::format(", {} %", percent(row.margin)));
 }
 
-// "—" where it was not computed.
+// Not a number where they were not computed.
 double amplitude_of(const Margin& row) {
   return row.response && row.not_assessed.empty() ? row.response->amplitude : std::nan("");
+}
+double share_of_joint(const Margin& row) {
+  return row.response && row.not_assessed.empty() ? row.response->share : std::nan("");
+}
+
+// "60.75 N·m in coupling, 5.91 % of what it may bear"
+std::string severity_text(const Margin& row) {
+  if (!row.not_assessed.empty()) return "not assessed: " + row.not_assessed;
+  if (!std::isfinite(row.response->amplitude)) return "unbounded in " + row.response->joint + ": nothing damps it";
+  std::string text = with_unit(row.response->amplitude, "N*m", 4) + " in " + row.response->joint;
+  if (std::isfinite(row.response->share))
+    text += fmt::format(", {:.3g} % of what it may bear", 100 * row.response->share);
+  return text;
 }
 
 }  // namespace
@@ -93,21 +106,17 @@ Rows margin_table(const Margins& m, const SpeedUnit& unit) {
                 [](const Margin& row) { return row.kept ? row.kept->value : std::nan(""); },
                 {.factor = 100, .digits = 3})
         .also_in_file();
-  return table.column("amplitude", "torque where they meet [N·m]", amplitude_of, {.digits = 4})
+  return table.only_for_programs("amplitude", amplitude_of)
       .also_in_file("N*m")
-      .column("joint", "in", [](const Margin& row) { return row.response ? row.response->joint : std::string("—"); })
-      .column("share", "of what it may bear [%]",
-              [](const Margin& row) {
-                return row.response && row.not_assessed.empty() ? row.response->share : std::nan("");
-              },
-              {.factor = 100, .digits = 4})
+      .only_for_programs("joint", [](const Margin& row) { return row.response ? row.response->joint : std::string(); })
+      .only_for_programs("share", share_of_joint)
       .also_in_file()
       .column("damping_ratio", "ζ", [&](const Margin& row) { return mode(row).ratio; }, {.digits = 3})
       .also_in_file()
       .column("damping", "damping by", [&](const Margin& row) { return mode(row).damping; })
       .only_for_programs("assessed", [](const Margin& row) { return row.not_assessed.empty(); })
-      .column("not_assessed", "severity", &Margin::not_assessed,
-              [](const std::string& why) { return why.empty() ? "assessed" : "not assessed: " + why; });
+      .only_for_programs("not_assessed", &Margin::not_assessed)
+      .only_for_people("severity where they meet", severity_text);
 }
 
 Record operating_range(const Margins& m) {
@@ -124,10 +133,15 @@ std::optional<Claim> margin_claim(const Margins& m, const SpeedUnit& unit) {
   const std::string range = range_text(m.speeds, unit), limit = fmt::format("± {:.3g} %", 100 * m.speeds.margin);
   const auto within = std::count_if(m.rows.begin(), m.rows.end(), [](const Margin& row) { return row.within; });
   const std::string nearest = pair_text(m, m.rows.front(), unit);
+  double least = 1;  // probability that a margin is kept
+  for (const Margin& row : m.rows)
+    if (row.kept) least = std::min(least, row.kept->value);
+  const std::string sure =
+      least < 0.995 ? fmt::format("; with the tolerances one is kept with a probability of {:.0f} %", 100 * least) : "";
   if (within == 0)
     return claimed(Predicate::margin_kept,
-                   fmt::format("Every natural frequency keeps {} from all {} excitations at {}; the nearest are {}",
-                               limit, m.lines.size(), range, nearest),
+                   fmt::format("Every natural frequency keeps {} from all {} excitations at {}; the nearest are {}{}",
+                               limit, m.lines.size(), range, nearest, sure),
                    "", nearest_row);
   const auto open = std::count_if(m.rows.begin(), m.rows.end(),
                                   [](const Margin& row) { return row.within && !row.not_assessed.empty(); });

@@ -25,6 +25,9 @@ std::string readable(std::string name) {
   return name;
 }
 
+// Worth being drawn for its margin.
+bool is_near(const ModesStudy& m, const Margin& row) { return std::abs(row.margin) < 3 * m.margins.speeds.margin; }
+
 // Orders of the severest critical speeds first, then what comes within its margin, then those with the largest torques, then
 // the orders of the reduction link; in the order of their slopes. Frequencies that hang on no speed, and converters, all.
 std::vector<const ExcitationLine*> lines_drawn(const ModesStudy& m) {
@@ -46,7 +49,7 @@ std::vector<const ExcitationLine*> lines_drawn(const ModesStudy& m) {
         std::isinf(most) || m.critical[i].share > least_circle * most)
       show_harmonic(m.critical[i].harmonic);
   for (const Margin& row : m.margins.rows)
-    if (row.within) show(m.margins.lines[row.line]);
+    if (is_near(m, row)) show(m.margins.lines[row.line]);
   std::vector<std::pair<double, std::size_t>> strength;
   for (std::size_t r = 1; r <= m.excitations.harmonics; ++r)
     strength.emplace_back(-m.excitations.strength(r, m.drive.at.speed), r);
@@ -78,7 +81,7 @@ double top_of(const ModesStudy& m) {
     top = std::max(top, std::min(most_above * top, m.excitations.order(strongest) * hertz(std::abs(m.drive.at.speed))));
   const double lowest = top;
   for (const Margin& row : m.margins.rows)
-    if (row.within) top = std::max(top, hertz(m.margins.modes[row.mode].omega));
+    if (is_near(m, row)) top = std::max(top, hertz(m.margins.modes[row.mode].omega));
   if (severe.empty())
     for (const ExcitationLine* line : lines_drawn(m))
       top = std::max(top, std::min(most_above * lowest, hertz(line->at(m.fastest))));
