@@ -8,11 +8,15 @@
 #include <fmt/format.h>
 #include <kurbel/kurbel.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <iostream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "engine/numerics/deadline.h"
@@ -24,11 +28,37 @@ namespace {
 using namespace kurbel;
 using nlohmann::json;
 
-constexpr double budget = 5;         // of an integration [s]
+constexpr double budget = 4;         // of an integration, and of a study [s]
 constexpr double cheap = 0.3;        // a run that took less goes on for longer
 constexpr double times_as_long = 4;  // than the scene says
 constexpr double fast = 1.5;         // times the usual speed: does it settle, or run away?
 constexpr double times_to_settle = 60;
+
+// Sets a flag when the process has worked for so long.
+class Watchdog {
+ public:
+  Watchdog() : thread_([this] { watch(); }) {}
+  ~Watchdog() { ended_ = true, thread_.join(); }
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+  const std::atomic<bool>* from_now() {
+    interrupted_ = false, until_ = process_time() + budget;
+    return &interrupted_;
+  }
+  bool barked() const { return interrupted_; }
+
+ private:
+  static double process_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+  void watch() {
+    while (!ended_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      if (process_time() > until_) interrupted_ = true;
+    }
+  }
+  std::atomic<bool> interrupted_ = false, ended_ = false;
+  std::atomic<double> until_ = HUGE_VAL;
+  std::thread thread_;
+};
 
 template <class Of>
 json unless_refused(Of&& of) {
@@ -50,15 +80,15 @@ json truth_of(const std::string& file) {
   return oracle::classify(seen, &later);
 }
 
-json answers_of(const std::string& file, bool of_run) {
+json answers_of(const std::string& file, bool of_run, Watchdog& watchdog) {
   const Machine machine = Machine::from_file(file);
-  if (of_run) {
-    const Study told = run(machine, {.plots = false}).study();
-    json summary = json::parse(told.json());
-    summary["text"] = told.text();  // has the table of works by periods, which is for people alone
-    return summary;
-  }
-  return json::parse(study("steady", machine).json());
+  const Watcher watcher{.interrupted = watchdog.from_now()};
+  const Study told =
+      of_run ? run(machine, {.plots = false, .watcher = watcher}).study() : study("steady", machine, {}, watcher);
+  if (watchdog.barked()) return {{"refused", "too dear"}};
+  json summary = json::parse(told.json());
+  if (of_run) summary["text"] = told.text();  // has the table of works by periods, which is for people alone
+  return summary;
 }
 
 }  // namespace
@@ -71,14 +101,15 @@ int main(int count, char** arguments) {
     classify_alone = classify_alone || is;
     return is;
   });
+  Watchdog watchdog;
   const auto answer = [&](const std::string& file) {
     const double begin = processor_time();
     json line{{"scene", file}};
     line["truth"] = unless_refused([&] { return truth_of(file); });
     line["cpu_truth"] = processor_time() - begin;
     if (!classify_alone && !line["truth"].contains("refused")) {
-      line["run"] = unless_refused([&] { return answers_of(file, true); });
-      line["steady"] = unless_refused([&] { return answers_of(file, false); });
+      line["run"] = unless_refused([&] { return answers_of(file, true, watchdog); });
+      line["steady"] = unless_refused([&] { return answers_of(file, false, watchdog); });
     }
     line["cpu"] = processor_time() - begin;
     fmt::print("{}\n", line.dump());
