@@ -22,6 +22,7 @@ namespace {
 constexpr double stands = 1e-3;   // of the usual speed: below it a shaft stands
 constexpr double drives = 1e-6;   // of the usual torque: above it something drives
 constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene tells of such a one
+constexpr double disagree = 0.1;  // of the usual speed: shafts that a spring joins start apart
 constexpr double nearly = 0.2;    // of the largest speed so far: below it the link has come to a stop
 
 std::string where(const Stall& s) {
@@ -266,7 +267,7 @@ class Judge {
     for (const ElasticJoint& joint : m_.elastic) {
       const double a = joint.gain_a * s.now.speed[joint.shaft_a], b = joint.gain_b * s.now.speed[joint.shaft_b];
       if (joint.slips || joint.springless || given.count(joint.shaft_a) == given.count(joint.shaft_b)) continue;
-      if (!(std::abs(a - b) > stands * std::abs(joint.gain_a * m_.shafts[at(joint.shaft_a)].speed_scale))) continue;
+      if (!(std::abs(a - b) > disagree * std::abs(joint.gain_a * m_.shafts[at(joint.shaft_a)].speed_scale))) continue;
       const std::string& name = m_.network.joints[at(joint.joint)].component;
       add(claims,
           claimed(Predicate::start_shafts_disagree,

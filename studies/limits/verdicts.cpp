@@ -195,7 +195,7 @@ Verdict not_assessed(std::string component, std::string requirement, double limi
 double enough(double value) {
   if (value == 0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
-  return unit * std::ceil(value / unit - 1e-9);
+  return unit * std::ceil(value / unit - 1e-2);
 }
 
 std::string name_of_remedy(const Verdict& v) {

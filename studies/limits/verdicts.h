@@ -94,7 +94,7 @@ Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& wha
 // `than`: "from … on" or "up to".
 std::string in_words(const Remedy& remedy, bool up_to = false);
 
-// Rounded up to the four digits that are shown; with a minus sign down.
+// Rounded up to the four digits that are shown, to a hundredth of the last one; with a minus sign down.
 double enough(double value);
 // "shaft.diameter for shear stress: …": by which a run knows the remedies that were tried.
 std::string name_of_remedy(const Verdict& verdict);

@@ -418,12 +418,13 @@ TEST(Verdicts, FactorsStandBesideTorquesAndSteelHasNone) {
   EXPECT_NEAR(rubber.load(), disc.value, 1e-6 * disc.value);
   EXPECT_EQ(disc.factor, 1);
   EXPECT_EQ(disc.factors, "");
-  EXPECT_THROW(test::scene_from(R"(
+  EXPECT_THROW(compile(test::scene_from(R"(
     line = ["motor", "coupling", "wheel"]
     motor = { kind = "inertia", inertia = "1 kg*m2" }
     wheel = { kind = "inertia", inertia = "1 kg*m2" }
     coupling = { kind = "coupling", stiffness = "2 kN*m/rad", type = "gear", temperature_factor = 1.3 }
   )"),
+                       {}),
                SceneError);
 }
 

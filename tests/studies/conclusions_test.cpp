@@ -89,8 +89,8 @@ TEST(Conclusion, OfEverySceneIsOneAndTheShortFormIsShort) {
       EXPECT_LE(width, 110) << name << ": " << brief.substr(begin, end - begin);
       begin = end + 1;
     }
-    // None of the examples is bad news, but for the belts that are meant to slip.
-    if (name == "belt_mill") continue;
+    // None of the examples is bad news, but for the belts that are meant to slip and a motor beyond its table.
+    if (name == "belt_mill" || name == "walking_leg") continue;
     for (const Claim& c : f.claims) EXPECT_EQ(c.severity(), Severity::note) << name << ": " << c.text;
   }
 }

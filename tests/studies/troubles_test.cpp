@@ -118,8 +118,8 @@ TEST(Troubles, AMotorThatIsOverloadedForGoodGetsTooHot) {
     run = { start = { speed = "92 rad/s" }, until = "3 s" }
   )";
   expect_first(text,
-               "\"motor\" gets too hot: the RMS torque of its steady motion is 150 % of the rated one; it holds from a "
-               "rated torque of 150 N·m on.");
+               "\"motor\" gets too hot: the RMS torque of its steady motion is 150 % of the rated one; by an estimate "
+               "it holds from a rated torque of 150 N·m on.");
 }
 
 // A belt whose limit lies below the load's torque: it can only slip, whether it stretches or not.
