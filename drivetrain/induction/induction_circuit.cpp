@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivetrain/induction/lagging_motor.h"
+#include "engine/elements/any_shaft_element.h"
 #include "engine/numerics/roots.h"
 #include "engine/scene/effects.h"
 #include "engine/scene/units.h"
@@ -102,7 +102,7 @@ OwnState TwoAxisMotor::state(int k) const {
 ShaftForm under(const TwoAxisMotor& motor, const Effects& effects) {
   if (effects.transients) return nullptr;
   if (!effects.torque_lag) return shaft_form(motor.line);
-  return shaft_form(LaggingMotor(motor.line, {motor.line.breakdown_slip, motor.circuit.frequency}));
+  return lagging_form(motor);
 }
 
 std::string TwoAxisMotor::describe() const {

@@ -98,6 +98,7 @@ struct TwoAxisMotor {
 };
 // Its steady characteristic without the effect "transients", with the lag of its fluxes by the effect "torque_lag".
 ShaftForm under(const TwoAxisMotor& motor, const Effects& effects);
+ShaftForm lagging_form(const TwoAxisMotor& motor);
 
 template <class T>
 void TwoAxisMotor::rates(const ShaftState<T>& x, T* rate) const {

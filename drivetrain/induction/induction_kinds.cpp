@@ -14,6 +14,16 @@
 #include "engine/numerics/angles.h"
 
 namespace kurbel {
+
+template <class Motor>
+ShaftForm under(const LaggingMotor<Motor>& motor, const Effects& effects) {
+  return effects.torque_lag ? nullptr : shaft_form(static_cast<const Motor&>(motor));
+}
+
+ShaftForm lagging_form(const TwoAxisMotor& motor) {
+  return shaft_form(LaggingMotor(motor.line, {motor.line.breakdown_slip, motor.circuit.frequency}));
+}
+
 namespace {
 
 using Motor = Reading<InductionKeys>;

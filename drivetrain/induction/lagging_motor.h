@@ -17,7 +17,6 @@
 #include <string>
 #include <utility>
 
-#include "engine/elements/any_shaft_element.h"
 #include "engine/elements/element.h"
 #include "engine/scene/effects.h"
 
@@ -68,8 +67,6 @@ struct LaggingMotor : Motor {
 
 // Its static curve without the effect.
 template <class Motor>
-ShaftForm under(const LaggingMotor<Motor>& motor, const Effects& effects) {
-  return effects.torque_lag ? nullptr : shaft_form(static_cast<const Motor&>(motor));
-}
+ShaftForm under(const LaggingMotor<Motor>& motor, const Effects& effects);
 
 }  // namespace kurbel

@@ -360,4 +360,13 @@ double MotionAlong::mean_speed() const {
   return std::copysign(cycle / time, motion.front().omega);
 }
 
+MotionAlong sped_up(MotionAlong along, double by) {
+  for (CrankMotion& m : along.motion) m.omega *= 1 + by, m.alpha *= (1 + by) * (1 + by);
+  return along;
+}
+
+double closure_of(const MotionAlong& along) {
+  return (along.motion.back().omega - along.motion.front().omega) / along.mean_speed();
+}
+
 }  // namespace kurbel

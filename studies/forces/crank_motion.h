@@ -134,6 +134,9 @@ struct MotionAlong {
 // What is told of it to those who ask for more positions.
 PrescribedCycle prescribed_cycle(OutputLoads& loads, double speed);
 // At this speed throughout.
+// The same way at speeds greater by this share.
+MotionAlong sped_up(MotionAlong along, double by);
+double closure_of(const MotionAlong& along);
 MotionAlong steady_motion(OutputLoads& loads, double speed, int positions);
 
 }  // namespace kurbel

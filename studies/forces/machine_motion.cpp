@@ -93,11 +93,6 @@ class StepEnds final : public Observer {
   std::vector<double> t_, angle_;
 };
 
-MotionAlong sped_up(MotionAlong along, double by) {
-  for (CrankMotion& m : along.motion) m.omega *= 1 + by, m.alpha *= (1 + by) * (1 + by);
-  return along;
-}
-
 // Edges of the loads in every cycle of several, and those that events make, once each.
 std::vector<double> edges_of_all(const std::vector<double>& loads, double cycle, int cycles,
                                  const std::vector<double>& events) {
@@ -364,10 +359,6 @@ double left_to_come(const MotionAlong* before, const MotionAlong& now, double no
   const double first = now.motion.front().omega, last = now.motion.back().omega, mean = std::abs(now.mean_speed());
   if (!before) return std::abs(last - first) / mean;
   return still_to_come({before->motion.front().omega, first, last}, noise + 1e-9 * mean) / mean;
-}
-
-double closure_of(const MotionAlong& along) {
-  return (along.motion.back().omega - along.motion.front().omega) / along.mean_speed();
 }
 
 std::string not_closed(double closure, bool before, double to_come) {

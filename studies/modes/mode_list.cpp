@@ -309,4 +309,27 @@ void find_rattles(const CycleSamples& samples, int count, ModesStudy& found) {
   }
 }
 
+Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode) { return study.drive.motion * mode.shape; }
+
+std::size_t natural_modes(const ModesStudy& study) {
+  return static_cast<std::size_t>(
+      std::count_if(study.modes.begin(), study.modes.end(), [](const Mode& mode) { return !mode.of_own_states; }));
+}
+
+Effects effects_of_modes(const Scene& scene) {
+  Effects effects = scene.effects;
+  if (effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
+  return effects;
+}
+
+// In an equilibrium nothing swings: what samples tell of it is rounding.
+void take_swings_away(SpeedResponse& response) {
+  for (JointResponse& joint : response.joints) {
+    JointResponse still;
+    still.mean = still.upper = still.lower = joint.mean;
+    joint = still;
+  }
+  for (std::vector<Complex>& orders : response.orders) std::fill(orders.begin() + 1, orders.end(), Complex{});
+}
+
 }  // namespace kurbel

@@ -25,4 +25,7 @@ void note_missing_swings(ModesStudy& found);
 // Fills `rattles`: joints whose law changes its piece within the round.
 void find_rattles(const CycleSamples& samples, int count, ModesStudy& found);
 
+// Takes from a response of samples what rounding makes of an equilibrium, in which nothing vibrates.
+void take_swings_away(SpeedResponse& response);
+
 }  // namespace kurbel

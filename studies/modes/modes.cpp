@@ -182,16 +182,6 @@ class Study {
     found_.cycle_order = 2 * pi / (samples_->time * std::abs(samples_->mean->speed));
   }
 
-  // In an equilibrium nothing swings: what samples tell of it is rounding.
-  static void take_swings_away(SpeedResponse& response) {
-    for (JointResponse& joint : response.joints) {
-      JointResponse still;
-      still.mean = still.upper = still.lower = joint.mean;
-      joint = still;
-    }
-    for (std::vector<Complex>& orders : response.orders) std::fill(orders.begin() + 1, orders.end(), Complex{});
-  }
-
   // A start that fails costs a fifth of the budget at most: what does not depend on it comes all the same.
   void search_start(const std::function<void()>& search) {
     const double most = scene_.run.budget / 5, begin = processor_time();
@@ -442,19 +432,6 @@ class Study {
 };
 
 }  // namespace
-
-Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode) { return study.drive.motion * mode.shape; }
-
-std::size_t natural_modes(const ModesStudy& study) {
-  return static_cast<std::size_t>(
-      std::count_if(study.modes.begin(), study.modes.end(), [](const Mode& mode) { return !mode.of_own_states; }));
-}
-
-Effects effects_of_modes(const Scene& scene) {
-  Effects effects = scene.effects;
-  if (effects.elastic.empty() && !effects.all_elastic) effects.all_elastic = true;
-  return effects;
-}
 
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options) {
   if (scene.run.model == "multibody")

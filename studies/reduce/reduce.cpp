@@ -27,27 +27,6 @@ namespace {
 
 constexpr double looser_sampling = 1e-9;
 
-// Where torques depend on speed: the speed given, the operating speed, the scene's start, or the rated speed.
-void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineReduction& r) {
-  const Model& m = machine.model();
-  if (options.speed) {
-    r.speed = *options.speed;
-    r.speed_source = "given";
-    return;
-  }
-  if (machine.uses_speed() && machine.periodic()) {
-    try {
-      r.speed = operating_speed(machine).speed;
-      r.speed_source = "operating speed: there the mean torques of drive and load balance";
-      return;
-    } catch (const std::invalid_argument& error) {
-      r.notes.push_back(fmt::format("no operating speed: {}", error.what()));
-    }
-  }
-  r.speed = m.speed_scale;
-  r.speed_source = machine.uses_speed() ? "rated speed" : "no torque depends on it";
-}
-
 class Reducer {
  public:
   Reducer(const Scene& scene, const ReduceOptions& options)

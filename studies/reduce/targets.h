@@ -34,4 +34,7 @@ class SliderRatio {
 // Throws std::invalid_argument with the names allowed.
 [[noreturn]] void refuse_target(const Model& model, const std::string& to);
 
+// Of a reduction whose torques depend on speed: the speed given, the operating speed, or the rated speed.
+void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineReduction& r);
+
 }  // namespace kurbel

@@ -167,4 +167,7 @@ const std::vector<CustomaryDelta>& customary_deltas();
 // Throws std::invalid_argument with the list of names.
 const CustomaryDelta& customary_delta(const std::string& machine);
 
+// Mean torques on the link [N·m] that do not balance, `rest` the drive's less the load's, and what is put beside them.
+std::string unbalanced(double drive, double load, double rest);
+
 }  // namespace kurbel

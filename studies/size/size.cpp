@@ -269,20 +269,6 @@ class Sizer {
     });
   }
 
-  // What the sizing puts beside the scene's torques, which alone would change the machine's speed from cycle to cycle.
-  static std::string unbalanced(double drive, double load, double rest) {
-    const std::string text = load == 0 ? fmt::format(
-                                             "the driving torque varies with the angle and the scene has no load on "
-                                             "the cycle: its mean of {:.5g} N·m is not balanced",
-                                             drive)
-                                       : fmt::format(
-                                             "the driving torque varies with the angle; of its mean of {:.5g} N·m the "
-                                             "load of the scene takes {:.5g} N·m{}",
-                                             drive, load, rest < 0 ? ", more than there is" : "");
-    return text + fmt::format("; sized as if a constant {} of {:.5g} N·m, which the scene does not have, balanced them",
-                              rest > 0 ? "load" : "drive", std::abs(rest));
-  }
-
   void compare_constant_drive(double drive, double load) {
     if (drive < load * (1 - 1e-9))
       throw WeakDrive(

@@ -91,10 +91,10 @@ Claims claims_of(const SteadyStudy& s) {
     add(claims, claimed(Predicate::outside_data, capitalised(sentence)));
   for (const MotorUse& use : last.motors) {
     const Figure* rms = last.find("rms_drive_torque." + use.component);
-    const std::optional<double> error = rms ? rms->error : std::nullopt;
-    if (use.rated)
-      add(claims, overload_claim(*last.model, use.component,
-                                 {*use.thermal(), error ? std::optional(*error / *use.rated) : std::nullopt}, true));
+    if (!use.rated) continue;
+    Estimate share{*use.thermal()};
+    if (rms && rms->error) share.error = *rms->error / *use.rated;
+    add(claims, overload_claim(*last.model, use.component, share, true));
   }
   return claims;
 }
