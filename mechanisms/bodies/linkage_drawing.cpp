@@ -70,7 +70,8 @@ class LinkageDrafter {
       links.push_back({"block", {block, index_of_point(q)}});
       return;
     }
-    const int low = add_place(slide.on, at - size_ * along), high = add_place(slide.on, at + size_ * along);
+    const long double half = 1.6L * std::max(length(at), 0.1L * size_);
+    const int low = add_place(slide.on, at - half * along), high = add_place(slide.on, at + half * along);
     links.push_back({"slot", {low, high}});
     links.push_back({"block", {block, high}});
   }

@@ -117,22 +117,10 @@ class LengthsTaker {
     std::vector<Side> sides;
     for (const LinkageSketch::Length& l : lengths_)
       if (body_of(l.from, l.to) == body) sides.push_back({l.from, l.to, &l});
-    const bool stands = body == LinkageSketch::frame && sides.empty();
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k) sides.push_back({points[k], points[i], nullptr});
-    if (body == LinkageSketch::frame && !points.empty()) {  // it neither moves nor turns
-      const int origin = points.front();
-      hold(origin);
-      if (stands) {
-        for (const int p : points)
-          if (p != origin) hold(p);
-        return;
-      }
-      if (points.size() > 1) {
-        const SketchSpot way = drawn(points[1]) - drawn(origin);
-        conditions_.push_back(across(origin, points[1], (1 / length(way)) * way, 0));
-      }
-    }
+    std::vector<int> own = points;
+    if (body == LinkageSketch::frame) own = hold_frame();
+    for (std::size_t i = 0; i < own.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) sides.push_back({own[k], own[i], nullptr});
     Slopes rows(0, q_.size());
     for (const Side& side : sides) {
       const long double wanted = side.given ? side.given->value : length(drawn(side.a) - drawn(side.b));
@@ -151,6 +139,25 @@ class LengthsTaker {
                          s_.name_of(body), side.given->name)});
       }
     }
+  }
+  // The frame neither moves nor turns: points that no given length ends in stand; of those that one ends in, which are
+  // returned, the first stands, and the second moves along its direction from there.
+  std::vector<int> hold_frame() {
+    std::vector<int> moved;
+    for (const int p : s_.frame_points) {
+      const bool named = std::any_of(lengths_.begin(), lengths_.end(), [&](const LinkageSketch::Length& l) {
+        return (l.from == p || l.to == p) && body_of(l.from, l.to) == LinkageSketch::frame;
+      });
+      if (named)
+        moved.push_back(p);
+      else
+        hold(p);
+    }
+    if (moved.empty()) return {};
+    hold(moved[0]);
+    const SketchSpot way = drawn(moved[1]) - drawn(moved[0]);
+    conditions_.push_back(across(moved[0], moved[1], (1 / length(way)) * way, 0));
+    return moved;
   }
   void hold(int p) {
     for (const SketchSpot n : {SketchSpot{1, 0}, SketchSpot{0, 1}}) {

@@ -488,6 +488,19 @@ TEST(Linkage, GivenLengthsMoveTheSketch) {
   EXPECT_NE(open[0].text.find("cannot be closed"), std::string::npos) << open[0].text;
 }
 
+// Of the frame a length moves the points that it ends in, and no other.
+TEST(Linkage, ALengthOfTheFrameMovesItsOwnPoints) {
+  SketchOf of = test::stephenson();
+  EXPECT_TRUE(take_lengths(of.s, {{0, 3, 0.25, "OC"}}).empty());
+  EXPECT_NEAR(of.s.points[0].x, 0, 1e-16);
+  EXPECT_NEAR(of.s.points[3].x, 0.25, 1e-16);
+  EXPECT_NEAR(of.s.points[3].y, 0, 1e-16);
+  EXPECT_NEAR(of.s.points[6].x, 0.42, 1e-16);
+  EXPECT_NEAR(of.s.points[6].y, 0.08, 1e-16);
+  EXPECT_NEAR(distance_in(of.s, 1, 2), std::hypot(0.14, 0.14), 1e-16);
+  expect_rigid(of.data());
+}
+
 // A ram keeps its line, a block the offset of its slot.
 TEST(Linkage, GivenLengthsKeepSlides) {
   SketchOf of;
