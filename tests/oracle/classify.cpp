@@ -123,7 +123,12 @@ class MotionJudge {
     }
     return changes >= 2 && std::abs(path_.angle(until_) - path_.angle(from)) < 0.25 * way;
   }
-  bool pushed() const { return slips_under_torque_ || p_.back().pushed > 1e-3 * m_.torque_scale; }
+  // At any point of the last 2 % of the time: what is held may tremble.
+  bool pushed() const {
+    return slips_under_torque_ || std::any_of(p_.begin(), p_.end(), [&](const Moment& m) {
+             return m.t >= until_ - at_end * until_ && m.pushed > 1e-3 * m_.torque_scale;
+           });
+  }
   bool does_not_start() const { return !turns_at(p_.front()) && !moves() && pushed(); }
   bool stalls() const { return fastest() > 0.01 * usual_ && end() == "rests" && pushed(); }
   bool no_round() const {

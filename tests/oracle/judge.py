@@ -114,7 +114,7 @@ class Judge:
         m, p = self.motion, self.run.periods
         at = p.get("standstill")
         if at is not None:
-            if m["end"] != "rests":
+            if m["end"] != "rests" and abs(m["speed_at_end"]) > 2 * TURNS * self.usual:
                 self.contradiction("rests, but does not", f"standstill said at {at:.4g} s; {m['end']} at the end")
             elif not m["moves"]:
                 self.contradiction("comes to rest, but never moved", f"standstill said at {at:.4g} s")
@@ -142,7 +142,7 @@ class Judge:
                 self.contradiction("does not start: \"its loads hold\", but others do", f"held by {', '.join(self.holders())}")
             elif not m["pushed_at_end"]:
                 self.contradiction("does not start, but nothing pushes", f"drive {m['drive_at_end']:.4g} N·m")
-        elif m["does_not_start"] and not r.says("stalls") and not r.bad_motion:
+        elif m["does_not_start"] and not r.says("held by") and not r.bad_motion:
             self.omission("does not start", f"a source pushes and nothing moves; said: {r.sentences[0]}")
 
     # Brakes, gears that lock themselves: no load.
@@ -162,7 +162,7 @@ class Judge:
                 self.contradiction("stalls, but nothing pushes", r.sentences[0])
             elif "the load can hold" in r.conclusion and self.held_by_others():
                 self.contradiction("stalls: \"the load can hold\", but others do", f"held by {', '.join(self.holders())}")
-        elif m["stalls"] and not m["does_not_start"] and not r.bad_motion and not self.braked_by_command():
+        elif m["stalls"] and not m["does_not_start"] and not r.bad_motion and not r.says("held by") and not self.braked_by_command():
             self.omission("stalls", f"rests since {m['rests_since']:.4g} s under a source that pushes; said: {r.sentences[0]}")
 
     # A brake that the sequence put on last: the machine is meant to stand.
@@ -329,7 +329,7 @@ class Judge:
         m, r = self.motion, self.run
         for motor in self.truth["motors"]:
             name = motor["component"]
-            if motor["stands"] and abs(motor["torque"]) > 0.1 * motor["rated_torque"] and not r.bad_motion and not self.braked_by_command():
+            if motor["stands"] and abs(motor["torque"]) > 0.1 * motor["rated_torque"] and not r.bad_motion and not r.says("held by") and not self.braked_by_command():
                 self.omission("motor stands under torque", f"\"{name}\" gives {motor['torque']:.4g} N·m (rated {motor['rated_torque']:.4g}) at rest; said: {r.sentences[0]}")
             if motor["kind"] == "induction motor" and r.says("hangs", name) and motor["speed"] > 0.9 * motor["rated_speed"]:
                 self.contradiction("does not come up to speed, but has", f"\"{name}\" {motor['speed']:.4g} of {motor['rated_speed']:.4g} rad/s")
@@ -357,7 +357,7 @@ class Judge:
             mean = next((f["value"] for f in cycle["figures"] if f["name"] == f"mean_speed.{self.truth['link']}"), None)
             if mean is not None and differs(mean, l["mean_speed"], 0.02):
                 self.contradiction("steady: another speed than the run comes to", f"said {mean:.5g}, sampled {l['mean_speed']:.5g} rad/s")
-        if cycle and l["end"] == "rests" and "In the end" not in s.conclusion:
+        if cycle and s.summary.get("complete", True) and l["end"] == "rests" and "In the end" not in s.conclusion:
             mean = next((f["value"] for f in cycle["figures"] if f["name"] == f"mean_speed.{self.truth['link']}"), None)
             if mean is not None and abs(mean) > 0.01 * self.usual:
                 self.contradiction("steady: a cycle, but it comes to rest", f"said {mean:.5g} rad/s; rests since {l['rests_since']:.4g} s; {s.conclusion[:120]}")

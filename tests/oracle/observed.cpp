@@ -149,10 +149,10 @@ class Sampler final : public Observer {
     using State = Stretch::State;
     const bool open = now.command_begin == 0 && now.command_end == 0;
     now.state = open ? State::open : now.slip > apart * contact.usual_speed ? State::slips : State::holds;
-    // A hold of a clutch that is closed begins a stretch of its own.
-    const bool closes = now.state == State::holds && now.command_begin >= 1 && !contact.stretches.empty() &&
-                        contact.stretches.back().command_begin < 1;
-    if (contact.stretches.empty() || contact.stretches.back().state != now.state || closes)
+    // A hold of a clutch that is closed is a stretch of its own.
+    const auto closed = [](const Stretch& stretch) { return stretch.command_begin >= 1 && stretch.command_end >= 1; };
+    if (contact.stretches.empty() || contact.stretches.back().state != now.state ||
+        (now.state == State::holds && closed(now) != closed(contact.stretches.back())))
       return contact.stretches.push_back(now);
     Stretch& last = contact.stretches.back();
     last.end = now.end, last.command_end = now.command_end, last.sense = now.sense;
