@@ -140,7 +140,7 @@ class Judge:
                 self.contradiction("does not start, but moves", f"fastest {m['fastest']:.4g} of usually {self.usual:.4g} rad/s")
             elif "its loads hold" in r.conclusion and self.held_by_others():
                 self.contradiction("does not start: \"its loads hold\", but others do", f"held by {', '.join(self.holders())}")
-            elif not m["pushed_at_end"]:
+            elif not m["pushed_at_end"] and not m["drives_at_end"]:
                 self.contradiction("does not start, but nothing pushes", f"drive {m['drive_at_end']:.4g} N·m")
         elif m["does_not_start"] and not r.says("held by") and not r.bad_motion:
             self.omission("does not start", f"a source pushes and nothing moves; said: {r.sentences[0]}")
@@ -158,7 +158,7 @@ class Judge:
                 self.contradiction("stalls, but turns", f"{m['speed_at_end']:.4g} rad/s at the end")
             elif not m["moves"]:
                 self.contradiction("stalls, but never moved", r.sentences[0])
-            elif not m["pushed_at_end"]:
+            elif not m["pushed_at_end"] and not m["drives_at_end"]:
                 self.contradiction("stalls, but nothing pushes", r.sentences[0])
             elif "the load can hold" in r.conclusion and self.held_by_others():
                 self.contradiction("stalls: \"the load can hold\", but others do", f"held by {', '.join(self.holders())}")
