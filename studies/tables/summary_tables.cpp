@@ -30,8 +30,10 @@ std::optional<double> number_in(const Record& record, const char* key) {
   return number && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
 }
 
+// A claim has a severity besides.
 bool is_figure(const Record& record) {
-  return !text_in(record, "name").empty() && number_in(record, "value") && value_of(record, "unit");
+  return !text_in(record, "name").empty() && number_in(record, "value") && value_of(record, "unit") &&
+         !value_of(record, "severity");
 }
 
 bool is_event(const Record& record) { return number_in(record, "t") && value_of(record, "component"); }

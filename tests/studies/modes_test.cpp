@@ -284,7 +284,7 @@ TEST(ForcedResponse, LongSimulationSettlesToIt) {
 // linear drive at the mean operating point comes the nearer to the steady cycle that the simulation settles to.
 TEST(ForcedResponse, OfThePressIsNearItsSimulatedSteadyCycle) {
   const std::string text = test::scene_file("scenes/crank_press.toml").text;
-  for (const auto& [force, off] : {std::pair{"630 kN", 0.035}, {"210 kN", 0.01}}) {
+  for (const auto& [force, off] : {std::pair{"630 kN", 0.045}, {"210 kN", 0.01}}) {
     SCOPED_TRACE(force);
     const Scene scene =
         test::scene_from(test::with(text, "nominal_force = \"630 kN\"", fmt::format("nominal_force = \"{}\"", force)));

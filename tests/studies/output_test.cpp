@@ -139,8 +139,12 @@ TEST(Press, StartsFromRestOnADeadCentre) {
     EXPECT_GT(figure(c.a, "final_speed.press"), 5);
     EXPECT_NEAR(figure(c.a, "final_speed.press"), figure(c.b, "final_speed.press"), 0.5);
     EXPECT_LE(c.b.energy.relative, 1e-5);
-    // The rigid motor sees Kloss' starting torque at once; the elastic coupling rings to more than twice its share.
-    EXPECT_GT(c.amplification[0].b->value, 1.5);
+    // The rigid motor sees Kloss' starting torque at once; with the lag of its fluxes the elastic coupling is loaded more
+    // gently, and on the curve alone it rings to more than twice its share.
+    EXPECT_GT(c.amplification[0].b->value, 1);
+    scene.effects.torque_lag = false;
+    const Comparison curve = compare(scene, {{}, scene.effects, "rigid", "elastic"}, {});
+    EXPECT_GT(curve.amplification[0].b->value, 1.5);
   }
 }
 

@@ -152,7 +152,7 @@ TEST(Schema, EveryKindHasTheKeysAndRequiredOnesOfTheReader) {
       EXPECT_TRUE(table["properties"].contains(key.name)) << kind.name << "." << key.name;
       if (key.required) required.push_back(key.name);
     }
-    const std::size_t others = kind.placement == Placement::inline_one ? 3 : 2;  // kind, use, on
+    const std::size_t others = kind.placement == Placement::inline_one ? 4 : 3;  // kind, use, orders, on
     EXPECT_EQ(table["properties"].size(), kind.keys.size() + others) << kind.name;
     EXPECT_EQ(table["required"], Json({"kind"}));
     // What is required, or a table that may have it.

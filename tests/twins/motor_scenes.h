@@ -81,7 +81,7 @@ rated_speed       = <w 47>
 synchronous_speed = <w 50>
 breakdown_ratio   = 2.6
 starting          = "star-delta"
-switch_time       = "0.2 s"
+switch_time       = "0.2013 s"
 pause             = "30 ms"
 inertia           = <J 0.2>
 )",
