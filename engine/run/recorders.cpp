@@ -250,7 +250,7 @@ void CycleRecorder::step(StepView& view) {
   double from = view.t_previous();
   const auto alpha = [&](double time) { return gain * view.snapshot(time).alpha[shaft]; };
   const auto speed = [&](double time) { return gain * view.snapshot(time).now.speed[shaft]; };
-  // An even number of extremes leaves the signs at the ends as they are: the quarters are asked wherever the speed could
+  // An even number of extremes leaves the signs at the ends as they are: the middle is asked wherever the speed could
   // get beyond what is known of the cycle (a cubic goes at most 4/27 h (|α₀| + |α₁|) beyond its ends).
   const auto extreme_until = [&](double t) {
     see_speed(speed(t));
@@ -258,14 +258,9 @@ void CycleRecorder::step(StepView& view) {
       const double a0 = alpha(from), a1 = alpha(t), w0 = speed(from), w1 = speed(t);
       const double reach = (t - from) * (std::abs(a0) + std::abs(a1));
       if (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) {
-        double begin = from, a_begin = a0;
-        for (const double end : {0.5 * (from + t), t}) {
-          const double middle = 0.5 * (begin + end), am = alpha(middle), a_end = end < t ? alpha(end) : a1;
-          see_speed(speed(middle)), see_speed(speed(end));
-          for_each_turn(alpha, {begin, a_begin}, {middle, am}, {end, a_end},
-                        [&](double turn) { see_speed(speed(turn)); });
-          begin = end, a_begin = a_end;
-        }
+        const double middle = 0.5 * (from + t), am = alpha(middle);
+        see_speed(speed(middle));
+        for_each_turn(alpha, {from, a0}, {middle, am}, {t, a1}, [&](double turn) { see_speed(speed(turn)); });
       }
     }
     from = t;

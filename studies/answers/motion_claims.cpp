@@ -138,7 +138,8 @@ class Judge {
   // "the load", where one is among those that hold, or nobody is known; else their names.
   std::string holders_beside(const char* load) const {
     const bool any_load = std::any_of(m_.network.elements.begin(), m_.network.elements.end(), [&](const auto& e) {
-      return e.element->account == Account::useful && equations_.at_standstill(at(m_.shaft_of_node[at(e.node)]));
+      return (e.element->account == Account::useful || e.element->cycle > 0) &&
+             equations_.at_standstill(at(m_.shaft_of_node[at(e.node)]));
     });
     const std::string names = any_load ? std::string() : what_holds();
     return names.empty() ? load : names;
@@ -202,9 +203,11 @@ class Judge {
   std::optional<Claim> never_starts(double fastest) const {
     if (is_commanded() || !is_held() || rest() || fastest > stands * m_.speed_scale || brake_that_holds()) return {};
     if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    const std::string holders = holders_beside("its loads");
+    const bool one = holders.starts_with('"') && holders.find(',') == std::string::npos;
     return claimed(Predicate::does_not_start,
-                   fmt::format("\"{}\" does not start: {} hold the {} N·m that drive it", link(),
-                               holders_beside("its loads"), drive()),
+                   fmt::format("\"{}\" does not start: {} {} the {} N·m that drive it", link(), holders,
+                               one ? "holds" : "hold", drive()),
                    link(), {.value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }
 

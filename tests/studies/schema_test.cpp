@@ -68,6 +68,7 @@ class Validator {
     if (keyword == "exclusiveMaximum") return unless(!value.is_number() || value < rule);
     if (keyword == "minItems") return unless(!value.is_array() || value.size() >= rule.get<std::size_t>());
     if (keyword == "maxItems") return unless(!value.is_array() || value.size() <= rule.get<std::size_t>());
+    if (keyword == "minProperties") return unless(!value.is_object() || value.size() >= rule.get<std::size_t>());
     if (keyword == "oneOf" || keyword == "anyOf") return check_choice(keyword, rule, value, at);
     if (keyword == "items") {
       for (std::size_t i = 0; value.is_array() && i < value.size(); ++i)
