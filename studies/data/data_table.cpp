@@ -19,9 +19,17 @@ void put_number(Out out, double value, const NumberFormat& format) {
     fmt::format_to(out, "{}", value);
 }
 
+// Words with a comma, a quotation mark or a line end stand in quotation marks, those within doubled (RFC 4180).
+void put_words(std::string& text, const std::string& words) {
+  if (words.find_first_of(",\"\n") == std::string::npos) return void(text += words);
+  text += '"';
+  for (const char c : words) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  text += '"';
+}
+
 void put_cell(std::string& text, const DataCell& cell, const NumberFormat& format) {
   if (const std::string* words = std::get_if<std::string>(&cell))
-    text += *words;
+    put_words(text, *words);
   else if (const double number = std::get<double>(cell); !std::isnan(number))
     put_number(std::back_inserter(text), number, format);
 }

@@ -487,10 +487,12 @@ def ratings_of(told):
 
 
 def load_case(command, rating):
-    """That a verdict is on: the run of the scene with its start, as which `modes` takes the largest torque, or the steady
-    motion. A start that is made up is neither."""
-    if "not told by the scene" in rating.get("note", ""):
+    """That a verdict is on, as it says itself: "start", "steady", "run", a step of the sequence; what says none is on the
+    run of the scene with its start, or on the steady motion. None where it is not assessed, or on a start that is made up."""
+    if rating["verdict"] == "not assessed" or "not told by the scene" in rating.get("note", ""):
         return None
+    if "load_case" in rating:
+        return rating["load_case"]
     steady = command == "steady" or command == "modes" and not rating["requirement"].startswith("maximum")
     return "steady" if steady or "steady cycle" in rating["requirement"] else "run"
 
@@ -504,14 +506,16 @@ def verdicts(told):
         case = load_case(command, r)
         for other_command, other_case, other in seen.setdefault((r["component"], r["requirement"]), []):
             what = f"verdict on {r['component']}, {r['requirement']}"
-            said = [f"{c}: {x['verdict']} ({x['value']:.6g} of {x['limit']:.6g})" for c, x in ((other_command, other), (command, r))]
+            told_as = lambda x: f"{x:.6g}" if number(x) else "not assessed"  # noqa: E731
+            said = [f"{c}: {x['verdict']} ({told_as(x['value'])} of {told_as(x['limit'])})"
+                    for c, x in ((other_command, other), (command, r))]
             if number(r["limit"]) and number(other["limit"]):
                 yield Same(f"limit of {what}", Value(other["limit"], None, f"{other_command} ratings"), Value(r["limit"], None, f"{command} ratings"))
             if case and case == other_case:
                 yield Words(what, *said, other["verdict"] == r["verdict"])
                 if number(r["value"]) and number(other["value"]):
                     yield Same(what, Value(other["value"], other["error"], f"{other_command} ratings"), Value(r["value"], r["error"], f"{command} ratings"))
-            elif case and other_case and within and "RMS" not in r["requirement"]:
+            elif {case, other_case} == {"steady", "run"} and within and "RMS" not in r["requirement"]:
                 steady, run = (r, other) if case == "steady" else (other, r)
                 yield Words(what, *said, steady["holds"] or not run["holds"])
         if case:
