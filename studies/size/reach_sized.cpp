@@ -91,9 +91,9 @@ class Reach {
     }
     Effects elastic = scene_.effects;
     if (!is_elastic(*compile_at(scene_, elastic, options_.at))) elastic.all_elastic = true;
-    ask(SizedModel::rigid, by, sized_by, flywheel, without_elasticity(scene_.effects));
-    if (is_elastic(*compile_at(scene_, elastic, options_.at)))
-      ask(SizedModel::elastic, by, sized_by, flywheel, elastic);
+    const auto elastic_model = compile_at(scene_, elastic, options_.at);
+    ask(SizedModel::rigid, by, sized_by, flywheel, rigid_twin(*elastic_model));
+    if (is_elastic(*elastic_model)) ask(SizedModel::elastic, by, sized_by, flywheel, elastic);
   }
 
   void ask(SizedModel as, SizedBy by, const std::string& sized_by, double flywheel, const Effects& effects) {
