@@ -37,8 +37,8 @@ std::vector<VerbText> verbs();
 // for.
 std::string verbs_as_manual();
 std::string verbs_as_markdown();
-std::string questions_as_stubs();                      // of the Python module: a function each, options with their types
-std::string names_of_verbs();                          // a line each
+std::string questions_as_stubs();  // of the Python module: a function each, options with their types
+std::string names_of_verbs();      // a line each
 std::string options_of_verb(const std::string& name);  // a line each; throws std::invalid_argument
 
 }  // namespace kurbel::app

@@ -34,15 +34,16 @@ struct PlanePoint {
 // How a mechanism is drawn by its joints (MechanismBodies::joints), and whether its output slides or rocks.
 struct LinkageDrawing {
   struct Link {
-    std::string shape;  // "crank", "link", "slot": a line; "slider", "point" on a joint; "block" on a joint, along the next
+    // "crank", "link", "slot": a line; "slider", "point" on a joint; "block" on a joint, along the next
+    std::string shape;
     std::vector<int> joints;  // that it goes through
   };
   std::string name;
-  double direction = 0;     // of +x above the horizontal [rad]
-  std::vector<Link> links;  // in the order of drawing
-  std::vector<int> fixed;   // joints that are bearings in the frame
-  int output = 0;           // joint that the load is shown at
-  bool rocks = false;       // the output is an angle
+  double direction = 0;                 // of +x above the horizontal [rad]
+  std::vector<Link> links;              // in the order of drawing
+  std::vector<int> fixed;               // joints that are bearings in the frame
+  int output = 0;                       // joint that the load is shown at
+  bool rocks = false;                   // the output is an angle
   std::vector<std::string> names = {};  // of the joints; empty: O, A, B …
 };
 

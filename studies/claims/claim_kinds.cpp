@@ -74,7 +74,7 @@ constexpr std::array kinds = {
         start_shafts_disagree, runs, warning, above,
         "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
         "value: the difference of speed [rad/s]",
-        "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare, steady"},
+        "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare"},
     ClaimKind{runs_steadily, runs, note, anything,
               "what the mid speed of the cycle still has to go to its limit is at most 0.1 % of it, and the link does "
               "not stand within the cycle",

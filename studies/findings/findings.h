@@ -74,10 +74,10 @@ struct Findings {
   enum class Opening { conclusion, title_and_conclusion, title };
 
   std::string title, subtitle = {};
-  std::string page_title = {};       // empty: the title
-  std::string scene_file = {};       // for programs; empty: not told
-  std::string speed_unit = {};       // that people are told speeds in, for programs; empty: there are none
-  Claims claims = {};            // what the conclusion is made of
+  std::string page_title = {};  // empty: the title
+  std::string scene_file = {};  // for programs; empty: not told
+  std::string speed_unit = {};  // that people are told speeds in, for programs; empty: there are none
+  Claims claims = {};           // what the conclusion is made of
   bool complete = true;
   std::string diagnosis = {};    // of a run that failed on its way
   std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed

@@ -220,7 +220,8 @@ void drop_errors(std::vector<Figure>& figures, double since) {
 }
 
 void tell_outside_data(const DataRangeRecorder& ranges, Result& result) {
-  for (std::string& sentence : ranges.sentences()) add(result.claims, claimed(Predicate::outside_data, std::move(sentence)));
+  for (std::string& sentence : ranges.sentences())
+    add(result.claims, claimed(Predicate::outside_data, std::move(sentence)));
   const std::optional<double> since = ranges.since();
   if (!since) return;
   drop_errors(result.figures, *since);

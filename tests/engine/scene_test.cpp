@@ -167,7 +167,8 @@ TEST(Scene, CommandLineEffectsErrorsNameTheAllowed) {
       message_of([&] { parse_effects("elastisity", scene); }),
       "effects \"elastisity\" — did you mean \"elasticity\"?; allowed: \"none\", \"all\", \"elasticity\", "
       "\"elasticity:COUPLING,…\", \"joint_friction\", \"backlash\", \"mesh_variation\", \"transients\", "
-      "\"torque_lag\", \"relaxation\", \"bearing_friction\", \"gear_losses\", \"joint_clearance\", \"flexible_rod\", \"gravity\", "
+      "\"torque_lag\", \"relaxation\", \"bearing_friction\", \"gear_losses\", \"joint_clearance\", \"flexible_rod\", "
+      "\"gravity\", "
       "\"variable_inertia\", \"load_edges\" or \"multibody\"; several joined by commas, or -NAME to take one away");
   EXPECT_NE(message_of([&] { parse_effects("backlash", scene); }).find("no component of the scene has parameters"),
             std::string::npos);
