@@ -1,4 +1,4 @@
-// link_speeds.h — how the shafts turn in a run: whether the link keeps vibrating, when it turns back, when all stopped.
+// link_speeds.h — how the shafts turn in a run: whether the link keeps vibrating, when it turns back, when it stopped.
 #pragma once
 
 #include <algorithm>
@@ -45,21 +45,37 @@ class LastSwing {
   double greatest_ = 0;  // [rad/s]; 0: it did not turn back
 };
 
-// When a shaft last turned faster than this part of its rated speed, at the ends of steps.
+// When the link was last faster than some speed, at the ends of steps; where its speed is prescribed, the fastest of the free
+// shafts. Speeds are parts of rated ones.
 class LastMotion final : public Observer {
  public:
-  LastMotion(const Model& m, double least) : m_(m), least_(least) {}
+  explicit LastMotion(const Model& m) : m_(m), link_(at(m.angles[at(m.reduction_angle)].shaft)) {}
   void step(StepView& view) override {
-    const std::span<const double> y = view.y();
-    for (std::size_t s = 0; s < m_.free_shafts; ++s)
-      if (std::abs(y[view.equations().speed_index(static_cast<int>(s))]) > least_ * m_.shafts[s].speed_scale)
-        time_ = view.t();
+    const bool free = link_ < m_.free_shafts;
+    const std::size_t first = free ? link_ : 0, end = free ? link_ + 1 : m_.free_shafts;
+    last_ = 0;
+    for (std::size_t s = first; s < end; ++s)
+      last_ = std::max(
+          last_, std::abs(view.y()[view.equations().speed_index(static_cast<int>(s))]) / m_.shafts[s].speed_scale);
+    constexpr double same = 0.999;  // keeps the list short; the time comes out later, not earlier
+    while (!falling_.empty() && falling_.back().second <= last_) falling_.pop_back();
+    if (!falling_.empty() && last_ > same * falling_.back().second)
+      falling_.back().first = view.t();
+    else if (last_ > 0)
+      falling_.emplace_back(view.t(), last_);
   }
-  double time() const { return time_; }  // [s]; 0: none ever turned
+  // [s]; 0: it never was.
+  double above(double part) const {
+    const auto slower = std::find_if(falling_.begin(), falling_.end(), [&](const auto& e) { return e.second <= part; });
+    return slower == falling_.begin() ? 0 : std::prev(slower)->first;
+  }
+  double last() const { return last_; }
 
  private:
   const Model& m_;
-  double least_, time_ = 0;
+  std::size_t link_;
+  double last_ = 0;
+  std::vector<std::pair<double, double>> falling_;  // time [s], speed: each faster than all after it
 };
 
 // When the link turns back from forwards to backwards, located on the solution between the steps.

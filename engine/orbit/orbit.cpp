@@ -35,7 +35,7 @@ class Search {
         equations_(shared_, false),
         map_(new_map()),
         period_(map_->periodicity()),
-        last_motion_(m_, still) {}
+        last_motion_(m_) {}
 
   Orbit run() {
     state_.t = 0;
@@ -150,16 +150,22 @@ class Search {
     end(Orbit::Kind::equilibrium,
         with_holders(fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link())));
   }
+  // What friction or losses hold is at rest; what nothing holds comes nearer to it without end.
   std::string at_rest() {
-    if (last_motion_.time() == 0) return with_holders("the machine stands from its start on");
-    return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rested_at()));
-  }
-  // When the last shaft was held, by friction or by losses; where nothing holds it, when it was as good as still.
-  double rested_at() const {
-    const auto holds = [](const Event& e) { return e.kind == EventKind::rest || e.kind == EventKind::held; };
-    for (const Event& e : events_)
-      if (holds(e) && e.t >= (1 - 1e-12) * last_motion_.time()) return e.t;
-    return last_motion_.time();
+    constexpr double as_good_as_still = 1e-3;  // as in the periods of a run
+    constexpr double held_still = 1e-12;
+    if (last_motion_.above(still) == 0) return with_holders("the machine stands from its start on");
+    if (last_motion_.last() > held_still)
+      return with_holders(
+          fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from "
+                      "{:.4g} s on",
+                      link(), last_motion_.above(as_good_as_still)));
+    const double end = last_motion_.above(held_still);
+    const auto held = std::find_if(events_.begin(), events_.end(), [&](const Event& e) {
+      return (e.kind == EventKind::rest || e.kind == EventKind::held) && e.t >= (1 - 1e-12) * end;
+    });
+    return with_holders(
+        fmt::format("the machine comes to rest at {:.4g} s and stays there", held != events_.end() ? held->t : end));
   }
   std::string with_holders(std::string text) {
     for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;

@@ -248,9 +248,20 @@ void CycleRecorder::step(StepView& view) {
   const int shaft = m.shaft_of_node[at(m.reduction_node)];
   const double gain = m.angles[tracked].gain;
   double from = view.t_previous();
-  const auto alpha = [&](double time) { return gain * view.snapshot(time).alpha[shaft]; };
-  const auto speed = [&](double time) { return gain * view.snapshot(time).now.speed[shaft]; };
-  // An even number of extremes leaves the signs at the ends as they are: the middle is asked wherever the speed could
+  // The speed's slope is that of the steps' dense output, whose extremes are sought: the equations' acceleration there is
+  // another one by the tolerance. Only a speed that is given is asked of the equations.
+  const bool free = at(shaft) < m.free_shafts;
+  const std::size_t state = free ? equations.speed_index(shaft) : 0;
+  const auto speed = [&](double time) {
+    return gain * (free ? view.at(time, state) : view.snapshot(time).now.speed[shaft]);
+  };
+  const auto alpha = [&](double time) {
+    if (!free) return gain * view.snapshot(time).alpha[shaft];
+    const double delta = 1e-3 * (view.t() - view.t_previous());
+    const double before = std::max(time - delta, view.t_previous()), after = std::min(time + delta, view.t());
+    return (speed(after) - speed(before)) / (after - before);
+  };
+  // An even number of extremes leaves the signs at the ends as they are: places between are asked wherever the speed could
   // get beyond what is known of the cycle (a cubic goes at most 4/27 h (|α₀| + |α₁|) beyond its ends).
   const auto extreme_until = [&](double t) {
     see_speed(speed(t));
@@ -258,9 +269,15 @@ void CycleRecorder::step(StepView& view) {
       const double a0 = alpha(from), a1 = alpha(t), w0 = speed(from), w1 = speed(t);
       const double reach = (t - from) * (std::abs(a0) + std::abs(a1));
       if (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) {
-        const double middle = 0.5 * (from + t), am = alpha(middle);
-        see_speed(speed(middle));
-        for_each_turn(alpha, {from, a0}, {middle, am}, {t, a1}, [&](double turn) { see_speed(speed(turn)); });
+        const int parts = free ? 8 : 2;  // samples of one state are cheap
+        double before = a0;
+        for (int k = 1; k <= parts; ++k) {
+          const double begin = from + (t - from) * (k - 1) / parts, end = k < parts ? from + (t - from) * k / parts : t;
+          const double now = k < parts ? alpha(end) : a1;
+          see_speed(speed(end));
+          if (before * now < 0) see_speed(speed(find_root(alpha, begin, before, end, now)));
+          before = now;
+        }
       }
     }
     from = t;

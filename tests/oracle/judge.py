@@ -342,7 +342,7 @@ class Judge:
 
     def steady_study(self):
         s, l, m = self.steady, self.later, self.motion
-        rests = s.time_of(r"comes to rest at TIME")
+        rests = s.time_of(r"(?:comes to rest at|below 0\.1 % of its rated speed from) TIME")
         if rests is not None:
             where = l if l and l["complete"] else m
             if not m["moves"] and not where["moves"]:
