@@ -45,36 +45,43 @@ class LastSwing {
   double greatest_ = 0;  // [rad/s]; 0: it did not turn back
 };
 
-// When the link was last faster than some speed, at the ends of steps; where its speed is prescribed, the fastest of the free
-// shafts. Speeds are parts of rated ones.
+// When the link was last faster than some part of its rated speed, looked at eight times a step; where its speed is
+// prescribed, the fastest of the free shafts.
 class LastMotion final : public Observer {
  public:
   explicit LastMotion(const Model& m) : m_(m), link_(at(m.angles[at(m.reduction_angle)].shaft)) {}
   void step(StepView& view) override {
     const bool free = link_ < m_.free_shafts;
     const std::size_t first = free ? link_ : 0, end = free ? link_ + 1 : m_.free_shafts;
-    last_ = 0;
-    for (std::size_t s = first; s < end; ++s)
-      last_ = std::max(
-          last_, std::abs(view.y()[view.equations().speed_index(static_cast<int>(s))]) / m_.shafts[s].speed_scale);
-    constexpr double same = 0.999;  // keeps the list short; the time comes out later, not earlier
-    while (!falling_.empty() && falling_.back().second <= last_) falling_.pop_back();
-    if (!falling_.empty() && last_ > same * falling_.back().second)
-      falling_.back().first = view.t();
-    else if (last_ > 0)
-      falling_.emplace_back(view.t(), last_);
+    constexpr int looks = 8;
+    for (int k = 1; k <= looks; ++k) {
+      const double t = k < looks ? view.t_previous() + (view.t() - view.t_previous()) * k / looks : view.t();
+      double speed = 0;
+      for (std::size_t s = first; s < end; ++s) {
+        const std::size_t state = view.equations().speed_index(static_cast<int>(s));
+        speed = std::max(speed, std::abs(view.at(t, state)) / m_.shafts[s].speed_scale);
+      }
+      see(t, speed);
+    }
   }
   // [s]; 0: it never was.
   double above(double part) const {
     const auto slower = std::find_if(falling_.begin(), falling_.end(), [&](const auto& e) { return e.second <= part; });
     return slower == falling_.begin() ? 0 : std::prev(slower)->first;
   }
-  double last() const { return last_; }
 
  private:
+  void see(double t, double speed) {
+    constexpr double same = 0.999;  // keeps the list short; the time comes out later, not earlier
+    while (!falling_.empty() && falling_.back().second <= speed) falling_.pop_back();
+    if (!falling_.empty() && speed > same * falling_.back().second)
+      falling_.back().first = t;
+    else if (speed > 0)
+      falling_.emplace_back(t, speed);
+  }
+
   const Model& m_;
   std::size_t link_;
-  double last_ = 0;
   std::vector<std::pair<double, double>> falling_;  // time [s], speed: each faster than all after it
 };
 

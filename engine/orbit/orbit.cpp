@@ -155,17 +155,15 @@ class Search {
     constexpr double as_good_as_still = 1e-3;  // as in the periods of a run
     constexpr double held_still = 1e-12;
     if (last_motion_.above(still) == 0) return with_holders("the machine stands from its start on");
-    if (last_motion_.last() > held_still)
-      return with_holders(
-          fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from "
-                      "{:.4g} s on",
-                      link(), last_motion_.above(as_good_as_still)));
     const double end = last_motion_.above(held_still);
     const auto held = std::find_if(events_.begin(), events_.end(), [&](const Event& e) {
       return (e.kind == EventKind::rest || e.kind == EventKind::held) && e.t >= (1 - 1e-12) * end;
     });
+    if (held != events_.end() && !equations_.held(state_.t, state_.y).empty())
+      return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", held->t));
     return with_holders(
-        fmt::format("the machine comes to rest at {:.4g} s and stays there", held != events_.end() ? held->t : end));
+        fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from {:.4g} s on", link(),
+                    last_motion_.above(as_good_as_still)));
   }
   std::string with_holders(std::string text) {
     for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;

@@ -343,7 +343,12 @@ class Judge:
     def steady_study(self):
         s, l, m = self.steady, self.later, self.motion
         rests = s.time_of(r"(?:comes to rest at|below 0\.1 % of its rated speed from) TIME")
-        if rests is not None:
+        # The time is that of the machine with all effects of the study (In the end …), or of the one that found no cycle.
+        asked = s.summary.get("cycles", ())
+        of = next((c for c in asked if f"({c.get('label')})" in s.conclusion), None) if "No steady cycle (" in s.conclusion else \
+            asked[-1] if asked else None
+        same = not of or of.get("effects") == self.run.summary.get("model", {}).get("effects")
+        if rests is not None and same:
             where = l if l and l["complete"] else m
             if not m["moves"] and not where["moves"]:
                 self.contradiction("steady: comes to rest, but never moved", f"said at {rests:.4g} s")

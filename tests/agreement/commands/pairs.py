@@ -542,7 +542,7 @@ def too_hot(told):
             yield Words(f"{motor} gets too hot", f"run: {first} %", f"{command}: {other} %", agree)
 
 
-RESTS = re.compile(r"(?:comes to rest at|rests at) ([\d.e+-]+) (s|ms|min|h)\b")
+RESTS = re.compile(r"(?:comes to rest at|rests at|of its rated speed from) ([\d.e+-]+) (s|ms|min|h)\b")
 UNITS = {"s": 1, "ms": 1e-3, "min": 60, "h": 3600}
 
 
