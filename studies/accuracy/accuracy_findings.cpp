@@ -263,8 +263,12 @@ Findings findings_of(const AccuracyStudy& study) {
     f.tell("settings", settings_table(study).list());
     f.tell("omissions", omission_table(study).list());
   }
-  for (const Omission& o : study.omissions)
-    say({.lines = {fmt::format("left out: {}: {}", o.what, o.why)}, .indent = "  "});
+  for (auto o = study.omissions.begin(); o != study.omissions.end();) {  // those of one reason together
+    const auto other = std::find_if(o, study.omissions.end(), [&](const Omission& next) { return next.why != o->why; });
+    std::string what = o->what;
+    for (++o; o != other; ++o) what += "; " + o->what;
+    say({.lines = {fmt::format("left out: {}: {}", what, std::prev(other)->why)}, .indent = "  "});
+  }
   say({.lines = {fmt::format("{} settings in {:.3g} s of processor time; {}", study.settings.size(), study.seconds,
                              machine_info())},
        .indent = "  "});

@@ -21,6 +21,7 @@ struct Climber {
   std::string method;
   bool open = true;
   double last_cost = 0, growth = 2;  // of a whole rung [s], from rung to rung
+  int beaten = 0;                    // rungs running
 };
 
 std::vector<std::string> methods_for(const AccuracyWork& work, const LevelAtWork& level) {
@@ -32,8 +33,10 @@ std::vector<std::string> methods_for(const AccuracyWork& work, const LevelAtWork
   return methods;
 }
 
-// The integration with its peaks and cycles, as a user needs it; without samples and the audit of the energy.
+// The integration with its peaks and cycles, as a user needs it; without samples and the audit of the energy. Once is
+// enough of a setting that is beaten by far.
 bool time_runs(MeasuredSetting& s, const AccuracyWork& work, const LevelAtWork& level) {
+  constexpr double by_far = 1.5;
   std::vector<double> seconds;
   double sum = 0;
   const int least = 3;
@@ -53,7 +56,7 @@ bool time_runs(MeasuredSetting& s, const AccuracyWork& work, const LevelAtWork& 
     if (!outcome.complete) return false;
     seconds.push_back(outcome.statistics.cpu_seconds);
     sum += seconds.back();
-    if (sum > 1) break;
+    if (sum > 1 || times_beaten(work.study, s, seconds.back()) > by_far) break;
   }
   set_times(s, seconds);
   return true;
@@ -94,6 +97,11 @@ void take_rung(AccuracyWork& work, Climber& c, double tolerance) {
   if (!time_runs(s, work, level)) {
     c.open = false;
     return;
+  }
+  c.beaten = times_beaten(work.study, s, s.seconds) > hopeless ? c.beaten + 1 : 0;
+  if (c.beaten == hopeless_rungs && !level.between && work.options.methods.empty()) {
+    c.open = false;
+    give_up(work, level.told.name, c.method, tolerance);
   }
   work.study.settings.push_back(s);
   // One more rung at the floor shows that it is one.

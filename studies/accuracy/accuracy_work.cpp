@@ -71,4 +71,21 @@ void set_times(MeasuredSetting& s, std::vector<double> seconds) {
   s.repetitions = static_cast<int>(seconds.size());
 }
 
+double times_beaten(const AccuracyStudy& study, const MeasuredSetting& s, double seconds) {
+  const auto key = [&](const MeasuredSetting& of) {
+    return study.key < of.numerical_error.size() ? of.numerical_error[study.key] : 0;
+  };
+  double times = 0;
+  for (const MeasuredSetting& other : study.settings)
+    if (other.level == s.level && other.trajectory_error <= s.trajectory_error && key(other) <= key(s))
+      times = std::max(times, seconds / other.seconds);
+  return times;
+}
+
+void give_up(AccuracyWork& work, const std::string& level, const std::string& method, double tolerance) {
+  work.omit(fmt::format("{}, {} at tolerances below {:.0e}", level, method, tolerance),
+            fmt::format("at {} tolerances running it took more than {} × the time of another method that is as exact",
+                        hopeless_rungs, hopeless));
+}
+
 }  // namespace kurbel

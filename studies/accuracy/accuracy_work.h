@@ -54,6 +54,13 @@ double trajectory_difference(const TrajectoryRecorder& a, const TrajectoryRecord
 // Median and spread of repeated runs [s].
 void set_times(MeasuredSetting& s, std::vector<double> seconds);
 
+// The time over that of the cheapest measured setting of its level that has no larger error, of the motion and of the key
+// figure; 0: there is none.
+double times_beaten(const AccuracyStudy& study, const MeasuredSetting& s, double seconds);
+// A method that is beaten by this factor at so many tolerances running is given up, which is said.
+inline constexpr int hopeless = 2, hopeless_rungs = 2;
+void give_up(AccuracyWork& work, const std::string& level, const std::string& method, double tolerance);
+
 // accuracy_levels.cpp: the ladder of models, each with its reference by two methods. A level without one falls away.
 void make_levels(AccuracyWork& work);
 

@@ -83,6 +83,7 @@ void add_multibody(AccuracyWork& work) {
   std::optional<std::size_t> level;
   for (const char* method : {"RungeKuttaMerson", "RungeKuttaFeldberg", "CPodes"}) {
     double expected = seconds_per_turn * turns, last = 0;
+    int beaten = 0;
     for (const double tolerance : work.options.tolerances) {
       if (work.interrupted() || tolerance < 1e-9) break;
       if (expected > work.options.time / 6) {
@@ -117,6 +118,11 @@ void add_multibody(AccuracyWork& work) {
       expected = r.statistics.cpu_seconds * std::max(1.5, last > 0 ? r.statistics.cpu_seconds / last : 2);
       last = r.statistics.cpu_seconds;
       add_motion(work, std::move(s), figure_of(r, "final_angle." + link), figure_of(r, "final_speed." + link));
+      beaten = times_beaten(work.study, work.study.settings.back(), last) > hopeless ? beaten + 1 : 0;
+      if (beaten == hopeless_rungs) {
+        give_up(work, "multibody", method, tolerance);
+        break;
+      }
     }
   }
 }
