@@ -116,7 +116,7 @@ std::string words_of(const Contact& contact, const std::string& holders, const H
   const auto side = [&](double limit, const char* way) {
     return std::abs(limit) > holding.unbounded
                ? fmt::format("{}: it locks itself", way)
-               : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way, limit, std::abs(limit - acts));
+               : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way, limit + 0.0, std::abs(limit - acts));
   };
   return fmt::format("\"{}\" is held at the end by {}: {:.4g} N·m act; {}; {}", contact.name, holders, acts,
                      side(holding.forwards, "forwards"), side(holding.backwards, "backwards"));
