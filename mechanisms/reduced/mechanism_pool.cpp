@@ -392,6 +392,8 @@ void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) co
   for (const Placed& p : placed_) {
     Hold hold;
     if (p.mechanism.joint_friction) {
+      // Nothing asks what would hold a crank that moves, and reactions with friction are dear to find.
+      if (now.direction[p.at.shaft] != 0 && now.speed[p.at.shaft] != 0) continue;
       hold = friction_hold(p, now);
     } else {
       const double ratio = p.mechanism.reduced->at(angle_of(p.at, now)).output_position().slope;
