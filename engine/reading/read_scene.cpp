@@ -81,9 +81,8 @@ void try_components(SceneReading& r) {
   }
 }
 
-}  // namespace
-
-Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds, DataFiles allowed) {
+Scene parse(const std::string& text, const std::string& file, const std::vector<Kind>& kinds, DataFiles allowed,
+            bool with_cases) {
   SceneReading r{.kinds = kinds, .messages = Messages(file), .allowed = allowed, .document = parse_toml(text, file)};
   r.scene.file = file;
   r.scene.text = text;
@@ -100,14 +99,22 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   r.messages.throw_if_any();
   place_by_output(r);
   r.messages.throw_if_any();
+  if (with_cases) read_cases(r);
+  r.messages.throw_if_any();
   Location first;
   find_speed_unit(r.document, first, r.scene.speed_unit);
   return with_fewer_points(std::move(r.scene));
 }
 
-Scene parse_scene(const SettledText& settled, const std::vector<Kind>& kinds, DataFiles allowed) {
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds, DataFiles allowed) {
+  return parse(text, file, kinds, allowed, true);
+}
+
+Scene parse_scene(const SettledText& settled, const std::vector<Kind>& kinds, DataFiles allowed, bool with_cases) {
   try {
-    Scene scene = parse_scene(settled.text(), settled.file(), kinds, allowed);
+    Scene scene = parse(settled.text(), settled.file(), kinds, allowed, with_cases);
     scene.settings = settled.settings();
     return scene;
   } catch (const SceneError& error) {

@@ -43,12 +43,13 @@ void prepare_document(SceneReading& r);
 bool is_table_of_tables(const DocumentValue& value);  // [table.gas], and no component named "table"
 
 void read_components(SceneReading& r);         // component_reader.cpp
-void read_lines(SceneReading& r);              // line_reader.cpp
-void check_connections(SceneReading& r);       // connections.cpp: every name exists, and stands in one place
+void read_lines(SceneReading& r);              // lines.cpp
+void check_connections(SceneReading& r);       // and: every name exists, and stands in one place
 void put_in_canonical_order(SceneReading& r);  // of lines and components, whatever their order in the file
 void read_effects(SceneReading& r);            // effects_reader.cpp
 void read_run(SceneReading& r);                // run_reader.cpp
 void read_operation(SceneReading& r);          // of the same file
+void read_cases(SceneReading& r);              // cases.cpp: of a scene that has no fault else
 void place_by_output(SceneReading& r);  // output_start.cpp: angle and speed of the crank from those of its output
 
 }  // namespace kurbel

@@ -281,6 +281,8 @@ std::string scene_schema() {
     for (std::size_t at; (at = target.find(' ')) != std::string::npos;) target.replace(at, 1, "%20");
     kind["$ref"] = target;
   }
+  Json settings = names;
+  settings["description"] = "what differs, as --set takes it: \"damper.damping=0 N*m*s/rad\"";
   const Json named_tables = {{"type", "object"},
                              {"additionalProperties", {{"type", "object"}}},
                              {"description", "tables that components take by name: use = \"table.gas\""}};
@@ -302,7 +304,8 @@ std::string scene_schema() {
                    {"effects", table_of(effects)},
                    {"sequence", sequence_schema()},
                    {"run", run_schema()},
-                   {"operation", operation_schema()}}},
+                   {"operation", operation_schema()},
+                   {"case", list_of(table_of({{"name", text()}, {"set", settings}}, {"name", "set"}))}}},
                  {"required", {"line"}},
                  {"additionalProperties", {{"description", "a component"}, {"oneOf", kinds}}},
                  {"$defs", definitions}};
