@@ -20,6 +20,7 @@ constexpr double rounding = 1e-9;      // a margin that is met but for this is k
 constexpr std::size_t samples = 8192;  // of all tolerances together
 constexpr double moves = 1e-12;        // of a natural frequency: less is rounding
 constexpr double of_weight = 0.02;     // share of a mode's damping that is told
+constexpr std::size_t parts_told = 3;  // of it, by name
 constexpr double outside_interval = 0.025;
 
 // ln ω over x, ln of the value where that is positive: a parabola through the ends and the middle, 0 there.
@@ -151,6 +152,17 @@ void find_rows(const std::vector<CrossingResponse>& responses, double slowest, d
                    [&](const Margin& a, const Margin& b) { return place(a) < place(b); });
 }
 
+namespace {
+
+// "shaft" of "shaft.4": a continuous shaft is cut into joints.
+std::string whole(const std::string& joint) {
+  const std::size_t dot = joint.find_last_of('.');
+  const bool piece = dot != std::string::npos && joint.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+  return piece ? joint.substr(0, dot) : joint;
+}
+
+}  // namespace
+
 std::string damping_of(const LinearDrive& drive, const std::vector<std::string>& joints, const Eigen::VectorXd& shape,
                        std::optional<double> real_part) {
   const Eigen::VectorXd rate = drive.twists * shape;
@@ -160,7 +172,7 @@ std::string damping_of(const LinearDrive& drive, const std::vector<std::string>&
   for (Eigen::Index j = 0; j < rate.size(); ++j) {
     const double power = rate[j] * damper[j].real();
     of_joints += power;
-    const std::string& name = joints[static_cast<std::size_t>(j)];
+    const std::string name = whole(joints[static_cast<std::size_t>(j)]);
     const auto known = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.first == name; });
     if (known == parts.end())
       parts.emplace_back(name, power);
@@ -175,9 +187,19 @@ std::string damping_of(const LinearDrive& drive, const std::vector<std::string>&
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.second) > std::abs(b.second); });
   std::string text;
-  for (const auto& [name, power] : parts)
-    if (std::abs(power) > of_weight * sum && std::abs(power) > 1e-12 * std::abs(all))
-      text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, 100 * power / sum);
+  std::size_t told = 0, others = 0;
+  double of_others = 0;
+  for (const auto& [name, power] : parts) {
+    if (!(std::abs(power) > of_weight * sum && std::abs(power) > 1e-12 * std::abs(all))) continue;
+    const double share = 100 * power / sum;
+    if (++told > parts_told)
+      ++others, of_others += share;
+    else if (share < 0)
+      text += fmt::format("{}excited by {} with {:.0f} %", text.empty() ? "" : ", ", name, -share);
+    else
+      text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, share);
+  }
+  if (others > 0) text += fmt::format(", {} more {:.0f} %", others, of_others);
   return text.empty() ? "none" : text;
 }
 

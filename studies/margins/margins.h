@@ -81,7 +81,8 @@ std::vector<double> crossings(double omega, const ExcitationLine& line);
 void find_rows(const std::vector<CrossingResponse>& responses, double slowest, double fastest, Margins& margins);
 
 // Of the damping of an undamped shape, what dissipates: joints by name, then all torques that follow speeds, then internal
-// states, which move the eigenvalue's real part further. "none" where nothing does.
+// states, which move the eigenvalue's real part further: "coupling 97 %, excited by motor's torque with 3 %": shares of the sum of
+// all magnitudes, the three largest by name. "none" where nothing does.
 std::string damping_of(const LinearDrive& drive, const std::vector<std::string>& joints, const Eigen::VectorXd& shape,
                        std::optional<double> real_part);
 

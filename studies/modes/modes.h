@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -125,6 +126,15 @@ struct ParametricZone {
   double half_width = 0;  // relative; 0: damping keeps it closed
 };
 
+struct ModesStudy;
+// The drive as something of it has failed, or is otherwise: a [[case]] of the scene.
+struct ModesCase {
+  std::string name;
+  std::vector<std::string> settings;
+  std::shared_ptr<const ModesStudy> study = {};  // over the same speeds; null: not assessed
+  std::string why = {};                          // then
+};
+
 struct ModesStudy {
   std::string title, scene_file, scene_text;
   LinearDrive drive;
@@ -155,6 +165,7 @@ struct ModesStudy {
   std::vector<Verdict> verdicts;
   ShaftStresses stresses;  // where they are judged
   std::optional<TorqueHistory> history;
+  std::vector<ModesCase> cases;
   std::vector<std::string> outside_data;  // what the motion takes from beyond the ends of tables
   std::vector<std::string> notes;
   bool complete = true;
@@ -172,10 +183,17 @@ Effects effects_of_modes(const Scene& scene);
 // senseless; std::runtime_error where modes cannot be found; OutOfTime where none are found within the budget.
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);
 
-// The same drive at the speeds of `normal`, as one cylinder after the other does not fire (misfire.cpp); none where one
+// The same drive at the speeds of `normal`, as one cylinder after the other does not fire (cases.cpp); none where one
 // misfires already, or where there is but one. What cannot misfire is said in `notes`.
 std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, const ModesOptions& options,
                                   const ModesStudy& normal, std::vector<std::string>& notes);
+
+// The cases of a scene that are asked for by their names, {"none"}: none; empty: all. `effects`: else those of each. Throws
+// std::invalid_argument for a name that none has.
+struct Inquiry;
+std::vector<ModesCase> find_cases(const Inquiry& inquiry, const std::vector<std::string>& names,
+                                  const std::optional<Effects>& effects, const ModesOptions& options,
+                                  const ModesStudy& normal);
 
 // Of its joints that are shafts, as all cylinders fire.
 ShaftStresses stresses_of_sweep(const ModesStudy& study);
@@ -188,6 +206,14 @@ Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode);
 
 // Relative half width of the first-order zone around ν = 2ω; 0 where damping ζ closes it (ε ≤ 4ζ).
 double parametric_half_width(double variation, double damping_ratio);
+
+// Chapters of its findings.
+namespace modes_chapter {
+inline constexpr const char *limits = "Limits (theory 12.9)", *modes = "Modes (theory 12.2, 12.3)",
+                            *margins = "Critical speeds and margins (theory 12.6, 12.17)",
+                            *forced = "Forced response (theory 12.7)", *cases = "Cases",
+                            *stresses = "Stresses of shafts (theory 12.14, 12.16)", *history = "Simulated torque";
+}  // namespace modes_chapter
 
 // Files: mode_shapes.csv, and forced_response.csv where a range of speeds was swept. The study must outlive the findings.
 Findings findings_of(const ModesStudy& study);

@@ -404,17 +404,16 @@ Findings findings_of(const ModesStudy& m) {
   f.claim(barred_claim(m.barred, m.limited, m.speed_unit));
   f.claim(stress_claim(m.stresses));
   f.claim(margin_claim(m.margins, m.speed_unit));
-  const Chapter limits = f.chapter("Limits (theory 12.9)"), modes = f.chapter("Modes (theory 12.2, 12.3)"),
-                campbell = f.chapter("Critical speeds and margins (theory 12.6, 12.17)"),
-                forced = f.chapter("Forced response (theory 12.7)"),
-                stresses = f.chapter("Stresses of shafts (theory 12.14, 12.16)"),
-                history = f.chapter("Simulated torque"), notes = f.chapter("Notes");
+  const Chapter limits = f.chapter(modes_chapter::limits), modes = f.chapter(modes_chapter::modes),
+                campbell = f.chapter(modes_chapter::margins), forced = f.chapter(modes_chapter::forced),
+                cases = f.chapter(modes_chapter::cases), stresses = f.chapter(modes_chapter::stresses),
+                history = f.chapter(modes_chapter::history), notes = f.chapter("Notes");
   add_key_figures(f, m);
   f.tell("operating_point", operating_point(m));
   f.say(modes, Sentences{.lines = {point_text(m)}, .indent = "  ", .page = false, .apart = true});
   say_modes(f, modes, m);
   const bool is_shaken = is_forced(m);
-  if (is_shaken || !m.margins.rows.empty()) f.draw(campbell, [&m] { return campbell_plot(m); });
+  if (!m.modes.empty() && !m.rests_at) f.draw(campbell, [&m] { return campbell_plot(m); });
   f.say(forced, response_table(m));
   say_spots(f, forced, m);
   if (is_shaken) f.draw(forced, [&m] { return response_plots(m); });
@@ -424,6 +423,7 @@ Findings findings_of(const ModesStudy& m) {
   f.say(campbell, zone_table(m));
   if (!m.zones.empty()) f.show(campbell, half_width(m));
   f.say(limits, verdict_table(m.verdicts));
+  say_cases(f, cases, m);
   say_stresses(f, stresses, m);
   say_history(f, history, m);
   f.note(notes, m.notes);

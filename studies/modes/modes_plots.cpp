@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/numerics/index.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
 #include "studies/limits/limits_findings.h"
@@ -206,6 +207,28 @@ std::size_t joint_with_largest_swing(const SpeedResponse& s) {
   return static_cast<std::size_t>(std::max_element(s.joints.begin(), s.joints.end(), less) - s.joints.begin());
 }
 
+std::vector<std::size_t> joints_drawn(const ModesStudy& m) {
+  const auto component = [&](std::size_t j) {
+    return m.drive.model->network.joints[at(m.drive.model->elastic[j].joint)].component;
+  };
+  const auto most = [&](std::size_t j) {
+    double peak = 0;
+    for (const SpeedResponse& s : m.sweep)
+      if (s.kept && std::isfinite(s.joints[j].peak)) peak = std::max(peak, s.joints[j].peak);
+    return peak;
+  };
+  std::vector<std::size_t> drawn;
+  for (std::size_t j = 0; j < m.joint_names.size(); ++j) {
+    const auto same =
+        std::find_if(drawn.begin(), drawn.end(), [&](std::size_t k) { return component(k) == component(j); });
+    if (same == drawn.end())
+      drawn.push_back(j);
+    else if (most(j) > most(*same) * (1 + 1e-9))
+      *same = j;
+  }
+  return drawn;
+}
+
 double end_of_spectrum(const ModesStudy& m, const AmplitudeSpectrum& s) {
   double largest = 0, end = 0;
   for (const double a : s.amplitude) largest = std::max(largest, a);
@@ -224,8 +247,8 @@ std::vector<Plot> response_plots(const ModesStudy& m) {
   std::vector<Plot> plots;
   if (!m.here.joints.empty() && m.excitations.harmonics > 0 && !m.excitations.by_order.empty())
     plots.push_back(order_plot(m));
-  for (std::size_t j = 0; j < m.joint_names.size() && j < 12 && !m.sweep.empty(); ++j)
-    plots.push_back(sweep_plot(m, j));
+  for (const std::size_t j : m.sweep.empty() ? std::vector<std::size_t>{} : joints_drawn(m))
+    if (plots.size() < 13) plots.push_back(sweep_plot(m, j));
   return plots;
 }
 

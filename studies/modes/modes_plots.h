@@ -15,6 +15,8 @@ inline double hertz(double omega) { return omega / (2 * std::numbers::pi); }
 // "12.3 kN·m"
 std::string torque_text(double value);
 std::size_t joint_with_largest_swing(const SpeedResponse& response);
+// One of each component, that which swings most over the range: a continuous shaft is cut into "shaft.1", "shaft.2", …
+std::vector<std::size_t> joints_drawn(const ModesStudy& study);
 // Up to a little above the highest mode that still shows [Hz].
 double end_of_spectrum(const ModesStudy& study, const AmplitudeSpectrum& spectrum);
 
@@ -39,6 +41,9 @@ std::vector<Plot> mode_plots(const ModesStudy& study);
 std::vector<Plot> response_plots(const ModesStudy& study);
 std::vector<Plot> history_plots(const ModesStudy& study, const TorqueHistory& history);
 
+// What each case does to natural frequencies, margins, swings and limits (cases.cpp): tables, curves of every joint, claims of
+// what the drive as it is does not show.
+void say_cases(Findings& findings, Chapter in, const ModesStudy& study);
 // Of spot checks (spot_findings.cpp): a line each and a table; on the curves, peaks of a joint in the nonlinear cycles.
 void say_spots(Findings& findings, Chapter in, const ModesStudy& study);
 void mark_spots(const ModesStudy& study, std::size_t joint, Plot& plot);

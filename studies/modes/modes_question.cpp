@@ -8,11 +8,14 @@ namespace {
 struct ModesAsked : ModesOptions {
   ModesAsked() { spot_checks = 2; }
   std::optional<Effects> effects;
+  std::vector<std::string> cases;
 };
 
 StudyOutput natural_modes(const Inquiry& inquiry, ModesAsked asked) {
   asked.watch = inquiry.watch;
-  return output_of(find_modes(inquiry.scene, asked.effects.value_or(effects_of_modes(inquiry.scene)), asked));
+  ModesStudy study = find_modes(inquiry.scene, asked.effects.value_or(effects_of_modes(inquiry.scene)), asked);
+  study.cases = find_cases(inquiry, asked.cases, asked.effects, asked, study);
+  return output_of(std::move(study));
 }
 
 OptionsOf<ModesAsked> options() {
@@ -80,6 +83,10 @@ OptionsOf<ModesAsked> options() {
       .add({.name = "no_misfires",
             .doc = "where stresses of shafts are judged: leaves out the same as one cylinder after the other misfires"},
            &ModesOptions::misfires, false)
+      .add({.name = "cases",
+            .doc = "of the scene's [[case]]s those of these names; none: no case (default: all)",
+            .each_time = true},
+           &ModesAsked::cases)
       .add({.name = "torque",
             .doc = "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow"},
            &ModesOptions::torque);

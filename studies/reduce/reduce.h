@@ -123,6 +123,12 @@ MachineReduction reduce(const Scene& scene, const ReduceOptions& options);
 // The drive's chain on a node of a compiled model.
 Chain elastic_chain(const Model& model, int node);
 
+// Its mass–elastic table, each value of its own shaft and as reduced to `to`, with the speeds of each where those of `to` are
+// known (fastest > 0) [rad/s]; and the chain drawn.
+Rows chain_table(const Chain& chain, const std::string& to, double slowest = 0, double fastest = 0,
+                 const SpeedUnit& unit = {});
+Plot chain_plot(const Chain& chain);
+
 // "gearbox.in", "flywheel" → node of the network. Throws std::invalid_argument with the names allowed.
 int node_named(const Model& model, const std::string& name);
 

@@ -78,24 +78,6 @@ Rows positions_table(const MachineReduction& r) {
   return table;
 }
 
-Rows chain_table(const MachineReduction& r) {
-  Lines lines;
-  for (std::size_t k = 0; k < r.chain.inertias.size(); ++k) {
-    const ChainInertia& i = r.chain.inertias[k];
-    lines.push_back({fmt::format("J{}", k + 1), i.name + (i.mechanism ? " (mean)" : ""), number(i.own) + " kg·m²",
-                     number(i.ratio), number(i.reduced) + " kg·m²", "", ""});
-  }
-  for (const ChainSpring& s : r.chain.springs)
-    lines.push_back({fmt::format("k{}-{}", s.a + 1, s.b + 1), s.name, number(s.stiffness) + " N·m/rad", number(s.ratio),
-                     number(s.reduced_stiffness) + " N·m/rad", number(s.damping, 5) + " N·m·s/rad",
-                     number(s.reduced_damping, 5) + " N·m·s/rad"});
-  Rows table = words_table(fmt::format("Drive as an elastic chain, reduced to {}", r.to_output ? r.link : r.to),
-                           {"part", "what", "own", "speed ratio i", "reduced", "own c", "reduced c"}, lines);
-  table.heading = table.title;
-  table.text_columns = table.text_columns_on_terminal = 2;
-  return table;
-}
-
 // −180° < phase ≤ 180°, to a millionth of a degree.
 std::string phase_text(double phase) {
   const double rounded_phase = std::round(phase * in_degrees * 1e6) / 1e6;
@@ -290,6 +272,34 @@ void tell_all(Findings& f, const MachineReduction& r) {
 
 }  // namespace
 
+Rows chain_table(const Chain& chain, const std::string& to, double slowest, double fastest, const SpeedUnit& unit) {
+  Lines lines;
+  std::vector<std::string> headings = {"part", "what", "own", "speed ratio i", "reduced", "own c", "reduced c"};
+  for (std::size_t k = 0; k < chain.inertias.size(); ++k) {
+    const ChainInertia& i = chain.inertias[k];
+    lines.push_back({fmt::format("J{}", k + 1), i.name + (i.mechanism ? " (mean)" : ""), number(i.own) + " kg·m²",
+                     number(i.ratio), number(i.reduced) + " kg·m²", "", ""});
+  }
+  for (const ChainSpring& s : chain.springs)
+    lines.push_back({fmt::format("k{}-{}", s.a + 1, s.b + 1), s.name, number(s.stiffness) + " N·m/rad", number(s.ratio),
+                     number(s.reduced_stiffness) + " N·m/rad", number(s.damping, 5) + " N·m·s/rad",
+                     number(s.reduced_damping, 5) + " N·m·s/rad"});
+  if (fastest > 0) {
+    headings.insert(headings.begin() + 4, fmt::format("speed [{}]", unit.name));
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const double i = std::abs(k < chain.inertias.size() ? chain.inertias[k].ratio
+                                                          : chain.springs[k - chain.inertias.size()].ratio);
+      lines[k].insert(lines[k].begin() + 4, slowest < fastest ? fmt::format("{} … {}", number(unit.of(i * slowest), 5),
+                                                                            number(unit.of(i * fastest), 5))
+                                                              : number(unit.of(i * fastest), 5));
+    }
+  }
+  Rows table = words_table(fmt::format("Drive as an elastic chain, reduced to {}", to), headings, lines);
+  table.heading = table.title;
+  table.text_columns = table.text_columns_on_terminal = 2;
+  return table;
+}
+
 Findings findings_of(const MachineReduction& r) {
   Findings f{.title = r.title,
              .subtitle = fmt::format("Machine reduced to {}", r.to),
@@ -311,8 +321,8 @@ Findings findings_of(const MachineReduction& r) {
   f.draw(cycle, [&r] { return motion_plots(r); });
   f.say(cycle, positions_table(r));
   f.show(cycle, formulas_of(r));
-  if (!r.chain.springs.empty()) f.draw(drive, [&r] { return chain_plot(r); });
-  f.say(drive, chain_table(r));
+  if (!r.chain.springs.empty()) f.draw(drive, [&r] { return chain_plot(r.chain); });
+  f.say(drive, chain_table(r.chain, r.to_output ? r.link : r.to));
   f.say(drive, Sentences{.lines = {""}, .page = false});
   if (!r.spectra.empty()) {
     f.draw(spectra, [&r] { return harmonics_plots(r); });

@@ -139,8 +139,7 @@ std::vector<Plot> harmonics_plots(const MachineReduction& r) {
 
 // The chain as one draws it by hand: discs as high as the cube root of their inertia, as far apart as the shaft between
 // them is soft.
-Plot chain_plot(const MachineReduction& r) {
-  const Chain& chain = r.chain;
+Plot chain_plot(const Chain& chain) {
   const std::vector<Place> places = places_of(chain);
   double largest = 0, length = 0;
   for (const ChainInertia& i : chain.inertias) largest = std::max(largest, i.reduced);

@@ -23,6 +23,5 @@ std::string speed_text(const MachineReduction& reduction);
 
 std::vector<Plot> motion_plots(const MachineReduction& reduction);
 std::vector<Plot> harmonics_plots(const MachineReduction& reduction);
-Plot chain_plot(const MachineReduction& reduction);
 
 }  // namespace kurbel
