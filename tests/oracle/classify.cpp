@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
+#include "engine/return_map/periodicity.h"
 #include "tests/oracle/limits.h"
 
 namespace kurbel::oracle {
@@ -138,7 +140,7 @@ class MotionJudge {
     if (!(p_.back().speed < -0.01 * usual_) || p_.front().speed < -turns * usual_) return false;
     if (p_.back().drive < -acts * m_.torque_scale) return false;
     double foremost = p_.front().angle;
-    for (const Moment& m : p_) foremost = std::max(foremost, m.angle);
+    for (const Moment& m : p_) foremost = m.drive < -acts * m_.torque_scale ? m.angle : std::max(foremost, m.angle);
     return foremost - p_.back().angle > std::numbers::pi;
   }
   bool turns_back() const {
@@ -320,6 +322,12 @@ json facts_of(const Contact& c, double until) {
   return j;
 }
 
+bool has_two_periods(const Model& m) try {
+  return m.cycle > 0 && periodicity_of(m).by_time;
+} catch (const std::invalid_argument&) {  // that never meet
+  return true;
+}
+
 }  // namespace
 
 json classify(const Observed& seen, const Observed* later) {
@@ -328,6 +336,7 @@ json classify(const Observed& seen, const Observed* later) {
   const Model& m = *seen.model;
   const int shaft = m.shaft_of_node[static_cast<std::size_t>(m.reduction_node)];
   j["prescribed"] = static_cast<std::size_t>(shaft) >= m.free_shafts;
+  j["two_periods"] = has_two_periods(m);
   j["sequence"] = m.scene.sequence.steps.size(), j["repeats"] = m.scene.sequence.repeat;
   if (seen.moments.size() < 3) return j;
   j["motion"] = MotionJudge(seen, seen.moments).all();
@@ -341,7 +350,7 @@ json classify(const Observed& seen, const Observed* later) {
     json l = judge.all();
     const double t = later->moments.back().t;
     l["complete"] = later->outcome.complete, l["mean_speed_of_last_tenth"] = judge.mean_speed(0.9 * t, t);
-    l["mean_speed_before"] = judge.mean_speed(0.45 * t, 0.5 * t);
+    l["fastest_shaft"] = later->fastest_shaft, l["mean_speed_before"] = judge.mean_speed(0.45 * t, 0.5 * t);
     j["later"] = l;
   }
   j["contacts"] = json::array();

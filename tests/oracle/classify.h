@@ -16,7 +16,7 @@
 //   does_not_start   begins at rest, never moves, and is pushed at the end
 //   stalls      turned at 1 % of the usual speed at least, rests at the end, and is pushed there
 //   falls       at the end it turns backwards at 1 % of the usual speed at least, more than half a turn behind its foremost
-//               point, began at rest or forwards, and no source drives it backwards
+//               point since a source last drove it backwards, and began at rest or forwards
 //   turns_back  at the end it turns against what drives it, at 1 % of the usual speed at least, and lies more than half a turn
 //               behind the foremost point in the sense of the drive, or of the start
 //   no_round    a machine with a cycle has not turned by one cycle, moved, and rests or vibrates at the end, driven
@@ -31,6 +31,8 @@
 //   driven_part the same, of the time up to which any source is on, where none is at the end
 //   stands_within    share of the time of the last p cycles in which the link does not turn
 //   later       the same machine run on to several times the time: its speed in the mean of the last tenth, what it does at the end
+//   fastest_shaft    at the end of the longer run, of any shaft over its usual speed
+//   two_periods a torque depends on time and something on the link's angle: nothing need ever come again
 //   contacts    lets_go: slips at a command of 1 that has not changed since it held; engages: slips otherwise while it is told
 //               more than 0; open: told 0;  a slip counts from 1e-3 of the usual speed, or 1e-2 rad in all
 //   limits      of ratings that the scene states: greatest value sampled over the limit

@@ -198,6 +198,7 @@ class Sampler final : public Observer {
     }
     for (const Shaft& shaft : m_.shafts) {
       const std::size_t k = static_cast<std::size_t>(&shaft - m_.shafts.data());
+      seen_.fastest_shaft = std::max(seen_.fastest_shaft, std::abs(s.now.speed[k]) / shaft.speed_scale);
       if (std::abs(s.now.speed[k]) > turns * shaft.speed_scale) seen_.turning.push_back(m_.node_label(shaft.reference));
     }
   }

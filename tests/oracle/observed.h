@@ -72,6 +72,7 @@ struct Observed {
   std::vector<Extremes> torques;     // per torque joint of the model
   std::vector<Extremes> speeds;      // per component with a node of its own: of its last shaft
   std::vector<std::string> turning;  // shafts that turn at the end
+  double fastest_shaft = 0;          // of them the greatest speed over its usual one
   RunOutcome outcome;
   double cpu_seconds = 0;
 };

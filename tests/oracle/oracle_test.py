@@ -32,10 +32,10 @@ def answer(conclusion='"press" runs steadily at 30 rad/s from 1 s on.', truth=No
     m = motion(**(truth or {}))
     figures = {"mean_speed.press": 30.0, "final_speed.press": m["speed_at_end"], **(figures or {})}
     periods = {"run_up_end": 1.0, "run_down_begin": None, "standstill": None, "steady": True, **(periods or {})}
-    later = {**m, "until": 40.0, "rests_since": 40.0 if m["end"] != "rests" else m["rests_since"], "complete": True,
+    later = {**m, "until": 40.0, "rests_since": 40.0 if m["end"] != "rests" else m["rests_since"], "complete": True, "fastest_shaft": 1.0,
              "mean_speed_of_last_tenth": m["speed_at_end"], "mean_speed_before": m["speed_at_end"], **(later or {})}
     return {"scene": "x.toml",
-            "truth": {"complete": True, "prescribed": False, "link": "press", "sequence": sequence, "repeats": False, "motion": m, "later": later,
+            "truth": {"complete": True, "prescribed": False, "two_periods": False, "link": "press", "sequence": sequence, "repeats": False, "motion": m, "later": later,
                       "contacts": list(contacts), "motors": list(motors), "limits": list(limits), "held": list(held),
                       "torques": torques or {}, **({"driven_part": driven_part} if driven_part else {})},
             "run": {"complete": True, "conclusion": conclusion, "periods": periods, "model": {"effects": "none"}, "ratings": list(ratings), "text": text,
@@ -89,6 +89,7 @@ FALSE = {
         "mean_speed_of_last_tenth": 200.0, "mean_speed_before": 90.0}),
     "does not get round, but does": answer('"press" does not get round: it is at 50° at the end.'),
     "does not get round": answer('"press" is at 0 rad/s after 10 s.', {**REST, "end": "vibrates", "no_round": True, "rounds": 0}, steady=NOTHING),
+    "vibrates, but does not": answer('"press" vibrates to the end.', claims=[("vibrates", "press")]),
     "final speed is another": answer('"press" is at 20 rad/s after 10 s.', figures={"final_speed.press": 20.0}),
     "lets go although closed, but was not closed": answer('"clutch" lets go twice although it is closed, first at 1 s.',
                                                           contacts=[contact(command_at_end=0.0, holds=0.0, open=10.0, at_end="open")]),
