@@ -128,6 +128,9 @@ Findings findings_of(const Advice& a) {
              .tells_diagnosis = false};
   f.conclude(a.complete, a.conclusion);
   const TriedSet &full = a.tried.front(), &chosen = a.tried[a.chosen];
+  if (a.complete && a.chosen > 0)
+    f.claim(claimed_aside(Predicate::effects_suffice, fmt::format("effects that suffice: {}", chosen.words), {},
+                          {.value = chosen.deviation, .limit = a.tolerance, .error = chosen.error}));
   f.figures = {{"deviation", 100 * chosen.deviation, "%", 100 * chosen.error, "at most, measured", 3, "deviation"},
                {"time of the full model", 1e3 * full.cpu_seconds, "ms", 1e3 * a.time_spread * full.cpu_seconds, "a run",
                 3, "processor_time"},

@@ -105,10 +105,14 @@ class ContactJudge {
           fmt::format("\"{}\" slips while it engages, {}, first at {:.4g} s", name, so_often(joint.engaging.times),
                       joint.engaging.first),
           true);
-    if (joint.open.times > 0)
-      add(claims_, claimed_aside(Predicate::clutch_opened_by_command,
-                                 fmt::format("\"{}\" is open by command, first at {:.4g} s", name, joint.open.first),
-                                 name, {.at = joint.open.first}));
+    if (joint.open.times == 0) return;
+    const bool to_the_end = joint.state == SlipRecorder::State::open && joint.open.times == 1 && joint.open.first == 0;
+    add(claims_, claimed(Predicate::clutch_opened_by_command,
+                         fmt::format("\"{}\" is open by command{}", name,
+                                     to_the_end ? ", from the start to the end"
+                                                : fmt::format(", first at {:.4g} s", joint.open.first)),
+                         name, {.at = joint.open.first}));
+    claims_.back().in_conclusion = to_the_end;
   }
 
   // Rigid belts are contacts; those that stretch keep what they slipped as a state of their own.
@@ -140,15 +144,17 @@ class ContactJudge {
 
   // --- brakes ---
 
-  // A brake that was put on last and whose shaft still turns.
+  // A brake that is on and whose shaft still turns: put on by command, by its window of time, or on from the start and
+  // nothing but a load.
   void brakes() {
     for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
       const Network::ShaftElement& element = m_.network.elements[e];
-      if (!is_kind(element.component, "brake")) continue;
+      if (!is_kind(element.component, "brake") || !equations_.modes().active[e]) continue;
       const auto put = std::find_if(outcome_.events.rbegin(), outcome_.events.rend(), [&](const Event& event) {
         return event.kind == EventKind::command && event.component == element.component;
       });
-      if (put == outcome_.events.rend() || !(put->value.value_or(0) > 0)) continue;
+      if (put != outcome_.events.rend() && !(put->value.value_or(0) > 0)) continue;
+      const double put_on = put != outcome_.events.rend() ? put->t : element.window.first_on();
       const std::size_t shaft = at(m_.shaft_of_node[at(element.node)]);
       const double gain = m_.gain_of_node[at(element.node)], torque = now_.sums.element_torque[e];
       const double speed = gain * now_.now.speed[shaft], change = gain * now_.alpha[shaft];
@@ -156,10 +162,24 @@ class ContactJudge {
           std::abs(speed) <= slipping_from * m_.speed_scale * m_.scale_ratio[at(element.node)])
         continue;
       if (!(std::abs(torque) > transmits_from * m_.torque_scale)) continue;
-      does_not_stop(element.component, put->t, speed, change, std::abs(torque));
+      const std::string slips =
+          fmt::format("{}{}", text(speed), speed * m_.node_ratio[at(element.node)] < 0 ? ", backwards," : "");
+      if (put_on > 0)
+        does_not_stop(element.component, put_on, speed, change, std::abs(torque), slips);
+      else
+        add(claims_, claimed(Predicate::slips_to_the_end,
+                             fmt::format("\"{}\" is on and slips to the end, at {} under its {:.4g} N·m",
+                                         element.component, slips, std::abs(torque)),
+                             element.component,
+                             {.at = outcome_.t,
+                              .value = std::abs(speed),
+                              .limit = 0,
+                              .error = error_of_speeds(element.component),
+                              .unit = "rad/s"}));
     }
   }
-  void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque) {
+  void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque,
+                     const std::string& slips) {
     const double braked = outcome_.t - put_on, more = speed * change < 0 ? std::abs(speed / change) : HUGE_VAL;
     const Evidence evidence{
         .at = put_on, .value = std::abs(speed), .limit = 0, .error = error_of_speeds(brake), .unit = "rad/s"};
@@ -167,13 +187,13 @@ class ContactJudge {
       add(claims_, claimed(Predicate::brake_does_not_stop,
                            fmt::format("\"{}\" does not stop it: it slips at {} after {:.3g} s; its {:.4g} N·m are too "
                                        "weak for what drives",
-                                       brake, text(speed), braked, torque),
+                                       brake, slips, braked, torque),
                            brake, evidence));
     else if (is_done())  // while a sequence goes on it is a matter of time
       add(claims_, claimed(Predicate::brake_has_not_stopped,
                            fmt::format("\"{}\" has not stopped it by the end: {} are left after {:.3g} s, and {:.3g} s "
                                        "more are needed at this rate",
-                                       brake, text(speed), braked, more),
+                                       brake, slips, braked, more),
                            brake, evidence));
   }
   bool is_done() const {

@@ -13,37 +13,37 @@
 #include "drivetrain/induction/induction_law.h"
 #include "engine/model/model.h"
 #include "engine/numerics/index.h"
+#include "engine/run/sources.h"
 #include "engine/scene/effects.h"
 #include "studies/answers/contact_claims.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double stands = 1e-3;   // of the usual speed: below it a shaft stands
-constexpr double drives = 1e-6;   // of the usual torque: above it something drives
-constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene tells of such a one
-constexpr double disagree = 0.1;  // of the usual speed: shafts that a spring joins start apart
-constexpr double nearly = 0.2;    // of the largest speed so far: below it the link has come to a stop
-
-std::string where(const Stall& s) {
-  const double degrees = s.angle * 180 / std::numbers::pi;
-  return fmt::format("\"{}\" stalls at {:.1f}° after {:.3g} s: ", s.link, degrees - 360 * std::floor(degrees / 360),
-                     s.time);
-}
+constexpr double stands = 1e-3;           // of the usual speed: below it a shaft stands
+constexpr double drives = 1e-6;           // of the usual torque: above it something drives
+constexpr double far_away = 1.5;          // times the usual speed: nothing in the scene tells of such a one
+constexpr double turns_back_from = 1e-2;  // of the usual speed
+constexpr double disagree = 0.1;          // of the usual speed: shafts that a spring joins start apart
+constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 
 class Judge {
  public:
-  Judge(Equations& equations, const RunOutcome& outcome)
+  Judge(Equations& equations, const RunOutcome& outcome, const LinkRecorder& recorder)
       : equations_(equations),
         m_(equations.model()),
         outcome_(outcome),
+        recorder_(recorder),
         shaft_(at(m_.shaft_of_node[at(m_.reduction_node)])),
         now_(equations.snapshot(outcome.t, outcome.state)) {}
 
   std::string link() const { return m_.network.nodes[at(m_.reduction_node)].component; }
   double angle() const { return now_.node_angle[m_.reduction_node]; }
-  double speed() const { return m_.gain_of_node[at(m_.reduction_node)] * now_.now.speed[shaft_]; }
+  double gain() const { return m_.gain_of_node[at(m_.reduction_node)]; }
+  double speed() const { return gain() * now_.now.speed[shaft_]; }
   bool is_held() const { return equations_.at_standstill(shaft_) && now_.now.speed[shaft_] == 0; }
+  // Held, or at the end of springs that are held: it may tremble.
+  bool rests() const { return is_held() || recorder_.rests(outcome_.t); }
   bool is_commanded() const { return !m_.commands.empty(); }
   // Of all that drives, reduced to the link [N·m].
   double drive() const {
@@ -69,25 +69,6 @@ class Judge {
     const auto stop = std::find_if(outcome_.events.rbegin(), outcome_.events.rend(),
                                    [](const Event& e) { return e.kind == EventKind::rest; });
     return stop == outcome_.events.rend() ? std::nullopt : std::optional(stop->t);
-  }
-
-  std::optional<Stall> stall() const {
-    const MotorTorque* motor = standing_motor();
-    const std::optional<double> since = rest();
-    if (!is_held() || !since || (is_commanded() && !motor) || brake_that_holds()) return {};
-    const double torque = drive();
-    if (torque == 0) return {};
-    return Stall{link(), motor ? motor->component : "", angle(), *since, torque, holders_beside("the load")};
-  }
-  // Where a clutch slips meanwhile, what drives is what that passes on.
-  std::string words_of(const Stall& stall) const {
-    for (std::size_t e = 0; e < m_.elastic.size(); ++e) {
-      const double passed_on = std::abs(now_.joint_torque[m_.elastic[e].joint]);
-      if (m_.elastic[e].slips && equations_.modes().slip[e] != 0 && passed_on > drives * m_.torque_scale)
-        return fmt::format("{}\"{}\" slips to the end under the {:.4g} N·m that it can transmit", where(stall),
-                           m_.network.joints[at(m_.elastic[e].joint)].component, passed_on);
-    }
-    return in_words(stall);
   }
 
   // A brake that is on, by command or always, and whose shaft stands; null: none.
@@ -147,24 +128,44 @@ class Judge {
 
   // --- claims ---
 
-  std::optional<Claim> stalls(const Stall& stall) const {
-    return claimed(Predicate::stalls, words_of(stall), stall.link,
-                   {.at = stall.time, .value = std::abs(stall.torque), .limit = 0, .unit = "N*m"});
+  // `contacts`: where a clutch slips meanwhile, that is what holds no more.
+  std::optional<Claim> stalls(Claims& contacts) const {
+    const MotorTorque* motor = standing_motor();
+    const std::optional<double> since = is_held() ? rest() : std::optional(recorder_.turned_at());
+    if (!rests() || !(since > 0.0) || (!is_held() && !motor) || (is_commanded() && !motor) || brake_that_holds())
+      return {};
+    const double torque = drive();
+    if (torque == 0) return {};
+    const double degrees = angle() * 180 / std::numbers::pi;
+    std::string why = fmt::format("{} can hold the {:.4g} N·m that drive there, and holds them to the end",
+                                  holders_beside("the load"), torque);
+    for (Claim& claim : contacts)
+      if (claim.predicate == Predicate::slips_to_the_end && m_.network.kind_of(claim.of) != "brake")
+        why = claim.text, claim.in_conclusion = false;
+    return claimed(Predicate::stalls,
+                   fmt::format("\"{}\" stalls at {:.1f}° after {:.3g} s: {}", link(),
+                               degrees - 360 * std::floor(degrees / 360), *since, why),
+                   link(), {.at = since, .value = std::abs(torque), .limit = 0, .unit = "N*m"});
   }
 
-  // Turned back by more than half a turn, against what drove it from the start.
+  // By more than half a turn from its foremost place, and for good, although nothing drives it backwards. What a sequence
+  // commands may be meant so, as long as anything drives.
   std::optional<Claim> backwards(const Result& r) const {
-    if (is_commanded() || r.begins_at > 0 || !(speed() < -stands * m_.speed_scale)) return {};
-    Equations first(equations_.shared_model(), false);
-    const std::vector<double> y = first.start(0);
-    const double before = first.snapshot(0, y).node_angle[m_.reduction_node];
-    if (m_.scene.run.start.speed < 0 || before - angle() < std::numbers::pi) return {};
-    if (!(drive() > drives * m_.torque_scale)) return {};
-    return claimed(Predicate::turns_back,
-                   fmt::format("\"{}\" turns backwards, at {} at the end: its loads are stronger than the {} N·m that "
-                               "drive it forwards",
-                               link(), m_.scene.speed_unit.text(speed()), drive()),
-                   link(), of_speed(r, speed(), 0));
+    const Sources sources(m_);
+    if (r.begins_at > 0 || m_.scene.run.start.speed < 0 || sources.none()) return {};
+    if (!(speed() < -turns_back_from * m_.speed_scale) || recorder_.fell_back() < std::numbers::pi) return {};
+    if (is_commanded() ? sources.drive(equations_.modes().active) : recorder_.turned_forwards() > 0) return {};
+    const double torque = drive(), least = drives * m_.torque_scale;
+    const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
+    const bool slows_down = speed() * gain() * now_.alpha[shaft_] < 0;
+    if (torque < -least || (torque <= least && slows_down && !since_off)) return {};
+    return claimed(
+        Predicate::turns_back,
+        fmt::format("\"{}\" turns backwards, at {} at the end: {}", link(), m_.scene.speed_unit.text(speed()),
+                    torque > least
+                        ? fmt::format("its loads are stronger than the {} N·m that drive it forwards", torque)
+                        : "its loads drive it, and nothing holds them"),
+        link(), of_speed(r, speed(), 0));
   }
 
   std::optional<Claim> runs_away(const Result& r) const {
@@ -201,7 +202,7 @@ class Judge {
 
   // Held from the start, although something drives, and no brake that is on holds it.
   std::optional<Claim> never_starts(double fastest) const {
-    if (is_commanded() || !is_held() || rest() || fastest > stands * m_.speed_scale || brake_that_holds()) return {};
+    if (is_commanded() || !rests() || rest() || fastest > stands * m_.speed_scale || brake_that_holds()) return {};
     if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
     const std::string holders = holders_beside("its loads");
     const bool one = holders.starts_with('"') && holders.find(',') == std::string::npos;
@@ -213,7 +214,7 @@ class Judge {
 
   // By a brake that is on, or by what opposes motion against what acts; what never moved is told so first.
   std::optional<Claim> held(double fastest) const {
-    if (!is_held() && (now_.now.speed[shaft_] != 0 || gears_that_hold().empty())) return {};
+    if (!rests() && (now_.now.speed[shaft_] != 0 || gears_that_hold().empty())) return {};
     const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
     const std::string holders = what_holds();
     std::optional<Claim> claim;
@@ -223,7 +224,7 @@ class Judge {
                   fmt::format("\"{}\" is held by {}{}", link(), holders,
                               anything_acts ? fmt::format(" against the {:.4g} N·m that act", std::abs(acts())) : ""),
                   link(), {.at = rest(), .value = std::abs(acts()), .unit = "N*m"});
-    else if (!moved)
+    else if (!moved && (is_held() || fastest == 0))
       claim = claimed(Predicate::does_not_move, fmt::format("\"{}\" does not move", link()), link());
     if (claim) claim->in_conclusion = !moved;
     return claim;
@@ -238,6 +239,16 @@ class Judge {
                    fmt::format("\"{}\" does not get round: it is at {:.1f}° at the end, with {}, where {} N·m drive it",
                                link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive()),
                    link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
+  }
+
+  // To and fro to the end, of what is to come to no steady motion and is not commanded.
+  std::optional<Claim> vibrates(const Periods& p) const {
+    if (is_commanded() || p.steady || rests() || !recorder_.vibrates()) return {};
+    return claimed(
+        Predicate::vibrates,
+        fmt::format("\"{}\" vibrates to the end, between {:.1f}° and {:.1f}°", link(),
+                    recorder_.lowest() * 180 / std::numbers::pi, recorder_.highest() * 180 / std::numbers::pi),
+        link(), {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
   }
 
   // An induction motor that its loads keep below its breakdown speed, where it gives less and less the slower it is.
@@ -256,29 +267,6 @@ class Judge {
                      motor.component, {.value = mean, .limit = breakdown, .unit = "rad/s"});
     }
     return {};
-  }
-
-  // One side of a spring is given a speed at the start, the other one is not, and they differ.
-  void shafts_that_disagree(Claims& claims) const {
-    std::set<int> given;
-    for (const auto& [component, start] : m_.scene.run.start.components)
-      if (start.speed) given.insert(m_.shaft_of_node[at(m_.network.ports.at(component).in)]);
-    if (given.empty()) return;
-    Equations first(equations_.shared_model(), false);
-    const std::vector<double> y = first.start(0);
-    const Snapshot& s = first.snapshot(0, y);
-    for (const ElasticJoint& joint : m_.elastic) {
-      const double a = joint.gain_a * s.now.speed[joint.shaft_a], b = joint.gain_b * s.now.speed[joint.shaft_b];
-      if (joint.slips || joint.springless || given.count(joint.shaft_a) == given.count(joint.shaft_b)) continue;
-      if (!(std::abs(a - b) > disagree * std::abs(joint.gain_a * m_.shafts[at(joint.shaft_a)].speed_scale))) continue;
-      const std::string& name = m_.network.joints[at(joint.joint)].component;
-      add(claims,
-          claimed(Predicate::start_shafts_disagree,
-                  fmt::format("\"{}\" joins shafts that start at {} and {}: [run] start gives a speed to one side "
-                              "alone, and the start is a blow",
-                              name, m_.scene.speed_unit.text(a), m_.scene.speed_unit.text(b)),
-                  name, {.at = 0, .value = std::abs(a - b), .limit = 0, .unit = "rad/s"}));
-    }
   }
 
   // From rest, and driven.
@@ -301,44 +289,63 @@ class Judge {
   Equations& equations_;
   const Model& m_;
   const RunOutcome& outcome_;
+  const LinkRecorder& recorder_;
   std::size_t shaft_;
   const Snapshot& now_;
 };
 
 }  // namespace
 
-std::optional<Stall> stalled(Equations& equations, const RunOutcome& outcome) {
-  if (outcome.state.empty()) return {};
-  return Judge(equations, outcome).stall();
-}
-
-std::string in_words(const Stall& s) {
-  return fmt::format("{}{} can hold the {:.4g} N·m that drive there, and holds them to the end", where(s), s.holders,
-                     s.torque);
-}
-
-Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips) {
+Claims start_claims(const std::shared_ptr<const Model>& model) {
   Claims claims;
-  if (!outcome.complete || outcome.state.empty()) return claims;
-  const Judge judge(equations, outcome);
-  if (const std::optional<Stall> stall = judge.stall()) {
-    add(claims, judge.stalls(*stall));
-    return claims;
+  const Model& m = *model;
+  std::set<int> given;
+  for (const auto& [component, start] : m.scene.run.start.components)
+    if (start.speed) given.insert(m.shaft_of_node[at(m.network.ports.at(component).in)]);
+  if (given.empty()) return claims;
+  Equations first(model, false);
+  const std::vector<double> y = first.start(0);
+  const Snapshot& s = first.snapshot(0, y);
+  for (const ElasticJoint& joint : m.elastic) {
+    const double a = joint.gain_a * s.now.speed[joint.shaft_a], b = joint.gain_b * s.now.speed[joint.shaft_b];
+    if (joint.slips || joint.springless || given.count(joint.shaft_a) == given.count(joint.shaft_b)) continue;
+    if (!(std::abs(a - b) > disagree * std::abs(joint.gain_a * m.shafts[at(joint.shaft_a)].speed_scale))) continue;
+    const std::string& name = m.network.joints[at(joint.joint)].component;
+    add(claims,
+        claimed(Predicate::start_shafts_disagree,
+                fmt::format("\"{}\" joins shafts that start at {} and {}: [run] start gives a speed to one side alone, "
+                            "and the start is a blow",
+                            name, m.scene.speed_unit.text(a), m.scene.speed_unit.text(b)),
+                name, {.at = 0, .value = std::abs(a - b), .limit = 0, .unit = "rad/s"}));
   }
+  return claims;
+}
+
+Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips,
+                     const LinkRecorder& link) {
+  Claims claims;
+  if (outcome.state.empty()) return claims;
+  const Judge judge(equations, outcome, link);
+  Claims contacts = contact_claims(equations, outcome, result, slips);
+  std::optional<Claim> halts = judge.stalls(contacts);
+  if (!outcome.complete) return halts ? Claims{std::move(*halts)} : claims;
   double fastest = 0;
   for (const Figure& f : result.figures)
     if (f.what == quantities::max_speed || f.what == quantities::min_speed)
       fastest = std::max(fastest, std::abs(f.value));
-  if (std::optional<Claim> claim = judge.never_starts(fastest)) {
-    add(claims, std::move(claim));
-    return claims;
+  if (!halts) halts = judge.never_starts(fastest);
+  if (result.begins_at == 0) claims = start_claims(equations.shared_model());
+  if (halts) {
+    add(claims, std::move(halts));
+  } else {
+    for (std::optional<Claim> claim :
+         std::array{judge.backwards(result), judge.runs_away(result), judge.hangs(result.periods),
+                    judge.never_gets_round(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
+      add(claims, std::move(claim));
+    if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); }))
+      add(claims, judge.vibrates(result.periods));
   }
-  judge.shafts_that_disagree(claims);
-  for (std::optional<Claim> claim :
-       std::array{judge.backwards(result), judge.runs_away(result), judge.hangs(result.periods),
-                  judge.never_gets_round(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
-    add(claims, std::move(claim));
-  for (Claim& claim : contact_claims(equations, outcome, result, slips)) claims.push_back(std::move(claim));
+  for (Claim& claim : contacts) claims.push_back(std::move(claim));
   return claims;
 }
 

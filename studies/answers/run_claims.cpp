@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
@@ -28,21 +29,24 @@ class RunWords {
     const std::string end = !last                  ? std::string()
                             : rests                ? "at rest"
                             : all_but_rests(*last) ? fmt::format("all but at rest ({})", speed(last->value))
-                                                   : "at " + speed(last->value);
+                                                   : "at " + speed_and_sense(last->value);
     const Evidence at_end = last ? of(*last) : Evidence{.at = r_.until};
     if (r_.model && !r_.model->commands.empty())
-      return claimed(
-          Predicate::goes_through_sequence,
-          fmt::format("\"{}\" goes through its operating sequence{}", link(), end.empty() ? "" : " and ends " + end),
-          link(), at_end);
+      return claimed(Predicate::goes_through_sequence,
+                     fmt::format("\"{}\" goes through its operating sequence{}{}", link(),
+                                 end.empty() ? "" : " and ends " + end, held()),
+                     link(), at_end);
     if (p_.remaining || p_.without_limit)
       return claimed(
           Predicate::not_steady_yet,
-          fmt::format("\"{}\" has not come to a steady motion by {}: {}", link(), seconds(r_.until), p_.verdict),
-          link(), {.at = r_.until, .value = p_.remaining, .unit = "rad/s"});
+          fmt::format(
+              "\"{}\" has not come to a steady motion by {}: {}{}", link(),
+              p_.run_down_begin ? seconds(*p_.run_down_begin) + ", where it begins to run down" : seconds(r_.until),
+              p_.verdict, p_.standstill ? fmt::format("; it rests at {}{}", seconds(*p_.standstill), held()) : ""),
+          link(), {.at = p_.run_down_begin.value_or(r_.until), .value = p_.remaining, .unit = "rad/s"});
     if (end.empty()) return {};
     return claimed(rests ? Predicate::at_rest : Predicate::moves,
-                   fmt::format("\"{}\" is {} after {}", link(), end, seconds(r_.until)), link(), at_end);
+                   fmt::format("\"{}\" is {} after {}{}", link(), end, seconds(r_.until), held()), link(), at_end);
   }
 
  private:
@@ -64,13 +68,25 @@ class RunWords {
   }
   std::optional<Claim> steady() const {
     const Figure* mean = figure(quantities::mean_speed);
-    std::string text = fmt::format("\"{}\" runs steadily at {}", link(), speed(mean ? mean->value : p_.steady_speed));
+    std::string text =
+        fmt::format("\"{}\" runs steadily at {}", link(), speed_and_sense(mean ? mean->value : p_.steady_speed));
     if (p_.run_up_end) text += fmt::format(" from {} on", seconds(*p_.run_up_end));
     if (p_.run_down_begin) text += fmt::format(", runs down from {}", seconds(*p_.run_down_begin));
-    if (p_.standstill) text += fmt::format(" and rests at {}", seconds(*p_.standstill));
+    if (p_.standstill) text += fmt::format(" and rests at {}{}", seconds(*p_.standstill), held());
     Evidence evidence = mean ? of(*mean) : Evidence{.value = p_.steady_speed, .unit = "rad/s"};
     evidence.at = p_.run_up_end;
     return claimed(Predicate::runs_steadily, std::move(text), link(), std::move(evidence));
+  }
+  // ", held by "brake" against the 147 N·m that act": of a link that came to rest, where anything acts on it.
+  std::string held() const {
+    for (const Claim& c : r_.claims)
+      if (c.predicate == Predicate::held_by && c.text.find(" against ") != std::string::npos)
+        return ", " + c.text.substr(c.text.find(" is held by ") + 4);
+    return {};
+  }
+  // What began to turn forwards, or at rest, may turn backwards.
+  std::string speed_and_sense(double value) const {
+    return speed(value) + (value < 0 && r_.model && r_.model->scene.run.start.speed >= 0 ? " (backwards)" : "");
   }
   static Evidence of(const Figure& f) { return {.at = f.at, .value = f.value, .error = f.error, .unit = f.unit}; }
   std::string link() const { return r_.model ? r_.model->network.nodes[at(r_.model->reduction_node)].component : "it"; }
@@ -83,6 +99,30 @@ class RunWords {
   const Result& r_;
   const Periods& p_;
 };
+
+// Rests and motions of a shaft other than the link, in one sense, while the link turns.
+void sticking_shafts(const Result& r, Claims& claims) {
+  if (!r.model || !r.model->commands.empty() || !r.periods.steady) return;
+  const std::string& link = r.model->network.nodes[at(r.model->reduction_node)].component;
+  struct Rests {
+    int count = 0;
+    double first = 0;
+    bool forwards = false, backwards = false;
+  };
+  std::map<std::string, Rests> shafts;
+  for (const Event& e : r.events) {
+    if (e.component == link) continue;
+    Rests& rests = shafts[e.component];
+    if (e.kind == EventKind::rest && rests.count++ == 0) rests.first = e.t;
+    if (e.kind == EventKind::motion) (e.value.value_or(0) < 0 ? rests.backwards : rests.forwards) = true;
+  }
+  for (const auto& [shaft, rests] : shafts)
+    if (!(rests.forwards && rests.backwards))
+      add(claims, claimed(Predicate::sticks_and_slips,
+                          fmt::format("\"{}\" sticks and slips: it rests {} times, first at {}, while \"{}\" turns",
+                                      shaft, rests.count, told_shortly(rests.first, "s"), link),
+                          shaft, {.at = rests.first, .value = rests.count, .limit = 2}));
+}
 
 void overloaded_motors(const Result& r, Claims& claims) {
   for (const Figure& f : r.figures) {
@@ -99,16 +139,16 @@ std::optional<Claim> overload_claim(const Model& model, const std::string& motor
                                     const std::string& of) {
   const auto* rating = model.network.data.find<MotorRating>(motor);
   if (!rating || rating->states_duty()) return {};
-  const std::optional<double> rated = by_torque ? rating->torque : std::nullopt;
+  const double rated = by_torque ? rating->torque.value_or(0) : 0;
   const double most = use.value + use.error.value_or(0);
-  std::optional<Claim> claim = claimed(
-      Predicate::motor_overloaded,
-      fmt::format(
-          "\"{}\" gets too hot: the {} of {} is {:.0f} % of the rated one{}", motor,
-          by_torque ? "RMS torque" : "RMS current", of, 100 * use.value,
-          rated ? fmt::format("; by an estimate it holds from a rated torque of {:.4g} N·m on", enough(*rated * most))
-                : ""),
-      motor, {.value = use.value, .limit = 1, .error = use.error});
+  std::optional<Claim> claim =
+      claimed(Predicate::motor_overloaded,
+              fmt::format("\"{}\" gets too hot: the {} of {} is {:.0f} % of the rated one{}", motor,
+                          by_torque ? "RMS torque" : "RMS current", of, 100 * use.value,
+                          rated > 0 ? fmt::format("; by an estimate it holds from a rated torque of {:.4g} N·m on",
+                                                  enough(rated * most))
+                                    : ""),
+              motor, {.value = use.value, .limit = 1, .error = use.error});
   if (claim) claim->load_case = load_case::steady;
   return claim;
 }
@@ -116,15 +156,15 @@ std::optional<Claim> overload_claim(const Model& model, const std::string& motor
 Claims run_claims(const Result& r, const std::string& whose) {
   Claims claims = r.claims;
   if (!r.complete) {
-    claims.clear();
     add(claims, claimed(Predicate::incomplete, "INCOMPLETE: " + first_line(r.diagnosis)));
-    claims.back().text = capitalised(whose) + claims.back().text;
+    for (Claim& c : claims) c.text = capitalised(whose) + c.text;
     return claims;
   }
   if (std::none_of(claims.begin(), claims.end(),
                    [](const Claim& c) { return c.topic() == Topic::runs && c.in_conclusion; }))
     add(claims, RunWords(r).all());
   overloaded_motors(r, claims);
+  sticking_shafts(r, claims);
   if (r.unconfirmed())
     add(claims,
         claimed(Predicate::not_confirmed, "NOT confirmed: " + r.accuracy_in_words(), {},

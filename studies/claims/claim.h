@@ -48,27 +48,33 @@ enum class Predicate {
   moves,
   starts,
   held_by,
+  sticks_and_slips,
   // is it sure?
   not_confirmed,
+  machines_failed,
   outside_data,
   // does it bear it?
   limit_exceeded,
   motor_overloaded,
   demand_missed,
+  geometry_faulty,
   clutch_slips_closed,
   limiter_slips,
   belt_slips,
+  geometry_doubtful,
   margin_missed,
   limit_undecided,
   limit_held,
   not_assessed,
   margin_kept,
+  share_holds,
   speeds_barred,
   clutch_slips_engaging,
   clutch_opened_by_command,
   freewheel_overruns,
   // which effect matters?
   effect_matters,
+  effects_suffice,
   // what was asked for
   figures_told
 };

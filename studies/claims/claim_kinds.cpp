@@ -16,24 +16,28 @@ constexpr std::array kinds = {
     ClaimKind{incomplete, runs, fault, anything,
               "the computation ended before its end: budget, interrupt, a motion that cannot go on", "none",
               "INCOMPLETE: the budget of 300 s of processor time is spent", "every command"},
-    ClaimKind{stalls, runs, fault, above,
-              "the link moved, is held at the end, and something drives it; no brake that is on holds it",
-              "at: of its rest; value: the torque that drives, on the link [N·m]",
-              "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
-              "holds them to the end",
-              "run, compare"},
+    ClaimKind{
+        stalls, runs, fault, above,
+        "the link moved, rests at the end and is held, itself or behind springs, and something drives it; no brake "
+        "that is on holds it",
+        "at: of its rest; value: the torque that drives, on the link [N·m]",
+        "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
+        "holds them to the end",
+        "run, compare"},
     ClaimKind{does_not_start, runs, fault, above,
               "the link never moved although something drives it; no brake that is on holds it",
               "value: the torque that drives, on the link [N·m]",
               "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
     ClaimKind{brake_does_not_stop, runs, fault, above,
-              "a brake is on, slips at the end, and at the deceleration there it never stops its shaft within the time "
+              "a brake that was put on slips at the end, and at the deceleration there it never stops its shaft within "
+              "the time "
               "of the run",
               "at: it was put on; value: speed of its shaft [rad/s]",
               "\"brake\" does not stop it: it slips at 120 rpm after 2.5 s; its 40 N·m are too weak for what drives",
               "run, compare"},
     ClaimKind{turns_back, runs, fault, below,
-              "without a sequence, the link turned back by more than half a turn against a drive that drives forwards",
+              "the link turned back for good, by more than half a turn from its foremost place, against what drives it "
+              "forwards or with nothing that drives; of a sequence with nothing that drives alone",
               "value: speed at the end [rad/s]; limit: 0",
               "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
               "drive it forwards",
@@ -56,13 +60,14 @@ constexpr std::array kinds = {
               "value: the torque that drives, on the link [N·m]",
               "\"press\" does not get round: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
               "run, compare"},
-    ClaimKind{slips_to_the_end, runs, warning, above, "a closed clutch, limiter or belt slips at the end under torque",
+    ClaimKind{slips_to_the_end, runs, warning, above,
+              "a closed clutch, limiter or belt slips at the end under torque, or a brake that is on from the start",
               "value: the speed of slip [rad/s]",
               "\"clutch\" slips to the end, by 22.4 rad/s under the 12 N·m that it can transmit", "run, compare"},
     ClaimKind{
         brake_has_not_stopped, runs, warning, above,
-        "a brake is on and slips at the end, and would stop its shaft in less than the time of the run; the sequence "
-        "is done",
+        "a brake that was put on slips at the end, and would stop its shaft in less than the time of the run; the "
+        "sequence is done",
         "at: it was put on; value: speed of its shaft [rad/s]",
         "\"brake\" has not stopped it by the end: 30 rpm are left after 0.5 s, and 0.4 s more are needed at this rate",
         "run, compare"},
@@ -74,15 +79,18 @@ constexpr std::array kinds = {
         start_shafts_disagree, runs, warning, above,
         "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
         "value: the difference of speed [rad/s]",
-        "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare"},
+        "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare, steady"},
     ClaimKind{runs_steadily, runs, note, anything,
               "what the mid speed of the cycle still has to go to its limit is at most 0.1 % of it, and the link does "
               "not stand within the cycle",
               "at: end of the run-up; value: mean speed [rad/s]",
               "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
-    ClaimKind{vibrates, runs, note, anything, "everything comes again, and the link does not turn in the mean",
+    ClaimKind{vibrates, runs, note, anything,
+              "everything comes again, and the link does not turn in the mean; in a run the link turns to and fro in "
+              "its last quarter, and gains less than a quarter of its way",
               "value: frequency [Hz]",
-              "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable", "steady"},
+              "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
+              "run, compare, steady"},
     ClaimKind{works_in_strokes, runs, note, anything, "the cycles come again, and the link stands within each",
               "at: end of the last cycle; value: its time [s]",
               "\"press\" makes single strokes, one every 1.961 s, and stands between them", "run, compare"},
@@ -107,10 +115,16 @@ constexpr std::array kinds = {
               "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
               "brought to rest by it",
               "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
+    ClaimKind{sticks_and_slips, runs, note, above,
+              "while the link turns, another shaft comes to rest and moves on in the same sense, three times at least",
+              "at: of its first rest; value: how often; limit: 2",
+              "\"table\" sticks and slips: it rests 12 times, first at 0.9 s, while \"drive\" turns", "run, compare"},
     ClaimKind{not_confirmed, sure, warning, anything,
               "the errors measured are larger than the accuracy asked for, or were not measured",
               "value: measured, limit: asked for", "NOT confirmed: accuracy 1e-06 was asked for, 3.1e-05 measured",
               "run, compare"},
+    ClaimKind{machines_failed, sure, warning, above, "variants of a machine did not run to their end",
+              "value: how many; limit: 0", "3 of 500 machines failed", "sweep, uncertainty"},
     ClaimKind{outside_data, sure, warning, anything, "the motion takes values from beyond the ends of a table", "none",
               "The torque of \"motor\" is taken from outside its table, which ends at 1796 rpm",
               "all that compute a motion"},
@@ -128,6 +142,8 @@ constexpr std::array kinds = {
     ClaimKind{demand_missed, bears, fault, above, "the sized machine has a δ greater than the demanded one",
               "value: δ reached; limit: δ demanded",
               "419 kg·m², by the work equation, do not keep δ = 0.05: simulated it is 0.0561 at the crank", "size"},
+    ClaimKind{geometry_faulty, bears, fault, anything, "a pair of gears cannot be made, or cannot run", "none",
+              "the teeth of wheel 2 are pointed", "gears"},
     ClaimKind{clutch_slips_closed, bears, warning, above, "a closed clutch that had locked slips again",
               "at: first; value: largest speed of slip [rad/s]",
               "\"clutch\" lets go 10 times although it is closed, first at 0.41 s: the torque reaches the 37.5 N·m "
@@ -139,6 +155,8 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{belt_slips, bears, warning, anything, "a belt slips and grips again", "at: first; value: how often",
               "\"belts\" slips once, first at 0.01642 s, and grips again", "run, compare"},
+    ClaimKind{geometry_doubtful, bears, warning, anything, "a pair of gears runs, and not as gears should", "none",
+              "wheel 1 is undercut", "gears"},
     ClaimKind{
         margin_missed, bears, warning, below,
         "at an operating speed of the scene a natural frequency lies nearer to an excitation than the margin wanted",
@@ -166,6 +184,9 @@ constexpr std::array kinds = {
         "Every natural frequency keeps ± 10 % from all 4 excitations at 1340 … 1640 rpm; the nearest are mode 1 at "
         "24.1 Hz and 1× motor",
         "modes"},
+    ClaimKind{share_holds, bears, note, anything, "machines with values drawn hold a limit, or do not",
+              "value: share that holds it; error: half of its interval of 95 %",
+              "delta.press <= 0.1 holds in 93.2 … 97.1 % of such machines", "sweep, uncertainty"},
     ClaimKind{speeds_barred, bears, note, anything, "within the range of speeds a joint is beyond a limit or a rule",
               "value, limit: where it is exceeded most [N·m]", "2 barred ranges, worst 310 … 355 rpm (main_coupling)",
               "modes"},
@@ -181,6 +202,9 @@ constexpr std::array kinds = {
               "an effect that is off, or elasticity, moves a key figure by 2 % or more", "none",
               "Joint friction, which is off, would move speed fluctuation δ, press from 0.1179 to 0.1886 (+60 %)",
               "run, compare"},
+    ClaimKind{effects_suffice, depends, note, below,
+              "no figure of the machine with fewer effects is farther off the full model's than the tolerance",
+              "value: greatest deviation; limit: tolerance", "elasticity is enough", "advise"},
     ClaimKind{figures_told, figures, note, anything, "what was asked for was found", "none",
               "The torque in \"main_coupling\" reaches 6.784 kN·m at 0.845 s", "every command"},
 };

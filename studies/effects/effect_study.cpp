@@ -54,13 +54,14 @@ std::string conclusion_of(const EffectStudy& s) {
   const FigureChange& most = strongest->changes.front();
   if (!most.told()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);
   const std::string off = most.from_nothing
-                              ? std::string("which is zero within its error")
+                              ? std::string("within its error")
                               : fmt::format("{:.2g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
   // Where four digits do not tell them apart the two are not told.
   text = most.relative < 1e-2
              ? fmt::format("Most depends on {}: without it {} is {}", strongest->effect.words, most.figure, off)
              : fmt::format("Most depends on {}: without it {} is {} instead of {}, {}", strongest->effect.words,
-                           most.figure, told_shortly(most.without, most.unit), told_shortly(most.full, most.unit), off);
+                           most.figure, told_shortly(most.without, most.unit),
+                           most.from_nothing ? "zero" : told_shortly(most.full, most.unit), off);
   std::vector<std::string> idle;
   for (const LeftOut& l : s.left_out)
     if (l.failed.empty() && !l.changes.empty() && largest(l) < 1e-3) idle.push_back(l.effect.words);

@@ -358,6 +358,11 @@ Findings findings_of(const Gears& g) {
              .tells_complete = false,
              .footer = report_footer()};
   f.conclude(true, conclusion_of(g));
+  for (const GearStage& s : g.stages)
+    for (const GearVerdict& v : s.verdicts)
+      if (v.finding >= Finding::warning)
+        f.claim(claimed_aside(v.finding > Finding::warning ? Predicate::geometry_faulty : Predicate::geometry_doubtful,
+                              v.text, s.name));
   add_key_figures(f, g);
   if (g.scene_file.empty()) f.tell("scene", "");
   f.tell("pairs", each(g.stages, stage_record));

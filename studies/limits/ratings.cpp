@@ -136,7 +136,8 @@ class Rater {
                                 std::floor(100 / times))};
       });
     const Claim* slips = slips_closed();
-    if (slips && result_.model->network.kind_of(component_) == "clutch")
+    if (const std::string kind = result_.model->network.kind_of(component_);
+        slips && (kind == "clutch" || kind == "torque limiter"))
       gives_way("holding torque: |τ| ≤ M_s while it is closed", capacity(), *slips);
     if (!rating.engagement && slips)
       out_.push_back(not_assessed(component_, "heat of slipping: W ≤ W_allowable", std::nan(""), "J", load_case::run,

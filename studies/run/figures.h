@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/run/run.h"
+#include "studies/answers/link_recorder.h"
 #include "studies/answers/slip_recorder.h"
 #include "studies/duty/flywheel_falls.h"
 #include "studies/duty/motor_currents.h"
@@ -32,6 +33,7 @@ struct OneRun {
   std::unique_ptr<EnergyAudit> energy;
   std::unique_ptr<HeatRecorder> heat;  // null: none is rated
   std::unique_ptr<SlipRecorder> slips;
+  std::unique_ptr<LinkRecorder> link;
   std::unique_ptr<FlywheelFalls> falls;
   std::unique_ptr<MotorCurrents> currents;
   std::unique_ptr<DataRangeRecorder> ranges;  // of tables

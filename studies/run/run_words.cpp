@@ -93,7 +93,7 @@ std::string figures_in_words(const Result& r) {
   const SpeedUnit speed = speed_unit_of(r);
   const auto told = [&](const Figure& f) { return told_shortly(f.value, f.unit, speed); };
   std::string text;
-  if (const Figure* peak = largest_peak(r))
+  if (const Figure* peak = largest_peak(r); peak && peak->value != 0)
     text = fmt::format("the torque in \"{}\" reaches {}{}", peak->of, told(*peak),
                        peak->at ? " at " + told_shortly(*peak->at, "s") : "");
   const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };

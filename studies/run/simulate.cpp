@@ -271,6 +271,7 @@ class Simulation {
     run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);
     run->slips = std::make_unique<SlipRecorder>(model);
+    run->link = std::make_unique<LinkRecorder>(model, settings_.until);
     run->falls = std::make_unique<FlywheelFalls>(model);
     run->currents = std::make_unique<MotorCurrents>(model);
     run->ranges = std::make_unique<DataRangeRecorder>(model);
@@ -291,8 +292,8 @@ class Simulation {
       options.progress = [&](double fraction) {
         options_.watch.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
       };
-    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,    run->speed.get(),
-                                        run->energy.get(),     run->ranges.get(),   run->slips.get()};
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,     run->speed.get(),
+                                        run->energy.get(),     run->ranges.get(),   run->slips.get(), run->link.get()};
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
@@ -387,7 +388,7 @@ class Simulation {
     run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
-    judge_motion(run.outcome, *run.slips);
+    result_.claims = motion_claims(equations_, run.outcome, result_, *run.slips, *run.link);
     tell_outside_data(*run.ranges, result_);
     note_regularised(run.outcome.regularised);
     for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects})
@@ -412,12 +413,6 @@ class Simulation {
     } catch (const std::runtime_error&) {
       return {};
     }
-  }
-  // Does it do its work at all?
-  void judge_motion(const RunOutcome& outcome, const SlipRecorder& slips) {
-    result_.claims = motion_claims(equations_, outcome, result_, slips);
-    if (const std::optional<Stall> stall = stalled(equations_, outcome))
-      result_.notes.push_back(outcome.complete ? result_.claims.front().text : in_words(*stall));
   }
 
   std::shared_ptr<const Model> model_;

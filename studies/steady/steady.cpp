@@ -264,7 +264,7 @@ class Study {
     const SpeedUnit& unit = scene_.speed_unit;
     const Figure* delta = c.find("delta." + out_.link);
     return fmt::format("mean speed {}{}", with_error(*c.find("mean_speed." + out_.link) / unit.size, unit.name),
-                       delta ? ", δ = " + with_error(*delta, "") : "");
+                       delta && c.kind != Orbit::Kind::equilibrium ? ", δ = " + with_error(*delta, "") : "");
   }
   void conclude() {
     if (!out_.complete) {

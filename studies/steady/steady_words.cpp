@@ -8,6 +8,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
+#include "studies/answers/motion_claims.h"
 #include "studies/answers/run_claims.h"
 #include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
@@ -69,8 +70,8 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
 }
 
 Claims claims_of(const SteadyStudy& s) {
-  Claims claims;
   const SteadyCycle& last = s.cycles.back();
+  Claims claims = last.model ? start_claims(last.model) : Claims{};
   const bool vibrates = last.kind == Orbit::Kind::vibrating;
   const Figure* told = last.find(vibrates ? "vibration_frequency" : "mean_speed." + s.link);
   add(claims, claimed(!s.complete ? Predicate::incomplete

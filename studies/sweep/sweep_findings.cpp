@@ -294,6 +294,21 @@ Rows limit_table(const std::string& title, const std::vector<LimitCount>& limits
       .column("high", "to [%]", [](const LimitCount& c) { return c.interval.high; }, {.factor = 100, .digits = 4});
 }
 
+Claims share_claims(const std::vector<LimitCount>& limits, std::size_t failed, std::size_t machines) {
+  Claims claims;
+  add(claims, claimed_aside(Predicate::machines_failed, fmt::format("{} of {} machines failed", failed, machines), {},
+                            {.value = static_cast<double>(failed), .limit = 0}));
+  for (const LimitCount& c : limits)
+    if (const auto decided = static_cast<double>(c.decided()); decided > 0)
+      add(claims, claimed_aside(Predicate::share_holds,
+                                fmt::format("{} holds in {:.3g} … {:.3g} % of such machines", c.limit,
+                                            100 * c.interval.low, 100 * c.interval.high),
+                                {},
+                                {.value = static_cast<double>(c.holds) / decided,
+                                 .error = 0.5 * (c.interval.high - c.interval.low)}));
+  return claims;
+}
+
 Findings findings_of(const SweepStudyResult& s) {
   Findings f{.title = s.identity.told("title"),
              .subtitle = fmt::format("Sweep of {} by {}", s.identity.told("of"), s.identity.told("design")),
@@ -302,6 +317,7 @@ Findings findings_of(const SweepStudyResult& s) {
              .diagnosis = s.interrupted ? "interrupted; the same command goes on where it ended"
                                         : "rows are missing; the same command goes on"};
   f.conclude(true, conclusion_of(s));
+  f.claim(share_claims(s.tally.limits, s.tally.failed, s.tally.rows));
   for (const Spread& spread : spreads_of(s))
     if (f.figures.size() < 4)
       f.figures.push_back(

@@ -75,6 +75,8 @@ DataTable variants_data(const SweepStudyResult& study, std::size_t from = 0, std
 // The counts must outlive the table. `unknown`: the key of rows without the figure; `from`: heading of the interval.
 Rows limit_table(const std::string& title, const std::vector<LimitCount>& limits, const std::string& unknown,
                  const std::string& from);
+// In the list of claims alone: what failed, and the share of machines that holds each limit.
+Claims share_claims(const std::vector<LimitCount>& limits, std::size_t failed, std::size_t machines);
 
 // Throws std::invalid_argument where a sheet cannot hold so many variants (1 048 575), or no file can be written there.
 void check_xlsx(const std::string& file, std::size_t rows);

@@ -1,6 +1,7 @@
 // remedies.cpp — the value of a key that just holds, by a power law through what was computed so far.
 #include "studies/trials/remedies.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,18 +15,20 @@ namespace {
 constexpr int most_values = 4;
 constexpr double worse_by = 0.01;
 
-const Verdict* worst_to_mend(const std::vector<Verdict>& verdicts) {
-  const Verdict* worst = nullptr;
+// Of those that are exceeded and a key mends, the farthest beyond its limit first.
+std::vector<const Verdict*> to_mend(const std::vector<Verdict>& verdicts) {
+  std::vector<const Verdict*> list;
   for (const Verdict& v : verdicts)
-    if (v.state() == Compliance::exceeded && v.remedy && !v.remedy->tried && (!worst || v.share() > worst->share()))
-      worst = &v;
-  return worst;
+    if (v.state() == Compliance::exceeded && v.remedy && !v.remedy->tried) list.push_back(&v);
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Verdict* a, const Verdict* b) { return a->share() > b->share(); });
+  return list;
 }
 
 class Search {
  public:
-  Search(const Result& run, const Verdict& verdict, SimulateOptions options)
-      : run_(run), verdict_(verdict), runs_(without_errors(std::move(options)), run.cpu_total) {}
+  // The runs of one search take their time from the same allowance as those before.
+  Search(const Result& run, const Verdict& verdict, VariantRuns& runs) : run_(run), verdict_(verdict), runs_(runs) {}
 
   // Not finite: none was found.
   double value() const {
@@ -48,10 +51,6 @@ class Search {
 
  private:
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  static SimulateOptions without_errors(SimulateOptions options) {
-    options.measure_error = options.keep_state = false;
-    return options;
-  }
   double share_of(const Verdict& v) const { return (v.value + verdict_.error) / v.limit; }
 
   // A bore stays in proportion to its diameter. Not a number: that machine has no such verdict.
@@ -72,16 +71,19 @@ class Search {
 
   const Result& run_;
   const Verdict& verdict_;
-  VariantRuns runs_;
+  VariantRuns& runs_;
 };
 
 }  // namespace
 
 void try_remedies(Result& run, const SimulateOptions& options) {
   if (!run.complete || !run.model || run.model->scene.run.model != "reduced" || !options.go_on_from.empty()) return;
+  SimulateOptions without_errors = options;
+  without_errors.measure_error = without_errors.keep_state = false;
+  VariantRuns runs(without_errors, run.cpu_total);
   const std::vector<Verdict> verdicts = judge_ratings(run);
-  if (const Verdict* verdict = worst_to_mend(verdicts))
-    run.remedies_tried[name_of_remedy(*verdict)] = Search(run, *verdict, options).value();
+  for (const Verdict* verdict : to_mend(verdicts))
+    if (!runs.over()) run.remedies_tried[name_of_remedy(*verdict)] = Search(run, *verdict, runs).value();
 }
 
 }  // namespace kurbel

@@ -7,9 +7,9 @@
 
 namespace kurbel {
 
-// Of the verdict of a complete run that is exceeded most, where a key of the scene mends it: the value is sought by runs
-// without errors, within the processor time that the run took, and kept in `remedies_tried`. Without one the remedy stays
-// an estimate. An interrupt ends it.
+// Of every verdict of a complete run that is exceeded and that a key of the scene mends, the farthest beyond its limit first:
+// the value is sought by runs without errors, all within the processor time that the run took, and kept in
+// `remedies_tried`. Without one the remedy stays an estimate. An interrupt ends it.
 void try_remedies(Result& run, const SimulateOptions& options);
 
 }  // namespace kurbel

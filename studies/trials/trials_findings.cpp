@@ -156,7 +156,7 @@ void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
   } else {
     const MovedFigure moved = moved_by(rigid, speed).front();
     f.claim(Predicate::effect_matters, moved.on == "—"
-                                           ? fmt::format("The rigid model would tell no {}", moved.figure)
+                                           ? fmt::format("The rigid model has no {}", moved.figure)
                                            : fmt::format("The rigid model would tell {} in place of {} for {} ({})",
                                                          moved.on, moved.off, moved.figure, moved.change));
   }

@@ -160,6 +160,7 @@ Findings findings_of(const UncertaintyStudy& s) {
              .complete = s.complete,
              .diagnosis = s.diagnosis};
   f.conclude(s.complete, s.conclusion);
+  f.claim(share_claims(s.limits, s.failed, s.drawn));
   for (const FigureUncertainty& figure : s.figures)
     if (figure.by_gradients > 0 && f.figures.size() < 4) {
       const std::string& unit = figure.figure.unit;

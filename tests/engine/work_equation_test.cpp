@@ -206,8 +206,8 @@ TEST(WorkEquation, TooSlowTheCrankStopsUnderTheLoadAndTheStallIsTold) {
   ASSERT_FALSE(r.events.empty());
   EXPECT_EQ(r.events.back().what, "comes to rest and is held");
   EXPECT_NEAR(r.events.back().t, 0.183369336380253, 1e-11);
-  ASSERT_FALSE(r.notes.empty());
-  EXPECT_NE(r.notes.back().find("stalls at 115.6° after 0.183 s"), std::string::npos) << r.notes.back();
+  ASSERT_FALSE(r.claims.empty());
+  EXPECT_NE(r.claims.front().text.find("stalls at 115.6° after 0.183 s"), std::string::npos) << r.claims.front().text;
 }
 
 // Energy from the work diagram: the speed lies on √(2E/I_r) to the last digits after 10⁴ turns, and the phase error

@@ -1,0 +1,62 @@
+// link_recorder.cpp — the link's angle and speed from step to step.
+#include "studies/answers/link_recorder.h"
+
+#include "engine/numerics/index.h"
+#include "engine/numerics/roots.h"
+
+namespace kurbel {
+namespace {
+
+constexpr double least_turning = 1e-3, least_sense = 1e-2;  // of the usual speed
+constexpr double late = 0.75;                               // of the time
+
+}  // namespace
+
+void LinkRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  if (began_) return;
+  began_ = true;
+  angle_ = foremost_ = late_begin_ = low_ = high_ = equations.angle_with_turns(at(m_.reduction_angle), y);
+  turned_at_ = t, late_from_ = t + late * (until_ - t);
+}
+
+void LinkRecorder::step(StepView& view) {
+  const TrackedAngle& link = m_.angles[at(m_.reduction_angle)];
+  if (at(link.shaft) >= m_.free_shafts) {  // prescribed: it rests nowhere
+    turned_at_ = view.t();
+    return;
+  }
+  Equations& equations = view.equations();
+  const std::size_t state = equations.speed_index(link.shaft);
+  const auto angle_in = [&](std::span<const double> y) {
+    return equations.angle_with_turns(at(m_.reduction_angle), y);
+  };
+  const double speed = link.gain * view.y()[state], before = angle_in(view.y_previous());
+  const int sense = speed > 0 ? 1 : -1;
+  angle_ = angle_in(view.y());
+  foremost_ = std::max(foremost_, angle_), fastest_ = std::max(fastest_, std::abs(speed));
+  if (std::abs(speed) > least_sense * m_.speed_scale) {
+    if (sense > 0 && sense_ < 0) ++turned_forwards_;
+    if (sense < 0 && sense_ >= 0) backwards_since_ = view.t();
+    sense_ = sense;
+  }
+  const bool turns = std::abs(speed) > least_turning * m_.speed_scale;
+  if (turns) turned_at_ = view.t();
+  if (view.t() < late_from_) return;
+  if (view.t_previous() < late_from_) late_begin_ = low_ = high_ = before;
+  way_ += std::abs(angle_ - before), late_fastest_ = std::max(late_fastest_, std::abs(speed));
+  low_ = std::min(low_, angle_), high_ = std::max(high_, angle_);
+  const auto speed_at = [&](double t) { return view.at(t, state); };
+  if (const double from = speed_at(view.t_previous()), to = speed_at(view.t()); from * to < 0) {
+    reversal_ = find_root(speed_at, view.t_previous(), from, view.t(), to);
+    const double extreme = angle_in(view.at(reversal_));
+    low_ = std::min(low_, extreme), high_ = std::max(high_, extreme);
+  }
+  if (!turns) return;
+  if (late_sense_ == -sense) {
+    last_change_ = reversal_;
+    if (++changes_ == 1) first_change_ = reversal_;
+  }
+  late_sense_ = sense;
+}
+
+}  // namespace kurbel

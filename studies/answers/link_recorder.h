@@ -1,0 +1,53 @@
+// link_recorder.h — an observer of the reduction link: how far it came, when it last turned, whether it goes to and fro.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/run/run.h"
+
+namespace kurbel {
+
+// At the ends of steps; where it turns back, located on the solution. The link turns above 1e-3 of its usual speed; it
+// comes round in a sense at 1e-2 of it.
+class LinkRecorder final : public Observer {
+ public:
+  LinkRecorder(const Model& model, double until) : m_(model), until_(until) {}
+  void begin(double t, std::span<const double> y, Equations& equations) override;
+  void step(StepView& view) override;
+  void remember(Tape& tape) override {
+    tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, turned_forwards_, late_from_, late_begin_,
+         late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_);
+  }
+
+  // Its greatest angle less that at the end, turns counted [rad].
+  double fell_back() const { return foremost_ - angle_; }
+  // How often it came round from backwards to forwards.
+  int turned_forwards() const { return turned_forwards_; }
+  double backwards_since() const { return backwards_since_; }  // it last began to come backwards [s]
+  double turned_at() const { return turned_at_; }              // the end of the last step in which it turned [s]
+  // It has not turned for the last fiftieth of the time up to t.
+  bool rests(double t) const { return t - turned_at_ > 0.02 * t; }
+  // In the last quarter of the time it turned in both senses, twice at least, gained less than a quarter of its way, and
+  // was as fast as a twentieth of its greatest speed.
+  bool vibrates() const {
+    return changes_ >= 2 && std::abs(angle_ - late_begin_) < 0.25 * way_ && late_fastest_ > 0.05 * fastest_;
+  }
+  // Of its angle in that quarter [rad], and by its changes of sense there [Hz].
+  double lowest() const { return low_; }
+  double highest() const { return high_; }
+  double frequency() const { return 0.5 * (changes_ - 1) / (last_change_ - first_change_); }
+
+ private:
+  const Model& m_;
+  double until_;
+  bool began_ = false;
+  double angle_ = 0, foremost_ = 0, turned_at_ = 0, backwards_since_ = 0;
+  int sense_ = 0, turned_forwards_ = 0;
+  double late_from_ = 0, late_begin_ = 0;
+  int late_sense_ = 0, changes_ = 0;
+  double way_ = 0, low_ = 0, high_ = 0, fastest_ = 0, late_fastest_ = 0;
+  double reversal_ = 0, first_change_ = 0, last_change_ = 0;  // [s]
+};
+
+}  // namespace kurbel

@@ -1,0 +1,223 @@
+// motion_claims_test.cpp — what falls, who holds, what stands behind springs, what slips meanwhile, what vibrates.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "studies/limits/ratings.h"
+#include "studies/run/run_findings.h"
+#include "studies/steady/steady_words.h"
+#include "studies/trials/trials_findings.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel::motion_claims_test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+const Claim* find(const Claims& claims, Predicate what, const std::string& of = {}) {
+  const auto found = std::find_if(claims.begin(), claims.end(),
+                                  [&](const Claim& c) { return c.predicate == what && (of.empty() || c.of == of); });
+  return found == claims.end() ? nullptr : &*found;
+}
+std::string said(const Result& r) { return findings_of(r).conclusion(); }
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// 40 N·m lift a weight of 20 N·m on 2 kg·m² for 1 s: 10 rad/s then, and −10 rad/s² from there on.
+std::string hoist(const std::string& more) {
+  return R"(
+    line = ["motor", "drum"]
+    motor = { kind = "torque source", torque = "40 N*m", inertia = "1 kg*m2", stop = "1 s" }
+    drum = { kind = "load", torque = "20 N*m", acts = "always", inertia = "1 kg*m2" }
+    run = { start = "rest", until = "5 s" }
+  )" + more;
+}
+
+TEST(Falling, IsSaidOfAWeightThatNothingHolds) {
+  const Result r = test::run(hoist(""));
+  const Claim* falls = find(r.claims, Predicate::turns_back, "motor");
+  ASSERT_TRUE(falls) << said(r);
+  EXPECT_NEAR(*falls->evidence.value, -30, 1e-6);
+  EXPECT_TRUE(said(r).starts_with(
+      "\"motor\" turns backwards, at -30 rad/s at the end: its loads drive it, and nothing holds them."))
+      << said(r);
+}
+
+// Driven backwards for 1 s, to −20 rad/s, and slowed down by friction: nothing falls.
+TEST(Falling, IsNotSaidOfWhatWasDrivenBackwards) {
+  const Result r = test::run(R"(
+    line = ["motor", "drum"]
+    motor = { kind = "torque source", torque = "-42 N*m", inertia = "1 kg*m2", stop = "1 s" }
+    drum = { kind = "load", torque = "2 N*m", acts = "against motion", inertia = "1 kg*m2" }
+    run = { start = "rest", until = "5 s" }
+  )");
+  EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << said(r);
+  EXPECT_TRUE(has(said(r), "-16 rad/s")) << said(r);
+}
+
+// What swings through more than half a turn, driven or not, falls nowhere.
+TEST(Falling, IsNotSaidOfWhatSwings) {
+  const Result r = test::run(R"(
+    line = ["source", "wheel"]
+    source = { kind = "torque source", torque = "0 N*m", amplitude = "100 N*m", frequency = "0.25 Hz", inertia = "1 kg*m2" }
+    wheel = { kind = "load", damping = "0.1 N*m*s/rad", inertia = "1 kg*m2" }
+    run = { start = "rest", until = "40 s" }
+  )");
+  EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << said(r);
+}
+
+// The brake's 100 N·m and the weight's 20 N·m stop 2 kg·m² from 10 rad/s within 1/6 s.
+TEST(Holding, IsSaidOfWhatCameToRest) {
+  const Result r =
+      test::run(hoist("brake = { kind = \"brake\", on = \"drum\", torque = \"100 N*m\", start = \"1 s\" }"));
+  const Claim* held = find(r.claims, Predicate::held_by, "motor");
+  ASSERT_TRUE(held) << said(r);
+  EXPECT_NEAR(*held->evidence.value, 20, 1e-9);
+  EXPECT_NEAR(*held->evidence.at, 1 + 1.0 / 6, 1e-6);
+  EXPECT_TRUE(has(said(r), ", held by \"brake\" against the 20 N·m that act")) << said(r);
+  EXPECT_FALSE(find(r.claims, Predicate::stalls));
+}
+
+// 100 N·m drive, the brake takes 60 N·m of them from the start on, 2 N·m·s/rad the rest: 20 rad/s.
+TEST(Brakes, ThatAreOnFromTheStartAndSlipAreSaid) {
+  const Result r = test::run(R"(
+    line = ["motor", "wheel"]
+    motor = { kind = "torque source", torque = "100 N*m" }
+    wheel = { kind = "load", inertia = "1 kg*m2", damping = "2 N*m*s/rad" }
+    brake = { kind = "brake", on = "wheel", torque = "60 N*m" }
+    run = { start = { speed = "50 rad/s" }, until = "10 s" }
+  )");
+  const Claim* slips = find(r.claims, Predicate::slips_to_the_end, "brake");
+  ASSERT_TRUE(slips) << said(r);
+  EXPECT_NEAR(*slips->evidence.value, 20, 1e-3);
+  EXPECT_TRUE(has(said(r), "\"brake\" is on and slips to the end, at 20 rad/s under its 60 N·m")) << said(r);
+}
+
+// Put on at 1 s by its window of time: the same as by command.
+TEST(Brakes, ThatComeOnInTimeAndAreTooWeakAreSaid) {
+  const Result r = test::run(R"(
+    line = ["motor", "wheel"]
+    motor = { kind = "torque source", torque = "100 N*m" }
+    wheel = { kind = "load", inertia = "1 kg*m2", damping = "2 N*m*s/rad" }
+    brake = { kind = "brake", on = "wheel", torque = "60 N*m", start = "1 s" }
+    run = { start = { speed = "50 rad/s" }, until = "10 s" }
+  )");
+  EXPECT_TRUE(said(r).starts_with("\"brake\" does not stop it: it slips at 20 rad/s after 9 s")) << said(r);
+}
+
+// 50 N·m wind a spring up against a bearing that holds 80 N·m: the motor's own shaft is held by nothing, and stands.
+TEST(Stalls, AreSaidOfAMotorThatStandsBehindASpring) {
+  const Result r = test::run(R"(
+    line = ["motor", "coupling", "mill"]
+    motor = { kind = "dc shunt motor", stall_torque = "50 N*m", no_load_speed = "100 rad/s", inertia = "0.2 kg*m2" }
+    coupling = { kind = "coupling", stiffness = "2 kN*m/rad", damping_ratio = 0.2 }
+    mill = { kind = "load", torque = "80 N*m", inertia = "1 kg*m2" }
+    effects = { elasticity = true }
+    run = { start = { speed = "20 rad/s" }, until = "6 s" }
+  )");
+  const Claim* stalls = find(r.claims, Predicate::stalls, "motor");
+  ASSERT_TRUE(stalls) << said(r);
+  EXPECT_NEAR(*stalls->evidence.value, 50, 1e-3);
+  EXPECT_LT(*stalls->evidence.at, 3);
+}
+
+// What a clutch did on the way is said of a machine that stalls, too.
+TEST(Stalls, HideNoClutch) {
+  const Result r = test::run(R"(
+    line = ["motor", "clutch", "press"]
+    motor = { kind = "dc shunt motor", stall_torque = "90 N*m", no_load_speed = "100 rad/s", inertia = "5 kg*m2" }
+    clutch = { kind = "clutch", torque = "100 N*m", static_torque = "120 N*m" }
+    press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "5 kg*m2", slider_mass = "1 g" }
+    jam = { kind = "load", on = "press", torque = "300 N*m", acts = "against motion", start = "1 s" }
+    sequence = { steps = [{ at = "0 s", set = "clutch", to = 0 }, { at = "0.5 s", set = "clutch", to = 1, over = "0.1 s" }] }
+    run = { start = { speed = "95 rad/s" }, until = "20 s" }
+  )");
+  ASSERT_TRUE(find(r.claims, Predicate::stalls, "press")) << said(r);
+  EXPECT_TRUE(find(r.claims, Predicate::clutch_opened_by_command, "clutch")) << said(r);
+  const Claim* slips = find(r.claims, Predicate::clutch_slips_closed, "clutch");
+  ASSERT_TRUE(slips) << said(r);
+  EXPECT_NEAR(*slips->evidence.at, 1, 1e-9);
+}
+
+// Two masses of 1 kg·m² on 100 N·m/rad: f = √200/2π, each to and fro by half the spring's 0.05 rad.
+TEST(Vibration, HasItsFrequencyAndItsPlaces) {
+  const Result r = test::run(R"(
+    line = ["left", "spring", "right"]
+    left = { kind = "inertia", inertia = "1 kg*m2" }
+    right = { kind = "inertia", inertia = "1 kg*m2" }
+    spring = { kind = "coupling", stiffness = "100 N*m/rad" }
+    effects = { elasticity = true }
+    run = { start = { spring = { twist = "0.05 rad" } }, until = "4 s" }
+  )");
+  const Claim* vibrates = find(r.claims, Predicate::vibrates, "left");
+  ASSERT_TRUE(vibrates) << said(r);
+  EXPECT_NEAR(*vibrates->evidence.value, std::sqrt(200) / (2 * pi), 1e-6);
+  EXPECT_TRUE(has(said(r), "\"left\" vibrates to the end, between ")) << said(r);
+}
+
+TEST(Sticking, IsSaidOfAShaftThatRestsAgainAndAgain) {
+  const Result r = test::run(test::scene_file("scenes/stick_slip.toml"), false);
+  const std::string text = said(r);
+  EXPECT_TRUE(has(text, "\"table\" sticks and slips: it rests ")) << text;
+  EXPECT_TRUE(has(text, "\"drive\" runs steadily at 0.05 rad/s")) << text;
+}
+
+// A limiter that lets go has a rating that does not hold.
+TEST(Limiters, ThatSlipLeaveNoSentenceThatAllHolds) {
+  const Result r = test::run(R"(
+    line = ["motor", "limiter", "wheel"]
+    motor = { kind = "dc shunt motor", stall_torque = "2 kN*m", no_load_speed = "100 rad/s", inertia = "5 kg*m2" }
+    limiter = { kind = "torque limiter", torque = "100 N*m", static_torque = "120 N*m", allowable_heat = "1 MJ" }
+    wheel = { kind = "flywheel", inertia = "5 kg*m2", rim_radius = "100 mm", allowable_rim_speed = "100 m/s" }
+    blow = { kind = "load", on = "wheel", torque = "300 N*m", acts = "against motion", start = "1 s", stop = "1.05 s" }
+    run = { start = { speed = "100 rad/s" }, until = "4 s" }
+  )");
+  EXPECT_TRUE(find(r.claims, Predicate::limiter_slips, "limiter")) << said(r);
+  EXPECT_FALSE(has(said(r), "ratings hold")) << said(r);
+  EXPECT_TRUE(has(said(r), "1 of 3 ratings EXCEEDED, worst \"limiter\", holding torque")) << said(r);
+}
+
+TEST(Steady, WarnsOfAStartWhoseShaftsDisagree) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "coupling", "wheel"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "100 rad/s", inertia = "1 kg*m2" }
+    coupling = { kind = "coupling", stiffness = "10 kN*m/rad", relative_damping = 0.8 }
+    wheel = { kind = "load", damping = "0.2 N*m*s/rad", inertia = "4 kg*m2" }
+    effects = { elasticity = true }
+    run = { until = "0.5 s", start = { motor = { speed = "70 rad/s" } } }
+  )");
+  const Claims claims = claims_of(steady(scene, {scene.effects}, {.start_search = false}));
+  const Claim* disagree = find(claims, Predicate::start_shafts_disagree, "coupling");
+  ASSERT_TRUE(disagree);
+  EXPECT_NEAR(*disagree->evidence.value, 70, 1e-9);
+  EXPECT_TRUE(find(claims, Predicate::runs_steadily));
+}
+
+// Two shafts that are too thin: each diameter was computed, whichever is worse.
+TEST(Remedies, OfAllVerdictsAreTried) {
+  Result run = test::run(R"(
+    line = ["motor", "first", "wheel", "second", "mill"]
+    motor = { kind = "dc shunt motor", stall_torque = "400 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }
+    first = { kind = "shaft", length = "300 mm", diameter = "30 mm", inertia = "0 kg*m2", allowable_shear_stress = "40 MPa" }
+    wheel = { kind = "load", damping = "0.2 N*m*s/rad", inertia = "1.5 kg*m2" }
+    second = { kind = "shaft", length = "300 mm", diameter = "20 mm", inertia = "0 kg*m2", allowable_shear_stress = "40 MPa" }
+    mill = { kind = "load", damping = "0.1 N*m*s/rad", inertia = "1 kg*m2" }
+    run = { until = "3 s" }
+  )");
+  run.cpu_total = 60;  // for as many values as it takes
+  const auto tried = with_trials(std::move(run), {});
+  int count = 0;
+  for (const Verdict& v : judge_ratings(tried.study)) {
+    ASSERT_EQ(v.state(), Compliance::exceeded) << v.component;
+    EXPECT_TRUE(v.remedy && v.remedy->tried) << v.component << ": " << v.note;
+    // A rigid shaft's torque is the same whatever its diameter: W_p goes with d³.
+    const double given = v.component == "first" ? 0.03 : 0.02;
+    EXPECT_NEAR(v.remedy->value, given * std::cbrt((v.value + v.error) / v.limit), 1e-3 * given) << v.component;
+    ++count;
+  }
+  EXPECT_EQ(count, 2);
+}
+
+}  // namespace
+}  // namespace kurbel::motion_claims_test
