@@ -1,4 +1,4 @@
-// sha256.cpp — by OpenSSL's libcrypto, which libmatio brings along.
+// sha256.cpp — by OpenSSL's libcrypto, which libzip brings along.
 #include "studies/files/sha256.h"
 
 #include <fmt/format.h>

@@ -1,36 +1,56 @@
-// mat_file.cpp — by libmatio, into memory.
+// mat_file.cpp — arrays of MAT files of version 5, not compressed, by their specification.
 #include "studies/tables/mat_file.h"
 
-#include <matio.h>
-
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
-#include <memory>
 #include <set>
-#include <stdexcept>
+#include <span>
+#include <string_view>
 
 #include "studies/dictionary/dictionary.h"
-#include "studies/files/memory_file.h"
 
 namespace kurbel {
 namespace {
 
-struct Closed {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using MatFile = std::unique_ptr<mat_t, Closed>;
+// Of the specification "MAT-File Format": how numbers are stored, and what an array is of.
+enum class Stored : std::uint32_t { int8 = 1, int32 = 5, uint32 = 6, number = 9, matrix = 14, utf16 = 17 };
+enum class ArrayOf : std::uint32_t { letters = 4, numbers = 6, int32 = 12 };
 
-[[noreturn]] void fail() { throw std::runtime_error("cannot write a MAT file: no memory for it"); }
+static_assert(std::endian::native == std::endian::little, "files are written as numbers lie in memory");
+
+template <class T>
+void append(std::string& file, std::span<const T> values) {
+  file.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+}
+
+void append_tag(std::string& file, Stored type, std::size_t bytes) {
+  append<std::uint32_t>(file, std::array{static_cast<std::uint32_t>(type), static_cast<std::uint32_t>(bytes)});
+}
+
+// Up to eight bytes.
+std::size_t filled_up(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
+
+template <class T>
+void append_element(std::string& file, Stored type, std::span<const T> values) {
+  append_tag(file, type, values.size_bytes());
+  append(file, values);
+  file.append(filled_up(values.size_bytes()) - values.size_bytes(), '\0');
+}
 
 // By columns, as MAT files are.
 template <class T>
-void write(mat_t* file, const char* name, matio_classes kind, matio_types type, std::size_t rows, std::size_t columns,
-           std::vector<T>& values) {
-  std::size_t extent[2] = {rows, columns};
-  const std::unique_ptr<matvar_t, Closed> variable(
-      Mat_VarCreate(name, kind, type, 2, extent, values.data(), MAT_F_DONT_COPY_DATA));
-  if (!variable || Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) != 0) fail();
+void write(std::string& file, std::string_view name, ArrayOf kind, Stored type, std::size_t rows, std::size_t columns,
+           const std::vector<T>& values) {
+  constexpr std::size_t tag = 8, of_kind = 8, of_extent = 8;
+  append_tag(file, Stored::matrix,
+             4 * tag + of_kind + of_extent + filled_up(name.size()) + filled_up(values.size() * sizeof(T)));
+  append_element<std::uint32_t>(file, Stored::uint32, std::array{static_cast<std::uint32_t>(kind), 0U});
+  append_element<std::int32_t>(file, Stored::int32,
+                               std::array{static_cast<std::int32_t>(rows), static_cast<std::int32_t>(columns)});
+  append_element(file, Stored::int8, std::span(name));
+  append_element(file, type, std::span(values));
 }
 
 // UTF-8 as the 16-bit letters of MAT files; what has no such letter is a question mark.
@@ -50,7 +70,7 @@ std::u16string letters_of(const std::string& text) {
 }
 
 // Texts of one width, padded with blanks: each a column, or each a row.
-void write_texts(mat_t* file, const char* name, const std::vector<std::string>& texts, bool as_columns) {
+void write_texts(std::string& file, std::string_view name, const std::vector<std::string>& texts, bool as_columns) {
   std::vector<std::u16string> all;
   std::size_t width = 1;
   for (const std::string& text : texts) width = std::max(width, all.emplace_back(letters_of(text)).size());
@@ -58,8 +78,8 @@ void write_texts(mat_t* file, const char* name, const std::vector<std::string>& 
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t k = 0; k < all[i].size(); ++k)
       letters[as_columns ? i * width + k : k * texts.size() + i] = static_cast<std::uint16_t>(all[i][k]);
-  write(file, name, MAT_C_CHAR, MAT_T_UTF16, as_columns ? width : texts.size(), as_columns ? texts.size() : width,
-        letters);
+  write(file, name, ArrayOf::letters, Stored::utf16, as_columns ? width : texts.size(),
+        as_columns ? texts.size() : width, letters);
 }
 
 // Modelica multiplies units by a point: "kg.m2".
@@ -136,19 +156,17 @@ std::optional<std::string> mat_file(const DataTable& table, const std::vector<Ma
     contents.add(column.name, described(column), 2, k + 1, unknown_beyond);
   }
 
-  const MemoryFile memory;
-  MatFile file(Mat_CreateVer(memory.path().c_str(), "MATLAB 5.0 MAT-file, by kurbel: Modelica's layout of results",
-                             MAT_FT_MAT5));
-  if (!file) fail();
-  write_texts(file.get(), "Aclass", {"Atrajectory", "1.1", table.remark, "binTrans"}, false);
-  write_texts(file.get(), "name", contents.names, true);
-  write_texts(file.get(), "description", contents.descriptions, true);
-  write(file.get(), "dataInfo", MAT_C_INT32, MAT_T_INT32, 4, contents.names.size(), contents.info);
+  std::string file = "MATLAB 5.0 MAT-file, by kurbel: Modelica's layout of results";
+  file.resize(116, ' ');                           // words about it
+  file.append(8, '\0') += {'\0', '\1', 'I', 'M'};  // no data of a subsystem; version 0x0100, little-endian
+  write_texts(file, "Aclass", {"Atrajectory", "1.1", table.remark, "binTrans"}, false);
+  write_texts(file, "name", contents.names, true);
+  write_texts(file, "description", contents.descriptions, true);
+  write(file, "dataInfo", ArrayOf::int32, Stored::int32, 4, contents.names.size(), contents.info);
   at_ends[0].insert(at_ends[0].end(), at_ends[1].begin(), at_ends[1].end());
-  write(file.get(), "data_1", MAT_C_DOUBLE, MAT_T_DOUBLE, at_ends[1].size(), 2, at_ends[0]);
-  write(file.get(), "data_2", MAT_C_DOUBLE, MAT_T_DOUBLE, places.size(), rows, data);
-  if (Mat_Close(file.release()) != 0) fail();
-  return memory.bytes();
+  write(file, "data_1", ArrayOf::numbers, Stored::number, at_ends[1].size(), 2, at_ends[0]);
+  write(file, "data_2", ArrayOf::numbers, Stored::number, places.size(), rows, data);
+  return file;
 }
 
 }  // namespace kurbel

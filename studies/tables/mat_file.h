@@ -25,7 +25,7 @@ struct MatConstant {
 };
 
 // The file's bytes; none: a matrix of version 5 has at most 2 GB. Columns of words and constants that are named as a column
-// are left out. Throws std::runtime_error where there is no memory for it.
+// are left out.
 std::optional<std::string> mat_file(const DataTable& table, const std::vector<MatConstant>& constants);
 
 }  // namespace kurbel

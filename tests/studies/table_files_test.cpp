@@ -1,4 +1,5 @@
 // table_files_test.cpp — a trajectory as CSV, MAT and XLSX: the same rows and, to the last bit, the same numbers.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <matio.h>
 
@@ -8,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 
 #include "studies/run/run_findings.h"
 #include "studies/run/simulate.h"
@@ -55,20 +57,31 @@ std::vector<std::vector<double>> columns_of(const DataTable& table) {
   return columns;
 }
 
+// A function of libmatio, loaded for these tests: it brings forty libraries along, which no other process has to load.
+template <class Function>
+Function* of_matio(const char* name) {
+  static void* const library = dlopen("libmatio.so", RTLD_NOW);
+  void* const found = library ? dlsym(library, name) : nullptr;
+  if (!found) throw std::runtime_error(std::string("libmatio is not installed (libmatio-dev): ") + name);
+  return reinterpret_cast<Function*>(found);
+}
+
 // A MAT file read by libmatio.
 class Mat {
  public:
   explicit Mat(const std::string& bytes) {
     const fs::path path = fs::temp_directory_path() / ("kurbel_mat_" + std::to_string(getpid()) + ".mat");
     std::ofstream(path, std::ios::binary) << bytes;
-    file_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+    file_.reset(of_matio<decltype(Mat_Open)>("Mat_Open")(path.c_str(), MAT_ACC_RDONLY));
     fs::remove(path);
     EXPECT_TRUE(file_);
-    EXPECT_EQ(Mat_GetVersion(file_.get()), MAT_FT_MAT5);
+    EXPECT_EQ(of_matio<decltype(Mat_GetVersion)>("Mat_GetVersion")(file_.get()), MAT_FT_MAT5);
   }
   const matvar_t& operator[](const std::string& name) {
     std::shared_ptr<matvar_t>& variable = variables_[name];
-    if (!variable) variable.reset(Mat_VarRead(file_.get(), name.c_str()), Mat_VarFree);
+    if (!variable)
+      variable.reset(of_matio<decltype(Mat_VarRead)>("Mat_VarRead")(file_.get(), name.c_str()),
+                     of_matio<decltype(Mat_VarFree)>("Mat_VarFree"));
     return *variable;
   }
   // A column a text, without the blanks behind; letters beyond ASCII are question marks.
@@ -95,7 +108,7 @@ class Mat {
 
  private:
   struct Closed {
-    void operator()(mat_t* file) const { Mat_Close(file); }
+    void operator()(mat_t* file) const { of_matio<decltype(Mat_Close)>("Mat_Close")(file); }
   };
   std::unique_ptr<mat_t, Closed> file_;
   std::map<std::string, std::shared_ptr<matvar_t>> variables_;
