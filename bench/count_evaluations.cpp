@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/instruction_counts.h"
 #include "engine/events/equations.h"
 #include "engine/run/run.h"
 #include "studies/scenes/kinds.h"
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
       if (!as_it_stands && effect == flag.name) effects.*(flag.flag) = how.starts_with("run-on:");
     if (how == "without") test::erase_effect(scene, effect);
     Equations equations(compile(scene, effects), false);
+    bench::start_instrumentation();
     if (how.starts_with("run")) {
       const RunOptions options{.tolerance = 1e-7,
                                .method = how.substr(how.find(':') + 1),

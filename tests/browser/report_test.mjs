@@ -1,4 +1,5 @@
 // report_test.mjs — a report in Chromium: no errors, no requests, every plot drawn, the machine moves, it prints.
+// Wide and light, and narrow and dark; of all but the first report one of the two in turn; both where KURBEL_THOROUGH is set.
 // usage: node report_test.mjs report.html …   (playwright-core is looked for beside this file and in KURBEL_BROWSER_MODULES)
 // Ends with 77, "skipped", where there is no browser.
 import assert from 'node:assert/strict';
@@ -22,8 +23,9 @@ if (!chromium) skip('no playwright-core here');
 const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync']});
 try {
-  for (const report of process.argv.slice(2).map(name => path.resolve(name)))
-  for (const [width, colorScheme] of [[1400, 'light'], [500, 'dark']]) {
+  const ways = [[1400, 'light'], [500, 'dark']];
+  for (const [number, report] of process.argv.slice(2).map(name => path.resolve(name)).entries())
+  for (const [width, colorScheme] of process.env.KURBEL_THOROUGH || number === 0 ? ways : [ways[number % 2]]) {
     const page = await browser.newPage({viewport: {width, height: 900}, colorScheme});
     const complaints = [], requests = [];
     page.on('console', message => { if (['error', 'warning'].includes(message.type())) complaints.push(message.text()); });

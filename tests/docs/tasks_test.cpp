@@ -8,9 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/thorough.h"
 
 namespace kurbel::tasks_test {
 namespace {
@@ -54,6 +57,11 @@ std::string output_of(const std::string& arguments, const fs::path& where) {
   return text;
 }
 
+// The short form takes one of several commands that are alike but for the values that they set.
+std::string but_for_values(const std::string& line) {
+  return std::regex_replace(line, std::regex(R"( --set (?:'[^']*'|"[^"]*"|[^ "']|"[^"]*")*)"), "");
+}
+
 class Task : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Task, EveryCommandSaysWhatThePageSays) {
@@ -63,7 +71,9 @@ TEST_P(Task, EveryCommandSaysWhatThePageSays) {
   fs::create_directories(here);
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".toml") fs::copy(entry.path(), here, fs::copy_options::overwrite_existing);
+  std::set<std::string> seen;
   for (const Command& command : commands) {
+    if (!seen.insert(but_for_values(command.line)).second && !test::thorough()) continue;
     const std::string text = output_of(command.line, here), printed = one_blank(text);
     EXPECT_FALSE(command.says.empty()) << command.line;
     for (const std::string& line : command.says)

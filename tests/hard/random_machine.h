@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/thorough.h"
+
 namespace kurbel::test {
 
 struct Joint {
@@ -329,13 +331,13 @@ inline std::vector<Machine> smaller(const Machine& m) {
   return list;
 }
 
-// How many machines, over those of the tests: KURBEL_MACHINES=2 takes `count`, 20 ten times as many.
+// How many machines, over those of the thorough tests: KURBEL_MACHINES=2 takes `count`, 20 ten times as many.
 inline double machines_over_tests() {
   const char* text = std::getenv("KURBEL_MACHINES");
-  return text ? std::max(0.1, std::atof(text)) : 1;
+  return text ? std::max(0.1, std::atof(text)) : thorough() ? 1 : 0.5;
 }
 
-// Prints the smallest machine found that still fails. The tests take the first half of `count`.
+// Prints the smallest machine found that still fails. The tests take the first quarter of `count`, in the thorough form half.
 inline void expect_for_all(unsigned first, int count, bool conservative, const Fault& may_throw) {
   count = static_cast<int>(count * machines_over_tests() / 2);
   const Fault fault = [&](const Machine& m) -> std::string {

@@ -144,7 +144,7 @@ TEST(RockingCrank, SwingsWithinItsArcAsThreeAnglesWithMultipliersDo) {
     SCOPED_TRACE(static_cast<double>(l.ground));
     const CrankArc arc = *data_of(l).loop().arc();
     const double from = arc.middle + 0.3 * arc.half;
-    const int steps = 100000;
+    const int steps = 25000;
     State y = l.at(from, 0);
     Real least = y[0], greatest = y[0];
     for (int k = 0; k < steps; ++k) {
@@ -165,7 +165,7 @@ TEST(RockingCrank, EndOfItsArcEndsTheRunToldWithTimeAndAngle) {
   for (const double way : {1.0, -1.0}) {
     const CrankArc arc = *data_of(both).loop().arc();
     State y = both.at(arc.middle, way * 12);
-    const Real h = 2e-6L, end = arc.middle + way * arc.reach();
+    const Real h = 1e-5L, end = arc.middle + way * arc.reach();
     Real t = 0;
     State next = both.step(y, h);
     for (; t < 1 && way * (next[0] - end) < 0; t += h) y = next, next = both.step(y, h);

@@ -81,7 +81,7 @@ run = {{ start = {{ angle = "{} rad", speed = "{} rad/s" }}, until = "{} s", acc
 };
 
 void expect_agreement(const Machine& machine, const std::string& load, double phi, double omega) {
-  const State truth = machine.after({phi, omega}, 4, 400000);
+  const State truth = machine.after({phi, omega}, 4, 40000);
   ASSERT_GT(truth[0], 8);  // it went round, through dead centres
   const Result r = run(machine.scene(load, phi, omega, 4));
   ASSERT_TRUE(r.complete) << r.diagnosis;

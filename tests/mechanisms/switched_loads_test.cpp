@@ -196,7 +196,8 @@ TEST(SwitchedLoads, TheMechanismsCommandAndTheLoadsOwnBothCount) {
 
 // With a rod that bends the element is another one.
 TEST(SwitchedLoads, OneByOneUnderARodThatBends) {
-  const std::string bends = with(crank, "load = { kind = \"opposing\", force = \"200 N\" }", R"(rod_mass = "2 kg"
+  const std::string briefly = with(crank, "until = \"2 s\"", "until = \"0.5 s\"");  // two turns and a half
+  const std::string bends = with(briefly, "load = { kind = \"opposing\", force = \"200 N\" }", R"(rod_mass = "2 kg"
 rod_flexibility = { modulus = "206 GPa", height = "12 mm", width = "20 mm", modes = 1, damping_ratio = 0.02 }
 load = [LOADS])");
   const std::string

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "mechanisms/linkages/slider_crank_geometry.h"
 #include "studies/handout/energy_mass_sheet.h"
@@ -48,6 +50,18 @@ ReduceSheet sheet_of_scene(const Scene& scene, std::optional<double> delta = {})
                   ReduceSheetRequest{.paper = {}, .delta = delta, .flywheel = {}, .author = {}});
 }
 
+// Of a file, drawn once for all tests.
+const ReduceSheet& sheet_of_file(const std::string& name) {
+  static std::map<std::string, ReduceSheet> drawn;
+  const auto known = drawn.find(name);
+  return known != drawn.end() ? known->second
+                              : drawn.emplace(name, sheet_of_scene(test::scene_file(name))).first->second;
+}
+const ReduceSheet& sheet_of_offset_press() {
+  static const ReduceSheet drawn = sheet_of_scene(test::scene_from(offset_press));
+  return drawn;
+}
+
 TEST(Sheet, ScalesAreRoundAndTheNextFinerOneIsTooFine) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> exponent(-9, 9);
@@ -76,7 +90,7 @@ TEST(Sheet, PositionsGoFromTheDeadCentreInTheSenseOfTheMotion) {
 
 // x = r cos φ + √(l² − (e − r sin φ)²), numbered from where crank and rod lie in line.
 TEST(Sheet, KinematicsOfAnOffsetSliderCrankMatchTheClosedForm) {
-  const ReduceSheet sheet = sheet_of_scene(test::scene_from(offset_press));
+  const ReduceSheet& sheet = sheet_of_offset_press();
   const SliderCrankGeometry geometry = offset_geometry();
   const auto cells = cells_of(sheet.html());
   const double omega = sheet.reduction.speed, origin = geometry.extended_angle();
@@ -103,7 +117,7 @@ TEST(Sheet, KinematicsOfAnOffsetSliderCrankMatchTheClosedForm) {
 
 // The blow lies between positions 11 and 0: where the travel to the dead centre is 6, 5.5, 2 and 1.8 mm.
 TEST(Sheet, ABlowBetweenTwoPositionsIsNotSkipped) {
-  const ReduceSheet sheet = sheet_of_scene(test::scene_from(offset_press));
+  const ReduceSheet& sheet = sheet_of_offset_press();
   const SliderCrankGeometry geometry = offset_geometry();
   std::vector<double> travels;
   for (const SheetPosition& p : sheet.motion.positions)
@@ -158,7 +172,7 @@ TEST(Sheet, CellsAreRoundedAsTheyStand) {
 }
 
 TEST(Sheet, HeightsOnPaperAreValuesOverTheirScale) {
-  const ReduceSheet sheet = sheet_of_scene(test::scene_file("scenes/crank_press.toml"));
+  const ReduceSheet& sheet = sheet_of_file("scenes/crank_press.toml");
   const auto marks = marks_of(sheet.html());
   EXPECT_GT(marks.size(), 100u);
   for (const auto& m : marks) EXPECT_NEAR(m.zero - m.y, m.value / m.per_mm, 6e-4) << m.diagram << " " << m.position;
@@ -167,7 +181,7 @@ TEST(Sheet, HeightsOnPaperAreValuesOverTheirScale) {
 TEST(Sheet, LinksOnPaperAreTheirLengthsOverTheScale) {
   for (const char* scene : {"scenes/crank_press.toml", "scenes/shaper.toml", "scenes/knuckle_press.toml",
                             "scenes/four_bar_rocker.toml", "scenes/straight_line_saw.toml"}) {
-    const ReduceSheet sheet = sheet_of_scene(test::scene_file(scene));
+    const ReduceSheet& sheet = sheet_of_file(scene);
     const MechanismOnSheet& m = sheet.mechanisms.front();
     Canvas canvas;
     const Box box{23, 8, 266, 174};
@@ -191,7 +205,7 @@ TEST(Sheet, LinksOnPaperAreTheirLengthsOverTheScale) {
 
 // I₀ = kl μ_T/(ω² δ), tan ψ = ½ ω² μ_I/μ_T: the drawing gives back the inertia, and without a demanded δ the machine's own.
 TEST(Sheet, TheDrawingGivesTheFlywheelThatTheMachineHas) {
-  const ReduceSheet sheet = sheet_of_scene(test::scene_from(offset_press));
+  const ReduceSheet& sheet = sheet_of_offset_press();
   ASSERT_TRUE(sheet.works) << sheet.why_no_works;
   const WorksOnSheet& w = *sheet.works;
   const Scale energy{"μ_T", 5, "J"}, inertia{"μ_I", 0.002, "kg·m²"};
@@ -206,7 +220,7 @@ TEST(Sheet, TheDrawingGivesTheFlywheelThatTheMachineHas) {
 
 // From position 0, which is not φ = 0: works are integrals of the torques from there, and vanish over the cycle.
 TEST(Sheet, WorksCountFromPositionZero) {
-  const ReduceSheet sheet = sheet_of_scene(test::scene_from(offset_press));
+  const ReduceSheet& sheet = sheet_of_offset_press();
   ASSERT_TRUE(sheet.works);
   const WorkDiagram& d = sheet.works->sizing.diagram;
   const double turn = 2 * std::numbers::pi, origin = sheet.motion.cycle.origin;
@@ -242,7 +256,7 @@ TEST(Sheet, PagesAreWhole) {
   };
   for (const char* scene : {"scenes/crank_press.toml", "scenes/shaper.toml", "scenes/four_bar_rocker.toml",
                             "docs/tasks/two_cylinder_compressor.toml", "scenes/single_cylinder_engine.toml"})
-    check(sheet_of_scene(test::scene_file(scene)).html(), {});
+    check(sheet_of_file(scene).html(), {});
   const Paper a3 = paper_named("A3");
   check(sheet_of(test::scene_file("scenes/drag_link_feeder.toml"), {},
                  {.paper = a3, .delta = {}, .flywheel = {}, .author = "N. N."})

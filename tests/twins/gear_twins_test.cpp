@@ -20,12 +20,18 @@ constexpr double allowed = 3e-6;  // runs at 1e-8, over the largest value; joint
 class Twins : public EveryScene {
  protected:
   bool skipped() const { return scene().dear && !test::thorough(); }
+  // In the short form modes and reductions behind every second gear, each behind those that the other and the next scene leave.
+  std::size_t first_gear(std::size_t study) const { return test::thorough() ? 0 : (GetParam() + study) % 2; }
+  std::size_t gear_step() const { return test::thorough() ? 1 : 2; }
 };
 
-// Each gear's twin, and how to tell one from the other.
+// Each gear's twin, and how to tell one from the other; in steps of two every second gear, from the first or the second one on.
 void for_all_gears(const TwinScene& scene,
-                   const std::function<void(const std::string&, const std::string&, const TwinMap&)>& expect) {
-  for (const IdealGear& gear : gears_of(scene)) {
+                   const std::function<void(const std::string&, const std::string&, const TwinMap&)>& expect,
+                   std::size_t first = 0, std::size_t step = 1) {
+  const std::vector<IdealGear> gears = gears_of(scene);
+  for (std::size_t k = first % gears.size(); k < gears.size(); k += step) {
+    const IdealGear& gear = gears[k];
     SCOPED_TRACE(fmt::format("{} behind a gear of {:.3g}", scene.name, gear.ratio()));
     expect(geared(scene, gear), direct(scene, {}, gear.view()), map_of(scene, {}, gear.view()));
   }
@@ -164,7 +170,8 @@ bool turns_by_itself(const TwinScene& scene) {
 }
 
 TEST_P(Twins, BehindAGearHasTheModesOfTheReducedMachine) {
-  if (is_linear(scene()) && turns_by_itself(scene()) && !skipped()) for_all_gears(scene(), expect_same_modes);
+  if (is_linear(scene()) && turns_by_itself(scene()) && !skipped())
+    for_all_gears(scene(), expect_same_modes, first_gear(0), gear_step());
 }
 TEST_P(Twins, MirroredMachineHasTheSameModes) {
   if (turns_by_itself(scene()) && !skipped()) mirrored(scene(), expect_same_modes);
@@ -223,7 +230,8 @@ void expect_same_reductions(const std::string& first, const std::string& second,
 }
 
 TEST_P(Twins, BehindAGearReducesToTheSameInertiaAndTorques) {
-  if (is_linear(scene()) && turns_by_itself(scene()) && !skipped()) for_all_gears(scene(), expect_same_reductions);
+  if (is_linear(scene()) && turns_by_itself(scene()) && !skipped())
+    for_all_gears(scene(), expect_same_reductions, first_gear(1), gear_step());
 }
 
 // --- steady cycle ----------------------------------------------------------------------------------------------------
