@@ -212,7 +212,7 @@
   function rangeOf(plot) {
     const given = plot.x.least !== undefined && plot.x.greatest !== undefined ? {range: [plot.x.least, plot.x.greatest]} : {};
     if (plot.x.names) {
-      const room = (narrow() ? window.innerWidth - 120 : plot.wide ? 1200 : 520) / plot.x.names.length / 7, text = plot.x.names.map(name => inLines(shortName(name), room));
+      const room = widthOf(plot) / plot.x.names.length / 7, text = plot.x.names.map(name => inLines(shortName(name), room));
       return {...given, ...(text.every(Boolean) ? {...placesOf(plot.x.names, text), tickangle: 0} : {...placesOf(plot.x.names), tickangle: -35})};
     }
     if (given.range) return given;
@@ -283,66 +283,86 @@
     if (plot.marks.length) layout.yaxis2 = {overlaying: 'y', range: [0, 1], visible: false, fixedrange: true};
     return layout;
   }
-  // Bands along the x-axis and what is written at the ends of lines, kept apart where lines come close.
+  // Bands along the x-axis and what is written at the ends of lines: no word covers another. Places in pixels of the frame.
   function beside(plot, layout) {
-    const shapes = [], annotations = [], high = plot.wide ? 460 : 330, across = plot.wide ? 1250 : 560;
-    const x = layout.xaxis.range, y = layout.yaxis.range;
-    for (const band of plot.bands || []) {
-      const line = band.from === band.to;
-      shapes.push({type: line ? 'line' : 'rect', xref: 'x', yref: 'paper', x0: band.from, x1: band.to, y0: 0, y1: 1, layer: plot.map ? 'above' : 'below', fillcolor: colour(band.role), opacity: line ? 1 : 0.16, line: {width: line ? 1.4 : 0, color: colour(band.role), dash: 'dash'}});
-      // Before its line, and within its band where it begins: curves have their peaks, and lines stand, in the middle.
-      const from = x ? Math.max(band.from, Math.min(x[0], band.to)) : band.from;
-      annotations.push({x: from, y: 1, xref: 'x', yref: 'paper', text: plain(band.text), textangle: -90, xanchor: line ? 'right' : 'left', yanchor: 'top', showarrow: false, font: {size: 11, color: colour(band.role)}, bgcolor: line ? colour('card') : 'rgba(0,0,0,0)', opacity: 0.9});
-    }
-    // "6 · 4 × cylinder" and "2  ring against flywheel, 280 Hz": where the page is narrow their numbers alone.
-    const short = text => narrow() ? text.split(' ')[0] : text;
-    // A level line's name stands above it where circles, rays, bands and other names leave most room: of places along it the
-    // emptiest.
-    const named = [];
-    const namePlace = (s, text) => {
-      const from = x ? x[0] : s.x[0], to = x ? x[1] : s.x[s.x.length - 1], width = Math.min(0.9, 7.2 * (text.length + 2) / (narrow() ? window.innerWidth - 100 : across - 120)) * (to - from);
-      const crowd = at => {
-        const within = (value, pad) => value > at - pad && value < at + width + pad, pad = 0.012 * (to - from);
-        let sum = 0;
-        for (const other of plot.series) {
-          if (other.sizes) other.x.forEach((cx, i) => { if (within(cx, pad) && y && Math.abs(other.y[i] - s.y[0]) < 0.06 * (y[1] - y[0])) sum += 3; });
-          else if (other.textAtEnd && other.x.length === 2 && other.y[1] !== other.y[0] && within(other.x[0] + (s.y[0] - other.y[0]) / (other.y[1] - other.y[0]) * (other.x[1] - other.x[0]), 0)) sum += 0.5;
-        }
-        for (const n of named) if (y && Math.abs(n.y - s.y[0]) < 0.05 * (y[1] - y[0]) && n.x < at + width && n.x + n.width > at) sum += 5;
-        for (const band of plot.bands || []) if (band.to > at - pad && band.from < at + width + pad) sum += band.from === band.to ? 2 : 0.6;
-        return sum;
-      };
-      const places = Array.from({length: 25}, (_, i) => from + i / 24 * (to - from - width));
-      const best = places.reduce((a, b) => crowd(b) < crowd(a) - 1e-9 ? b : a);
-      named.push({x: best, y: s.y[0], width});
-      return best;
-    };
+    const shapes = [], annotations = [], letter = 6.4, x = layout.xaxis.range, y = layout.yaxis.range;
+    const part = (value, range) => (value - range[0]) / (range[1] - range[0]);
+    // What is written at the ends of rays: at the right edge one above the other, at the top side by side.
     const right = [], top = [];
     for (const s of plot.series) {
       const last = s.x.length - 1, font = {size: 11, color: colour(s.role)};
-      if (s.textAtStart && last >= 0) annotations.push({x: namePlace(s, short(s.textAtStart)), y: s.y[0], text: plain(short(s.textAtStart)), xanchor: 'left', yanchor: 'bottom', showarrow: false, font: {...font, size: 12}, bgcolor: colour('card'), opacity: 0.9, borderpad: 1});
       if (!s.textAtEnd || last < 0) continue;
-      const words = {x: s.x[last], y: s.y[last], text: plain(short(s.textAtEnd)), showarrow: false, font};
+      const words = {x: s.x[last], y: s.y[last], text: plain(s.textAtEnd), showarrow: false, font};
       if (y && s.y[last] >= y[1] * (1 - 1e-6)) top.push(words);
       else if (!x || s.x[last] >= x[1] * (1 - 1e-3)) right.push(words);
       else annotations.push({...words, xanchor: 'center', yanchor: 'bottom', bgcolor: colour('card'), opacity: 0.85});
     }
-    // At the right edge one above the other, at the top side by side and slanted; as parts of the frame, which shows them.
-    const part = (value, range) => (value - range[0]) / (range[1] - range[0]);
+    // Slanted words need less height, upright ones less room beside each other: at most 40 degrees where the frame is wide.
+    const tight = widthOf(plot) < 480, slant = tight ? -90 : -40, apart = tight ? 14 : 21;
+    const longest = Math.max(0, ...right.map(a => a.text.length)), ceiling = Math.max(0, ...top.map(a => a.text.length));
+    const beyond = tight ? 0 : Math.max(0, ...top.map(a => x ? (part(a.x, x) - 1) * widthOf(plot) + a.text.length * 5 : 0));
+    const margin = {...layout.margin, r: Math.max(layout.margin.r, longest * letter + 8, beyond + 8), t: ceiling ? ceiling * (tight ? letter : 4.2) + 16 : layout.margin.t};
+    const legend = ceiling ? {...layout.legend, y: -0.22, yanchor: 'top'} : layout.legend;
+    const W = Math.max(100, widthOf(plot) + 14 - margin.r), H = Math.max(60, (plot.place && plot.place.clientHeight || 330) - margin.t - 62 - (ceiling ? 22 : 0));
     const spread = (list, along, range, step) => {
       list.forEach(a => { a[along] = part(a[along], range); });
       list.sort((a, b) => a[along] - b[along]);
       for (let i = 1; i < list.length; ++i) list[i][along] = Math.max(list[i][along], list[i - 1][along] + step);
       for (let i = list.length - 1, end = 1; i >= 0; --i, end -= step) list[i][along] = Math.min(list[i][along], end);
     };
-    if (y) spread(right, 'y', y, 15 / high);
-    if (x) spread(top, 'x', x, (narrow() ? 22 : 24) / Math.min(across, window.innerWidth));
-    const longest = Math.max(0, ...right.map(a => a.text.length)), ceiling = Math.max(0, ...top.map(a => a.text.length));
-    const beyond = narrow() ? 0 : Math.max(0, ...top.map(a => x ? (a.x - 1) * Math.min(across, window.innerWidth) + a.text.length * 5 : 0));
+    if (y) spread(right, 'y', y, 15 / H);
+    if (x) spread(top, 'x', x, apart / W);
     right.forEach(a => annotations.push({...a, x: 1, xref: 'paper', yref: y ? 'paper' : 'y', xanchor: 'left', yanchor: 'middle', xshift: 3}));
-    top.forEach(a => annotations.push({...a, y: 1, xref: x ? 'paper' : 'x', yref: 'paper', xanchor: narrow() ? 'center' : 'left', yanchor: 'bottom', textangle: narrow() ? 0 : -40}));
-    const margin = {...layout.margin, r: Math.max(layout.margin.r, longest * 6.2 + 8, beyond + 8), t: ceiling ? (narrow() ? 24 : ceiling * 4 + 18) : layout.margin.t};
-    const legend = ceiling ? {...layout.legend, y: -0.22, yanchor: 'top'} : layout.legend;
+    top.forEach(a => annotations.push({...a, y: 1, xref: x ? 'paper' : 'x', yref: 'paper', xanchor: tight ? 'center' : 'left', yanchor: 'bottom', textangle: slant}));
+
+    // Words of bands stand upright below the upper edge, within their band where it begins, before a line; beside each other
+    // where bands begin together.
+    const taken = [];
+    for (const band of plot.bands || []) {
+      const line = band.from === band.to;
+      shapes.push({type: line ? 'line' : 'rect', xref: 'x', yref: 'paper', x0: band.from, x1: band.to, y0: 0, y1: 1, layer: plot.map ? 'above' : 'below', fillcolor: colour(band.role), opacity: line ? 1 : 0.16, line: {width: line ? 1.4 : 0, color: colour(band.role), dash: 'dash'}});
+      if (!band.text || x && (band.from > x[1] || band.to < x[0])) continue;
+      const from = x ? Math.max(band.from, Math.min(x[0], band.to)) : band.from, at = x ? part(from, x) * W : 0;
+      const words = {left: x ? Math.min(Math.max(line ? at - 15 : at + 1, 0), W - 15) : 0, top: 0, height: letter * band.text.length + 6};
+      words.right = words.left + 14, words.bottom = words.height;
+      for (const other of taken) if (x && other.left < words.right && words.left < other.right) words.left = other.right + 1, words.right = words.left + 14;
+      taken.push(words);
+      annotations.push({x: from, y: 1, xref: 'x', yref: 'paper', text: plain(band.text), textangle: -90, xanchor: 'left', xshift: x ? words.left - at : 0, yanchor: 'top', showarrow: false, font: {size: 11, color: colour(band.role)}, bgcolor: line ? colour('card') : 'rgba(0,0,0,0)', opacity: 0.9});
+    }
+    // A level line's name stands above it where it covers no other word, and circles, rays and bands leave most room; its number
+    // alone where the whole has no such place. "2  ring against flywheel, 280 Hz": where the page is narrow the number alone.
+    const nameLine = s => {
+      const level = y ? H * (1 - part(s.y[0], y)) : 0, texts = tight ? [s.textAtStart.split(' ')[0]] : [s.textAtStart, s.textAtStart.split(' ')[0]];
+      for (const text of texts) {
+        const width = 7 * text.length + 6;
+        const box = left => ({left, right: left + width, top: level - 16, bottom: level - 1});
+        const free = left => !taken.some(o => o.left < left + width && left < o.right && o.top < level - 1 && level - 16 < o.bottom);
+        const crowd = left => {
+          const b = box(left), within = (px, py, pad) => px > b.left - pad && px < b.right + pad && py > b.top - pad && py < b.bottom + pad;
+          let sum = 0;
+          for (const other of plot.series) {
+            if (other === s || !x || !y) continue;
+            if (other.sizes) other.x.forEach((cx, i) => { if (within(part(cx, x) * W, H * (1 - part(other.y[i], y)), 4.5 * other.sizes[i])) sum += 1 + other.sizes[i]; });
+            else if (other.textAtEnd && other.x.length === 2 && other.y[1] !== other.y[0]) {
+              const cx = other.x[0] + (s.y[0] - other.y[0]) / (other.y[1] - other.y[0]) * (other.x[1] - other.x[0]), px = part(cx, x) * W;
+              if (px > b.left && px < b.right) sum += 0.5;
+            } else if (other.textAtStart && Math.abs(H * (1 - part(other.y[0], y)) - level + 8) < 8) sum += 1;
+          }
+          return sum;
+        };
+        const places = Array.from({length: 41}, (_, i) => i / 40 * Math.max(0, W - width)).filter(free);
+        if (!places.length) continue;
+        const best = places.reduce((a, b) => crowd(b) < crowd(a) - 1e-9 ? b : a);
+        taken.push(box(best));
+        return {text, left: best};
+      }
+      return null;
+    };
+    for (const s of plot.series) {
+      if (!s.textAtStart || !s.x.length) continue;
+      const name = nameLine(s);
+      if (name) annotations.push({x: x ? name.left / W : s.x[0], xref: x ? 'paper' : 'x', y: s.y[0], text: plain(name.text), xanchor: 'left', yanchor: 'bottom', showarrow: false, font: {size: 12, color: colour(s.role)}, bgcolor: colour('card'), opacity: 0.9, borderpad: 1});
+    }
     annotations.push(...peakWords(plot, layout));
     return {shapes, annotations, margin, legend};
   }
@@ -400,8 +420,12 @@
     plots.push(entry);
   }
   function drawPlot(entry) {
-    const {plot, place} = entry, layout = layoutOf(plot);
+    const {plot, place} = entry;
+    place.style.height = '';
+    if (legendRows(plot) > 1) place.style.height = place.clientHeight + 17 * (legendRows(plot) - 1) + 'px';  // a legend takes no room from curves
+    const layout = layoutOf(plot);
     if (root.classList.contains('printing')) Object.assign(layout, {width: place.clientWidth, height: place.clientHeight});
+    else layout.autosize = true;
     Plotly.react(place, tracesOf(plot), layout, {responsive: true, displaylogo: false, displayModeBar: false});
     if (!entry.drawn && (plot.marks.length || plot.x.log || plot.y.log)) place.on('plotly_relayout', () => refine(entry));
     entry.drawn = true;
@@ -1226,7 +1250,7 @@
     const cards = make('div', 'cards', null, root);
     for (const card of section.cards) {
       const wide = card.kind === 'machine' || card.kind === 'gears' || card.wide || card.kind === 'table' && card.columns.length > 4 || section.cards.length === 1;
-      const long = card.kind === 'table' && card.rows.length > 25 || card.kind === 'text';
+      const long = card.kind === 'table' && card.rows.length > 6 || card.kind === 'text';
       const element = make('section', 'card is-' + card.kind + (wide ? ' wide' : '') + (long ? ' long' : ''), null, cards);
       makers[card.kind](card, element);
     }
@@ -1235,6 +1259,10 @@
   if (report.theory) addTheory(report.theory);
   make('footer', '', report.footer, root);
   requestAnimationFrame(() => setTimeout(drawInTurn, 0, 0));
+
+  // At the foot of every printed page: which document it is of.
+  const running = [report.title, report.subtitle].filter(Boolean).join(' — ');
+  make('style', '', `@page { @bottom-left { content: ${JSON.stringify(running.length > 110 ? report.title.slice(0, 110) : running)}; font: 8pt sans-serif; color: #5a636e; } }`, document.head);
 
   // Colours follow the system; print is light and unfolded.
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', drawAll);
@@ -1250,8 +1278,17 @@
       opened = null;
     }
     root.classList.toggle('printing', on);
+    // A table that is wider than the paper gets smaller words.
+    for (const scroll of document.querySelectorAll('.scroll')) {
+      const table = scroll.firstChild;
+      table.style.fontSize = '';
+      for (let size = 7.5; on && table.offsetWidth > scroll.clientWidth + 1 && size > 4.5; size -= 0.25) table.style.fontSize = size + 'pt';
+    }
     drawAll();
   }
   addEventListener('beforeprint', () => printing(true));
-  addEventListener('afterprint', () => printing(false));
+  addEventListener('afterprint', () => {
+    printing(false);
+    setTimeout(() => plots.forEach(({place, drawn}) => { if (drawn) Plotly.Plots.resize(place); }), 0);  // as wide as the page again
+  });
 })();

@@ -1,12 +1,15 @@
 // report_test.mjs — a report in Chromium: no errors, no requests, every plot drawn, the machine moves, it prints.
 // Wide and light, and narrow and dark; of all but the first report one of the two in turn; both where KURBEL_THOROUGH is set.
-// usage: node report_test.mjs report.html …   (playwright-core is looked for beside this file and in KURBEL_BROWSER_MODULES)
+// usage: node report_test.mjs report.html … (or report.html=sheet.md: its questions are answered on the pages that it says)
+// (playwright-core is looked for beside this file and in KURBEL_BROWSER_MODULES)
 // Ends with 77, "skipped", where there is no browser.
 import assert from 'node:assert/strict';
-import {existsSync} from 'node:fs';
+import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
 import {createRequire} from 'node:module';
 import path from 'node:path';
 import {fileURLToPath, pathToFileURL} from 'node:url';
+import {canReadPages, checkPages, checkSheet, pagesOf} from './pages.mjs';
 
 function skip(reason) {
   console.log(`SKIPPED: ${reason}; scripts/install-browser installs it`);
@@ -24,7 +27,7 @@ const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '-
   '--disable-background-networking', '--disable-component-update', '--disable-sync']});
 try {
   const ways = [[1400, 'light'], [500, 'dark']];
-  for (const [number, report] of process.argv.slice(2).map(name => path.resolve(name)).entries())
+  for (const [number, [report, sheet]] of process.argv.slice(2).map(name => name.split('=').map(part => path.resolve(part))).entries())
   for (const [width, colorScheme] of process.env.KURBEL_THOROUGH || number === 0 ? ways : [ways[number % 2]]) {
     const page = await browser.newPage({viewport: {width, height: 900}, colorScheme});
     const complaints = [], requests = [];
@@ -59,6 +62,20 @@ try {
     }));
     for (const {title, at, widths} of behind)
       if (at > 0 || at === 0 && widths.length > 1) assert.ok(at === 0 && widths[0] >= 2 * Math.max(...widths.slice(1)), `"${title}": rigid does not stand behind`);
+
+    // Names in the Campbell diagram cover no other, and none is cut.
+    const names = await page.$$eval('.plot', list => list.filter(p => /^Campbell/.test(p.parentElement.querySelector('h3').textContent)).map(place => {
+      const frame = place.getBoundingClientRect();
+      return [...place.querySelectorAll('.annotation-text-g text')].map(t => {
+        const {left, right, top, bottom} = t.getBoundingClientRect(), slanted = /rotate\((-40|320)/.test(t.closest('.annotation-text-g').getAttribute('transform') || '');
+        return {text: t.textContent, left: left - frame.left, right: right - frame.left, top: top - frame.top, bottom: bottom - frame.top, slanted, width: frame.width, height: frame.height};
+      });
+    }));
+    for (const diagram of names) diagram.forEach((a, i) => {
+      assert.ok(a.left >= -1 && a.right <= a.width + 1 && a.top >= -1 && a.bottom <= a.height + 1, `"${a.text}" is cut at ${width} px`);
+      for (const b of diagram.slice(0, i))
+        assert.ok(a.slanted && b.slanted ? Math.abs(a.left - b.left) >= 17 : a.right <= b.left + 2 || b.right <= a.left + 2 || a.bottom <= b.top + 3 || b.bottom <= a.top + 3, `"${a.text}" covers "${b.text}" at ${width} px`);
+    });
 
     // Words on the machine are readable, end within the drawing and do not cover each other.
     const words = await page.$$eval('.machine svg.line', list => list.map(svg => {
@@ -104,19 +121,36 @@ try {
       const right = document.querySelector('main').getBoundingClientRect().right;
       window.printed = {
         folded: document.querySelectorAll('details:not([open]):not(.licence)').length,
+        wide: [...document.querySelectorAll('.scroll table')].filter(t => t.getBoundingClientRect().right > right + 1).map(t => t.closest('.card').textContent.slice(0, 60)),
         cut: [...document.querySelectorAll('.plot svg.main-svg')].filter(svg => svg.getBoundingClientRect().right > right + 1 || svg.getBoundingClientRect().height > svg.closest('.plot').clientHeight + 1).length,
       };
     }));
     const folded = await page.$$eval('details:not([open])', list => list.length);
     const pdf = await page.pdf({preferCSSPageSize: true});
     assert.ok(pdf.length > 20000 && pdf.subarray(0, 5).toString() === '%PDF-', 'prints to PDF');
-    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, cut: 0});
+    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, cut: 0, wide: []});
+    let sheets = 0;
+    if (canReadPages()) {
+      const folder = mkdtempSync(path.join(tmpdir(), 'kurbel_pages_')), file = path.join(folder, 'report.pdf');
+      writeFileSync(file, pdf);
+      const pages = pagesOf(file);
+      rmSync(folder, {recursive: true});
+      checkPages(pages);
+      if (sheet) checkSheet(readFileSync(sheet, 'utf8'), pages);
+      sheets = pages.length;
+      // A train's report: scope, verdict and what was not assessed are its first page.
+      const second = '2 The train:';
+      if (await page.$$eval('h2', (list, begin) => list.some(h => h.textContent.startsWith(begin)), second)) {
+        const first = pages[0].words.map(w => w.word).join(' ');
+        for (const words of ['1 Scope, verdict', 'Not assessed', 'Lateral and axial vibration']) assert.ok(first.includes(words), `"${words}" is not on the first page`);
+      }
+    }
     assert.equal(await page.$$eval('details:not([open])', list => list.length), folded, 'folded again');
 
     assert.deepEqual(complaints, []);
     assert.deepEqual(requests.slice(1), [], 'nothing but the page itself is asked for');
     await page.close();
-    console.log(`${path.basename(path.dirname(report))}, ${width} px, ${colorScheme}: ${plots.length} plots drawn, ${moves ? 'machine moves, ' : ''}${pdf.length} bytes of PDF`);
+    console.log(`${path.basename(path.dirname(report))}, ${width} px, ${colorScheme}: ${plots.length} plots drawn, ${moves ? 'machine moves, ' : ''}${pdf.length} bytes of PDF${sheets ? `, ${sheets} pages` : ''}`);
   }
 } finally {
   await browser.close();
