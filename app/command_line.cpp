@@ -121,7 +121,7 @@ std::string format_fault(const std::string& list) {
 void add_study_options(OptionList& command, StudyOptions& options) {
   options.study = command.name();
   add_scene(command, options.scene, options.allow_files, options.set);
-  command.add_option("--out", options.out,
+  command.add_option("-o,--out", options.out,
                      "folder for report.html, summary.json and tables, replaced as a whole (default: results/SCENE/" +
                          options.study + ")");
   command

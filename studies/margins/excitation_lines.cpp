@@ -241,13 +241,14 @@ std::string source_of(const Excitations& x, std::size_t harmonic, double speed,
   const auto like =
       std::count_if(strength.begin(), strength.end(), [&](const auto& s) { return s.second > 0.5 * most; });
   if (name.empty() || like < 2) return readable(name);
-  // cylinder1 … cylinder4: "4 × cylinder"
+  // cylinder_1 … cylinder_4: "4 × cylinder"
   const std::string stem = name.substr(0, name.find_last_not_of("0123456789") + 1);
   const bool alike = std::all_of(strength.begin(), strength.end(), [&](const auto& s) {
     return !(s.second > 0.5 * most) || s.first.substr(0, s.first.find_last_not_of("0123456789") + 1) == stem;
   });
-  return alike && !stem.empty() ? fmt::format("{} × {}", like, readable(stem))
-                                : fmt::format("{} and {} more", readable(name), like - 1);
+  return alike && !stem.empty()
+             ? fmt::format("{} × {}", like, readable(stem.substr(0, stem.find_last_not_of("_-") + 1)))
+             : fmt::format("{} and {} more", readable(name), like - 1);
 }
 
 std::vector<ExcitationLine> excitation_lines(const Model& model, const Excitations& excitations, double speed,

@@ -191,8 +191,10 @@ Rows case_table(const ModesStudy& m) {
     std::string nearest = "—";
     if (!of.margins.rows.empty()) {
       const Margin& row = of.margins.rows.front();
-      nearest = fmt::format("mode {} and {}: {:+.3g} %, {}", of.margins.modes[row.mode].number,
-                            of.margins.lines[row.line].label, 100 * row.margin, row.within ? "WITHIN" : "kept");
+      nearest =
+          fmt::format("mode {} and {}: {}, {}", of.margins.modes[row.mode].number, of.margins.lines[row.line].label,
+                      row.margin == 0 ? "they meet within the range" : fmt::format("{:+.3g} %", 100 * row.margin),
+                      row.within ? "WITHIN" : "kept");
     }
     const std::string limits = sentence_of(of.verdicts, "limit");
     lines.push_back({name, settings, fmt::format("{}", fmt::join(hertz_of, ", ")), nearest,

@@ -17,6 +17,7 @@ Question size_question();
 Question forces_question();
 Question gears_question();
 Question modes_question();
+Question report_question();
 Question steady_question();
 Question effects_question();
 Question advise_question();
@@ -24,10 +25,10 @@ Question accuracy_question();
 Question uncertainty_question();
 
 const std::vector<Question>& questions() {
-  static const std::vector<Question> all = {compare_question(),  reduce_question(),     size_question(),
-                                            forces_question(),   gears_question(),      modes_question(),
-                                            steady_question(),   effects_question(),    advise_question(),
-                                            accuracy_question(), uncertainty_question()};
+  static const std::vector<Question> all = {compare_question(), reduce_question(),   size_question(),
+                                            forces_question(),  gears_question(),    modes_question(),
+                                            report_question(),  steady_question(),   effects_question(),
+                                            advise_question(),  accuracy_question(), uncertainty_question()};
   return all;
 }
 

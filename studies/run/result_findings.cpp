@@ -331,7 +331,7 @@ void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
 }
 
 void show_background(Findings& f, const Results& results) {
-  const Chapter audit = f.chapter("Energy, cost, events"), model = f.chapter("What was on, what was merged, and why");
+  const Chapter audit = f.chapter(chapter_of_cost), model = f.chapter(chapter_of_model);
   const auto say = [&](Rows rows) {
     rows.terminal = false;
     f.say(audit, std::move(rows));

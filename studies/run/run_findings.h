@@ -18,7 +18,9 @@ std::vector<KeyFigure> key_figures_of(const Result& result);
 std::vector<KeyFigure> key_figures_of(const Comparison& comparison);
 // Chapters behind the figures, for whoever has tried the rigid machine or the effects that are off; empty, they are not
 // shown.
-inline constexpr const char *chapter_of_rigid = "The rigid machine", *chapter_of_trials = "Effects that are off";
+inline constexpr const char *chapter_of_rigid = "The rigid machine", *chapter_of_trials = "Effects that are off",
+                            *chapter_of_cost = "Energy, cost, events",
+                            *chapter_of_model = "What was on, what was merged, and why";
 
 // --- words (run_words.cpp) ---
 

@@ -84,7 +84,9 @@ TEST_P(Task, EveryCommandSaysWhatThePageSays) {
   fs::remove_all(here);
 }
 
-INSTANTIATE_TEST_SUITE_P(Worked, Task, ::testing::Values("press", "compressor", "genset", "flywheel", "tolerances"),
+INSTANTIATE_TEST_SUITE_P(Worked, Task,
+                         ::testing::Values("press", "compressor", "genset", "flywheel", "tolerances", "fan_report",
+                                           "compressor_report", "ship_report"),
                          [](const auto& info) { return info.param; });
 
 // Each page is in the list of pages, and each scene in a page.

@@ -65,7 +65,7 @@ TEST(Cases, FaultsAreToldWhereTheyStand) {
 
 TEST(Cases, AreTheSceneWithTheirSettings) {
   const Scene scene = test::scene_from(two_discs + cases);
-  const Inquiry inquiry{.scene = scene, .text = scene.text, .file = scene.file};
+  const Inquiry inquiry{.scene = scene, .text = scene.text, .file = scene.file, .settings = {}};
   const ModesOptions options;
   ModesStudy study = find_modes(scene, scene.effects, options);
   study.cases = find_cases(inquiry, {}, {}, options, study);
@@ -102,7 +102,7 @@ TEST(Cases, ClaimWhatTheDriveAsItIsDoesNotShow) {
   std::string text = two_discs;
   text.replace(text.find("950 rpm\", \"1000 rpm"), 19, "1050 rpm\", \"1060 rpm");
   const Scene scene = test::scene_from(text + cases);
-  const Inquiry inquiry{.scene = scene, .text = scene.text, .file = scene.file};
+  const Inquiry inquiry{.scene = scene, .text = scene.text, .file = scene.file, .settings = {}};
   const Findings f = question_named("modes").answer(inquiry, {});
   const auto missed = std::count_if(f.claims.begin(), f.claims.end(), [](const Claim& c) {
     return c.predicate == Predicate::margin_missed &&

@@ -14,6 +14,7 @@
 #include "studies/gears/bevel_worm.h"
 #include "studies/gears/gears.h"
 #include "studies/modes/modes.h"
+#include "studies/question/question.h"
 #include "studies/reduce/reduce.h"
 #include "studies/run/run_findings.h"
 #include "studies/size/size.h"
@@ -126,6 +127,15 @@ TEST(SummarySchema, HoldsForStudiesOfTheCycle) {
   ReduceOptions to_the_slider;
   to_the_slider.to = "press.slider";
   expect_told("reduce", reduce(scene, to_the_slider));
+}
+
+// Its figures are those of the questions that it asks, and are explained there.
+TEST(SummarySchema, HoldsForTheReportOfATrain) {
+  const Scene scene = test::scene_file("docs/tasks/gear_fan.toml");
+  const StudyOutput report =
+      question_named("report").answer({.scene = scene, .text = scene.text, .file = scene.file, .settings = {}}, {});
+  test::expect_sound_conclusion(report, "report");
+  EXPECT_EQ(misfit(schema().at("$defs").at("report"), Json::parse(report.json()), "report"), "");
 }
 
 TEST(SummarySchema, HoldsForGears) {

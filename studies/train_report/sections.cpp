@@ -1,0 +1,175 @@
+// sections.cpp — statements of the questions on their way into the report.
+#include "studies/train_report/sections.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "studies/limits/verdicts.h"
+#include "studies/modes/modes.h"
+#include "studies/run/run_findings.h"
+
+namespace kurbel::train_report {
+namespace {
+
+const Rows* rows_of(const Part& part, const std::string& key) {
+  for (const Statement& s : part.output.statements)
+    if (const Rows* rows = std::get_if<Rows>(&s.what); rows && rows->key == key) return rows;
+  return nullptr;
+}
+
+std::string word_at(const Rows& rows, const std::string& key, std::size_t row) {
+  for (const Column& column : rows.columns)
+    if (column.key == key)
+      if (const std::string* word = column.values[row].as<std::string>()) return *word;
+  return {};
+}
+
+// "… (60: the scene has no such torque; 8: …)"
+void add_margins(const Part& modes, std::vector<std::string>& lines) {
+  const Rows* rows = rows_of(modes, "margins");
+  if (!rows) return;
+  std::map<std::string, std::size_t> reasons;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < rows->count; ++i)
+    if (const std::string why = word_at(*rows, "not_assessed", i); !why.empty()) ++reasons[why], ++all;
+  if (all == 0) return;
+  std::vector<std::string> words;
+  for (const auto& [why, count] : reasons) words.push_back(fmt::format("{}: {}", count, why));
+  lines.push_back(fmt::format(
+      "the response of {} of the {} pairs of a mode and an excitation, whose margins are listed all the same ({})", all,
+      rows->count, fmt::join(words, "; ")));
+}
+
+const char* const limit_keys[] = {"verdicts", "ratings"};
+
+bool is_open(const Rows& rows, std::size_t i) {
+  return word_at(rows, "verdict", i) == name_of(Compliance::not_assessed);
+}
+
+// A limit in a load case that one question leaves open and another judges is assessed.
+bool is_judged(const std::vector<Part>& parts, const Rows& limits, std::size_t i) {
+  for (const Part& part : parts)
+    for (const char* key : limit_keys) {
+      const Rows* rows = rows_of(part, key);
+      for (std::size_t k = 0; rows && k < rows->count; ++k) {
+        const auto same = [&](const char* column) { return word_at(*rows, column, k) == word_at(limits, column, i); };
+        if (!is_open(*rows, k) && same("component") && same("requirement") && same("load_case")) return true;
+      }
+    }
+  return false;
+}
+
+// Of all parts: those that none judges.
+std::vector<std::string> open_limits(const std::vector<Part>& parts, const Part& part) {
+  std::vector<std::string> lines;
+  for (const char* key : limit_keys) {
+    const Rows* rows = rows_of(part, key);
+    for (std::size_t i = 0; rows && i < rows->count; ++i)
+      if (is_open(*rows, i) && !is_judged(parts, *rows, i))
+        lines.push_back(fmt::format("{}, {} ({}): {}", word_at(*rows, "component", i), word_at(*rows, "requirement", i),
+                                    word_at(*rows, "load_case", i), word_at(*rows, "note", i)));
+  }
+  return lines;
+}
+
+void add_notes(const Part& part, std::vector<std::string>& lines) {
+  static const std::string begin = "not assessed";
+  for (const Statement& s : part.output.statements)
+    if (const Sentences* words = std::get_if<Sentences>(&s.what); words && words->key == "notes")
+      for (const std::string& line : words->lines)
+        if (line.starts_with(begin)) {
+          const std::size_t behind = line.find_first_not_of(" ,:", begin.size());
+          lines.push_back(behind == std::string::npos ? line : line.substr(behind));
+        }
+}
+
+const std::string* text_in(const Record& record, const std::string& key) {
+  for (const Field& field : record)
+    if (field.key == key) return field.value.as<std::string>();
+  return nullptr;
+}
+
+}  // namespace
+
+const Value* told(const Part& part, const std::string& key) {
+  for (const Statement& s : part.output.statements)
+    if (const Field* field = std::get_if<Field>(&s.what); field && field->key == key) return &field->value;
+  return nullptr;
+}
+
+std::optional<Place> section_of(const std::string& question, const std::string& chapter, const Statement& statement) {
+  const Rows* rows = std::get_if<Rows>(&statement.what);
+  if (rows && rows->key == "ratings") return Place::response;
+  if (rows && rows->key == "comparison") return Place::input;
+  if (chapter == "Scene") return {};
+  if (chapter == "Notes") return Place::assumptions;
+  if (question == "modes") {
+    if (chapter == modes_chapter::modes) return Place::modes;
+    if (chapter == modes_chapter::margins) return Place::margins;
+    return chapter == modes_chapter::history ? Place::time : Place::response;
+  }
+  if (chapter.empty()) return Place::train;
+  if (chapter == chapter_of_trials) return Place::assumptions;
+  return chapter == chapter_of_cost || chapter == chapter_of_model ? Place::input : Place::time;
+}
+
+void take(const Part& part, const std::vector<bool>& wanted, const std::vector<Chapter>& chapters, Findings& report) {
+  const StudyOutput& from = part.output;
+  for (const Statement& statement : from.statements) {
+    if (!statement.chapter) continue;
+    const auto section =
+        section_of(part.question, from.chapters[static_cast<std::size_t>(*statement.chapter)], statement);
+    if (!section || !wanted[static_cast<std::size_t>(*section)]) continue;
+    Statement taken = statement;
+    taken.chapter = chapters[static_cast<std::size_t>(*section)];
+    if (Rows* rows = std::get_if<Rows>(&taken.what)) {
+      rows->key.clear(), rows->terminal = rows->folded = false;
+      if (section == Place::input) rows->means.clear();  // the dictionary explains them; key figures are explained here
+    }
+    if (Sentences* words = std::get_if<Sentences>(&taken.what)) words->key.clear(), words->terminal = false;
+    report.statements.push_back(std::move(taken));
+  }
+}
+
+Claims claims_of(const std::vector<Part>& parts) {
+  static const std::string open = "; not assessed: ";  // verdicts.h: sentence_of
+  Claims all;
+  for (const Part& part : parts) {
+    if (!part.assessed()) continue;
+    for (Claim claim : part.output.claims) {
+      const std::size_t cut = claim.text.find(open);
+      if (cut != std::string::npos && open_limits(parts, part).empty()) claim.text.resize(cut);
+      add(all, std::move(claim));
+    }
+  }
+  return all;
+}
+
+std::vector<std::string> not_assessed(const std::vector<Part>& parts) {
+  std::vector<std::string> lines;
+  for (const Part& part : parts) {
+    if (!part.assessed()) {
+      lines.push_back(fmt::format("what kurbel {} would tell: {}", part.question, part.why));
+      continue;
+    }
+    if (!part.output.complete) lines.push_back(fmt::format("{}: {}", part.question, part.output.diagnosis));
+    for (const Claim& claim : part.output.claims)
+      if (claim.predicate == Predicate::not_assessed && claim.in_conclusion) lines.push_back(claim.text);
+    for (std::string& line : open_limits(parts, part)) lines.push_back(std::move(line));
+    add_margins(part, lines);
+    add_notes(part, lines);
+    if (const Value* cases = told(part, "cases"))
+      for (const Value& one : *cases->as<List>())
+        if (const std::string* why = text_in(*one.as<Record>(), "not_assessed"))
+          lines.push_back(fmt::format("the case {}: {}", *text_in(*one.as<Record>(), "name"), *why));
+  }
+  std::vector<std::string> once;
+  for (std::string& line : lines)
+    if (std::find(once.begin(), once.end(), line) == once.end()) once.push_back(std::move(line));
+  return once;
+}
+
+}  // namespace kurbel::train_report

@@ -1,0 +1,124 @@
+// train_report_test.cpp — kurbel report says what its questions say, word for word, each once, in the order of its sections;
+// Markdown and JSON are of the same document.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "studies/question/question.h"
+#include "studies/train_report/sections.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel::train_report_test {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Asked {
+  Scene scene = test::scene_file("docs/tasks/gear_fan.toml");
+  Inquiry inquiry{.scene = scene, .text = scene.text, .file = scene.file, .settings = {}, .author = "A. Engineer"};
+  StudyOutput answer(const std::string& question, const GivenOptions& given = {}) const {
+    return question_named(question).answer(inquiry, given);
+  }
+};
+
+// Tables by their titles.
+std::multimap<std::string, const Table*> tables_of(const Report& page) {
+  std::multimap<std::string, const Table*> tables;
+  for (const ReportSection& section : page.sections)
+    for (const Card& card : section.cards)
+      if (const Table* table = std::get_if<Table>(&card)) tables.emplace(table->title, table);
+  return tables;
+}
+
+TEST(TrainReport, SaysWhatItsQuestionsSay) {
+  const Asked asked;
+  const StudyOutput report = asked.answer("report", {{"document", "4711"}, {"revision", "B"}});
+  const Report page = report.report(), modes = asked.answer("modes").report();
+  ASSERT_EQ(page.sections.size(), train_report::section_names.size());
+  for (std::size_t s = 0; s < page.sections.size(); ++s)
+    EXPECT_EQ(page.sections[s].title, train_report::section_names[s].title);
+  EXPECT_EQ(page.subtitle, "document 4711 · revision B · by A. Engineer");
+  const auto here = tables_of(page);
+  for (const auto& [title, table] : tables_of(modes)) {
+    const auto [first, last] = here.equal_range(title);
+    EXPECT_TRUE(std::any_of(first, last, [t = table](const auto& other) {
+      return other.second->columns == t->columns && other.second->rows == t->rows && !other.second->folded;
+    })) << title;
+  }
+  // Each table once, the appendix holds all figures and the scene.
+  for (const char* title : {"Natural frequencies, damping, energies", "Separation margins", "Scope"})
+    EXPECT_EQ(here.count(title), 1U) << title;
+  const auto& input = page.sections.back().cards;
+  EXPECT_TRUE(std::any_of(input.begin(), input.end(), [&](const Card& card) {
+    const Text* text = std::get_if<Text>(&card);
+    return text && text->body == asked.scene.text && !text->folded;
+  }));
+
+  // Markdown and JSON: the same tables and the same conclusion.
+  const Json json = Json::parse(report.json());
+  EXPECT_EQ(json["conclusion"], report.conclusion());
+  EXPECT_EQ(json["document"]["number"], "4711");
+  EXPECT_EQ(json["modes"]["conclusion"], asked.answer("modes").conclusion());
+  ASSERT_EQ(report.files.size(), 1U);
+  const std::string& markdown = report.files.front().second;
+  for (std::size_t s = 0; s < page.sections.size(); ++s) {
+    EXPECT_EQ(json["sections"][s]["title"], page.sections[s].title);
+    ASSERT_EQ(json["sections"][s]["parts"].size(), page.sections[s].cards.size());
+    EXPECT_NE(markdown.find("## " + page.sections[s].title), std::string::npos);
+    for (std::size_t k = 0; k < page.sections[s].cards.size(); ++k)
+      if (const Table* table = std::get_if<Table>(&page.sections[s].cards[k])) {
+        EXPECT_EQ(json["sections"][s]["parts"][k]["rows"].size(), table->rows.size());
+        EXPECT_NE(markdown.find(table->title), std::string::npos) << table->title;
+      }
+  }
+}
+
+// Referred to the motor by the square of the ratio: J i², k i².
+TEST(TrainReport, RefersTheTrainToOneShaft) {
+  const Asked asked;
+  const StudyOutput report = asked.answer("report", {{"sections", "train"}});
+  const auto tables = tables_of(report.report());
+  const auto found =
+      std::find_if(tables.begin(), tables.end(), [](const auto& t) { return t.first.starts_with("Drive as"); });
+  ASSERT_NE(found, tables.end());
+  const auto fan = std::find_if(found->second->rows.begin(), found->second->rows.end(),
+                                [](const auto& row) { return row[1].find("fan") != std::string::npos; });
+  ASSERT_NE(fan, found->second->rows.end());
+  const double own = std::stod((*fan)[2]), ratio = std::stod((*fan)[3]), reduced = std::stod((*fan)[5]);
+  EXPECT_NEAR(ratio, 31.0 / 93, 1e-6);
+  EXPECT_NEAR(reduced, own * ratio * ratio, 1e-5 * reduced);
+  EXPECT_NEAR(own, 140, 0.5);  // and half of its shaft
+}
+
+TEST(TrainReport, SaysWhatWasNotAssessed) {
+  const Asked asked;
+  const auto open = [](const StudyOutput& output) {
+    return Json::parse(output.json())["not_assessed"].get<std::vector<std::string>>();
+  };
+  const auto says = [](const std::vector<std::string>& lines, const std::string& words) {
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const std::string& line) { return line.find(words) != std::string::npos; });
+  };
+  const std::vector<std::string> few = open(asked.answer("report", {{"sections", "scope,margins"}, {"cases", "none"}}));
+  EXPECT_TRUE(says(few, "left out by --sections: train, modes, response, time, assumptions, input"));
+  EXPECT_TRUE(says(few, "left out by --cases"));
+  EXPECT_TRUE(says(few, "pairs of a mode and an excitation"));
+  const Scene rigid = test::scene_from(R"(
+line = ["motor", "fan"]
+motor = { kind = "torque source", torque = "20 N*m", inertia = "1 kg*m2" }
+fan = { kind = "load", damping = "0.2 N*m*s/rad", inertia = "1 kg*m2" }
+run = { until = "1 s" }
+)");
+  const StudyOutput output =
+      question_named("report").answer({.scene = rigid, .text = rigid.text, .file = rigid.file, .settings = {}}, {});
+  const std::vector<std::string> lines = open(output);
+  EXPECT_TRUE(says(lines, "What kurbel modes would tell: "));
+  EXPECT_TRUE(says(lines, "range of operating speeds"));
+  EXPECT_TRUE(says(lines, "the scene names none ([[case]])"));
+  EXPECT_THROW(asked.answer("report", {{"sections", "margin"}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kurbel::train_report_test
