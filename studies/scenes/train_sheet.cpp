@@ -367,7 +367,14 @@ class Sheet {
     names.push_back(name);
     if (!joint.rigid) {
       tables_ += fmt::format("\n[{}]\nkind = \"shaft\"\n", name);
-      for (const auto& [key, value] : joint.keys) tables_ += fmt::format("{} = \"{}\"\n", key, value);
+      const bool stiff =
+          std::any_of(joint.keys.begin(), joint.keys.end(), [](const auto& k) { return k.first == "stiffness"; });
+      for (const auto& [key, value] : joint.keys)
+        if (stiff && (key == "diameter" || key == "bore"))
+          tables_ +=
+              fmt::format("# {} = \"{}\"  # for stresses: with a limit, e.g. allowable_shear_stress\n", key, value);
+        else
+          tables_ += fmt::format("{} = \"{}\"\n", key, value);
       return;
     }
     const auto [driving, driven] = teeth_of(b.ratio / a.ratio);

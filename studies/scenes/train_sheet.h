@@ -10,7 +10,7 @@
 // rows of inertia and rows of shafts apart: lists of discs and shafts, and branches. Values are those of each station's own
 // shaft; of columns named "referred inertia" and "referred stiffness" they are reduced to the one whose ratio is 1. In place
 // of the ratio a column `speed` may stand, in place of the inertia "GD2" (4 J) or "WR2". Further columns: bore, damping;
-// remarks are passed over.
+// remarks are passed over. A diameter beside a stiffness is kept as a remark: it counts for stresses, once a limit is given.
 #pragma once
 
 #include <string>
