@@ -64,11 +64,26 @@ void combine(std::size_t size, const double* base, const Combination& c, const S
   combine_of[c.size() - 1](size, base, c, slopes, h, out);
 }
 
-double sum_of(const Combination& combination, const Slopes& slopes, std::size_t i) {
-  double sum = 0;
-  for (const Term& term : combination) sum += term.weight * slopes[term.stage][i];
-  return sum;
+// out = h Σ combination. Term by term over all states, so that neighbours are computed together.
+void sum_up(std::size_t size, const Combination& combination, const Slopes& slopes, double h, double* __restrict out) {
+  std::fill(out, out + size, 0.0);
+  for (const Term& term : combination) {
+    const double* const slope = slopes[term.stage];
+    for (std::size_t i = 0; i < size; ++i) out[i] += term.weight * slope[i];
+  }
+  for (std::size_t i = 0; i < size; ++i) out[i] *= h;
 }
+
+// Hermite's cubic through both ends of a step of length h, at the part x of it, and what bends it further.
+struct DensePlace {
+  double h, x, u;  // u = 1 − x
+
+  double weight(std::size_t d) const { return d % 2 == 0 ? x : u; }
+  double value(double y0, double y1, double f0, double f1, double tail) const {
+    const double rise = y1 - y0;
+    return y0 + x * (rise + u * (h * f0 - rise + x * (2 * rise - h * (f0 + f1) + u * tail)));
+  }
+};
 
 struct ErrorNorm {
   double value;
@@ -329,9 +344,7 @@ void ExplicitRungeKutta::prepare_dense_output() {
     combine(size_, y_previous_, table_.row[i], slope_, h, stage_y_);
     evaluate(t_previous_ + table_.node[i] * h, stage_y_, i);
   }
-  for (std::size_t d = 0; d < table_.dense.size(); ++d) {
-    for (std::size_t i = 0; i < size_; ++i) dense_[d][i] = h * sum_of(table_.dense[d], slope_, i);
-  }
+  for (std::size_t d = 0; d < table_.dense.size(); ++d) sum_up(size_, table_.dense[d], slope_, h, dense_[d]);
 }
 
 void ExplicitRungeKutta::interpolate(double t, std::span<double> y) {
@@ -339,23 +352,28 @@ void ExplicitRungeKutta::interpolate(double t, std::span<double> y) {
   if (t <= t_previous_) return void(std::copy(y_previous_, y_previous_ + size_, y.begin()));
   prepare_dense_output();
 
-  const double x = (t - t_previous_) / (t_ - t_previous_);
-  for (std::size_t i = 0; i < size_; ++i) y[i] = dense_value(x, i);
+  const double h = t_ - t_previous_, x = (t - t_previous_) / h;
+  const DensePlace place{h, x, 1 - x};
+  double* const __restrict out = y.data();  // holds the tails first
+  std::fill(out, out + size_, 0.0);
+  for (std::size_t d = table_.dense.size(); d-- > 0;) {
+    const double* const dense = dense_[d];
+    const double weight = place.weight(d);
+    for (std::size_t i = 0; i < size_; ++i) out[i] = dense[i] + weight * out[i];
+  }
+  const double *const y0 = y_previous_, *const y1 = y_, *const f0 = slope_[0], *const f1 = slope_[table_.stages];
+  for (std::size_t i = 0; i < size_; ++i) out[i] = place.value(y0[i], y1[i], f0[i], f1[i], out[i]);
 }
 
 double ExplicitRungeKutta::interpolate(double t, std::size_t state) {
   if (t >= t_) return y_[state];
   if (t <= t_previous_) return y_previous_[state];
   prepare_dense_output();
-  return dense_value((t - t_previous_) / (t_ - t_previous_), state);
-}
-
-double ExplicitRungeKutta::dense_value(double x, std::size_t i) const {
-  const double h = t_ - t_previous_, u = 1 - x, f0 = slope_[0][i], f1 = slope_[table_.stages][i];
+  const double h = t_ - t_previous_, x = (t - t_previous_) / h;
+  const DensePlace place{h, x, 1 - x};
   double tail = 0;
-  for (std::size_t d = table_.dense.size(); d-- > 0;) tail = dense_[d][i] + (d % 2 == 0 ? x : u) * tail;
-  const double rise = y_[i] - y_previous_[i];
-  return y_previous_[i] + x * (rise + u * (h * f0 - rise + x * (2 * rise - h * (f0 + f1) + u * tail)));
+  for (std::size_t d = table_.dense.size(); d-- > 0;) tail = dense_[d][state] + place.weight(d) * tail;
+  return place.value(y_previous_[state], y_[state], slope_[0][state], slope_[table_.stages][state], tail);
 }
 
 // A step of no length at t_: what start() leaves behind.

@@ -46,7 +46,6 @@ class ExplicitRungeKutta final : public Stepper {
   void adapt(double error, const Aim& done, bool after_rejection);
   void watch_stability(double h);
   void prepare_dense_output();
-  double dense_value(double x, std::size_t state) const;  // at the part x of the step
   void stand_still();
   [[noreturn]] void fail(double h, double error) const;
 
