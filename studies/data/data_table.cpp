@@ -6,17 +6,18 @@
 #include <charconv>
 #include <iterator>
 
+#include "studies/data/number_text.h"
+
 namespace kurbel {
 namespace {
 
-template <class Out>
-void put_number(Out out, double value, const NumberFormat& format) {
+void put_number(std::string& text, double value, const NumberFormat& format) {
   if (format.after_point)
-    fmt::format_to(out, "{:.{}f}", value, format.digits);
+    fmt::format_to(std::back_inserter(text), "{:.{}f}", value, format.digits);
   else if (format.digits > 0)
-    fmt::format_to(out, "{:.{}g}", value, format.digits);
+    append_digits(text, value, format.digits);
   else
-    fmt::format_to(out, "{}", value);
+    fmt::format_to(std::back_inserter(text), "{}", value);
 }
 
 // Words with a comma, a quotation mark or a line end stand in quotation marks, those within doubled (RFC 4180).
@@ -31,7 +32,7 @@ void put_cell(std::string& text, const DataCell& cell, const NumberFormat& forma
   if (const std::string* words = std::get_if<std::string>(&cell))
     put_words(text, *words);
   else if (const double number = std::get<double>(cell); !std::isnan(number))
-    put_number(std::back_inserter(text), number, format);
+    put_number(text, number, format);
 }
 
 }  // namespace
@@ -42,8 +43,8 @@ std::string heading_of(const std::string& name, const std::optional<std::string>
 
 double as_written(double value, const NumberFormat& format) {
   if (!std::isfinite(value) || (format.digits == 0 && !format.after_point)) return value;
-  fmt::memory_buffer digits;
-  put_number(std::back_inserter(digits), value, format);
+  std::string digits;
+  put_number(digits, value, format);
   std::from_chars(digits.data(), digits.data() + digits.size(), value);
   return value;
 }

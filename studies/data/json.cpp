@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "engine/scene/printable.h"
+#include "studies/data/number_text.h"
 #include "studies/data/value.h"
 
 namespace kurbel {
@@ -43,7 +44,7 @@ class JsonWriter {
   }
   void put(const Rounded& v) {
     if (!std::isfinite(v.number)) return put(std::monostate());
-    fmt::format_to(std::back_inserter(text), "{:.{}g}", v.number + 0.0, v.digits);
+    append_digits(text, v.number + 0.0, v.digits);
   }
   void put(const RoundedList& v) {
     items(v.numbers, "[]", [&](double number) { put(Rounded{number, v.digits}); });
