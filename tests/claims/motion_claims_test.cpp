@@ -106,6 +106,21 @@ TEST(Brakes, ThatComeOnInTimeAndAreTooWeakAreSaid) {
   EXPECT_TRUE(said(r).starts_with("\"brake\" does not stop it: it slips at 20 rad/s after 9 s")) << said(r);
 }
 
+// A crank whose speed rises and falls in every cycle runs on with its brake on: it slows down within the cycle alone.
+TEST(Brakes, AreTooWeakForWhatRunsSteadilyWithThem) {
+  const Result r = test::run(R"(
+    line = ["motor", "crank"]
+    motor = { kind = "dc shunt motor", stall_torque = "200 N*m", no_load_speed = "100 rad/s", inertia = "0.1 kg*m2" }
+    crank = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "0.05 kg*m2", slider_mass = "20 kg" }
+    brake = { kind = "brake", on = "motor", torque = "10 N*m", start = "1 s" }
+    run = { start = { speed = "90 rad/s" }, until = "4.02 s" }
+  )",
+                             false);
+  ASSERT_TRUE(r.periods.steady);
+  EXPECT_TRUE(find(r.claims, Predicate::brake_does_not_stop, "brake")) << said(r);
+  EXPECT_FALSE(find(r.claims, Predicate::brake_has_not_stopped, "brake")) << said(r);
+}
+
 // 50 N·m wind a spring up against a bearing that holds 80 N·m: the motor's own shaft is held by nothing, and stands.
 TEST(Stalls, AreSaidOfAMotorThatStandsBehindASpring) {
   const Result r = test::run(R"(
