@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "engine/model/model.h"
+#include "engine/reading/read_document.h"
 #include "engine/reading/scene_reading.h"
 #include "engine/reading/sequence_reader.h"
 #include "engine/scene/units.h"
@@ -81,9 +83,9 @@ void try_components(SceneReading& r) {
   }
 }
 
-Scene parse(const std::string& text, const std::string& file, const std::vector<Kind>& kinds, DataFiles allowed,
-            bool with_cases) {
-  SceneReading r{.kinds = kinds, .messages = Messages(file), .allowed = allowed, .document = parse_toml(text, file)};
+Scene parse(DocumentValue document, const std::string& text, const std::string& file, const std::vector<Kind>& kinds,
+            DataFiles allowed, bool with_cases) {
+  SceneReading r{.kinds = kinds, .messages = Messages(file), .allowed = allowed, .document = std::move(document)};
   r.scene.file = file;
   r.scene.text = text;
   prepare_document(r);
@@ -108,13 +110,19 @@ Scene parse(const std::string& text, const std::string& file, const std::vector<
 
 }  // namespace
 
+Scene scene_from(DocumentValue document, const std::string& text, const std::string& file,
+                 const std::vector<Kind>& kinds, DataFiles allowed) {
+  return parse(std::move(document), text, file, kinds, allowed, false);
+}
+
 Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds, DataFiles allowed) {
-  return parse(text, file, kinds, allowed, true);
+  return parse(parse_toml(text, file), text, file, kinds, allowed, true);
 }
 
 Scene parse_scene(const SettledText& settled, const std::vector<Kind>& kinds, DataFiles allowed, bool with_cases) {
   try {
-    Scene scene = parse(settled.text(), settled.file(), kinds, allowed, with_cases);
+    Scene scene =
+        parse(parse_toml(settled.text(), settled.file()), settled.text(), settled.file(), kinds, allowed, with_cases);
     scene.settings = settled.settings();
     return scene;
   } catch (const SceneError& error) {

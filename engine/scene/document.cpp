@@ -4,8 +4,11 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <toml++/toml.h>
 #include <unistd.h>
+
+#ifndef KURBEL_FMI_RUNTIME
+#include <toml++/toml.h>
+#endif
 
 #include <algorithm>
 #include <cerrno>
@@ -14,6 +17,7 @@
 #include "engine/scene/text.h"
 
 namespace kurbel {
+#ifndef KURBEL_FMI_RUNTIME  // what runs an exported component has its scene as a document already
 namespace {
 
 Location location(const toml::source_position& place) {
@@ -55,6 +59,7 @@ DocumentValue convert(const toml::node& node) {
 }
 
 }  // namespace
+#endif
 
 const DocumentEntry* DocumentValue::find(std::string_view key) const {
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const DocumentEntry& e) { return e.key == key; });
@@ -146,6 +151,7 @@ bool lies_below(const std::filesystem::path& folder, const std::filesystem::path
   return std::mismatch(own.begin(), own.end(), real.begin(), real.end()).first == own.end();
 }
 
+#ifndef KURBEL_FMI_RUNTIME
 namespace {
 
 // toml++ nests a table for every dot of a key, without limit, and meets characters outside of texts unprepared. Both
@@ -254,5 +260,6 @@ DocumentValue parse_toml(const std::string& text, const std::string& file) {
                                                    static_cast<int>(error.source().begin.column)))}});
   }
 }
+#endif
 
 }  // namespace kurbel

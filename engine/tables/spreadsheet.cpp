@@ -155,10 +155,4 @@ std::string sheet_as_text(const std::string& bytes, const std::string& sheet, co
   return Workbook(bytes, path, limit).text(sheet);
 }
 
-std::string cell_name(int row, int column) {
-  std::string name;
-  for (; column > 0; column = (column - 1) / 26) name.insert(name.begin(), static_cast<char>('A' + (column - 1) % 26));
-  return name + std::to_string(row);
-}
-
 }  // namespace kurbel

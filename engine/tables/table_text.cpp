@@ -97,4 +97,10 @@ TableText read_table_text(const std::string& path, const std::string& sheet) {
   return {std::move(text)};
 }
 
+std::string cell_name(int row, int column) {
+  std::string name;
+  for (; column > 0; column = (column - 1) / 26) name.insert(name.begin(), static_cast<char>('A' + (column - 1) % 26));
+  return name + std::to_string(row);
+}
+
 }  // namespace kurbel

@@ -27,6 +27,13 @@
 
 namespace kurbel {
 
+// What runs an exported component (library/fmi) holds no Simbody: tables come with the component's data.
+#ifdef KURBEL_FMI_RUNTIME
+inline constexpr bool has_bodies = false;
+#else
+inline constexpr bool has_bodies = true;
+#endif
+
 class MechanismData {
  public:
   template <class D>
@@ -40,7 +47,7 @@ class MechanismData {
   }
   std::type_index kind() const { return held_->kind(); }
   std::vector<double> values() const { return held_->values(); }
-  std::unique_ptr<MechanismBodies> make_bodies() const { return held_->bodies(); }
+  std::unique_ptr<MechanismBodies> make_bodies() const { return held_->bodies(); }  // null without Simbody
   ClosedForm closed_form(long double phi) const { return held_->closed(phi); }
   PlanarLinkage linkage(long double phi) const { return held_->linkage(phi); }
   LinkageDrawing drawing() const { return held_->drawing(); }
@@ -72,7 +79,12 @@ class MechanismData {
     explicit Of(D given) : data(std::move(given)) {}
     std::type_index kind() const override { return typeid(D); }
     std::vector<double> values() const override { return values_of(data); }
-    std::unique_ptr<MechanismBodies> bodies() const override { return kurbel::make_bodies(data); }
+    std::unique_ptr<MechanismBodies> bodies() const override {
+      if constexpr (has_bodies)
+        return kurbel::make_bodies(data);
+      else
+        return nullptr;
+    }
     ClosedForm closed(long double phi) const override { return kurbel::closed_form(data, phi); }
     PlanarLinkage linkage(long double phi) const override { return linkage_of(data, phi); }
     LinkageDrawing drawing() const override { return drawing_of(data); }

@@ -238,6 +238,36 @@ PeriodicTable PeriodicTable::build(const Sampler& sampler, std::vector<ChannelSp
   return TableBuilder(sampler, std::move(channels), tolerance, max_pieces, cut).run();
 }
 
+// Cells per radian, the first cell, how many cells there are; each cell's place among the pieces; the pieces.
+std::vector<double> PeriodicTable::numbers() const {
+  std::vector<double> all = {cells_per_radian_, first_cell_, static_cast<double>(grid_.size())};
+  all.insert(all.end(), grid_.begin(), grid_.end());
+  all.insert(all.end(), pieces_.begin(), pieces_.end());
+  return all;
+}
+
+PeriodicTable PeriodicTable::from_numbers(std::span<const double> numbers, std::size_t channels) {
+  const auto refuse = [] { throw std::invalid_argument("the numbers are those of no table"); };
+  const std::size_t stride = header + channels * (degree + 1);
+  if (numbers.size() < 3 || !(numbers[2] >= 2 && numbers[2] < static_cast<double>(numbers.size() - 2))) refuse();
+  PeriodicTable table;
+  table.cells_per_radian_ = numbers[0];
+  table.first_cell_ = numbers[1];
+  const auto cells = static_cast<std::size_t>(numbers[2]);
+  table.pieces_.assign(numbers.begin() + 3 + static_cast<std::ptrdiff_t>(cells), numbers.end());
+  if (table.pieces_.empty() || table.pieces_.size() % stride != 0) refuse();
+  const double last = table.first_cell_ + period * table.cells_per_radian_;
+  if (!(table.cells_per_radian_ > 0 && table.first_cell_ >= 0 && last < static_cast<double>(cells) + 1e-6)) refuse();
+  for (const double place : numbers.subspan(3, cells)) {
+    if (!(place >= 0 && place < static_cast<double>(table.pieces_.size())) || std::fmod(place, stride) != 0) refuse();
+    table.grid_.push_back(static_cast<std::uint32_t>(place));
+  }
+  table.report_.pieces = table.pieces_.size() / stride;
+  table.report_.converged = true;
+  table.report_.channels.resize(channels);
+  return table;
+}
+
 double PeriodicTable::mean(std::size_t channel) const {
   const std::size_t stride = header + report_.channels.size() * (degree + 1);
   long double sum = 0;

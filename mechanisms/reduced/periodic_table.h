@@ -100,6 +100,11 @@ class PeriodicTable {
 
   const TableReport& report() const { return report_; }
 
+  // All that it is but its report, to be kept; from these numbers it is the same to the last bit. Throws
+  // std::invalid_argument for numbers that are no table of so many channels.
+  std::vector<double> numbers() const;
+  static PeriodicTable from_numbers(std::span<const double> numbers, std::size_t channels);
+
  private:
   friend class TableBuilder;
   static constexpr std::size_t header = 2;  // middle [rad] and 1/half-width [1/rad] precede a piece's coefficients

@@ -145,11 +145,22 @@ class TableCache {
   std::uint64_t asked_ = 0;
 };
 
+// The page of a book that this is on; null: none.
+const TableBook::Page* page_of(const TableBook& book, const CacheKey& key) {
+  for (const TableBook::Page& page : book.pages)
+    if (page.kind == key.first.name() && page.of == key.second) return &page;
+  return nullptr;
+}
+thread_local TableBook* open_book = nullptr;
+
 std::atomic<bool> rough_tables{false};
 constexpr double rough_tolerance = 1e-3;
 constexpr std::size_t rough_pieces = 16;
 
 }  // namespace
+
+TableBook::Open::Open(TableBook& book) : before_(std::exchange(open_book, &book)) {}
+TableBook::Open::~Open() { open_book = before_; }
 
 void take_rough_tables(bool rough) { rough_tables = rough; }
 
@@ -170,6 +181,13 @@ ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)
           rocks_ ? arc_specs(sampler(cycle_.arc()->middle), *cycle_.arc(), noise.reach) : channel_specs(noise),
           tolerance, max_pieces, cut)) {}
 
+ReducedMechanism::ReducedMechanism(PeriodicTable table, CrankCycle cycle)
+    : cycle_(std::move(cycle)),
+      rocks_(cycle_.arc().has_value()),
+      part_(1.0 / cycle_.turns()),
+      winding_(cycle_.winding()),
+      table_(std::move(table)) {}
+
 double ReducedMechanism::on_arc(double phi) const {
   const CrankArc& arc = *cycle_.arc();
   return std::acos(std::clamp((arc.near(phi) - arc.middle) / arc.reach(), -1.0, 1.0));
@@ -178,7 +196,7 @@ double ReducedMechanism::on_arc(double phi) const {
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
                                    Extraction extraction) {
   const std::unique_ptr<MechanismBodies> bodies = data.make_bodies();  // finds the data's faults in either case
-  const bool first = extraction == Extraction::first;
+  const bool first = extraction == Extraction::first && has_bodies;
   const auto sampler = [&](double phi) { return first ? bodies->sample(phi) : closed_sample(data, phi); };
   CrankCycle cycle(data);
   const auto noise = noise_scales(sampler, cycle, !data.rocks());
@@ -192,10 +210,16 @@ std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& da
   const CacheKey key = cache_key(data, tolerance, max_pieces, extraction);
   for (const double value : key.second)
     if (std::isnan(value)) throw std::invalid_argument("reduce_mechanism: a value is no number");  // nor a key
+  if (open_book)
+    if (const TableBook::Page* page = page_of(*open_book, key))
+      return std::make_shared<const ReducedMechanism>(
+          PeriodicTable::from_numbers(page->numbers, ReducedMechanism::channel_count), CrankCycle(data));
   static TableCache cache;
-  return cache.get(key, [&] {
+  auto made = cache.get(key, [&] {
     return std::make_shared<const ReducedMechanism>(extract_mechanism(data, tolerance, max_pieces, extraction));
   });
+  if (open_book) open_book->pages.push_back({key.first.name(), key.second, made->numbers()});
+  return made;
 }
 
 }  // namespace kurbel

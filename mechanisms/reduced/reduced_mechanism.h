@@ -71,6 +71,10 @@ class ReducedMechanism {
   ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise, double tolerance,
                    std::size_t max_pieces, const PeriodicTable::Cut& cut = {}, CrankCycle cycle = {});
 
+  // Of a table that was made of it once.
+  ReducedMechanism(PeriodicTable table, CrankCycle cycle);
+  std::vector<double> numbers() const { return table_.numbers(); }
+
   At at(double phi) const { return rocks_ ? At(table_, 1, 0, on_arc(phi)) : At(table_, part_, winding_, phi); }
   const CrankCycle& cycle() const { return cycle_; }
   ValueAndSlope<double> inertia(double phi) const { return at(phi).inertia(); }
@@ -111,6 +115,28 @@ inline constexpr double second_tolerance = 0.04;  // of the first's
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance = table_tolerance,
                                                          std::size_t max_pieces = table_max_pieces,
                                                          Extraction extraction = Extraction::first);
+
+// Tables as they were extracted, each beside what it is of: with them a machine is the same where no Simbody is.
+struct TableBook {
+  struct Page {
+    std::string kind;             // of the mechanism's data, by the compiler
+    std::vector<double> of;       // all that a table depends on
+    std::vector<double> numbers;  // PeriodicTable::numbers()
+  };
+  std::vector<Page> pages;
+
+  // While it stands this thread takes its tables from the book; those that are not in it are entered.
+  class Open {
+   public:
+    explicit Open(TableBook& book);
+    ~Open();
+    Open(const Open&) = delete;
+    Open& operator=(const Open&) = delete;
+
+   private:
+    TableBook* before_;
+  };
+};
 
 // For programs that compile scenes by the thousand and run none of them: tables of a few pieces of the closed forms in
 // place of all that are asked for, until told otherwise. For the whole process.
