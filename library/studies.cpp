@@ -68,7 +68,8 @@ std::string Study::unconfirmed() const { return parts_->output.unconfirmed; }
 std::vector<std::pair<std::string, std::string>> Study::tables() const {
   std::vector<std::pair<std::string, std::string>> all;
   for (const auto& [name, table] : parts_->output.tables) all.emplace_back(name + ".csv", csv_text(table()));
-  all.insert(all.end(), parts_->output.files.begin(), parts_->output.files.end());
+  for (const auto& file : parts_->output.files)
+    if (!file.first.ends_with(".fmu")) all.push_back(file);  // no text: write() alone has it
   return all;
 }
 

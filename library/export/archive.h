@@ -1,0 +1,13 @@
+// archive.h — files as one zip archive, the same bytes for the same files.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace kurbel {
+
+// Throws std::runtime_error where the archive cannot be made.
+std::string zip_of(const std::vector<std::pair<std::string, std::string>>& files);
+
+}  // namespace kurbel

@@ -1,0 +1,37 @@
+// export_machine.h — a scene as a component of FMI 2.0 or 3.0: checked, described, packed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/run/run.h"
+#include "library/fmi/exported_machine.h"
+#include "library/fmi/variables.h"
+
+namespace kurbel {
+
+enum class ExportKind { both, co_simulation, model_exchange };
+
+struct ExportAsked {
+  int fmi = 3;
+  ExportKind kind = ExportKind::both;
+  std::vector<std::string> inputs, parameters, outputs;
+  std::string effects, name;
+};
+
+// A component before it is packed.
+struct ExportedComponent {
+  ExportedMachine machine;
+  double until = 0, accuracy = 0;  // of the scene's run [s]
+  ExportedView view;
+  ExportedDependencies dependencies;
+};
+
+// Throws SceneError where the scene makes no machine, std::invalid_argument for what cannot be exported, with the reason.
+ExportedComponent component_of(const Scene& scene, const ExportAsked& asked);
+
+// The archive. `fmi` 2 or 3.
+std::string packed(const ExportedComponent& component, int fmi, const std::string& scene_folder);
+
+}  // namespace kurbel

@@ -1,0 +1,13 @@
+// model_description.h — what an importer reads of a component: modelDescription.xml of FMI 2.0 and 3.0.
+#pragma once
+
+#include <string>
+
+#include "library/export/export_machine.h"
+
+namespace kurbel {
+
+// Throws std::invalid_argument for a unit that neither version can describe.
+std::string model_description(const ExportedComponent& component, int fmi);
+
+}  // namespace kurbel

@@ -1,0 +1,135 @@
+// component.h — what stands behind a handle of the interface, in either version: an instance, where it is in its life, and
+// who is told what goes wrong.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "library/fmi/instance.h"
+
+namespace kurbel::fmi {
+
+// As both versions number them.
+enum class Status { ok, warning, discard, error, fatal };
+
+// Where an instance is in its life; a set of them says when a function may be called.
+enum Phase : unsigned {
+  instantiated = 1,
+  initialisation = 2,
+  event_mode = 4,
+  continuous_time = 8,
+  step_mode = 16,
+  terminated = 32,
+  failed = 64,
+  within_step = 128,  // while the importer looks on
+  configuration = 256,
+  set_up = instantiated | initialisation,
+  running = event_mode | continuous_time | step_mode,
+  anywhere = 511
+};
+inline const char* name_of(unsigned phase) {
+  switch (phase) {
+    case instantiated:
+      return "the instance has just been made";
+    case initialisation:
+      return "initialisation";
+    case event_mode:
+      return "event mode";
+    case continuous_time:
+      return "continuous-time mode";
+    case step_mode:
+      return "step mode";
+    case terminated:
+      return "the simulation has been ended";
+    case failed:
+      return "the instance has failed";
+    case within_step:
+      return "a step is on its way";
+    default:
+      return "configuration";
+  }
+}
+
+struct Component {
+  std::string name;
+  bool co_simulation = false;
+  unsigned phase = instantiated;
+  bool logging = false;
+  std::unique_ptr<Instance> instance;
+  std::function<void(Status, const char* category, const std::string&)> tell;
+  std::function<bool(double t)> look;  // at the end of a step of the integrator; false: the importer has seen enough
+  double last_time = 0;                // that a step of the importer's ended at
+
+  // Errors always; all else where logging is on. With the time.
+  void log(Status status, const char* category, const std::string& text) const {
+    if (!tell || (!logging && status < Status::error)) return;
+    tell(status, category, instance ? fmt::format("t = {:.9g} s: {}", instance->time(), text) : text);
+  }
+  void log_events() const {
+    for (const Event& event : instance->take_events())
+      log(Status::ok, "logEvents", fmt::format("at {:.12g} s {}: {}", event.t, event.component, event.what));
+  }
+};
+
+// Does what a function of the interface does; whatever is wrong is logged, and nothing is thrown. A fault of the call
+// leaves the instance as it was; one of the machine ends its life.
+template <class Do>
+Status guarded(Component* c, const char* function, unsigned allowed, const Do& act) {
+  if (!c) return Status::error;
+  if (!(c->phase & allowed)) {
+    c->log(Status::error, "logStatusError", fmt::format("{} cannot be called now: {}", function, name_of(c->phase)));
+    return Status::error;
+  }
+  try {
+    return act();
+  } catch (const std::invalid_argument& fault) {
+    c->log(Status::error, "logStatusError", fmt::format("{}: {}", function, fault.what()));
+    return Status::error;
+  } catch (const std::exception& fault) {
+    c->phase = failed;
+    c->log(Status::error, "logStatusError", fmt::format("{}: {}", function, fault.what()));
+    return Status::error;
+  } catch (...) {
+    c->phase = failed;
+    return Status::error;
+  }
+}
+
+inline Status refused(Component* c, const char* function, const char* why) {
+  if (c) c->log(Status::error, "logStatusError", fmt::format("{}: {}", function, why));
+  return Status::error;
+}
+
+// The component of this folder of resources. Null, with a message, where it cannot be made.
+inline Component* made(std::unique_ptr<Component> c, const char* token, std::string folder, bool co_simulation) {
+  try {
+    while (folder.ends_with("/")) folder.pop_back();
+    std::ifstream file(folder + "/machine.json", std::ios::binary);
+    if (!file) throw std::runtime_error(fmt::format("\"{}/machine.json\" cannot be read", folder));
+    std::ostringstream text;
+    text << file.rdbuf();
+    ExportedMachine machine = ExportedMachine::from_text(text.str());
+    if (!token || machine.token != token)
+      throw std::invalid_argument(
+          fmt::format("the token {} is not that of this component, {}", token ? token : "(none)", machine.token));
+    if (co_simulation ? !machine.co_simulation : !machine.model_exchange)
+      throw std::invalid_argument(
+          fmt::format("this component was exported without {}", co_simulation ? "co-simulation" : "model exchange"));
+    c->co_simulation = co_simulation;
+    c->instance = std::make_unique<Instance>(std::move(machine), folder);
+    return c.release();
+  } catch (const std::exception& fault) {
+    c->log(Status::error, "logStatusError", fault.what());
+    return nullptr;
+  }
+}
+
+}  // namespace kurbel::fmi

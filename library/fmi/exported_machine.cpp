@@ -1,0 +1,132 @@
+// exported_machine.cpp — an exported machine as JSON, and back.
+#include "library/fmi/exported_machine.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace kurbel {
+
+using Json = nlohmann::json;
+
+// Limits that there are none of have no number in JSON.
+static void to_json(Json& json, const ExportedInput& input) {
+  json = {{"command", input.what == ExportedInput::What::command},
+          {"of", input.of},
+          {"name", input.name},
+          {"start", input.start},
+          {"whole", input.whole}};
+  if (input.low > -std::numeric_limits<double>::infinity()) json["low"] = input.low;
+  if (input.high < std::numeric_limits<double>::infinity()) json["high"] = input.high;
+}
+static void from_json(const Json& json, ExportedInput& input) {
+  input.what = json.at("command").get<bool>() ? ExportedInput::What::command : ExportedInput::What::torque;
+  json.at("of").get_to(input.of);
+  json.at("name").get_to(input.name);
+  json.at("start").get_to(input.start);
+  json.at("whole").get_to(input.whole);
+  input.low = json.value("low", input.low);
+  input.high = json.value("high", input.high);
+}
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExportedParameter, path, unit, doc, start, tunable)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TableBook::Page, kind, of, numbers)
+
+namespace {
+
+// [line, column, end's line, end's column, type, value]
+Json json_of(const DocumentValue& value) {
+  using Type = DocumentValue::Type;
+  Json held;
+  if (value.type == Type::flag) held = value.flag;
+  if (value.type == Type::integer) held = value.integer;
+  if (value.type == Type::number) held = value.number;
+  if (value.type == Type::text) held = value.text;
+  if (value.type == Type::list) {
+    held = Json::array();
+    for (const DocumentValue& item : value.items) held.push_back(json_of(item));
+  }
+  if (value.type == Type::table) {
+    held = Json::array();
+    for (const DocumentEntry& entry : value.entries)
+      held.push_back({entry.key, entry.at.line, entry.at.column, json_of(entry.value)});
+  }
+  return {value.at.line, value.at.column, value.end.line, value.end.column, static_cast<int>(value.type), held};
+}
+
+DocumentValue document_of(const Json& json) {
+  using Type = DocumentValue::Type;
+  DocumentValue value;
+  value.at = {json.at(0).get<int>(), json.at(1).get<int>()};
+  value.end = {json.at(2).get<int>(), json.at(3).get<int>()};
+  const int type = json.at(4).get<int>();
+  if (type < 0 || type > static_cast<int>(Type::other)) throw std::invalid_argument("a value of no type");
+  value.type = static_cast<Type>(type);
+  const Json& held = json.at(5);
+  if (value.type == Type::flag) held.get_to(value.flag);
+  if (value.type == Type::integer) value.number = static_cast<double>(held.get_to(value.integer));
+  if (value.type == Type::number) held.get_to(value.number);
+  if (value.type == Type::text) held.get_to(value.text);
+  if (value.type == Type::list)
+    for (const Json& item : held) value.items.push_back(document_of(item));
+  if (value.type == Type::table)
+    for (const Json& entry : held)
+      value.entries.push_back(
+          {entry.at(0).get<std::string>(), {entry.at(1).get<int>(), entry.at(2).get<int>()}, document_of(entry.at(3))});
+  return value;
+}
+
+const char* const kind = "kurbel exported machine 1";
+
+}  // namespace
+
+std::string ExportedInput::target() const {
+  if (what == What::command) return of;
+  std::string name = "torque on " + of;
+  std::replace(name.begin(), name.end(), '.', ' ');  // behind a point stands a part of a component
+  return name;
+}
+
+std::string ExportedMachine::text() const {
+  const Json json{{"kind", kind},
+                  {"name", name},
+                  {"title", title},
+                  {"token", token},
+                  {"version", version},
+                  {"file", file},
+                  {"effects", effects},
+                  {"model_exchange", model_exchange},
+                  {"co_simulation", co_simulation},
+                  {"inputs", inputs},
+                  {"parameters", parameters},
+                  {"outputs", outputs},
+                  {"peaks", peaks},
+                  {"document", json_of(document)},
+                  {"tables", tables.pages}};
+  return json.dump() + "\n";
+}
+
+ExportedMachine ExportedMachine::from_text(const std::string& text) {
+  ExportedMachine m;
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("kind") != kind) throw std::invalid_argument("is no exported machine that this run-time can read");
+    for (const auto& [key, member] :
+         {std::pair("name", &m.name), std::pair("title", &m.title), std::pair("token", &m.token),
+          std::pair("version", &m.version), std::pair("file", &m.file), std::pair("effects", &m.effects)})
+      json.at(key).get_to(*member);
+    json.at("model_exchange").get_to(m.model_exchange);
+    json.at("co_simulation").get_to(m.co_simulation);
+    json.at("inputs").get_to(m.inputs);
+    json.at("parameters").get_to(m.parameters);
+    json.at("outputs").get_to(m.outputs);
+    json.at("peaks").get_to(m.peaks);
+    m.document = document_of(json.at("document"));
+    json.at("tables").get_to(m.tables.pages);
+  } catch (const Json::exception& error) {
+    throw std::invalid_argument(std::string("cannot be read as an exported machine: ") + error.what());
+  }
+  return m;
+}
+
+}  // namespace kurbel

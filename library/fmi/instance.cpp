@@ -1,0 +1,430 @@
+// instance.cpp — an exported machine between its importer's calls is a checkpoint; every way is a run from there.
+#include "library/fmi/instance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/run/checkpoint.h"
+#include "library/fmi/ports.h"
+
+namespace kurbel {
+namespace {
+
+// Of the scene's accuracy: local errors grow on the way.
+constexpr double tolerance_of_accuracy = 1e-3;
+// Indicators pass zero just below where guards do: what stands at its root is not one that has fired.
+constexpr double below_root = 2e-11, fired_below = -1e-11;
+constexpr int most_events = 100, events_of_a_jam = 20, events_without_rest = 60;
+
+// Passes steps of the integrator on.
+class Onlooker final : public Observer {
+ public:
+  explicit Onlooker(std::function<void(StepView&)> look) : look_(std::move(look)) {}
+  void step(StepView& view) override { look_(view); }
+
+ private:
+  std::function<void(StepView&)> look_;
+};
+
+}  // namespace
+
+Instance::Instance(ExportedMachine machine, std::string folder)
+    : machine_(std::move(machine)), folder_(std::move(folder)) {
+  reset();
+}
+
+void Instance::set_up(double begin, std::optional<double> tolerance) {
+  s_.begin = begin;
+  tolerance_ = tolerance;
+  s_.stale = true;
+}
+
+void Instance::reset() {
+  s_ = {};
+  for (const ExportedParameter& parameter : machine_.parameters) s_.parameters.push_back(parameter.start);
+  for (const ExportedInput& input : machine_.inputs) s_.inputs.push_back(input.start);
+  s_.slopes.assign(s_.inputs.size(), 0);
+  tolerance_.reset();
+  moment_.reset();
+  events_.clear();
+  compile();
+}
+
+void Instance::compile() {
+  const Scene scene = scene_of(machine_, folder_, s_.parameters);
+  auto equations = std::make_unique<Equations>(model_of(machine_, scene, s_.inputs), false);
+  auto view = std::make_unique<ExportedView>(machine_, *equations);
+  commands_ = commands_of(machine_, equations->model());
+  equations_ = std::move(equations), view_ = std::move(view);
+  compiled_ = s_.parameters;
+}
+
+void Instance::start() {
+  compile();
+  s_.here = {};
+  s_.here.state.t = s_.begin;
+  s_.here.state.y = equations_->start(s_.begin);
+  s_.here.state.modes = equations_->modes();
+  s_.applied = s_.inputs;
+  s_.peaks.clear();
+  s_.stale = false;
+}
+
+Equations& Instance::made() {
+  if (s_.stale) start();
+  return *equations_;
+}
+
+void Instance::begin() {
+  made();
+  s_.started = true;
+}
+
+// A machine with other parameters goes on in the same state.
+void Instance::follow_parameters() {
+  if (compiled_ == s_.parameters) return;
+  const std::string text = text_of(s_.here, *equations_);
+  compile();
+  try {
+    checkpoint_from(text, *equations_);
+  } catch (const UnfitCheckpoint& error) {
+    throw std::runtime_error(fmt::format("with these parameters the machine {}", error.what()));
+  }
+  equations_->bind(s_.here.state.modes);
+}
+
+const ExportedVariable& Instance::variable(std::uint32_t reference) const {
+  if (reference >= view_->variables.size())
+    throw std::invalid_argument(
+        fmt::format("there is no value reference {}; they are 0 … {}", reference, view_->variables.size() - 1));
+  return view_->variables[reference];
+}
+
+const Snapshot& Instance::now() {
+  Equations& equations = made();
+  return moment_ ? equations.snapshot(moment_->t, moment_->y) : equations.snapshot(s_.here.state.t, s_.here.state.y);
+}
+
+double Instance::value(std::uint32_t reference) {
+  using enum ExportedVariable::Role;
+  made();
+  const ExportedVariable& v = variable(reference);
+  switch (v.role) {
+    case time:
+      return this->time();
+    case input:
+      return s_.inputs[v.place];
+    case parameter:
+      return s_.parameters[v.place];
+    case output:
+      return view_->outputs[v.place].value(now());
+    case peak:
+      return s_.peaks.empty() ? view_->peaks[v.place].value(now()) : s_.peaks[v.place];
+    case state:
+      return (moment_ ? moment_->y : s_.here.state.y)[v.place];
+    case indicator: {
+      std::vector<double> z(equations_->guard_count());
+      equations_->guards(this->time(), moment_ ? moment_->y : s_.here.state.y, z);
+      return z[v.place] + below_root;
+    }
+    case derivative:
+      break;
+  }
+  std::vector<double> rate(equations_->size());
+  equations_->flow(this->time(), moment_ ? moment_->y : s_.here.state.y, rate);
+  return rate[v.place];
+}
+
+void Instance::check_input(std::size_t k, double value) const {
+  const ExportedInput& input = machine_.inputs[k];
+  if (!(value >= input.low && value <= input.high) || !std::isfinite(value))
+    throw std::invalid_argument(
+        fmt::format("{} = {:g}; must be {:g} … {:g}", input.name, value, input.low, input.high));
+  if (input.whole && value != 0 && value != 1)
+    throw std::invalid_argument(fmt::format("{} = {:g}; it is on or off, must be 0 or 1", input.name, value));
+}
+
+void Instance::set(std::uint32_t reference, double value, bool before_start) {
+  using enum ExportedVariable::Role;
+  const ExportedVariable& v = variable(reference);
+  if (moment_) throw std::invalid_argument("nothing can be set while a step is on its way");
+  if (v.role == input) {
+    check_input(v.place, value);
+    s_.inputs[v.place] = value;
+  } else if (v.role == parameter) {
+    const ExportedParameter& parameter = machine_.parameters[v.place];
+    if (!before_start && !parameter.tunable)
+      throw std::invalid_argument(fmt::format("{} is fixed: it can be set before the start only", parameter.path));
+    if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("{} is no number", parameter.path));
+    s_.parameters[v.place] = value;
+  } else if (v.role == state && s_.started) {
+    s_.here.state.y[v.place] = value;
+  } else {
+    throw std::invalid_argument(fmt::format("{} is calculated and cannot be set", v.name));
+  }
+  if (before_start) s_.stale = true;
+}
+
+void Instance::set_slope(std::uint32_t reference, double slope) {
+  const ExportedVariable& v = variable(reference);
+  if (v.role != ExportedVariable::Role::input || machine_.inputs[v.place].whole || !std::isfinite(slope))
+    throw std::invalid_argument(fmt::format("{} has no derivative that could be set", v.name));
+  s_.slopes[v.place] = slope;
+}
+
+// What has changed since the machine followed it last; ramps end at `until`.
+void Instance::put_commands(double until) {
+  const double t = s_.here.state.t;
+  for (std::size_t k = 0; k < s_.inputs.size(); ++k) {
+    Command& command = equations_->changing_modes().command[commands_[k]];
+    if (s_.slopes[k] != 0 && until > t) {
+      const double end = s_.inputs[k] + s_.slopes[k] * (until - t);
+      check_input(k, end);
+      command = {.value = s_.inputs[k], .rate = s_.slopes[k], .from = t, .until = until, .to = end};
+    } else if (s_.inputs[k] != s_.applied[k] || !command.holds_still()) {
+      command = {.value = s_.inputs[k], .to = s_.inputs[k]};
+    }
+  }
+}
+
+// Switches follow what was set, as at a step of the operating sequence.
+void Instance::apply_inputs(EventLog& log) {
+  State& state = s_.here.state;
+  equations_->pass_edge(state.t, state.y, log);
+  equations_->wrap(state.y);
+  state.modes = equations_->modes();
+  for (std::size_t k = 0; k < s_.inputs.size(); ++k) s_.applied[k] = s_.inputs[k];
+}
+
+double Instance::go(double step, const std::function<bool(double t)>& look) {
+  made();
+  const InstanceState before = s_;
+  const double from = s_.here.state.t, until = from + step;
+  RunOptions options;
+  options.tolerance = std::max(
+      1e-13, tolerance_of_accuracy * std::min(equations_->model().scene.run.accuracy, tolerance_.value_or(1.0)));
+  options.method = equations_->model().scene.run.method == "work" ? "auto" : equations_->model().scene.run.method;
+  options.budget = HUGE_VAL;
+  options.to_go_on = true;
+  std::atomic<bool> interrupted{false};
+  double ended = until;
+  const auto way = [&](double to, bool seen) {
+    RunOptions mine = options;
+    const Checkpoint begin = s_.here;
+    mine.checkpoint = &begin;
+    mine.until = to;
+    mine.interrupted = &interrupted;
+    ExtremeRecorder extremes(view_->peaks);
+    Onlooker onlooker([&](StepView& view) {
+      if (!seen || interrupted || view.t() >= to) return;
+      moment_ = Moment{view.t(), {view.y().begin(), view.y().end()}};
+      const bool on = look(view.t());
+      moment_.reset();
+      if (on) return;
+      ended = view.t();
+      interrupted = true;
+    });
+    std::vector<Observer*> observers;
+    if (!view_->peaks.empty()) observers.push_back(&extremes);
+    if (look && seen) observers.push_back(&onlooker);
+    RunOutcome outcome = integrate(*equations_, mine, observers);
+    if (outcome.complete) {
+      s_.here = std::move(outcome.checkpoint);
+      s_.here.observers.clear();
+      s_.peaks.clear();
+      for (const auto& found : extremes.found()) s_.peaks.push_back(found.value);
+      events_.insert(events_.end(), outcome.events.begin(), outcome.events.end());
+    }
+    return outcome;
+  };
+  try {
+    follow_parameters();
+    equations_->bind(s_.here.state.modes);
+    put_commands(until);
+    EventLog log;
+    apply_inputs(log);
+    if (step > 0) {
+      RunOutcome outcome = way(until, true);
+      if (!outcome.complete && interrupted) {  // somebody has seen enough: exactly to there
+        interrupted = false;
+        equations_->bind(s_.here.state.modes);
+        outcome = way(ended, false);
+      }
+      if (!outcome.complete) throw std::runtime_error(outcome.diagnosis);
+    }
+  } catch (...) {
+    moment_.reset();
+    restore(before);
+    throw;
+  }
+  equations_->bind(s_.here.state.modes);
+  // What rose along the step is where it came to.
+  for (std::size_t k = 0; k < s_.inputs.size(); ++k)
+    if (s_.slopes[k] != 0) {
+      s_.inputs[k] += s_.slopes[k] * (s_.here.state.t - from);
+      s_.applied[k] = s_.inputs[k];
+      s_.slopes[k] = 0;
+    }
+  return s_.here.state.t;
+}
+
+void Instance::set_time(double t) {
+  made();
+  s_.here.state.t = t;
+}
+
+void Instance::set_states(std::span<const double> y) {
+  made();
+  if (y.size() != equations_->state_count())
+    throw std::invalid_argument(fmt::format("{} states given; there are {}", y.size(), equations_->state_count()));
+  s_.here.state.y.assign(y.begin(), y.end());
+}
+
+void Instance::states(std::span<double> y) {
+  made();
+  std::copy_n(s_.here.state.y.begin(), std::min(y.size(), s_.here.state.y.size()), y.begin());
+}
+
+void Instance::nominals(std::span<double> scale) {
+  const ErrorControl control = made().error_control(1);
+  for (std::size_t k = 0; k < scale.size(); ++k) scale[k] = control.scale[k] > 0 ? control.scale[k] : 1;
+}
+
+bool Instance::derivatives(std::span<double> rate) {
+  made();
+  put_commands(s_.here.state.t);
+  equations_->flow(s_.here.state.t, s_.here.state.y, rate);
+  return std::all_of(rate.begin(), rate.end(), [](double r) { return std::isfinite(r); });
+}
+
+void Instance::indicators(std::span<double> z) {
+  made();
+  put_commands(s_.here.state.t);
+  equations_->guards(s_.here.state.t, s_.here.state.y, z);
+  for (double& value : z) value += below_root;
+}
+
+Instance::Discrete Instance::pass_events() {
+  made();
+  follow_parameters();
+  State& state = s_.here.state;
+  const std::vector<double> before = state.y;
+  put_commands(state.t);
+  apply_inputs(events_);
+  std::vector<double> guard(equations_->guard_count());
+  for (int round = 0;; ++round) {
+    equations_->guards(state.t, state.y, guard);
+    std::vector<std::size_t> fired;
+    for (std::size_t k = 0; k < guard.size(); ++k)
+      if (guard[k] < fired_below) fired.push_back(k);
+    if (fired.empty()) break;
+    if (round > most_events)
+      throw std::runtime_error(
+          fmt::format("\"{}\" can neither stay as it is nor change", equations_->guard_owner(fired.front())));
+    if (round == events_of_a_jam && equations_->stop_jam(state.t, state.y, fired, events_)) continue;
+    if (round == events_without_rest) equations_->regularise(fired);
+    equations_->fire(state.t, state.y, fired, events_);
+  }
+  equations_->wrap(state.y);
+  state.modes = equations_->modes();
+  const double next = equations_->next_edge(state.t);
+  return {state.y != before, next < 1e299 ? std::optional(next) : std::nullopt};
+}
+
+bool Instance::wants_event() { return made().needs_wrap(s_.here.state.y); }
+
+std::vector<double> Instance::values_of(std::span<const std::uint32_t> unknowns) {
+  std::vector<double> values;
+  for (const std::uint32_t reference : unknowns) values.push_back(value(reference));
+  return values;
+}
+
+// Derivatives by states from the exact Jacobian; what else there is by central differences of fourth order, of the
+// orders of magnitude of what is known.
+std::vector<double> Instance::directional(std::span<const std::uint32_t> unknowns,
+                                          std::span<const std::uint32_t> knowns, std::span<const double> seed) {
+  using enum ExportedVariable::Role;
+  made();
+  const std::size_t states = equations_->state_count();
+  std::vector<double> along(states, 0), scale(states), inputs(s_.inputs.size(), 0);
+  nominals(scale);
+  double size_states = 0, size_inputs = 0;
+  for (std::size_t k = 0; k < knowns.size(); ++k) {
+    const ExportedVariable& v = variable(knowns[k]);
+    if (v.role == state) {
+      along[v.place] += seed[k];
+      size_states = std::max(size_states, std::abs(seed[k]) / scale[v.place]);
+    } else if (v.role == input) {
+      inputs[v.place] += seed[k];
+      const double usual =
+          machine_.inputs[v.place].what == ExportedInput::What::torque ? equations_->model().torque_scale : 1.0;
+      size_inputs = std::max(size_inputs, std::abs(seed[k]) / (usual > 0 ? usual : 1));
+    } else if (v.role != parameter) {
+      throw std::invalid_argument(fmt::format("{} is no state and no input", v.name));
+    } else {
+      throw std::invalid_argument(fmt::format("no derivatives by parameters ({})", v.name));
+    }
+  }
+  // Of all unknowns by the differences along a direction.
+  std::vector<double> result(unknowns.size(), 0);
+  const State kept = s_.here.state;
+  const std::vector<double> kept_inputs = s_.inputs;
+  const auto differences = [&](double size, const auto& move) {
+    if (size == 0) return;
+    const double h = 1e-4 / size;
+    std::vector<std::vector<double>> at;
+    for (const double part : {-2.0, -1.0, 1.0, 2.0}) {
+      move(part * h);
+      at.push_back(values_of(unknowns));
+    }
+    move(0);
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      result[k] += (at[0][k] - 8 * at[1][k] + 8 * at[2][k] - at[3][k]) / (12 * h);
+  };
+  differences(size_states, [&](double by) {
+    for (std::size_t k = 0; k < states; ++k) s_.here.state.y[k] = kept.y[k] + by * along[k];
+  });
+  if (size_states > 0) {
+    std::vector<double> values(equations_->jacobian_pattern().row.size()), rate(states, 0);
+    equations_->jacobian(kept.t, kept.y, values);
+    const SparsityPattern& pattern = equations_->jacobian_pattern();
+    for (std::size_t column = 0; column < states; ++column)
+      for (auto k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k)
+        if (const auto row = static_cast<std::size_t>(pattern.row[static_cast<std::size_t>(k)]); row < states)
+          rate[row] += values[static_cast<std::size_t>(k)] * along[column];
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      if (const ExportedVariable& v = variable(unknowns[k]); v.role == derivative)
+        result[k] = rate[v.place];
+      else if (v.role == state)
+        result[k] = along[v.place];
+  }
+  // Commands alone change: what is switched stays as it is.
+  differences(size_inputs, [&](double by) {
+    for (std::size_t k = 0; k < inputs.size(); ++k)
+      if (inputs[k] != 0) {
+        const double to = kept_inputs[k] + by * inputs[k];
+        equations_->changing_modes().command[commands_[k]] = {.value = to, .to = to};
+      }
+  });
+  equations_->changing_modes().command = kept.modes.command;
+  return result;
+}
+
+InstanceState Instance::state() {
+  made();
+  s_.here.state.modes = equations_->modes();
+  return s_;
+}
+
+void Instance::restore(const InstanceState& state) {
+  s_ = state;
+  if (s_.stale) return;
+  if (compiled_ != s_.parameters) compile();
+  equations_->bind(s_.here.state.modes);
+}
+
+}  // namespace kurbel

@@ -1,0 +1,33 @@
+# The run-time of exported components (library/fmi): rooms of the engine, drive and mechanisms once more, small (-Os) and
+# without what reads files, linked so that it needs libc and libstdc++ alone.
+set(rooms engine/base engine/scene engine/elements engine/model engine/equations engine/events engine/steppers engine/run engine/rigid
+  engine/numerics engine/matrices engine/values engine/reading engine/tables "drivetrain(/[a-z_]+)?" mechanisms/linkage
+  mechanisms/slider_crank mechanisms/loads mechanisms/reduced mechanisms/kinds)
+list(JOIN rooms "|" rooms)
+set(run_time ${KURBEL_SOURCES})
+list(FILTER run_time INCLUDE REGEX "/((${rooms})/[a-z_]+|library/fmi/(exported_machine|instance|instance_text|ports|variables))\\.cpp$")
+list(FILTER run_time EXCLUDE REGEX "/(spreadsheet|periodic_schur)\\.cpp$")
+add_library(kurbel_fmi SHARED ${run_time} ${KURBEL_FMI_ALONE} $<TARGET_OBJECTS:kurbel_simbody>)
+set_target_properties(kurbel_fmi PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON LINKER_LANGUAGE CXX
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+if(KURBEL_UNITY)
+  set_target_properties(kurbel_fmi PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endif()
+target_compile_definitions(kurbel_fmi PRIVATE KURBEL_FMI_RUNTIME FMT_HEADER_ONLY=1)
+target_compile_options(kurbel_fmi PRIVATE $<$<CONFIG:Release>:-Os> -ffunction-sections -fdata-sections -fno-semantic-interposition)
+target_include_directories(kurbel_fmi PRIVATE ${PROJECT_SOURCE_DIR})
+target_include_directories(kurbel_fmi SYSTEM PRIVATE ${KLU_INCLUDE})
+target_link_libraries(kurbel_fmi PRIVATE Eigen3::Eigen nlohmann_json::nlohmann_json kurbel_warnings ${SUNDIALS_ARCHIVES})
+foreach(part klu amd colamd btf suitesparseconfig)
+  find_library(STATIC_${part} lib${part}.a REQUIRED)
+  target_link_libraries(kurbel_fmi PRIVATE ${STATIC_${part}})
+endforeach()
+# What nothing of the interface leads to is left out of it, Simbody's island with it.
+target_link_options(kurbel_fmi PRIVATE -static-libgcc -Wl,--gc-sections -Wl,--exclude-libs,ALL -Wl,-O1 -Wl,--as-needed
+  -Wl,--version-script=${PROJECT_SOURCE_DIR}/library/fmi/exported.map)
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  target_link_options(kurbel_fmi PRIVATE -s)
+endif()
+if(NOT KURBEL_SANITIZE)
+  target_link_options(kurbel_fmi PRIVATE -Wl,-z,defs)
+endif()

@@ -1,0 +1,40 @@
+// variables.h — the variables of an exported component, in the order of their value references: its description and its
+// run-time make the same list of the same model.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/run/recorders.h"
+#include "library/fmi/exported_machine.h"
+
+namespace kurbel {
+
+struct ExportedVariable {
+  enum class Role { time, input, parameter, output, peak, state, derivative, indicator };
+  Role role = Role::time;
+  std::size_t place = 0;                // among those of its role
+  std::string name, unit, description;  // unit: SI, as in a scene
+};
+
+// What an exported machine shows, by the model that it is.
+struct ExportedView {
+  // Throws std::invalid_argument where the model has no such channel or extreme.
+  ExportedView(const ExportedMachine& machine, const Equations& equations);
+
+  std::vector<ExportedVariable> variables;  // by value reference
+  std::vector<Channel> outputs;
+  std::vector<ExtremeOf> peaks;
+
+  std::uint32_t reference(ExportedVariable::Role role, std::size_t place) const;
+};
+
+// States and inputs that a state's derivative depends on: by the pattern of the exact Jacobian, which holds what is
+// coupled while constraints hold, too.
+struct ExportedDependencies {
+  std::vector<std::vector<std::size_t>> states, inputs;  // per state's derivative
+};
+ExportedDependencies dependencies_of(const ExportedMachine& machine, Flow& flow);
+
+}  // namespace kurbel
