@@ -1,0 +1,420 @@
+// components_test.cpp — exported components, by an importer that shares no code with what exports them: what they say of
+// themselves, how they move against `kurbel run`, what of them is kept and restored.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "tests/fmi/importer.h"
+
+namespace components_test {
+namespace {
+
+using namespace importer;
+namespace fs = std::filesystem;
+
+struct Folder {
+  fs::path path;
+  Folder() {
+    char pattern[] = "/tmp/kurbel_fmi_XXXXXX";
+    path = mkdtemp(pattern);
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+std::string command(const std::string& line, int expected = 0) {
+  std::FILE* const pipe = popen((line + " 2>&1").c_str(), "r");
+  std::string text;
+  char part[4096];
+  while (const std::size_t got = std::fread(part, 1, sizeof part, pipe)) text.append(part, got);
+  const int code = pclose(pipe);
+  EXPECT_EQ(WEXITSTATUS(code), expected) << line << "\n" << text;
+  return text;
+}
+
+std::string scene(const std::string& name) { return std::string(KURBEL_SOURCE_DIR) + "/scenes/" + name + ".toml"; }
+
+// Exported by the program; each of the scenes once.
+std::shared_ptr<const Unpacked> exported(const std::string& file, int fmi, const std::string& options = "") {
+  static std::map<std::string, std::shared_ptr<const Unpacked>> known;
+  std::shared_ptr<const Unpacked>& kept = known[file + std::to_string(fmi) + options];
+  if (kept) return kept;
+  const Folder folder;
+  const std::string out = (folder.path / "out").string();
+  command(std::string(KURBEL_EXECUTABLE) + " export " + file + " --quiet --fmi " + std::to_string(fmi) + " " + options +
+          " --out " + out);
+  for (const fs::directory_entry& entry : fs::directory_iterator(out))
+    if (entry.path().extension() == ".fmu") return kept = std::make_shared<const Unpacked>(entry.path());
+  throw std::runtime_error("no component");
+}
+
+std::string written(const Folder& folder, const std::string& text) {
+  const std::string file = (folder.path / "machine.toml").string();
+  std::ofstream(file) << text;
+  return file;
+}
+
+// What `kurbel run` records: columns by their names, rows with the located peaks among them.
+struct Trajectory {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;  // the time first
+  std::vector<double> events;
+};
+const Trajectory& run(const std::string& file, double until) {
+  static std::map<std::string, Trajectory> known;
+  const auto [place, fresh] = known.try_emplace(file);
+  Trajectory& t = place->second;
+  if (!fresh) return t;
+  const Folder folder;
+  const std::string out = (folder.path / "out").string();
+  command(std::string(KURBEL_EXECUTABLE) + " run " + file + " --quiet --no-trials --set run.samples=41 --until \"" +
+          std::to_string(until) + " s\" --out " + out);
+  std::ifstream csv(out + "/trajectory.csv");
+  std::string line, cell;
+  std::getline(csv, line);
+  for (std::istringstream heading(line); std::getline(heading, cell, ',');)
+    t.names.push_back(cell.substr(0, cell.find(" [")));
+  while (std::getline(csv, line)) {
+    t.rows.emplace_back();
+    for (std::istringstream row(line); std::getline(row, cell, ',');) t.rows.back().push_back(std::stod(cell));
+  }
+  std::ifstream json(out + "/summary.json");
+  for (const auto& event : nlohmann::json::parse(json).value("events", nlohmann::json::array()))
+    if (event.contains("t")) t.events.push_back(event["t"].get<double>());
+  return t;
+}
+
+struct Machine {
+  const char* scene;
+  double until;
+};
+// The five of drives, and two linkages.
+const Machine machines[] = {{"crank_press", 0.5},      {"planetary_brake", 1.6}, {"gear_pair", 0.3}, {"dc_hoist", 2},
+                            {"diesel_generator", 0.5}, {"six_link_press", 0.5},  {"stephenson", 0.5}};
+
+class Components : public testing::TestWithParam<std::tuple<Machine, int>> {
+ protected:
+  Machine machine() const { return std::get<0>(GetParam()); }
+  int fmi() const { return std::get<1>(GetParam()); }
+};
+std::string name_of(const testing::TestParamInfo<std::tuple<Machine, int>>& info) {
+  return std::string(std::get<0>(info.param).scene) + "_fmi" + std::to_string(std::get<1>(info.param));
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, Components, testing::Combine(testing::ValuesIn(machines), testing::Values(2, 3)),
+                         name_of);
+
+// Largest difference of a column over its largest magnitude, at all rows.
+struct Difference {
+  double largest = 0;
+  std::string of;
+};
+Difference difference(const Trajectory& expected, const std::vector<std::vector<double>>& rows) {
+  Difference all;
+  for (std::size_t c = 1; c < expected.names.size(); ++c) {
+    double scale = 0, apart = 0;
+    for (std::size_t r = 0; r < expected.rows.size(); ++r) {
+      scale = std::max(scale, std::abs(expected.rows[r][c]));
+      apart = std::max(apart, std::abs(expected.rows[r][c] - rows[r][c]));
+    }
+    if (scale > 0 && apart / scale > all.largest) all = {apart / scale, expected.names[c]};
+  }
+  return all;
+}
+std::vector<double> row(Slave& slave, const Trajectory& t, double time) {
+  std::vector<double> values = {time};
+  for (std::size_t c = 1; c < t.names.size(); ++c) values.push_back(slave[t.names[c]]);
+  return values;
+}
+
+// What the scenes state of their errors: the strictest of them.
+constexpr double stated = 1e-6;
+
+TEST_P(Components, SaysTheTruthOfItself) {
+  const auto unpacked = exported(scene(machine().scene), fmi());
+  EXPECT_EQ(unpacked->complaints, std::vector<std::string>());
+  EXPECT_EQ(unpacked->fmi, fmi());
+  EXPECT_LE(fs::file_size(unpacked->library()), 5'000'000u);  // 3 MB are wanted
+  const Library library(unpacked->library());
+  for (const std::string& function : functions_of(fmi())) EXPECT_TRUE(library.find(function)) << function;
+  std::istringstream needs(command("readelf -d " + unpacked->library()));
+  for (std::string line; std::getline(needs, line);)
+    if (line.find("NEEDED") != std::string::npos) {
+      EXPECT_TRUE(line.find("libc.so") != std::string::npos || line.find("libm.so") != std::string::npos ||
+                  line.find("libstdc++.so") != std::string::npos || line.find("libgcc_s.so") != std::string::npos ||
+                  line.find("ld-linux") != std::string::npos)
+          << line;
+    }
+}
+
+TEST_P(Components, StepsAsARunDoes) {
+  const Trajectory& expected = run(scene(machine().scene), machine().until);
+  const auto unpacked = exported(scene(machine().scene), fmi());
+  const Library library(unpacked->library());
+  Slave slave(*unpacked, library, Kind::co_simulation);
+  slave.initialise(0);
+  std::vector<std::vector<double>> rows;
+  double t = 0;
+  for (const auto& at : expected.rows) {
+    if (at[0] > t) t = slave.step(t, at[0] - t);
+    rows.push_back(row(slave, expected, at[0]));
+  }
+  const Difference apart = difference(expected, rows);
+  RecordProperty("difference", std::to_string(apart.largest));
+  std::printf("    %s: %.2g of %s\n", machine().scene, apart.largest, apart.of.c_str());
+  EXPECT_LT(apart.largest, stated) << apart.of;
+}
+
+TEST_P(Components, IsIntegratedByOthersAsARunIs) {
+  const Trajectory& expected = run(scene(machine().scene), machine().until);
+  const auto unpacked = exported(scene(machine().scene), fmi());
+  const Library library(unpacked->library());
+  Slave slave(*unpacked, library, Kind::model_exchange);
+  slave.initialise(0);
+  std::vector<double> times;
+  for (const auto& at : expected.rows) times.push_back(at[0]);
+  std::vector<std::vector<double>> rows;
+  integrate(slave, 0, times, 1e-8, [&](std::size_t k) { rows.push_back(row(slave, expected, times[k])); });
+  const Difference apart = difference(expected, rows);
+  std::printf("    %s: %.2g of %s\n", machine().scene, apart.largest, apart.of.c_str());
+  EXPECT_LT(apart.largest, stated) << apart.of;
+}
+
+TEST_P(Components, GoesOnFromAKeptStateToTheLastBit) {
+  const auto unpacked = exported(scene(machine().scene), fmi());
+  const Library library(unpacked->library());
+  Slave slave(*unpacked, library, Kind::co_simulation), other(*unpacked, library, Kind::co_simulation, "other");
+  slave.initialise(0), other.initialise(0);
+  std::mt19937 random(20);
+  std::uniform_real_distribution<double> part(0.01, 0.2);
+  double t = 0;
+  for (int k = 0; k < 3; ++k) {
+    t = slave.step(t, machine().until * part(random));
+    void* const kept = slave.keep();
+    const double h = machine().until * part(random);
+    slave.step(t, h);
+    std::vector<double> first;
+    for (const Variable& v : unpacked->variables) first.push_back(slave.get(v.reference));
+    slave.restore(kept);
+    void* const elsewhere = other.deserialise(slave.serialise(kept));
+    other.restore(elsewhere);
+    slave.step(t, h), other.step(t, h);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      EXPECT_EQ(slave.get(unpacked->variables[i].reference), first[i]) << unpacked->variables[i].name;
+      EXPECT_EQ(other.get(unpacked->variables[i].reference), first[i]) << unpacked->variables[i].name;
+    }
+    t += h;
+    slave.free_state(kept), other.free_state(elsewhere);
+  }
+}
+
+// ∂ẋ/∂x by the component against differences of its own rates; and where no dependency is said, there is none.
+TEST_P(Components, KnowsItsDerivatives) {
+  const auto unpacked = exported(scene(machine().scene), fmi());
+  const Library library(unpacked->library());
+  Slave slave(*unpacked, library, Kind::model_exchange);
+  slave.initialise(0);
+  std::vector<double> times = {0.37 * machine().until};
+  integrate(slave, 0, times, 1e-7, [](std::size_t) {});
+  const std::vector<double> x = slave.states(), nominal = slave.nominals(), rates = slave.rates();
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    std::vector<std::vector<double>> rate;
+    const double h = 1e-5 * nominal[j];
+    for (const double by : {-2.0, -1.0, 1.0, 2.0}) {
+      std::vector<double> moved = x;
+      moved[j] += by * h;
+      slave.states(moved);
+      rate.push_back(slave.rates());
+    }
+    slave.states(x);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double slope = (rate[0][i] - 8 * rate[1][i] + 8 * rate[2][i] - rate[3][i]) / (12 * h);
+      const double found = slave.directional(unpacked->derivatives[i], unpacked->states[j]);
+      const double size = std::abs(found) + 1e-5 * (std::abs(rates[i]) + nominal[i]) / nominal[j];
+      EXPECT_NEAR(found, slope, 2e-5 * size) << i << " by " << j;
+      const auto& on = unpacked->dependencies.at(unpacked->derivatives[i]);
+      if (std::find(on.begin(), on.end(), unpacked->states[j]) == on.end()) {
+        EXPECT_EQ(found, 0) << "no dependency is said: " << i << " on " << j;
+      }
+    }
+  }
+}
+
+const char* const shaft_alone = R"(
+title = "Flywheel"
+line = ["brakeless", "wheel"]
+[brakeless]
+kind = "flywheel"
+inertia = "3 kg*m2"
+[wheel]
+kind = "flywheel"
+inertia = "5 kg*m2"
+[drag]
+kind = "bearing drag"
+on = "wheel"
+damping = "0.5 N*m*s/rad"
+[run]
+start = { speed = "10 rad/s" }
+until = "4 s"
+accuracy = 1e-8
+)";
+
+// (I₁ + I₂) ω̇ = M − b ω: ω = M/b + (ω₀ − M/b) exp(−b t/I)
+TEST(Inputs, ATorqueTurnsAWheelAsItsClosedFormSays) {
+  const Folder folder;
+  const std::string file = written(folder, shaft_alone);
+  for (const int fmi : {2, 3}) {
+    const auto unpacked = exported(file, fmi, "--input wheel.torque --parameter wheel.inertia --output speed.wheel");
+    EXPECT_EQ(unpacked->complaints, std::vector<std::string>());
+    const Library library(unpacked->library());
+    for (const double inertia : {5.0, 13.0}) {
+      Slave slave(*unpacked, library, Kind::co_simulation);
+      slave.set("wheel.inertia", inertia);
+      slave.set("wheel.torque", 8);
+      slave.initialise(0);
+      double t = 0, omega = 10;
+      for (const double torque : {8.0, -20.0, 0.0}) {
+        slave.set("wheel.torque", torque);
+        t = slave.step(t, 0.7);
+        omega = torque / 0.5 + (omega - torque / 0.5) * std::exp(-0.5 * 0.7 / (3 + inertia));
+        EXPECT_NEAR(slave["speed.wheel"], omega, 1e-9 * 10);
+      }
+      // ∂ω̇/∂M = 1/I, ∂ω̇/∂ω = −b/I
+      EXPECT_NEAR(slave.directional(unpacked->derivatives.back(), (*unpacked)["wheel.torque"].reference),
+                  1 / (3 + inertia), 1e-10);
+      EXPECT_NEAR(slave.directional(unpacked->derivatives.back(), unpacked->states.back()), -0.5 / (3 + inertia),
+                  1e-12);
+    }
+  }
+}
+
+TEST(Inputs, ACommandFromOutsideIsThatOfTheSequence) {
+  const Folder folder;
+  std::ifstream file(scene("planetary_brake"));
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t begin = text.find("[sequence]"), end = text.find("[effects]");
+  text.replace(begin, end - begin, "");
+  const auto without = exported(written(folder, text), 3, "--input brake.command");
+  const auto with = exported(scene("planetary_brake"), 3);
+  const Library library(without->library()), sequence(with->library());
+  Slave own(*with, sequence, Kind::co_simulation), set(*without, library, Kind::co_simulation);
+  set.set("brake.command", 0);
+  own.initialise(0), set.initialise(0);
+  own.step(0, 0.4), set.step(0, 0.4);
+  for (const Variable& v : with->variables)
+    if (v.causality == "output") {
+      EXPECT_NEAR(set[v.name], own.get(v.reference), 1e-6 * (1 + std::abs(set[v.name])));
+    }
+}
+
+TEST(Steps, AnOnlookerSeesThemAndEndsThem) {
+  const auto unpacked = exported(scene("gear_pair"), 3);
+  const Library library(unpacked->library());
+  Slave slave(*unpacked, library, Kind::co_simulation), straight(*unpacked, library, Kind::co_simulation);
+  slave.initialise(0), straight.initialise(0);
+  int seen = 0;
+  double speed = 0;
+  slave.onlooker = [&](double t) {
+    ++seen;
+    speed = slave["speed.motor"];
+    return t < 0.01;
+  };
+  const double reached = slave.step(0, 0.1);
+  EXPECT_GT(seen, 3);
+  EXPECT_GE(reached, 0.01);
+  EXPECT_LT(reached, 0.1);
+  EXPECT_NEAR(slave["speed.motor"], speed, 1e-6 * speed);
+  straight.step(0, reached);
+  EXPECT_NEAR(straight["speed.motor"], slave["speed.motor"], 1e-12 * speed);
+}
+
+TEST(Steps, PeaksAreLocatedBetweenCommunicationPoints) {
+  const auto unpacked = exported(scene("gear_pair"), 3, "--kind cs --output peak_torque.shaft --output torque.shaft");
+  const Library library(unpacked->library());
+  Slave whole(*unpacked, library, Kind::co_simulation), fine(*unpacked, library, Kind::co_simulation);
+  whole.initialise(0), fine.initialise(0);
+  whole.step(0, 0.05);
+  double greatest = 0, t = 0;
+  while (t < 0.05 - 1e-9) {
+    t = fine.step(t, 1e-4);
+    if (std::abs(fine["torque.shaft"]) > std::abs(greatest)) greatest = fine["torque.shaft"];
+  }
+  EXPECT_GE(std::abs(whole["peak_torque.shaft"]), std::abs(greatest) * (1 - 1e-7));
+  EXPECT_NEAR(whole["peak_torque.shaft"], greatest, 0.02 * std::abs(greatest));
+}
+
+TEST(Instances, AreIndependentInThreads) {
+  const auto unpacked = exported(scene("planetary_brake"), 3);
+  const Library library(unpacked->library());
+  const auto figures = [&](double h) {
+    Slave slave(*unpacked, library, Kind::co_simulation);
+    slave.initialise(0);
+    std::vector<double> values;
+    double t = 0;
+    for (int k = 0; k < 20; ++k) t = slave.step(t, h), values.push_back(slave["torque.shaft"]);
+    return values;
+  };
+  const auto alone = figures(0.02), other_alone = figures(0.03);
+  std::vector<double> one, other;
+  std::thread first([&] { one = figures(0.02); }), second([&] { other = figures(0.03); });
+  first.join(), second.join();
+  EXPECT_EQ(one, alone);
+  EXPECT_EQ(other, other_alone);
+}
+
+TEST(Instances, AreMadeAndFreedAThousandTimes) {
+  const Folder folder;
+  const auto unpacked = exported(written(folder, shaft_alone), 3, "--input wheel.torque");
+  std::unique_ptr<Library> library;
+  for (int k = 0; k < 1000; ++k) {
+    if (k % 10 == 0) {
+      library.reset();  // unloaded, and loaded anew
+      library = std::make_unique<Library>(unpacked->library());
+    }
+    Slave slave(*unpacked, *library, k % 2 ? Kind::co_simulation : Kind::model_exchange);
+    if (k % 10 == 0) slave.initialise(0), slave.reset();
+  }
+}
+
+TEST(Instances, RefuseWhatIsOutOfTurnAndHarmNobody) {
+  const Folder folder;
+  for (const int fmi : {2, 3}) {
+    const auto unpacked = exported(written(folder, shaft_alone), fmi, "--input wheel.torque --parameter wheel.inertia");
+    const Library library(unpacked->library());
+    Slave bad(*unpacked, library, Kind::co_simulation, "bad"), good(*unpacked, library, Kind::co_simulation, "good");
+    EXPECT_EQ(bad.raw_step_in_wrong_state(), 3);
+    ASSERT_FALSE(bad.logged.empty());
+    EXPECT_NE(bad.logged.back().find("t = "), std::string::npos);
+    EXPECT_THROW(bad.set(unpacked->states[0], 1), std::runtime_error);
+    bad.initialise(0), good.initialise(0);
+    EXPECT_THROW(bad.set("wheel.torque", NAN), std::runtime_error);
+    EXPECT_THROW(bad.get(100000), std::runtime_error);
+    EXPECT_THROW(bad.step(0.5, 0.1), std::runtime_error);  // not where it is
+    good.step(0, 0.1);
+    EXPECT_NEAR(good["speed.wheel"], 10 * std::exp(-0.5 * 0.1 / 8), 1e-8);
+    good.terminate();
+    EXPECT_THROW(good.step(0.1, 0.1), std::runtime_error);
+  }
+}
+
+TEST(Export, RefusesWithTheReason) {
+  const std::string program = std::string(KURBEL_EXECUTABLE) + " export ";
+  const auto refused = [&](const std::string& options, const char* why) {
+    EXPECT_NE(command(program + options + " --no-files --quiet", 2).find(why), std::string::npos) << options;
+  };
+  refused(scene("planetary_brake") + " --input brake.command", "the operating sequence sets");
+  refused(scene("crank_press") + " --input motor.speed", "cannot come from outside");
+  refused(scene("crank_press") + " --input motor.comand", "must end in");
+  refused(scene("crank_press") + " --input mottor.command", "motor");
+  refused(scene("crank_press") + " --parameter press.stiffness", "no such quantity");
+  refused(scene("crank_press") + " --output peak_torque.main_coupling", "--kind cs");
+}
+
+}  // namespace
+}  // namespace components_test
