@@ -1,5 +1,5 @@
 // component.h — what stands behind a handle of the interface, in either version: an instance, where it is in its life, and
-// who is told what goes wrong.
+// who learns what goes wrong.
 #pragma once
 
 #include <fmt/format.h>

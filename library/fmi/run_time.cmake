@@ -28,6 +28,6 @@ target_link_options(kurbel_fmi PRIVATE -static-libgcc -Wl,--gc-sections -Wl,--ex
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   target_link_options(kurbel_fmi PRIVATE -s)
 endif()
-if(NOT KURBEL_SANITIZE)
+if(NOT KURBEL_SANITIZE AND NOT KURBEL_LIBFUZZER)
   target_link_options(kurbel_fmi PRIVATE -Wl,-z,defs)
 endif()
