@@ -18,7 +18,8 @@
 #include "engine/rigid/work_equation.h"
 #include "engine/run/recorders.h"
 #include "engine/scene/units.h"
-#include "mechanisms/linkages/multibody_run.h"
+#include "mechanisms/bodies/multibody_run.h"
+#include "mechanisms/reduced/mechanism_data.h"
 #include "studies/accuracy/accuracy.h"
 #include "studies/report/write_output.h"
 #include "studies/run/run_findings.h"
@@ -99,13 +100,14 @@ void free_crank(BenchBook& book) {
     book.curves.push_back(hand_curve("R1", method, hand_written_r1));
 
   MultibodyProblem problem;
-  problem.mechanism = {.radius = 0.1,
-                       .rod_length = 0.35,
-                       .crank_inertia = 0.55,
-                       .rod_mass = 2,
-                       .rod_com = 0.1225,
-                       .rod_inertia = 0.02,
-                       .slider_mass = 3};
+  problem.mechanism = MechanismData(SliderCrankData{.radius = 0.1,
+                                                    .rod_length = 0.35,
+                                                    .crank_inertia = 0.55,
+                                                    .rod_mass = 2,
+                                                    .rod_com = 0.1225,
+                                                    .rod_inertia = 0.02,
+                                                    .slider_mass = 3})
+                          .bodies_of();
   problem.omega0 = 30;
   problem.t_end = 10;
   for (const char* integrator : {"RungeKuttaMerson", "RungeKuttaFeldberg", "CPodes"}) {

@@ -15,8 +15,9 @@
 #include <vector>
 
 #include "bench/benches.h"
-#include "mechanisms/linkages/multibody_run.h"
+#include "mechanisms/bodies/multibody_run.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace {
 
@@ -161,7 +162,7 @@ RunCost bench_multibody() {
     for (const double accuracy : {1e-3, 1e-5, 1e-7, 1e-8, 1e-9, 1e-10}) {
       if (std::string(integrator) == "RungeKutta3" && accuracy < 1e-7) continue;  // takes minutes
       MultibodyProblem p;
-      p.mechanism = machine(3.5);
+      p.mechanism = MechanismData(machine(3.5)).bodies_of();
       p.omega0 = 30;
       p.t_end = 10;
       p.accuracy = accuracy;

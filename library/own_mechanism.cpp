@@ -13,7 +13,6 @@
 #include "library/own_elements.h"
 #include "mechanisms/kinds/kinds.h"
 #include "mechanisms/kinds/mechanism_keys.h"
-#include "mechanisms/reduced/links_summed.h"
 #include "studies/scenes/add_kind.h"
 
 namespace kurbel {
@@ -23,7 +22,7 @@ namespace {
 class OwnBodies final : public MechanismBodies {
  public:
   explicit OwnBodies(OwnMechanismData data) : data_(std::move(data)) {}
-  ReducedSample sample(double phi) override { return closed_sample(data_, phi); }
+  ReducedSample sample(double phi) override { return rounded(form(phi)); }
   ReducedSample sample_from(double phi, const std::vector<double>&) override { return sample(phi); }
   // Link by link, of its velocities.
   double kinetic_energy(double phi, double omega) override {
@@ -34,24 +33,10 @@ class OwnBodies final : public MechanismBodies {
     }
     return static_cast<double>(energy);
   }
-  double potential_energy(double phi) override { return static_cast<double>(closed_form(data_, phi).potential_energy); }
-  std::vector<double> turn_ratios(double phi) override {
-    std::vector<double> ratios;
-    for (const Link& link : data_.motion(Taylor::variable(phi)).links)
-      ratios.push_back(static_cast<double>(link.angle.slope()));
-    return ratios;
-  }
-  // The crank's axis, the centres of mass, the output.
-  std::vector<PlanePoint> joints(double phi) override {
-    const LinkagePosition at = data_.motion(Taylor::variable(phi));
-    std::vector<PlanePoint> points = {{0, 0}};
-    for (const Link& link : at.links)
-      points.push_back({static_cast<double>(link.x.value()), static_cast<double>(link.y.value())});
-    points.push_back({static_cast<double>(at.output.value()), 0});
-    return points;
-  }
+  double potential_energy(double phi) override { return static_cast<double>(form(phi).potential_energy); }
 
  private:
+  ClosedForm form(double phi) const { return closed_form_of(linkage_of(data_, phi)); }
   OwnMechanismData data_;
 };
 
@@ -92,7 +77,7 @@ void check_motion(const OwnMechanismData& data) {
     for (const Link& link : at.links)
       if (!(link.mass >= 0 && link.inertia >= 0))
         throw std::invalid_argument(fmt::format("link \"{}\" has a negative mass or inertia", link.name));
-    const ClosedForm form = closed_form(data, phi);
+    const ClosedForm form = closed_form_of(linkage_of(data, phi));
     if (!std::isfinite(form.inertia_curvature) || !std::isfinite(form.output_acceleration_ratio))
       throw std::invalid_argument(
           fmt::format("its motion is no number at φ = {:.0f}°", static_cast<double>(phi) * 180 / M_PI));
@@ -130,7 +115,17 @@ LinkageDrawing drawing_of(const OwnMechanismData& data) {
           .output = output};
 }
 
-std::unique_ptr<MechanismBodies> make_bodies(const OwnMechanismData& data) { return std::make_unique<OwnBodies>(data); }
+std::unique_ptr<MechanismBodies> own_bodies(const OwnMechanismData& data) { return std::make_unique<OwnBodies>(data); }
+
+// The crank's axis, the centres of mass, the output.
+std::vector<PlanePoint> places_of(const OwnMechanismData& data, double phi) {
+  const LinkagePosition at = data.motion(Taylor::variable(phi));
+  std::vector<PlanePoint> points = {{0, 0}};
+  for (const Link& link : at.links)
+    points.push_back({static_cast<double>(link.x.value()), static_cast<double>(link.y.value())});
+  points.push_back({static_cast<double>(at.output.value()), 0});
+  return points;
+}
 
 // Joints are not known: two places stand for them, by which a cycle is seen to close.
 PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi) {
@@ -145,8 +140,6 @@ PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi) {
   l.output[0] = at.output.value(), l.output[1] = at.output.slope(), l.output[2] = at.output.curvature();
   return l;
 }
-
-ClosedForm closed_form(const OwnMechanismData& data, long double phi) { return closed_form_of(linkage_of(data, phi)); }
 
 void refuse_forces_of_own(const Scene& scene, const std::string& wanted) {
   std::vector<std::string> known;

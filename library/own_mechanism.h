@@ -1,5 +1,4 @@
-// own_mechanism.h — a mechanism whose motion its user wrote, as data like those of kurbel's own. Stands before
-// mechanism_data.h, which asks for these functions by name.
+// own_mechanism.h — a mechanism whose motion its user wrote, as data like those of kurbel's own.
 #pragma once
 
 #include <kurbel/elements.h>
@@ -8,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanisms/reduced/closed_forms.h"
+#include "mechanisms/reduced/mechanism_data.h"
 
 namespace kurbel {
 
@@ -25,9 +24,9 @@ struct OwnMechanismData {
 
 std::vector<double> values_of(const OwnMechanismData& data);
 LinkageDrawing drawing_of(const OwnMechanismData& data);
-std::unique_ptr<MechanismBodies> make_bodies(const OwnMechanismData& data);
+std::vector<PlanePoint> places_of(const OwnMechanismData& data, double phi);
+std::unique_ptr<MechanismBodies> own_bodies(const OwnMechanismData& data);
 PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi);
-ClosedForm closed_form(const OwnMechanismData& data, long double phi);
 
 // Throws std::invalid_argument where reactions are asked of a mechanism of this sort: `wanted` by its name, or, where that is
 // empty, as the scene has no other.

@@ -1,9 +1,9 @@
-// linkage_drawing.cpp — links as lines through their points, slides as blocks on lines (C++17 island).
+// linkage_drawing.cpp — links as lines through their points, slides as blocks on lines.
 #include <algorithm>
 #include <cmath>
 
 #include "mechanisms/bodies/drawn_linkage.h"
-#include "mechanisms/bodies/linkage_bodies.h"
+#include "mechanisms/bodies/sketched_linkage.h"
 
 namespace kurbel {
 namespace {
@@ -85,6 +85,16 @@ class LinkageDrafter {
 }  // namespace
 
 std::vector<DrawnJoint> drawn_joints(const Linkage& linkage) { return LinkageDrafter(linkage).joints; }
+
+std::vector<PlanePoint> places_of(const LinkageData& data, double phi) {
+  const LinkPoses poses = data.linkage->poses(phi);
+  std::vector<PlanePoint> places;
+  for (const DrawnJoint& place : drawn_joints(*data.linkage)) {
+    const Path at = poses[place.body](place.at);
+    places.push_back({static_cast<double>(at.x.value()), static_cast<double>(at.y.value())});
+  }
+  return places;
+}
 
 LinkageDrawing drawing_of(const LinkageData& data) {
   const Linkage& l = *data.linkage;

@@ -205,6 +205,8 @@ std::vector<double> values_of(const LinkageData& data) {
 
 std::optional<CrankArc> arc_of(const LinkageData& data) { return data.linkage->arc(); }
 std::string locks_of(const LinkageData& data) { return data.linkage->locks_in_words(); }
+int turns_of(const LinkageData& data) { return data.linkage->turns(); }
+double drawn_at(const LinkageData& data) { return static_cast<double>(data.linkage->drawn_at()); }
 
 std::vector<std::string> words_about(const LinkageData& data) {
   std::vector<std::string> words = {data.linkage->structure_in_words()};

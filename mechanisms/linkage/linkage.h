@@ -111,6 +111,8 @@ struct LinkageData {
 std::vector<double> values_of(const LinkageData& data);  // all of them
 std::optional<CrankArc> arc_of(const LinkageData& data);
 std::string locks_of(const LinkageData& data);
+int turns_of(const LinkageData& data);
+double drawn_at(const LinkageData& data);  // φ of the sketch [rad]
 std::vector<std::string> words_about(const LinkageData& data);
 // Why reactions have no values; empty: they have.
 std::string undetermined_reactions(const LinkageData& data);

@@ -1,18 +1,11 @@
-// four_bar.cpp — builds the four-bar linkage in Simbody (C++17 island).
-//
-//   ground ─Pin(q₀ = φ)→ crank ─Pin(q₁)→ coupler ═ pin B closed by two PointInPlane ═ rocker ←Pin(q₂ = ψ)─ ground
-//
-// Determinant of the closures: −coupler · rocker · sin(ψ − coupler's angle), negative where B is left of A → D.
+// four_bar.cpp — checks of the lengths, the loop as bodies and joints, the drawing.
 #include "mechanisms/linkages/four_bar.h"
 
 #include <cmath>
 
-#include "mechanisms/linkages/planar_system.h"
+#include "mechanisms/linkages/link_bodies.h"
 
 namespace kurbel {
-
-using SimTK::Transform;
-using SimTK::Vec3;
 
 DataFaults faults_of(const FourBarData& d) {
   DataChecks checks;
@@ -30,6 +23,8 @@ DataFaults faults_of(const FourBarData& d) {
   return checks.take();
 }
 
+void validate(const FourBarData& d) { throw_if_any("four-bar", faults_of(d)); }
+
 std::vector<double> values_of(const FourBarData& d) {
   std::vector<double> values = {d.crank, d.coupler, d.rocker, d.ground, double(d.crossed), d.gravity, d.ground_angle};
   for (const LinkBody* b : {&d.crank_body, &d.coupler_body, &d.rocker_body})
@@ -40,43 +35,32 @@ std::vector<double> values_of(const FourBarData& d) {
 std::optional<CrankArc> arc_of(const FourBarData& d) { return d.loop().arc(); }
 
 LinkageDrawing drawing_of(const FourBarData& d) {
-  return {"Four-bar", d.ground_angle, {{"link", {1, 2}}, {"link", {2, 3}}, {"crank", {0, 1}}}, {0, 3}, 3, true};
+  return {"Four-bar", d.ground_angle, {0, 1, 2, 3}, {{"link", {1, 2}}, {"link", {2, 3}}, {"crank", {0, 1}}}, {0, 3}, 3,
+          true};
 }
 
-std::unique_ptr<PlanarSystem> planar_system(const FourBarData& d) {
-  throw_if_any("four-bar", faults_of(d));
-  auto m = std::make_unique<PlanarSystem>("four-bar");
-  SimTK::MobilizedBody::Pin crank(m->matter.Ground(), Transform(), pivoted_link(d.crank_body), Transform());
-  SimTK::MobilizedBody::Pin coupler(crank, Vec3(d.crank, 0, 0),
-                                    floating_link(d.coupler_body, "four-bar: coupler_inertia"), Vec3(0));
-  SimTK::MobilizedBody::Pin rocker(m->matter.Ground(), Vec3(d.ground, 0, 0), pivoted_link(d.rocker_body), Vec3(0));
-  close_pin(rocker, Vec3(d.rocker, 0, 0), coupler, Vec3(d.coupler, 0, 0));
-
-  m->gravity = d.gravity;
-  m->elevation = d.ground_angle;
-  m->determinant_sign = d.crossed ? 1 : -1;
-  m->start = [d](double phi) {
-    const PlanePoint a = {d.crank * std::cos(phi), d.crank * std::sin(phi)};
-    const PlanePoint b = meeting_point(a, d.coupler, {d.ground, 0}, d.rocker, !d.crossed);
-    return std::vector<double>{within_a_turn(std::atan2(b.y - a.y, b.x - a.x) - phi), std::atan2(b.y, b.x - d.ground)};
-  };
-  if (d.loop().changes())
-    m->follow = [d](double phi) {
-      const Meeting b = meet(d.loop(), phi, !d.crossed);
-      return PlanarSystem::Followed{{b.coupler.series() - Taylor::variable(phi), b.follower.series()}, -b.sine};
-    };
-  if (d.loop().folds(!d.crossed)) m->stands_at = std::acos(-1.0);
-  m->add_weight(d.crank_body.mass, crank, Vec3(d.crank_body.com, 0, 0));
-  m->add_weight(d.coupler_body.mass, coupler, Vec3(d.coupler_body.com, 0, 0));
-  m->add_weight(d.rocker_body.mass, rocker, Vec3(d.rocker_body.com, 0, 0));
-  m->set_output(2);
-  m->add_joint(crank, Vec3(0));
-  m->add_joint(coupler, Vec3(0));
-  m->add_joint(coupler, Vec3(d.coupler, 0, 0));
-  m->add_joint(rocker, Vec3(0));
-  return m;
+PlanarLinkage linkage_of(const FourBarData& m, long double phi) {
+  const Direction crank = Direction::of_variable(phi);
+  const Meeting meeting = meet(m.loop(), phi, !m.crossed);
+  const Path pin = along(crank, m.crank), bearing = {Taylor(m.ground), Taylor()};
+  PlanarLinkage l;
+  l.gravity = m.gravity, l.elevation = m.ground_angle, l.rocks = true;
+  l.add(pivoted("crank", m.crank_body, {}, crank));
+  l.add(floating("coupler", m.coupler_body, pin, meeting.coupler));
+  l.add(pivoted("rocker", m.rocker_body, bearing, meeting.follower));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 1, pin});
+  l.join({"coupler pin", 1, 2, bearing + along(meeting.follower, m.rocker)});
+  l.join({"rocker bearing", PlanarLinkage::frame, 2, bearing});
+  l.load_at = bearing;
+  if (m.loop().changes()) l.changes = true, l.sine = meeting.sine;
+  const Taylor rate = meeting.follower.rate();
+  l.output[0] = meeting.follower.angle(), l.output[1] = rate.value(), l.output[2] = rate.slope();
+  if (m.loop().folds(!m.crossed)) {
+    l.stands_still = true;
+    l.output[0] = std::acos(-1.0L), l.output[1] = l.output[2] = 0;
+  }
+  return l;
 }
-
-std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& d) { return sampled(planar_system(d)); }
 
 }  // namespace kurbel

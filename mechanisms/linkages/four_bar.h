@@ -17,13 +17,13 @@
 // turns (mechanisms/loops).
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "mechanisms/linkages/data_fault.h"
 #include "mechanisms/linkages/mechanism_bodies.h"
 #include "mechanisms/loops/loops.h"
+#include "mechanisms/loops/planar_linkage.h"
 
 namespace kurbel {
 
@@ -38,11 +38,12 @@ struct FourBarData {
 };
 
 DataFaults faults_of(const FourBarData& data);
+void validate(const FourBarData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const FourBarData& data);  // all of them
 LinkageDrawing drawing_of(const FourBarData& data);
 std::optional<CrankArc> arc_of(const FourBarData& data);  // of a crank that rocks
 
-// Bodies: crank, coupler, rocker. Joints: O, A, B, D. Throws std::invalid_argument with the first fault.
-std::unique_ptr<MechanismBodies> make_bodies(const FourBarData& data);
+// Bodies: crank, coupler, rocker. For data without faults.
+PlanarLinkage linkage_of(const FourBarData& data, long double phi);
 
 }  // namespace kurbel

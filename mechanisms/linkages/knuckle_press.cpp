@@ -1,9 +1,4 @@
-// knuckle_press.cpp — builds the knuckle-joint press in Simbody (C++17 island).
-//
-//   ground ─Pin(q₀ = φ)→ crank ─Pin(q₁)→ rod ═ knee K closed by two PointInPlane ═ upper link ←Pin(q₂)─ ground
-//                                 upper link ─Pin(q₃)→ lower link with the ram ─PointInPlane→ y = guide
-//
-// Determinant of the closures: −rod · upper · sin(upper's angle − rod's angle) · lower · cos(lower's angle).
+// knuckle_press.cpp — checks of the lengths, the two loops as bodies and joints, the drawing.
 #include "mechanisms/linkages/knuckle_press.h"
 
 #include <fmt/core.h>
@@ -12,12 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanisms/linkages/planar_system.h"
+#include "mechanisms/linkages/link_bodies.h"
+#include "mechanisms/loops/loops.h"
 
 namespace kurbel {
-
-using SimTK::Transform;
-using SimTK::Vec3;
 
 namespace {
 
@@ -93,6 +86,8 @@ DataFaults faults_of(const KnucklePressData& d) {
   return checks.take();
 }
 
+void validate(const KnucklePressData& d) { throw_if_any("knuckle press", faults_of(d)); }
+
 std::vector<double> values_of(const KnucklePressData& d) {
   std::vector<double> values = {d.radius,   d.rod,     d.bearing_x,   d.bearing_y,
                                 d.upper,    d.lower,   d.guide,       double(d.knee_right),
@@ -105,50 +100,35 @@ std::vector<double> values_of(const KnucklePressData& d) {
 LinkageDrawing drawing_of(const KnucklePressData& d) {
   return {"Knuckle press",
           d.stroke_angle,
+          {0, 1, 2, 4, 5},
           {{"link", {1, 2}}, {"link", {3, 2}}, {"link", {2, 4}}, {"slider", {4}}, {"crank", {0, 1}}},
           {0, 3},
           4,
           false};
 }
 
-std::unique_ptr<PlanarSystem> planar_system(const KnucklePressData& d) {
-  throw_if_any("knuckle press", faults_of(d));
-  auto m = std::make_unique<PlanarSystem>("knuckle press");
-  const Vec3 bearing(d.bearing_x, d.bearing_y, 0), ram(d.lower, 0, 0);
-  SimTK::MobilizedBody::Pin crank(m->matter.Ground(), Transform(), pivoted_link(d.crank_body), Transform());
-  SimTK::MobilizedBody::Pin rod(crank, Vec3(d.radius, 0, 0), floating_link(d.rod_body, "knuckle press: rod_inertia"),
-                                Vec3(0));
-  SimTK::MobilizedBody::Pin upper(m->matter.Ground(), bearing, pivoted_link(d.upper_body), Vec3(0));
-  SimTK::MobilizedBody::Pin lower(upper, Vec3(d.upper, 0, 0),
-                                  floating_link(d.lower_body, "knuckle press: lower_inertia", d.ram_mass, d.lower),
-                                  Vec3(0));
-  close_pin(upper, Vec3(d.upper, 0, 0), rod, Vec3(d.rod, 0, 0));
-  SimTK::Constraint::PointInPlane(m->matter.Ground(), SimTK::UnitVec3(0, 1, 0), d.guide, lower, ram);
-
-  m->gravity = d.gravity;
-  m->elevation = d.stroke_angle;
-  m->determinant_sign = d.knee_right ? 1 : -1;
-  m->start = [d](double phi) {
-    const PlanePoint a = {d.radius * std::cos(phi), d.radius * std::sin(phi)}, g = {d.bearing_x, d.bearing_y};
-    const PlanePoint k = knee_at(d, phi);
-    const double upper_angle = std::atan2(k.y - g.y, k.x - g.x);
-    return std::vector<double>{within_a_turn(std::atan2(k.y - a.y, k.x - a.x) - phi), upper_angle,
-                               within_a_turn(std::asin((d.guide - k.y) / d.lower) - upper_angle)};
-  };
-  m->add_weight(d.crank_body.mass, crank, Vec3(d.crank_body.com, 0, 0));
-  m->add_weight(d.rod_body.mass, rod, Vec3(d.rod_body.com, 0, 0));
-  m->add_weight(d.upper_body.mass, upper, Vec3(d.upper_body.com, 0, 0));
-  m->add_weight(d.lower_body.mass, lower, Vec3(d.lower_body.com, 0, 0));
-  m->add_weight(d.ram_mass, lower, ram);
-  m->set_output(lower, ram);
-  m->add_joint(crank, Vec3(0));
-  m->add_joint(rod, Vec3(0));
-  m->add_joint(lower, Vec3(0));
-  m->add_joint(upper, Vec3(0));
-  m->add_joint(lower, ram);
-  return m;
+// The loop crank – rod – upper link is a four-bar in axes turned towards the bearing.
+PlanarLinkage linkage_of(const KnucklePressData& m, long double phi) {
+  const long double x = m.bearing_x, y = m.bearing_y, ground = std::hypot(x, y), tilt = std::atan2(y, x);
+  const Meeting meeting = meet({m.radius, m.rod, m.upper, ground}, phi - tilt, !m.knee_right);
+  const Direction back = Direction::constant(tilt), crank = Direction::of_variable(phi);
+  const Direction upper = meeting.follower + back, rod = meeting.coupler + back;
+  const Path pin = along(crank, m.radius), bearing = {Taylor(x), Taylor(y)};
+  const Path knee = bearing + along(upper, m.upper);
+  const Direction lower = to_line(knee, m.guide, m.lower, false);
+  PlanarLinkage l;
+  l.gravity = m.gravity, l.elevation = m.stroke_angle;
+  l.add(pivoted("crank", m.crank_body, {}, crank));
+  l.add(floating("rod", m.rod_body, pin, rod));
+  l.add(pivoted("upper link", m.upper_body, bearing, upper));
+  l.add(floating("lower link", m.lower_body, knee, lower));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 1, pin});
+  l.join({"knee, rod", 1, 2, knee});
+  l.join({"knee, lower link", 2, 3, knee});
+  l.join({"upper bearing", PlanarLinkage::frame, 2, bearing});
+  add_slider(l, "ram", m.ram_mass, "ram pin", knee + along(lower, m.lower));
+  return l;
 }
-
-std::unique_ptr<MechanismBodies> make_bodies(const KnucklePressData& d) { return sampled(planar_system(d)); }
 
 }  // namespace kurbel

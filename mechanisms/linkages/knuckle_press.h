@@ -11,11 +11,11 @@
 // line gives two working ends in a turn. Branches: knee left of the line A → G, or right of it.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "mechanisms/linkages/data_fault.h"
 #include "mechanisms/linkages/mechanism_bodies.h"
+#include "mechanisms/loops/planar_linkage.h"
 
 namespace kurbel {
 
@@ -33,11 +33,11 @@ struct KnucklePressData {
 };
 
 DataFaults faults_of(const KnucklePressData& data);
+void validate(const KnucklePressData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const KnucklePressData& data);  // all of them
 LinkageDrawing drawing_of(const KnucklePressData& data);
 
-// Bodies: crank, rod, upper link, lower link with the ram's mass at its end. Joints: O, A, K, G, ram's pin. Throws
-// std::invalid_argument with the first fault.
-std::unique_ptr<MechanismBodies> make_bodies(const KnucklePressData& data);
+// Bodies: crank, rod, upper link, lower link, ram. For data without faults.
+PlanarLinkage linkage_of(const KnucklePressData& data, long double phi);
 
 }  // namespace kurbel

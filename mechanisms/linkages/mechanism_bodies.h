@@ -31,20 +31,21 @@ struct PlanePoint {
   double x, y;  // [m]
 };
 
-// How a mechanism is drawn by its joints (MechanismBodies::joints), and whether its output slides or rocks.
+// How a mechanism is drawn by places on its links, and whether its output slides or rocks.
 struct LinkageDrawing {
   struct Link {
     // "crank", "link", "slot": a line; "slider", "point" on a joint; "block" on a joint, along the next
     std::string shape;
-    std::vector<int> joints;  // that it goes through
+    std::vector<int> joints;  // places that it goes through
   };
   std::string name;
   double direction = 0;                 // of +x above the horizontal [rad]
+  std::vector<int> places = {};         // its joints in the PlanarLinkage; empty: places_of says where they are
   std::vector<Link> links;              // in the order of drawing
-  std::vector<int> fixed;               // joints that are bearings in the frame
-  int output = 0;                       // joint that the load is shown at
+  std::vector<int> fixed;               // places that are bearings in the frame
+  int output = 0;                       // place that the load is shown at
   bool rocks = false;                   // the output is an angle
-  std::vector<std::string> names = {};  // of the joints; empty: O, A, B …
+  std::vector<std::string> names = {};  // of the places; empty: O, A, B …
 };
 
 // Simbody's model of a mechanism, sampled one configuration at a time. Costs some 20 µs a sample; not thread-safe.
@@ -61,11 +62,6 @@ class MechanismBodies {
   virtual double kinetic_energy(double phi, double omega) = 0;  // [J]
   // Of all weights, zero at the height of the crank's axis.
   virtual double potential_energy(double phi) = 0;  // [J]
-
-  // ω_k/ω of every link, in the order of the bodies.
-  virtual std::vector<double> turn_ratios(double phi) = 0;
-  // Where the joints are, for drawing.
-  virtual std::vector<PlanePoint> joints(double phi) = 0;
 };
 
 }  // namespace kurbel

@@ -1,21 +1,14 @@
-// quick_return.cpp — builds the quick-return mechanism in Simbody (C++17 island).
-//
-//   ground ─Pin(q₀ = φ)→ crank ═ pin A closed by two PointInPlane ═ block ←Slider(q₂ = PA)─ lever ←Pin(q₁)─ ground
-//                                                    lever ─Pin(q₃)→ link with the ram ─PointInPlane→ y = guide
-//
-// Determinant of the closures: −PA · link · cos(link's angle).
+// quick_return.cpp — checks of the lengths, the loop as bodies and joints, the drawing.
 #include "mechanisms/linkages/quick_return.h"
 
 #include <fmt/core.h>
 
 #include <cmath>
 
-#include "mechanisms/linkages/planar_system.h"
+#include "mechanisms/linkages/link_bodies.h"
+#include "mechanisms/loops/loops.h"
 
 namespace kurbel {
-
-using SimTK::Transform;
-using SimTK::Vec3;
 
 namespace {
 
@@ -68,6 +61,8 @@ DataFaults faults_of(const QuickReturnData& d) {
   return checks.take();
 }
 
+void validate(const QuickReturnData& d) { throw_if_any("quick-return", faults_of(d)); }
+
 std::vector<double> values_of(const QuickReturnData& d) {
   std::vector<double> values = {d.radius,       d.pivot_distance,   d.lever,      d.lever_angle,   d.link,
                                 d.guide_height, double(d.backward), d.block_mass, d.block_inertia, d.ram_mass,
@@ -80,52 +75,34 @@ std::vector<double> values_of(const QuickReturnData& d) {
 LinkageDrawing drawing_of(const QuickReturnData& d) {
   return {"Quick-return",
           d.stroke_angle,
+          {0, 1, 3, 4, 5},
           {{"slot", {2, 1}}, {"link", {2, 3}}, {"link", {3, 4}}, {"slider", {4}}, {"crank", {0, 1}}, {"block", {1, 2}}},
           {0, 2},
           4,
           false};
 }
 
-std::unique_ptr<PlanarSystem> planar_system(const QuickReturnData& d) {
-  throw_if_any("quick-return", faults_of(d));
-  auto m = std::make_unique<PlanarSystem>("quick-return");
-  const Vec3 lever_end(d.lever * std::cos(d.lever_angle), d.lever * std::sin(d.lever_angle), 0), ram(d.link, 0, 0);
-  SimTK::MobilizedBody::Pin crank(m->matter.Ground(), Transform(), pivoted_link(d.crank_body), Transform());
-  SimTK::MobilizedBody::Pin lever(m->matter.Ground(), Vec3(0, -d.pivot_distance, 0), pivoted_link(d.lever_body),
-                                  Vec3(0));
-  SimTK::MobilizedBody::Slider block(lever, Transform(),
-                                     floating_link({d.block_mass, 0, d.block_inertia}, "quick-return: block_inertia"),
-                                     Transform());
-  SimTK::MobilizedBody::Pin link(lever, lever_end,
-                                 floating_link(d.link_body, "quick-return: link_inertia", d.ram_mass, d.link), Vec3(0));
-  close_pin(crank, Vec3(d.radius, 0, 0), block, Vec3(0));
-  const double guide = d.guide_height - d.pivot_distance;
-  SimTK::Constraint::PointInPlane(m->matter.Ground(), SimTK::UnitVec3(0, 1, 0), guide, link, ram);
-
-  m->gravity = d.gravity;
-  m->elevation = d.stroke_angle;
-  m->determinant_sign = d.backward ? 1 : -1;
-  m->start = [d](double phi) {
-    const double x = d.radius * std::cos(phi), y = d.pivot_distance + d.radius * std::sin(phi);  // A from P
-    const double slot = std::atan2(y, x);
-    const double rise = std::asin((d.guide_height - d.lever * std::sin(slot + d.lever_angle)) / d.link);
-    const double link_angle = d.backward ? std::acos(-1.0) - rise : rise;
-    return std::vector<double>{slot, std::hypot(x, y), within_a_turn(link_angle - slot)};
-  };
-  m->add_weight(d.crank_body.mass, crank, Vec3(d.crank_body.com, 0, 0));
-  m->add_weight(d.lever_body.mass, lever, Vec3(d.lever_body.com, 0, 0));
-  m->add_weight(d.block_mass, block, Vec3(0));
-  m->add_weight(d.link_body.mass, link, Vec3(d.link_body.com, 0, 0));
-  m->add_weight(d.ram_mass, link, ram);
-  m->set_output(link, ram);
-  m->add_joint(crank, Vec3(0));
-  m->add_joint(crank, Vec3(d.radius, 0, 0));
-  m->add_joint(lever, Vec3(0));
-  m->add_joint(link, Vec3(0));
-  m->add_joint(link, ram);
-  return m;
+PlanarLinkage linkage_of(const QuickReturnData& m, long double phi) {
+  const Direction crank = Direction::of_variable(phi);
+  const Path pin = along(crank, m.radius), pivot = {Taylor(), Taylor(-m.pivot_distance)};
+  const Path to_pin = pin - pivot;
+  const Taylor distance = sqrt(to_pin.x * to_pin.x + to_pin.y * to_pin.y);
+  const Direction slot = {to_pin.x / distance, to_pin.y / distance};
+  const Path end = pivot + along(slot + Direction::constant(m.lever_angle), m.lever);
+  const Direction link = to_line(end, static_cast<long double>(m.guide_height) - m.pivot_distance, m.link, m.backward);
+  PlanarLinkage l;
+  l.gravity = m.gravity, l.elevation = m.stroke_angle;
+  l.add(pivoted("crank", m.crank_body, {}, crank));
+  l.add(pivoted("lever", m.lever_body, pivot, slot));
+  l.add(floating("block", {m.block_mass, 0, m.block_inertia}, pin, slot));
+  l.add(floating("link", m.link_body, end, link));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 2, pin});
+  l.join({"slot", 2, 1, pin, true, slot});
+  l.join({"lever bearing", PlanarLinkage::frame, 1, pivot});
+  l.join({"lever pin", 1, 3, end});
+  add_slider(l, "ram", m.ram_mass, "ram pin", end + along(link, m.link));
+  return l;
 }
-
-std::unique_ptr<MechanismBodies> make_bodies(const QuickReturnData& d) { return sampled(planar_system(d)); }
 
 }  // namespace kurbel

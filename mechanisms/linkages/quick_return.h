@@ -12,11 +12,11 @@
 // return π − 2γ, sin γ = radius/pivot_distance. The link points from E towards +x, or backwards towards −x.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "mechanisms/linkages/data_fault.h"
 #include "mechanisms/linkages/mechanism_bodies.h"
+#include "mechanisms/loops/planar_linkage.h"
 
 namespace kurbel {
 
@@ -40,11 +40,11 @@ struct QuickReturnData {
 };
 
 DataFaults faults_of(const QuickReturnData& data);
+void validate(const QuickReturnData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const QuickReturnData& data);  // all of them
 LinkageDrawing drawing_of(const QuickReturnData& data);
 
-// Bodies: crank, lever, block, link with the ram's mass at its end. Joints: O, A, P, E, ram's pin. Throws
-// std::invalid_argument with the first fault.
-std::unique_ptr<MechanismBodies> make_bodies(const QuickReturnData& data);
+// Bodies: crank, lever, block, link, ram. For data without faults.
+PlanarLinkage linkage_of(const QuickReturnData& data, long double phi);
 
 }  // namespace kurbel

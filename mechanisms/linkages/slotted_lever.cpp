@@ -1,20 +1,13 @@
-// slotted_lever.cpp — builds the inverted slider-crank in Simbody (C++17 island).
-//
-//   ground ─Pin(q₀ = φ)→ crank ═ pin A closed by two PointInPlane ═ block ←Slider(q₂ = DA)─ lever ←Pin(q₁)─ ground
-//
-// Determinant of the closures: −DA.
+// slotted_lever.cpp — checks of the lengths, the loop as bodies and joints, the drawing.
 #include "mechanisms/linkages/slotted_lever.h"
 
 #include <fmt/core.h>
 
 #include <cmath>
 
-#include "mechanisms/linkages/planar_system.h"
+#include "mechanisms/linkages/link_bodies.h"
 
 namespace kurbel {
-
-using SimTK::Transform;
-using SimTK::Vec3;
 
 DataFaults faults_of(const SlottedLeverData& d) {
   constexpr double least_clearance = 1e-3;  // of the crank: nearer by the bearing the lever's speed has no bound
@@ -35,6 +28,8 @@ DataFaults faults_of(const SlottedLeverData& d) {
   return checks.take();
 }
 
+void validate(const SlottedLeverData& d) { throw_if_any("inverted slider-crank", faults_of(d)); }
+
 std::vector<double> values_of(const SlottedLeverData& d) {
   std::vector<double> values = {d.crank, d.ground, d.block_mass, d.block_inertia, d.gravity, d.ground_angle};
   for (const LinkBody* b : {&d.crank_body, &d.lever_body}) values.insert(values.end(), {b->mass, b->com, b->inertia});
@@ -42,41 +37,33 @@ std::vector<double> values_of(const SlottedLeverData& d) {
 }
 
 LinkageDrawing drawing_of(const SlottedLeverData& d) {
-  return {"Slotted lever", d.ground_angle, {{"slot", {2, 1}}, {"crank", {0, 1}}, {"block", {1, 2}}}, {0, 2}, 2, true};
+  return {"Slotted lever",
+          d.ground_angle,
+          {0, 1, 3},
+          {{"slot", {2, 1}}, {"crank", {0, 1}}, {"block", {1, 2}}},
+          {0, 2},
+          2,
+          true};
 }
 
-std::unique_ptr<PlanarSystem> planar_system(const SlottedLeverData& d) {
-  throw_if_any("inverted slider-crank", faults_of(d));
-  auto m = std::make_unique<PlanarSystem>("inverted slider-crank");
-  SimTK::MobilizedBody::Pin crank(m->matter.Ground(), Transform(), pivoted_link(d.crank_body), Transform());
-  SimTK::MobilizedBody::Pin lever(m->matter.Ground(), Vec3(d.ground, 0, 0), pivoted_link(d.lever_body), Vec3(0));
-  SimTK::MobilizedBody::Slider block(
-      lever, Transform(), floating_link({d.block_mass, 0, d.block_inertia}, "inverted slider-crank: block_inertia"),
-      Transform());
-  close_pin(crank, Vec3(d.crank, 0, 0), block, Vec3(0));
-
-  m->gravity = d.gravity;
-  m->elevation = d.ground_angle;
-  m->determinant_sign = -1;
-  m->start = [d](double phi) {
-    const double x = d.crank * std::cos(phi) - d.ground, y = d.crank * std::sin(phi);  // A from D
-    return std::vector<double>{std::atan2(y, x), std::hypot(x, y)};
-  };
-  if (d.loop().changes())
-    m->follow = [d](double phi) {
-      const Slot slot = slot_to_pin(d.loop(), phi);
-      return PlanarSystem::Followed{{slot.along.series(), slot.reach}, -slot.reach.value() / (d.crank + d.ground)};
-    };
-  m->add_weight(d.crank_body.mass, crank, Vec3(d.crank_body.com, 0, 0));
-  m->add_weight(d.lever_body.mass, lever, Vec3(d.lever_body.com, 0, 0));
-  m->add_weight(d.block_mass, block, Vec3(0));
-  m->set_output(1);
-  m->add_joint(crank, Vec3(0));
-  m->add_joint(crank, Vec3(d.crank, 0, 0));
-  m->add_joint(lever, Vec3(0));
-  return m;
+PlanarLinkage linkage_of(const SlottedLeverData& m, long double phi) {
+  const Direction crank = Direction::of_variable(phi);
+  const Path pin = along(crank, m.crank), bearing = {Taylor(m.ground), Taylor()};
+  const Slot slot = slot_to_pin(m.loop(), phi);
+  PlanarLinkage l;
+  l.gravity = m.gravity, l.elevation = m.ground_angle, l.rocks = true;
+  l.add(pivoted("crank", m.crank_body, {}, crank));
+  l.add(floating("block", {m.block_mass, 0, m.block_inertia}, pin, slot.along));
+  l.add(pivoted("lever", m.lever_body, bearing, slot.along));
+  l.join({"main bearing", PlanarLinkage::frame, 0, {}});
+  l.join({"crank pin", 0, 1, pin});
+  l.join({"slot", 1, 2, pin, true, slot.along});
+  l.join({"lever bearing", PlanarLinkage::frame, 2, bearing});
+  l.load_at = bearing;
+  if (m.loop().changes()) l.changes = true, l.sine = slot.reach.value() / (m.crank + m.ground);
+  const Taylor rate = slot.along.rate();
+  l.output[0] = slot.along.angle(), l.output[1] = rate.value(), l.output[2] = rate.slope();
+  return l;
 }
-
-std::unique_ptr<MechanismBodies> make_bodies(const SlottedLeverData& d) { return sampled(planar_system(d)); }
 
 }  // namespace kurbel

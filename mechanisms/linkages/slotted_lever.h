@@ -10,12 +10,12 @@
 // round once in two turns of the crank.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "mechanisms/linkages/data_fault.h"
 #include "mechanisms/linkages/mechanism_bodies.h"
 #include "mechanisms/loops/loops.h"
+#include "mechanisms/loops/planar_linkage.h"
 
 namespace kurbel {
 
@@ -31,10 +31,11 @@ struct SlottedLeverData {
 };
 
 DataFaults faults_of(const SlottedLeverData& data);
+void validate(const SlottedLeverData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const SlottedLeverData& data);  // all of them
 LinkageDrawing drawing_of(const SlottedLeverData& data);
 
-// Bodies: crank, lever, block. Joints: O, A, D. Throws std::invalid_argument with the first fault.
-std::unique_ptr<MechanismBodies> make_bodies(const SlottedLeverData& data);
+// Bodies: crank, block, lever. For data without faults.
+PlanarLinkage linkage_of(const SlottedLeverData& data, long double phi);
 
 }  // namespace kurbel

@@ -92,11 +92,14 @@ Meeting meet(const FourBarLoop& l, long double phi, bool left) {
 
 // l² cos²β = (l − r − e + r (1 + sin φ)) (l − r + e + r (1 − sin φ)), with 1 ± sin φ = 1 ∓ cos(φ + π/2). At l = r + |e|
 // one factor, without offset both, are squares.
-Direction rod_to_line(const SliderLoop& s, long double phi, bool back) {
-  const Direction crank = Direction::of_variable(phi);
+Direction rod_to_line(const SliderLoop& s, const Direction& crank, long double phi, bool back) {
   const Taylor rise = Taylor(s.e) - Taylor(s.r) * crank.sin;
-  if (!s.changes()) return to_line(along(crank, Taylor(s.r)), s.e, s.l, back);
   const CosineSums cosine(phi + std::acos(-1.0L) / 2);
+  if (!s.changes()) {
+    const Taylor below = Taylor(s.l - s.r - s.e) + Taylor(s.r) * cosine.minus;
+    const Taylor above = Taylor(s.l - s.r + s.e) + Taylor(s.r) * cosine.plus, lever = sqrt(below * above);
+    return {(back ? -lever : lever) / Taylor(s.l), rise / Taylor(s.l)};
+  }
   const Taylor r(s.r), twice(2 * std::fabs(s.e));
   Taylor reach;
   if (s.e == 0)

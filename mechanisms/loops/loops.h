@@ -65,7 +65,8 @@ struct SliderLoop {
   std::optional<CrankArc> arc() const;
 };
 // The rod's direction: towards +x or, `back`, towards −x; of one with change points, so at φ = 0.
-Direction rod_to_line(const SliderLoop& loop, long double phi, bool back);
+// `crank`: its direction at φ.
+Direction rod_to_line(const SliderLoop& loop, const Direction& crank, long double phi, bool back);
 
 // The pin of a crank r in a slot that turns about D = (d, 0).
 struct SlotLoop {

@@ -95,5 +95,10 @@ struct Path {
   friend Path operator-(const Path& a, const Path& b) { return {a.x - b.x, a.y - b.y}; }
 };
 inline Path along(const Direction& d, const Taylor& length) { return {length * d.cos, length * d.sin}; }
+inline Path along(const Direction& d, long double length) {
+  Path p{d.cos, d.sin};
+  for (int k = 0; k <= Taylor::order; ++k) p.x.c[k] *= length, p.y.c[k] *= length;
+  return p;
+}
 
 }  // namespace kurbel

@@ -1,21 +1,25 @@
-// mechanism_data.h — the data of a mechanism of any kind, as a value.
+// mechanism_data.h — the description of a mechanism of any kind, as a value: all else comes from it.
 //
-// A linkage is a struct D of lengths and masses (mechanisms/linkages); these functions stand beside it and are all that
-// is ever asked of it. D becomes a MechanismData by itself.
+// A kind of mechanism is a struct D of lengths and masses; these functions stand beside it and are all that is ever asked
+// of it. D becomes a MechanismData by itself.
 //     std::vector<double> values_of(const D&);                  all of them: who is equal has the same tables
-//     std::unique_ptr<MechanismBodies> make_bodies(const D&);   its Simbody model; throws std::invalid_argument
-//     ClosedForm closed_form(const D&, long double phi);        its loops in closed form (closed_forms.h)
 //     PlanarLinkage linkage_of(const D&, long double phi);      its bodies and joints, with their series in φ
 //     LinkageDrawing drawing_of(const D&);                      how it is drawn, and whether its output rocks
 //     double D::gravity                                         [m/s²]
-// and, of one whose crank may be unable to turn,
-//     std::optional<CrankArc> arc_of(const D&);                 within which angles it rocks
+// where there is something to say,
+//     void validate(const D&);                                  throws std::invalid_argument with what is wrong
+//     std::vector<PlanePoint> places_of(const D&, double phi);  by which it is drawn, of a drawing that names no joints
+//     std::optional<CrankArc> arc_of(const D&);                 within which angles its crank rocks
 //     std::string locks_of(const D&);                           what happens at their ends, in words
-// and, of one that is described link by link,
+//     int turns_of(const D&);                                   of the crank until the links come back without change points
+//     double drawn_at(const D&);                                φ of a position in which its lengths are exact
 //     std::vector<std::string> words_about(const D&);           its structure, its transmission angles
 //     std::string undetermined_reactions(const D&);             why reactions have no values; empty: they have
+// and, where its joints are not known, in place of Simbody's bodies
+//     std::unique_ptr<MechanismBodies> own_bodies(const D&);
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,7 +27,13 @@
 #include <utility>
 #include <vector>
 
-#include "mechanisms/reduced/closed_forms.h"
+#include "mechanisms/bodies/mechanism_tree.h"
+#include "mechanisms/bodies/sketched_linkage.h"
+#include "mechanisms/linkages/four_bar.h"
+#include "mechanisms/linkages/knuckle_press.h"
+#include "mechanisms/linkages/quick_return.h"
+#include "mechanisms/linkages/slider_crank.h"
+#include "mechanisms/linkages/slotted_lever.h"
 
 namespace kurbel {
 
@@ -38,88 +48,76 @@ class MechanismData {
  public:
   template <class D>
   requires requires(const D& data) { drawing_of(data); }
-  MechanismData(D data) : rocks_(drawing_of(data).rocks), held_(std::make_shared<const Of<D>>(std::move(data))) {}
+  MechanismData(D given) : data_(std::make_shared<const D>(std::move(given))) {
+    const D* const d = static_cast<const D*>(data_.get());  // as long as data_
+    Held held(typeid(D));
+    held.values = values_of(*d);
+    held.drawing = drawing_of(*d);
+    held.gravity = d->gravity;
+    held.linkage = [d](long double phi) { return linkage_of(*d, phi); };
+    if constexpr (requires { validate(*d); }) held.validate = [d] { validate(*d); };
+    if constexpr (requires { places_of(*d, 0.0); }) held.places = [d](double phi) { return places_of(*d, phi); };
+    if constexpr (has_bodies && requires { own_bodies(*d); }) held.own_bodies = [d] { return own_bodies(*d); };
+    if constexpr (requires { arc_of(*d); }) held.arc = arc_of(*d);
+    if constexpr (requires { locks_of(*d); }) held.locks = locks_of(*d);
+    if constexpr (requires { turns_of(*d); }) held.turns = turns_of(*d);
+    if constexpr (requires { drawn_at(*d); }) held.drawn_at = drawn_at(*d);
+    if constexpr (requires { words_about(*d); }) held.about = words_about(*d);
+    if constexpr (requires { undetermined_reactions(*d); }) held.undetermined = undetermined_reactions(*d);
+    held_ = std::make_shared<const Held>(std::move(held));
+  }
 
   // Null where it is of another kind.
   template <class D>
   const D* as() const {
-    return kind() == typeid(D) ? &static_cast<const Of<D>&>(*held_).data : nullptr;
+    return kind() == typeid(D) ? static_cast<const D*>(data_.get()) : nullptr;
   }
-  std::type_index kind() const { return held_->kind(); }
-  std::vector<double> values() const { return held_->values(); }
-  std::unique_ptr<MechanismBodies> make_bodies() const { return held_->bodies(); }  // null without Simbody
-  ClosedForm closed_form(long double phi) const { return held_->closed(phi); }
+  std::type_index kind() const { return held_->kind; }
+  const std::vector<double>& values() const { return held_->values; }
   PlanarLinkage linkage(long double phi) const { return held_->linkage(phi); }
-  LinkageDrawing drawing() const { return held_->drawing(); }
-  bool rocks() const { return rocks_; }  // the output is an angle
-  double gravity() const { return held_->gravity(); }
-  std::optional<CrankArc> arc() const { return held_->arc(); }  // empty: the crank turns
-  std::string locks() const { return held_->locks(); }          // empty: as the named mechanisms do
-  std::vector<std::string> about() const { return held_->about(); }
-  std::string undetermined() const { return held_->undetermined(); }
+  ClosedForm closed_form(long double phi) const { return closed_form_of(linkage(phi)); }
+  const LinkageDrawing& drawing() const { return held_->drawing; }
+  std::vector<PlanePoint> places(double phi) const;    // by which it is drawn
+  bool rocks() const { return held_->drawing.rocks; }  // the output is an angle
+  double gravity() const { return held_->gravity; }
+  const std::optional<CrankArc>& arc() const { return held_->arc; }  // empty: the crank turns
+  const std::string& locks() const { return held_->locks; }          // empty: as the named mechanisms do
+  const std::vector<std::string>& about() const { return held_->about; }
+  const std::string& undetermined() const { return held_->undetermined; }
+
+  bool joints_are_known() const { return !held_->own_bodies; }
+  // What Simbody's bodies are made of. Throws std::invalid_argument with the first fault of the data.
+  BodiesOf bodies_of() const;
+  // Throws as bodies_of; null without Simbody.
+  std::unique_ptr<MechanismBodies> make_bodies() const;
 
  private:
   struct Held {
-    virtual ~Held() = default;
-    virtual std::type_index kind() const = 0;
-    virtual std::vector<double> values() const = 0;
-    virtual std::unique_ptr<MechanismBodies> bodies() const = 0;
-    virtual ClosedForm closed(long double phi) const = 0;
-    virtual PlanarLinkage linkage(long double phi) const = 0;
-    virtual LinkageDrawing drawing() const = 0;
-    virtual double gravity() const = 0;
-    virtual std::optional<CrankArc> arc() const = 0;
-    virtual std::string locks() const = 0;
-    virtual std::vector<std::string> about() const = 0;
-    virtual std::string undetermined() const = 0;
-  };
-  template <class D>
-  struct Of final : Held {
-    D data;
-    explicit Of(D given) : data(std::move(given)) {}
-    std::type_index kind() const override { return typeid(D); }
-    std::vector<double> values() const override { return values_of(data); }
-    std::unique_ptr<MechanismBodies> bodies() const override {
-      if constexpr (has_bodies)
-        return kurbel::make_bodies(data);
-      else
-        return nullptr;
-    }
-    ClosedForm closed(long double phi) const override { return kurbel::closed_form(data, phi); }
-    PlanarLinkage linkage(long double phi) const override { return linkage_of(data, phi); }
-    LinkageDrawing drawing() const override { return drawing_of(data); }
-    double gravity() const override { return data.gravity; }
-    std::optional<CrankArc> arc() const override {
-      if constexpr (requires { arc_of(data); })
-        return arc_of(data);
-      else
-        return {};
-    }
-    std::string locks() const override {
-      if constexpr (requires { locks_of(data); })
-        return locks_of(data);
-      else
-        return {};
-    }
-    std::vector<std::string> about() const override {
-      if constexpr (requires { words_about(data); })
-        return words_about(data);
-      else
-        return {};
-    }
-    std::string undetermined() const override {
-      if constexpr (requires { undetermined_reactions(data); })
-        return undetermined_reactions(data);
-      else
-        return {};
-    }
+    explicit Held(std::type_index of) : kind(of) {}
+    std::type_index kind;
+    std::vector<double> values;
+    LinkageDrawing drawing;
+    double gravity = 0;
+    std::function<PlanarLinkage(long double)> linkage;
+    std::function<void()> validate;
+    std::function<std::vector<PlanePoint>(double)> places;
+    std::function<std::unique_ptr<MechanismBodies>()> own_bodies;
+    std::optional<CrankArc> arc;
+    std::string locks, undetermined;
+    int turns = 1;
+    std::optional<double> drawn_at;
+    std::vector<std::string> about;
   };
 
-  bool rocks_;
+  std::shared_ptr<const void> data_;
   std::shared_ptr<const Held> held_;
 };
 
-// Rounded to double; costs 1 … 3 µs. The branch is right by construction: closure_determinant is 1.
+inline std::unique_ptr<MechanismBodies> make_bodies(const MechanismData& data) { return data.make_bodies(); }
+
+// Costs 1 … 3 µs.
 ReducedSample closed_sample(const MechanismData& data, double phi);
+// The branch is right by construction: closure_determinant is 1.
+ReducedSample rounded(const ClosedForm& form);
 
 }  // namespace kurbel

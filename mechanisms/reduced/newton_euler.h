@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "mechanisms/reduced/closed_forms.h"
 #include "mechanisms/reduced/mechanism_data.h"
 #include "mechanisms/slider_crank/slider_crank_forces.h"
 

@@ -109,7 +109,7 @@ inline constexpr PeriodicTable::Cut second_cut = {23, 0.381966, 8};
 inline constexpr double second_tolerance = 0.04;  // of the first's
 
 // A mechanism as functions of its crank angle: the first extraction from Simbody (10 … 40 µs a sample), the second from
-// the closed forms (closed_forms.h, 1 … 3 µs a sample) with seams and polynomials of its own, so that the two have no
+// the sums over the links (planar_linkage.h, 1 … 3 µs a sample) with seams and polynomials of its own, so that the two have no
 // error in common. Kept for the life of the process and shared by all who ask with equal data. Throws as make_bodies
 // and MechanismBodies do. Safe to call from several threads.
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance = table_tolerance,

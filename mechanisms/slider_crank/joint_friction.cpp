@@ -1,5 +1,6 @@
 // joint_friction.cpp — Newton's method for the slider pin's force with friction, and the derivatives of its torque.
 #include "mechanisms/slider_crank/joint_friction.h"
+#include "mechanisms/slider_crank/slider_crank_pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,7 +163,7 @@ template <class T>
 FrictionFrame<T> SliderCrankStatics::friction_frame(const CrankState& state, const T& phi, const T& omega,
                                                     const T& force) const {
   const SliderCrankData& d = data_;
-  const SliderCrankGeometry::Pose<T> p(d, phi);
+  const SliderCrankPose<T> p(d, changes_, phi);
   const T turning = omega * omega;
   FrictionFrame<T> f;
   f.beta1 = p.beta1, f.x1 = p.x1, f.lever = d.rod_length * p.cos_beta, f.tan_beta = p.sin_beta / p.cos_beta;

@@ -18,7 +18,7 @@
 
 #include "engine/base/enumerators.h"
 #include "engine/numerics/dual.h"
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "mechanisms/linkages/slider_crank.h"
 #include "mechanisms/slider_crank/joint_contact.h"
 #include "mechanisms/slider_crank/rod_flexibility.h"
 

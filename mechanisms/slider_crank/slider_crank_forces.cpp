@@ -8,30 +8,36 @@
 #include <stdexcept>
 
 #include "mechanisms/slider_crank/slider_crank_friction.h"
+#include "mechanisms/slider_crank/slider_crank_pose.h"
 
 namespace kurbel {
 namespace {
 
 // Sines and cosines of a position, and the motion ratios of every centre of mass.
 struct Position {
-  Position(const SliderCrankData& d, const SliderCrankGeometry& geometry, double phi)
-      : beta(geometry.rod(phi)), slider(geometry.slider(phi)), c(std::cos(phi)), s(std::sin(phi)) {
-    cos_beta = std::cos(beta.value);
-    sin_beta = (d.offset - d.radius * s) / d.rod_length;
-  }
+  Position(const SliderCrankData& d, bool changes, double phi) : Position(SliderCrankPose<double>(d, changes, phi)) {}
+  explicit Position(const SliderCrankPose<double>& p)
+      : beta1(p.beta1),
+        beta2(p.beta2),
+        slider{p.x, p.x1, p.x2},
+        c(p.cos_phi),
+        s(p.sin_phi),
+        cos_beta(p.cos_beta),
+        sin_beta(p.sin_beta) {}
   // Accelerations at ω² = w, ε = a.
   Force2 crank_com(const SliderCrankData& d, double w, double a) const {
     return d.crank_com * Force2{-c * w - s * a, -s * w + c * a};
   }
   Force2 rod_com(const SliderCrankData& d, double w, double a) const {
-    const double w_rod = beta.slope * beta.slope * w, a_rod = rod_angular(w, a);
+    const double w_rod = beta1 * beta1 * w, a_rod = rod_angular(w, a);
     return d.radius * Force2{-c * w - s * a, -s * w + c * a} +
            d.rod_com * Force2{-cos_beta * w_rod - sin_beta * a_rod, -sin_beta * w_rod + cos_beta * a_rod};
   }
-  double rod_angular(double w, double a) const { return beta.curvature * w + beta.slope * a; }
+  double rod_angular(double w, double a) const { return beta2 * w + beta1 * a; }
   double slider_acceleration(double w, double a) const { return slider.curvature * w + slider.slope * a; }
 
-  ValueSlopeCurvature<double> beta, slider;
+  double beta1, beta2;  // β′, β″
+  ValueSlopeCurvature<double> slider;
   double c, s, cos_beta, sin_beta;
 };
 
@@ -137,13 +143,13 @@ double SliderCrankForces::friction_loss() const {
 SliderCrankStatics::SliderCrankStatics(const SliderCrankData& data, const SliderCrankJoints& joints)
     : data_(data),
       joints_(joints),
-      geometry_(data),
+      changes_(data.changes()),
       down_(-data.gravity * Force2{std::sin(data.stroke_angle), std::cos(data.stroke_angle)}) {
   validate(joints);
 }
 
 SliderCrankStatics::Table SliderCrankStatics::unit_cases(double phi) const {
-  const Position p(data_, geometry_, phi);
+  const Position p(data_, changes_, phi);
   Table table;
   table.col(speed_case) = equilibrium(data_, p, inertia_loads(data_, joints_.guide, p, 1, 0));
   table.col(acceleration_case) = equilibrium(data_, p, inertia_loads(data_, joints_.guide, p, 0, 1));
@@ -171,12 +177,13 @@ SliderCrankStatics::Table SliderCrankStatics::unit_cases(double phi) const {
 }
 
 SliderCrankStatics::Rates SliderCrankStatics::rates(double phi, double omega) const {
-  const double rod = geometry_.rod(phi).slope * omega;
-  return {omega, rod - omega, -rod, geometry_.slider(phi).slope * omega};
+  const SliderCrankPose<double> p(data_, changes_, phi);
+  const double rod = p.beta1 * omega;
+  return {omega, rod - omega, -rod, p.x1 * omega};
 }
 
 ValueAndSlope<double> SliderCrankStatics::rod_ratio(double phi) const {
-  const SliderCrankGeometry::Pose<double> p(data_, phi);
+  const SliderCrankPose<double> p(data_, changes_, phi);
   return {p.beta1, p.beta2};
 }
 
@@ -225,7 +232,7 @@ SliderCrankForces SliderCrankStatics::assemble(const Column& r, const Solution& 
 }
 
 void SliderCrankStatics::add_motion(const CrankState& state, SliderCrankForces& out) const {
-  const Position p(data_, geometry_, state.phi);
+  const Position p(data_, changes_, state.phi);
   const Loads inertia = inertia_loads(data_, joints_.guide, p, state.omega * state.omega, state.alpha);
   out.crank_inertia = inertia.crank;
   out.rod_inertia = inertia.rod;

@@ -21,7 +21,7 @@
 #include <string>
 
 #include "engine/base/enumerators.h"
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "mechanisms/linkages/slider_crank.h"
 #include "mechanisms/slider_crank/friction.h"
 
 namespace kurbel {
@@ -215,8 +215,8 @@ class SliderCrankStatics {
 
   SliderCrankData data_;
   SliderCrankJoints joints_;
-  SliderCrankGeometry geometry_;
-  Force2 down_;  // gravity [m/s²]
+  bool changes_;  // passes change points
+  Force2 down_;   // gravity [m/s²]
 };
 
 }  // namespace kurbel

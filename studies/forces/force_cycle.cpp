@@ -18,7 +18,7 @@ namespace kurbel {
 // --- one problem ---
 
 CycleBuilder::CycleBuilder(const SliderCrankStatics& statics, OutputLoads& loads, ForceCycle& cycle)
-    : statics_(statics), geometry_(statics.data()), loads_(loads), cycle_(cycle) {
+    : statics_(statics), data_(statics.data()), loads_(loads), cycle_(cycle) {
   for (const WorkAccount& account : loads.model().accounts)
     cycle_.work.push_back({account.name, name_of(account.kind)});
   cycle_.work.push_back({"balancing torque", "driving"});
@@ -27,21 +27,21 @@ CycleBuilder::CycleBuilder(const SliderCrankStatics& statics, OutputLoads& loads
 }
 
 CyclePosition CycleBuilder::at(double phi, CrankMotion motion) const {
-  if (statics_.data().changes()) phi = beside_change_point(statics_.data(), phi);
+  if (statics_.data().changes()) phi = beside_change_point(data_, phi);
   CyclePosition p;
   p.loads = motion.loads;
   p.state = {phi, motion.omega, motion.alpha, loads_.force(phi, motion)};
-  const auto slider = geometry_.slider(phi);
-  p.position = slider.value;
-  p.velocity = slider.slope * motion.omega;
-  p.rod_angle = geometry_.rod(phi).value;
+  const PlanarLinkage links = data_.linkage(phi);
+  const ReducedSample reduced = rounded(closed_form_of(links));
+  p.position = reduced.output_position;
+  p.velocity = reduced.output_velocity_ratio * motion.omega;
+  p.rod_angle = static_cast<double>(links.bodies[1].direction.angle());
   p.forces = statics_.solve(p.state);
-  const auto inertia = geometry_.inertia(phi);
   const double w = motion.omega;
   p.power = {.crank = p.forces.torque * w,
              .load = p.state.slider_force * p.velocity,
-             .weight = geometry_.gravity_torque(phi).value * w,
-             .kinetic_rate = (inertia.value * motion.alpha + 0.5 * inertia.slope * w * w) * w,
+             .weight = reduced.gravity_torque * w,
+             .kinetic_rate = (reduced.inertia * motion.alpha + 0.5 * reduced.inertia_slope * w * w) * w,
              .friction = p.forces.friction_loss()};
   return p;
 }
@@ -77,7 +77,7 @@ void CycleBuilder::finish() {
   cycle_.last_speed = cycle_.positions.back().state.omega;
   cycle_.closure = {(cycle_.last_speed - cycle_.first_speed) / mean_speed, 2 * rounding_of_forces};
   const auto kinetic = [&](const CyclePosition& p) {
-    return 0.5 * geometry_.inertia(p.state.phi).value * p.state.omega * p.state.omega;
+    return 0.5 * closed_sample(data_, p.state.phi).inertia * p.state.omega * p.state.omega;
   };
   cycle_.kinetic_change = {kinetic(cycle_.positions.back()) - kinetic(cycle_.positions.front()), 0.0};
   for (const CyclePosition& p : cycle_.positions) cycle_.kinetic_most = std::max(cycle_.kinetic_most, kinetic(p));

@@ -29,7 +29,7 @@ class CycleBuilder {
   void find_errors_of_works();
 
   const SliderCrankStatics& statics_;
-  SliderCrankGeometry geometry_;
+  MechanismData data_;
   OutputLoads& loads_;
   ForceCycle& cycle_;
   std::vector<CyclePosition> samples_;  // every abscissa but rows alone

@@ -102,10 +102,13 @@ SliderCrankJoints without_friction(SliderCrankJoints joints) {
 
 // Where friction turns round in a turn: at the ends of the slider's travel, and where the rod turns back.
 std::vector<double> turnings_of(const SliderCrankData& data) {
-  const SliderCrankGeometry geometry(data);
+  const auto rod = [&](double phi) {
+    return static_cast<double>(linkage_of(data, phi).bodies[1].direction.rate().value());
+  };
   std::vector<double> angles;
-  for (const auto& slope : {std::function<double(double)>([&](double phi) { return geometry.slider(phi).slope; }),
-                            std::function<double(double)>([&](double phi) { return geometry.rod(phi).slope; })}) {
+  for (const auto& slope :
+       {std::function<double(double)>([&](double phi) { return static_cast<double>(linkage_of(data, phi).output[1]); }),
+        std::function<double(double)>(rod)}) {
     constexpr int cells = 24;
     const double step = 2 * std::numbers::pi / cells, begin = 0.3 * step;  // off the angles where they like to lie
     for (int i = 0; i < cells; ++i) {

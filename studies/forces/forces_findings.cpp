@@ -185,16 +185,14 @@ Formulas torque_formula(const Forces& f) {
   // With the numbers of the peak.
   const ForceCycle& c = front_of(f);
   const CyclePosition* const peak = &c.at_torque_peak;
-  const SliderCrankGeometry g(f.data);
-  const auto inertia = g.inertia(peak->state.phi);
-  const double w = peak->state.omega, slope = g.slider(peak->state.phi).slope,
-               weight = g.gravity_torque(peak->state.phi).value, loss = w != 0 ? peak->power.friction / w : 0;
+  const ReducedSample at = closed_sample(f.data, peak->state.phi);
+  const double w = peak->state.omega, loss = w != 0 ? peak->power.friction / w : 0;
   return Formulas()
       .add(fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(peak->state.phi)),
            "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
            "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) = {:.6g} N·m",
-           inertia.value, peak->state.alpha, inertia.slope, w, weight, peak->state.slider_force, slope, loss,
-           peak->forces.torque)
+           at.inertia, peak->state.alpha, at.inertia_slope, w, at.gravity_torque, peak->state.slider_force,
+           at.output_velocity_ratio, loss, peak->forces.torque)
       .note(
           "I_r reduced inertia, M_g torque of the weights, F force on the slider, P_f power lost in the joints; SI "
           "units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the power "

@@ -120,7 +120,7 @@ MachineView::Linkage linkage_of(const Mechanism& mechanism, const Model& model, 
   for (int i = 0; i <= places_of_turn * mechanism.reduced->cycle().turns(); ++i) {
     const double angle = 2 * std::numbers::pi * i / places_of_turn;
     const std::vector<PlanePoint> joints =
-        mechanism.bodies->joints(mechanism.reduced->cycle().within(angle + mechanism.phase));
+        mechanism.data.places(mechanism.reduced->cycle().within(angle + mechanism.phase));
     linkage.x.resize(joints.size()), linkage.y.resize(joints.size());
     for (std::size_t k = 0; k < joints.size(); ++k)
       linkage.x[k].push_back(joints[k].x), linkage.y[k].push_back(joints[k].y);

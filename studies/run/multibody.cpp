@@ -8,7 +8,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "mechanisms/linkages/multibody_run.h"
+#include "mechanisms/bodies/multibody_run.h"
 #include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
@@ -50,7 +50,7 @@ class ShaftTorque {
   Equations equations_;
 };
 
-double slider_force(const Mechanism& crank, double phi, double x, double v) {
+double load_on(const Mechanism& crank, double phi, double x, double v) {
   double sum = 0;
   for (const SliderLoad& load : crank.loads) {
     SliderState<double> s{phi, x, v, v > 0 ? 1 : v < 0 ? -1 : 0, 0};
@@ -150,7 +150,7 @@ class MultibodySimulation {
     const auto torque = std::make_shared<ShaftTorque>(model_);
     Equations equations(model_, false);
     const std::vector<double> start = equations.start(0);
-    problem_.mechanism = *crank_.data.as<SliderCrankData>();
+    problem_.mechanism = crank_.data.bodies_of();
     problem_.shaft_inertia = model_->shafts.front().inertia;
     const auto phi_now = std::make_shared<double>(0);
     problem_.shaft_torque = [torque, phi_now, phase = crank_.phase](double t, double phi, double omega) {
@@ -159,9 +159,7 @@ class MultibodySimulation {
       return (*torque)(t, phi - phase, omega);
     };
     if (!crank_.loads.empty())
-      problem_.slider_force = [this, phi_now](double, double x, double v) {
-        return slider_force(crank_, *phi_now, x, v);
-      };
+      problem_.load = [this, phi_now](double, double x, double v) { return load_on(crank_, *phi_now, x, v); };
     problem_.phi0 = equations.angle_with_turns(at(model_->reduction_angle), start) + crank_.phase;
     problem_.omega0 = start[equations.speed_index(0)];
     problem_.t_end = options_.until.value_or(settings_.until);

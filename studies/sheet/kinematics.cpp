@@ -68,7 +68,7 @@ bool floats(const PlanarLinkage& l, int body) {
 }  // namespace
 
 std::vector<PlanePoint> MechanismOnSheet::joints(double crank_angle) const {
-  return mechanism.bodies->joints(mechanism.reduced->cycle().within(crank_angle));
+  return mechanism.data.places(mechanism.reduced->cycle().within(crank_angle));
 }
 
 std::string MechanismOnSheet::letter(std::size_t joint) const {

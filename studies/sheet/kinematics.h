@@ -1,6 +1,6 @@
 // kinematics.h — how a mechanism of the machine moves at a position of its crank: output, pins, centres of mass, links.
 //
-// By its loop equations in closed form (mechanisms/reduced/closed_forms.h): with a function f of the crank's angle,
+// By its loop equations in closed form (mechanisms/loops/planar_linkage.h): with a function f of the crank's angle,
 //     ḟ = f′ ω,      f̈ = f″ ω² + f′ ε
 // f′ and f″ are what books call analogues of velocity and acceleration.
 #pragma once

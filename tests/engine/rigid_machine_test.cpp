@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::rigid_machine_test {

@@ -9,7 +9,7 @@
 
 #include "engine/rigid/work_stepper.h"
 #include "engine/steppers/butcher_tables.h"
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/published/published.h"
 
 namespace kurbel::work_equation_test {

@@ -8,6 +8,7 @@
 
 #include "mechanisms/reduced/mechanism.h"
 #include "mechanisms/reduced/newton_euler.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel::change_points_test {
 namespace {
@@ -99,7 +100,7 @@ void expect_followed(const FourBarData& d, int turns, double wound) {
   EXPECT_EQ(m.travel.winding, wound);
   const double begin = 1;
   const ReducedSample s = m.bodies->sample(begin);
-  const std::vector<PlanePoint> joints = m.bodies->joints(begin);
+  const std::vector<PlanePoint> joints = m.data.places(begin);
   FollowedFourBar loop(d, std::atan2(joints[2].y - joints[1].y, joints[2].x - joints[1].x), s.output_position, begin);
   double inertia_scale = m.travel.mean_inertia;
   for (double phi = begin; phi < begin + 4 * pi; phi += 0.2391) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel::friction_test {
 namespace {

@@ -51,7 +51,7 @@ TEST(Linkage, JansensLegWalks) {
   EXPECT_NEAR(leg->stroke(), 0.67908233175, 1e-5);
   double least = 1, greatest = -1;
   for (int i = 0; i < 720; ++i) {
-    const double y = leg->bodies->joints(2 * pi * i / 720)[7].y;
+    const double y = leg->data.places(2 * pi * i / 720)[7].y;
     least = std::min(least, y), greatest = std::max(greatest, y);
   }
   EXPECT_NEAR(greatest - least, 0.22456940550562853, 1e-6);

@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "mechanisms/reduced/mechanism_data.h"
 #include "mechanisms/loops/taylor.h"
+#include "mechanisms/reduced/mechanism_data.h"
 
 namespace kurbel::test {
 

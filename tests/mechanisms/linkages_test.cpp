@@ -6,6 +6,7 @@
 
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/mechanisms/linkage_truth.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel::linkages_test {
 namespace {
@@ -271,9 +272,9 @@ TEST(QuickReturn, PivotOnTheCrankAxisLeavesASliderCrank) {
 
 TEST(QuickReturn, LinkPointsWhereItIsTold) {
   QuickReturnData d = shaper();
-  const auto ahead = make_bodies(d)->joints(1.0);
+  const auto ahead = MechanismData(d).places(1.0);
   d.backward = true;
-  const auto behind = make_bodies(d)->joints(1.0);
+  const auto behind = MechanismData(d).places(1.0);
   EXPECT_GT(ahead[4].x, ahead[3].x);
   EXPECT_LT(behind[4].x, behind[3].x);
   EXPECT_NEAR(ahead[4].x - ahead[3].x, behind[3].x - behind[4].x, 1e-14);
@@ -330,11 +331,10 @@ TEST(KnucklePress, LinksInLinePutTheRamAtItsFarEndTwiceATurn) {
 TEST(KnucklePress, MechanicalAdvantageGrowsWithoutBoundAsTheLinksFallInLine) {
   const KnucklePressData d = toggle();
   const Mechanism m("press", d);
-  const auto bodies = make_bodies(d);
   for (double phi = 0.05; phi < 2 * pi; phi += 0.1) {
-    const std::vector<PlanePoint> joint = bodies->joints(phi);
+    const std::vector<PlanePoint> joint = MechanismData(d).places(phi);
     const double tangent = (joint[2].y - d.bearing_y) / (joint[2].x - d.bearing_x);  // of the upper link
-    const double upper_rate = bodies->turn_ratios(phi)[2];
+    const auto upper_rate = static_cast<double>(linkage_of(d, phi).bodies[2].direction.rate().value());
     // Equal links: x = x_G + 2 u cos α, so x′ = −2 u sin α α′.
     const double sine = tangent / std::sqrt(1 + tangent * tangent);
     EXPECT_NEAR(m.reduced->output_velocity(phi).value, -2 * d.upper * sine * upper_rate, 1e-12);
@@ -345,9 +345,8 @@ TEST(KnucklePress, KneeIsOnTheSideThatWasAskedFor) {
   RandomLinkage random(35);
   for (int i = 0; i < 20; ++i) {
     const KnucklePressData d = random.knuckle_press();
-    const auto bodies = make_bodies(d);
     for (double phi = 0; phi < 6.2; phi += 0.5) {
-      const std::vector<PlanePoint> j = bodies->joints(phi);  // O, A, K, G, ram
+      const std::vector<PlanePoint> j = MechanismData(d).places(phi);  // O, A, K, G, ram
       const double cross = (j[3].x - j[1].x) * (j[2].y - j[1].y) - (j[3].y - j[1].y) * (j[2].x - j[1].x);
       EXPECT_EQ(cross < 0, d.knee_right);
       EXPECT_GT(j[4].x, j[2].x);
@@ -389,6 +388,26 @@ TEST(KnucklePress, LeastLowerLinkIsExact) {
     d.lower = rise * (1 - 1e-9);
     EXPECT_FALSE(faults_of(d).empty());
   }
+}
+
+// Simbody's bodies take the links' shapes from one position of the loops: from any they are the same links.
+TEST(Linkages, ShapesAreTheSameWhereverTheyAreReadOff) {
+  RandomLinkage random(37);
+  for (int i = 0; i < 10; ++i)
+    for (const MechanismData& data : {MechanismData(random.four_bar()), MechanismData(random.quick_return()),
+                                      MechanismData(random.knuckle_press())}) {
+      BodiesOf of = data.bodies_of();
+      const auto one = make_bodies(of);
+      of.place = random.uniform(0, 2 * pi);
+      const auto other = make_bodies(of);
+      for (double phi = 0.1; phi < 6.2; phi += 0.7) {
+        const ReducedSample a = one->sample(phi), b = other->sample(phi);
+        EXPECT_NEAR(b.inertia, a.inertia, 1e-13 * a.inertia) << phi << " from " << of.place;
+        EXPECT_NEAR(b.output_position, a.output_position, 1e-13) << phi << " from " << of.place;
+        EXPECT_NEAR(b.gravity_torque, a.gravity_torque, 1e-12 * a.gravity_torque_scale) << phi;
+        EXPECT_GT(b.closure_determinant, 0);
+      }
+    }
 }
 
 TEST(Linkages, SenselessDataAreRefusedInWords) {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel {
 

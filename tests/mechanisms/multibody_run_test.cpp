@@ -1,6 +1,6 @@
 // multibody_run_test.cpp — the full multibody run against the reduced equation of motion (theory 2.4) in Runge-Kutta
 // steps.
-#include "mechanisms/linkages/multibody_run.h"
+#include "mechanisms/bodies/multibody_run.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "mechanisms/reduced/mechanism_data.h"
 #include "tests/mechanisms/mechanism_examples.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel::multibody_run_test {
 namespace {
@@ -20,14 +22,14 @@ struct CrankState {
 };
 
 // theory 2.4 with the closed form, 10⁴ classical Runge-Kutta steps a second.
-CrankState reduced_run(const MultibodyProblem& p, double t_end) {
-  const SliderCrankGeometry geometry(p.mechanism);
+CrankState reduced_run(const MultibodyProblem& p, const SliderCrankData& data, double t_end) {
+  const SliderCrankGeometry geometry(data);
   const auto rate = [&](double t, CrankState y) -> CrankState {
     const auto inertia = geometry.inertia(y.phi);
     const auto slider = geometry.slider(y.phi);
     double torque = geometry.gravity_torque(y.phi).value - inertia.slope * y.omega * y.omega / 2;
     if (p.shaft_torque) torque += p.shaft_torque(t, y.phi, y.omega);
-    if (p.slider_force) torque += p.slider_force(t, slider.value, slider.slope * y.omega) * slider.slope;
+    if (p.load) torque += p.load(t, slider.value, slider.slope * y.omega) * slider.slope;
     return {y.omega, torque / (inertia.value + p.shaft_inertia)};
   };
   const auto moved = [](CrankState y, CrankState k, double h) -> CrankState {
@@ -48,16 +50,16 @@ CrankState reduced_run(const MultibodyProblem& p, double t_end) {
 
 TEST(MultibodyRun, FreeSliderCrankFollowsTheReducedEquation) {
   MultibodyProblem p;
-  p.mechanism = reference_mechanism();
+  p.mechanism = MechanismData(reference_mechanism()).bodies_of();
   p.omega0 = 30;
   p.t_end = 1;
   p.accuracy = 1e-9;
   p.times = {0, 0.25, 1};
   const auto samples = run_multibody(p).samples;
   ASSERT_EQ(samples.size(), 3u);
-  const SliderCrankGeometry geometry(p.mechanism);
+  const SliderCrankGeometry geometry(reference_mechanism());
   for (const MultibodySample& s : samples) {
-    const CrankState expected = s.t == 0 ? CrankState{0, 30} : reduced_run(p, s.t);
+    const CrankState expected = s.t == 0 ? CrankState{0, 30} : reduced_run(p, reference_mechanism(), s.t);
     EXPECT_NEAR(s.phi, expected.phi, 1e-6) << s.t;
     EXPECT_NEAR(s.omega, expected.omega, 1e-6) << s.t;
     EXPECT_NEAR(s.x, geometry.slider(s.phi).value, 1e-9);
@@ -70,7 +72,8 @@ TEST(MultibodyRun, FreeSliderCrankFollowsTheReducedEquation) {
 
 TEST(MultibodyRun, DrivenMachineUnderGravityFollowsTheReducedEquation) {
   MultibodyProblem p;
-  p.mechanism = full_mechanism(2, 0.03);
+  const SliderCrankData data = full_mechanism(2, 0.03);
+  p.mechanism = MechanismData(data).bodies_of();
   p.shaft_inertia = 0.3;
   p.phi0 = 0.4;
   p.omega0 = 5;
@@ -79,23 +82,23 @@ TEST(MultibodyRun, DrivenMachineUnderGravityFollowsTheReducedEquation) {
   p.shaft_torque = [](double t, double phi, double omega) {
     return 60 * (1 - omega / 40) + 5 * std::sin(3 * t) + 4 * std::cos(phi);
   };
-  p.slider_force = [](double t, double x, double v) { return -80 * v - 300 * (x - 0.2) + 10 * t; };
+  p.load = [](double t, double x, double v) { return -80 * v - 300 * (x - 0.2) + 10 * t; };
   const MultibodySample end = run_multibody(p).samples.back();
-  const CrankState expected = reduced_run(p, p.t_end);
+  const CrankState expected = reduced_run(p, data, p.t_end);
   EXPECT_NEAR(end.phi, expected.phi, 2e-7);
   EXPECT_NEAR(end.omega, expected.omega, 2e-6);
-  EXPECT_NEAR(end.kinetic_energy,
-              (SliderCrankGeometry(p.mechanism).inertia(end.phi).value + 0.3) * end.omega * end.omega / 2, 1e-6);
+  EXPECT_NEAR(end.kinetic_energy, (SliderCrankGeometry(data).inertia(end.phi).value + 0.3) * end.omega * end.omega / 2,
+              1e-6);
 }
 
 // Methods of order 1 to 5 at their own pace, all on the same quarter turn.
 TEST(MultibodyRun, EveryIntegratorArrives) {
   MultibodyProblem p;
-  p.mechanism = reference_mechanism();
+  p.mechanism = MechanismData(reference_mechanism()).bodies_of();
   p.omega0 = 30;
   p.t_end = 0.05;
   p.accuracy = 1e-5;
-  const CrankState expected = reduced_run(p, p.t_end);
+  const CrankState expected = reduced_run(p, reference_mechanism(), p.t_end);
   for (const std::string& name : multibody_integrators()) {
     p.integrator = name;
     EXPECT_NEAR(run_multibody(p).samples.back().phi, expected.phi, 3e-3) << name;
@@ -104,7 +107,7 @@ TEST(MultibodyRun, EveryIntegratorArrives) {
 
 TEST(MultibodyRun, UnknownIntegratorIsAnsweredWithTheList) {
   MultibodyProblem p;
-  p.mechanism = reference_mechanism();
+  p.mechanism = MechanismData(reference_mechanism()).bodies_of();
   p.t_end = 1;
   p.integrator = "Euler";
   try {
@@ -118,7 +121,7 @@ TEST(MultibodyRun, UnknownIntegratorIsAnsweredWithTheList) {
 
 TEST(MultibodyRun, TroubleInATorqueReachesTheCaller) {
   MultibodyProblem p;
-  p.mechanism = reference_mechanism();
+  p.mechanism = MechanismData(reference_mechanism()).bodies_of();
   p.omega0 = 10;
   p.t_end = 0.1;
   p.shaft_torque = [](double t, double, double) -> double {
@@ -133,7 +136,7 @@ TEST(MultibodyRun, TroubleInATorqueReachesTheCaller) {
 // Simbody's integrators try a shorter step where one throws; trouble told once is trouble all the same.
 TEST(MultibodyRun, TroubleThatIsToldOnlyOnceReachesTheCallerByEveryIntegrator) {
   MultibodyProblem p;
-  p.mechanism = reference_mechanism();
+  p.mechanism = MechanismData(reference_mechanism()).bodies_of();
   p.omega0 = 10;
   p.t_end = 0.06;
   p.accuracy = 1e-3;
@@ -150,7 +153,7 @@ TEST(MultibodyRun, TroubleThatIsToldOnlyOnceReachesTheCallerByEveryIntegrator) {
 
 TEST(MultibodyRun, RefusesSenselessProblems) {
   MultibodyProblem p;
-  p.mechanism = reference_mechanism();
+  p.mechanism = MechanismData(reference_mechanism()).bodies_of();
   EXPECT_THROW(run_multibody(p), std::invalid_argument);  // no end
   p.t_end = 1;
   p.times = {0.5, 0.2};

@@ -181,7 +181,8 @@ template <class Data>
 void expect_simbody(const Data& data, const std::vector<Told>& mobilizers, std::mt19937& random) {
   const LinkageState s = random_state(random);
   const LinkageForces f = forces_of(data, s);
-  const MechanismReactions simbody = simbody_reactions(data, s.phi, s.omega, s.alpha, s.load);
+  const MechanismReactions simbody =
+      simbody_reactions(MechanismData(data).bodies_of(), s.phi, s.omega, s.alpha, s.load);
   const double force = largest_force(f), moment = force + std::abs(f.torque);
   ASSERT_EQ(simbody.on.size(), mobilizers.size());
   for (std::size_t k = 0; k < mobilizers.size(); ++k)

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/mechanisms/mechanism_examples.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel::reduced_mechanism_test {
 namespace {

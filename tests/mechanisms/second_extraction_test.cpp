@@ -8,12 +8,12 @@
 #include <random>
 
 #include "engine/model/model.h"
-#include "mechanisms/reduced/closed_forms.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/run/simulate.h"
 #include "studies/scenes/kinds.h"
 #include "tests/mechanisms/linkage_truth.h"
 #include "tests/mechanisms/mechanism_examples.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::second_extraction_test {
@@ -33,14 +33,15 @@ void expect_closed_form(const Data& data, RandomLinkage& random) {
   for (int i = 0; i < 90; ++i) {
     const test::LinkageTruth truth = test::truth_of(data, 2 * pi * i / 90);
     for (int c = 0; c < channels; ++c) scale[c] = std::max(scale[c], static_cast<double>(std::fabs(truth.value[c])));
-    scale[6] = std::max(scale[6], static_cast<double>(closed_form(data, 2 * pi * i / 90).gravity_torque_scale));
+    scale[6] =
+        std::max(scale[6], static_cast<double>(closed_form_of(linkage_of(data, 2 * pi * i / 90)).gravity_torque_scale));
   }
   scale[1] = std::max(scale[1], 0.01 * scale[0]), scale[2] = std::max(scale[2], 0.01 * scale[0]);
   scale[7] = std::max(scale[7], scale[6]);
   for (int i = 0; i < 20; ++i) {
     const double phi = random.uniform(-7, 20);
     const test::LinkageTruth truth = test::truth_of(data, phi);
-    const ClosedForm f = closed_form(data, phi);
+    const ClosedForm f = closed_form_of(linkage_of(data, phi));
     const long double got[channels] = {f.inertia,         f.inertia_slope,         f.inertia_curvature,
                                        f.output_position, f.output_velocity_ratio, f.output_acceleration_ratio,
                                        f.gravity_torque,  f.gravity_torque_slope};
@@ -72,8 +73,7 @@ TEST(ClosedForms, FourBarAtAChangePointKeepsItsDigits) {
   // The angle at D between DA and DB: tan²(D/2) = (p − c)(p − s)/(p (p − b)), p − s = margin/2.
   const long double at_d =
       2 * std::atan(std::sqrt((half_sum - m.rocker) * (margin / 2) / (half_sum * (half_sum - m.coupler))));
-  const long double got =
-      std::numbers::pi_v<long double> - closed_form(m, std::numbers::pi_v<long double>).output_position;
+  const long double got = std::numbers::pi_v<long double> - linkage_of(m, std::numbers::pi_v<long double>).output[0];
   EXPECT_NEAR(static_cast<double>(got / at_d), 1, 1e-14);
 }
 

@@ -9,10 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "mechanisms/linkages/four_bar.h"
-#include "mechanisms/linkages/knuckle_press.h"
-#include "mechanisms/linkages/planar_system.h"
-#include "mechanisms/linkages/quick_return.h"
+#include "mechanisms/bodies/planar_system.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel {
 
@@ -146,14 +144,8 @@ MechanismReactions reactions_in(std::unique_ptr<PlanarSystem> planar, double phi
 
 }  // namespace
 
-MechanismReactions simbody_reactions(const FourBarData& d, double phi, double omega, double alpha, double load) {
-  return reactions_in(planar_system(d), phi, omega, alpha, load);
-}
-MechanismReactions simbody_reactions(const QuickReturnData& d, double phi, double omega, double alpha, double load) {
-  return reactions_in(planar_system(d), phi, omega, alpha, load);
-}
-MechanismReactions simbody_reactions(const KnucklePressData& d, double phi, double omega, double alpha, double load) {
-  return reactions_in(planar_system(d), phi, omega, alpha, load);
+MechanismReactions simbody_reactions(const BodiesOf& of, double phi, double omega, double alpha, double load) {
+  return reactions_in(planar_system(of), phi, omega, alpha, load);
 }
 
 }  // namespace kurbel

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "mechanisms/bodies/mechanism_tree.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel {
 
@@ -23,7 +24,7 @@ struct SimbodyReactions {
 SimbodyReactions simbody_reactions(const SliderCrankData& data, double phi, double omega, double alpha,
                                    double slider_force);
 
-// What its mobilizer does to each body, in the order of make_bodies' bodies: at the body's joint, in the frame's axes.
+// What its mobilizer does to each body, in the order of make_bodies' bodies (a ram rides on its link): at the body's joint, in the frame's axes.
 struct MobilizerReaction {
   double x, y, moment;  // [N], [N·m]
 };
@@ -34,11 +35,6 @@ struct MechanismReactions {
 // The crank's acceleration is prescribed; the load is a force along +x at the ram's pin or a torque on the rocker.
 // Every link must have mass: Simbody's stand-in for a massless crank would weigh. Throw as make_bodies and
 // MechanismBodies do.
-MechanismReactions simbody_reactions(const struct FourBarData& data, double phi, double omega, double alpha,
-                                     double load);
-MechanismReactions simbody_reactions(const struct QuickReturnData& data, double phi, double omega, double alpha,
-                                     double load);
-MechanismReactions simbody_reactions(const struct KnucklePressData& data, double phi, double omega, double alpha,
-                                     double load);
+MechanismReactions simbody_reactions(const BodiesOf& of, double phi, double omega, double alpha, double load);
 
 }  // namespace kurbel

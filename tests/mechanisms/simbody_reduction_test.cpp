@@ -1,5 +1,5 @@
 // simbody_reduction_test.cpp — the reduction of other mechanisms than the slider-crank (C++17 island, like its header).
-#include "mechanisms/linkages/simbody_reduction.h"
+#include "mechanisms/bodies/simbody_reduction.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 
 #include "tests/mechanisms/mechanism_examples.h"
 #include "tests/mechanisms/simbody_reactions.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 namespace kurbel::slider_crank_forces_test {
 namespace {

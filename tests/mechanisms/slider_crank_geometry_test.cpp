@@ -1,5 +1,5 @@
 // slider_crank_geometry_test.cpp — the closed form against dual numbers, energy and published slider-cranks.
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/steppers/stepper.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/support/validation.h"
 
 namespace kurbel::slider_crank_forces_test {

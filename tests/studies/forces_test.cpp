@@ -11,6 +11,7 @@
 
 #include "studies/forces/forces_findings.h"
 #include "studies/report/render.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::forces_test {

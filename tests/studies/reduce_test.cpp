@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/published/published.h"
 #include "tests/support/validation.h"
 

@@ -10,12 +10,12 @@
 #include <random>
 #include <string>
 
-#include "mechanisms/linkages/slider_crank_geometry.h"
 #include "studies/handout/energy_mass_sheet.h"
 #include "studies/handout/forces_sheet.h"
 #include "studies/handout/reduce_sheet.h"
 #include "studies/sheet/linkage_drawing.h"
 #include "studies/sheet/table.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/support/scenes.h"
 #include "tests/support/sheet_page.h"
 

@@ -10,6 +10,7 @@
 #include "studies/effects/effect_study.h"
 #include "studies/forces/forces.h"
 #include "studies/forces/forces_findings.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/support/scenes.h"
 #include "tests/support/steady_simulation.h"
 #include "tests/support/thorough.h"

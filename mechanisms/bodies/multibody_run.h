@@ -1,22 +1,23 @@
-// multibody_run.h — the slider-crank as a full multibody run in Simbody: the slow reference of the reduced machine.
+// multibody_run.h — a mechanism as a full multibody run in Simbody: the slow reference of the reduced machine.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "mechanisms/linkages/slider_crank_geometry.h"
+#include "mechanisms/bodies/mechanism_tree.h"
 
 namespace kurbel {
 
 struct MultibodyProblem {
-  SliderCrankData mechanism;
+  BodiesOf mechanism;        // of one that passes no change points
   double shaft_inertia = 0;  // more inertia on the crank's shaft [kg·m²], ≥ 0
   std::function<double(double t, double phi, double omega)> shaft_torque;  // on the crank [N·m]; empty: none
-  std::function<double(double t, double x, double v)> slider_force;        // along +x on the slider [N]; empty: none
-  double phi0 = 0;                                                         // [rad]
-  double omega0 = 0;                                                       // [rad/s]
-  double t_end = 0;                                                        // [s], > 0
+  // On the output: a force along +x [N] or, of one that rocks, a torque [N·m]; empty: none.
+  std::function<double(double t, double x, double v)> load;
+  double phi0 = 0;            // [rad]
+  double omega0 = 0;          // [rad/s]
+  double t_end = 0;           // [s], > 0
   double accuracy = 1e-6;     // of Simbody's local error control, 0 < accuracy < 1; the loop is held to a tenth of it
   std::vector<double> times;  // to report, ascending, 0 … t_end; the end alone if empty
   std::string integrator = "RungeKuttaMerson";  // one of multibody_integrators()
@@ -25,7 +26,7 @@ struct MultibodyProblem {
 struct MultibodySample {
   double t;               // [s]
   double phi, omega;      // crank; φ grows on over the turns [rad], [rad/s]
-  double x, v;            // slider [m], [m/s]
+  double x, v;            // output [m], [m/s] or [rad], [rad/s]
   double kinetic_energy;  // of all bodies with the shaft [J]
 };
 

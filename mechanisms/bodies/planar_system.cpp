@@ -1,5 +1,5 @@
 // planar_system.cpp — samples the reduced functions of any mechanism from its Simbody model (C++17 island).
-#include "mechanisms/linkages/planar_system.h"
+#include "mechanisms/bodies/planar_system.h"
 
 #include <fmt/core.h>
 
@@ -40,22 +40,6 @@ class SampledBodies final : public MechanismBodies {
     for (const PlanarSystem::Weight& weight : planar_->weights)
       energy += weight.mass * planar_->gravity * SimTK::dot(planar_->up(), reduced.points[weight.point].position);
     return energy;
-  }
-
-  std::vector<double> turn_ratios(double phi) override {
-    reduce_at(phi);  // leaves the velocity ratios in the state
-    std::vector<double> ratios;
-    for (SimTK::MobilizedBodyIndex k(1); k < planar_->matter.getNumBodies(); ++k)
-      ratios.push_back(planar_->matter.getMobilizedBody(k).getBodyAngularVelocity(state_)[2]);
-    return ratios;
-  }
-
-  std::vector<PlanePoint> joints(double phi) override {
-    const Reduction reduced = reduce_at(phi);
-    std::vector<PlanePoint> joints;
-    for (const std::size_t k : planar_->joint_points)
-      joints.push_back({reduced.points[k].position[0], reduced.points[k].position[1]});
-    return joints;
   }
 
  private:
@@ -110,11 +94,29 @@ void PlanarSystem::add_weight(double mass, const MobilizedBody& body, const Vec3
   weights.push_back({mass, track(body, station)});
 }
 
-void PlanarSystem::add_joint(const MobilizedBody& body, const Vec3& station) {
-  joint_points.push_back(track(body, station));
+void PlanarSystem::set_output(const MobilizedBody& body, const Vec3& station) { output_point = track(body, station); }
+void PlanarSystem::set_output(const MobilizedBody& body, std::vector<int> coordinates, double from) {
+  set_output(body, Vec3(0));
+  output_coordinates = std::move(coordinates), output_from = from;
 }
 
-void PlanarSystem::set_output(const MobilizedBody& body, const Vec3& station) { output_point = track(body, station); }
+double PlanarSystem::output_position(const State& state) const {
+  const TrackedPoint& output = points[output_point];
+  if (output_coordinates.empty())
+    return matter.getMobilizedBody(output.body).findStationLocationInGround(state, output.station)[0];
+  double angle = output_from;
+  for (const int q : output_coordinates) angle += state.getQ()[q];
+  return angle;
+}
+
+double PlanarSystem::output_speed(const State& state) const {
+  const TrackedPoint& output = points[output_point];
+  if (output_coordinates.empty())
+    return matter.getMobilizedBody(output.body).findStationVelocityInGround(state, output.station)[0];
+  double speed = 0;
+  for (const int q : output_coordinates) speed += state.getU()[q];
+  return speed;
+}
 
 State PlanarSystem::realize_topology() {
   system.realizeTopology();
@@ -123,14 +125,12 @@ State PlanarSystem::realize_topology() {
   for (SimTK::MobilizedBodyIndex k(1); k < matter.getNumBodies(); ++k)
     if (matter.getMobilizedBody(k).getFirstQIndex(state) != k - 1)
       throw std::logic_error("planar_system: coordinates are not in the order of the bodies");
-  if (drawn_at) {
-    State drawn = state;
-    drawn.updQ()[0] = *drawn_at;
-    const std::vector<double> others = start(*drawn_at);
-    for (std::size_t k = 0; k < others.size(); ++k) drawn.updQ()[int(k) + 1] = others[k];
-    reduction->close(drawn);
-    determinant_sign = std::copysign(1.0, reduction->reduce(drawn).determinant);
-  }
+  State drawn = state;
+  drawn.updQ()[0] = drawn_at;
+  const std::vector<double> others = start(drawn_at);
+  for (std::size_t k = 0; k < others.size(); ++k) drawn.updQ()[int(k) + 1] = others[k];
+  reduction->close(drawn);
+  determinant_sign_ = std::copysign(1.0, sign_at(drawn_at) * reduction->reduce(drawn).determinant);
   return state;
 }
 
@@ -176,7 +176,13 @@ void PlanarSystem::check_branch(double phi, const Reduction& reduced, double sig
 }
 
 double PlanarSystem::sign_at(double phi) const {
-  return follow ? std::copysign(1.0, double(follow(phi).sine)) : determinant_sign;
+  return follow && follow(phi).sine < 0 ? -determinant_sign_ : determinant_sign_;
+}
+
+void PlanarSystem::check_branch(State state) const {
+  const double phi = state.getQ()[0];
+  reduction->close(state);
+  check_branch(phi, reduction->reduce(state), sign_at(within_a_cycle(phi)));
 }
 
 double PlanarSystem::within_a_cycle(double phi) const {
@@ -195,28 +201,6 @@ MassProperties massive(double mass, const Vec3& com, const Inertia& about_origin
   const double moment = about_origin.getMoments()[2];
   if (moment < 10 || moment > 1e9) return MassProperties(mass, com, about_origin);  // beyond, units are wrong
   return MassProperties(mass, com, about_origin + Inertia(16 * std::numeric_limits<double>::epsilon() * moment));
-}
-
-SimTK::Body::Rigid pivoted_link(const LinkBody& link) {
-  const double central = std::fmax(0, link.inertia - link.mass * link.com * link.com);
-  if (link.mass == 0) return SimTK::Body::Rigid(MassProperties(1, Vec3(0), flat(central)));
-  const Vec3 com(link.com, 0, 0);
-  return SimTK::Body::Rigid(massive(link.mass, com, flat(central) + Inertia(com, link.mass)));
-}
-
-SimTK::Body::Rigid floating_link(const LinkBody& link, const char* what, double point_mass, double end_x) {
-  const Vec3 com(link.com, 0, 0), end(end_x, 0, 0);
-  const double mass = link.mass + point_mass;
-  if (mass == 0 && link.inertia == 0) return SimTK::Body::Rigid(MassProperties(0, Vec3(0), Inertia(0)));
-  if (mass == 0)
-    throw std::invalid_argument(fmt::format("{} = {} kg m2 without any mass; give it a mass", what, link.inertia));
-  return SimTK::Body::Rigid(massive(mass, (link.mass * com + point_mass * end) / mass,
-                                    flat(link.inertia) + Inertia(com, link.mass) + Inertia(end, point_mass)));
-}
-
-void close_pin(MobilizedBody& plane_body, const Vec3& place, MobilizedBody& follower, const Vec3& station) {
-  SimTK::Constraint::PointInPlane(plane_body, UnitVec3(1, 0, 0), place[0], follower, station);
-  SimTK::Constraint::PointInPlane(plane_body, UnitVec3(0, 1, 0), place[1], follower, station);
 }
 
 double within_a_turn(double phi) {

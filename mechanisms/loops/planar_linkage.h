@@ -1,19 +1,9 @@
-// closed_forms.h — all mechanisms by their loop equations in closed form, in long double: the source of the second
-// extraction. Nothing here knows Simbody, Newton's method or a difference that cancels near a change point.
-//
-// Positions by triangles; their sides' sums and differences are formed before anything is subtracted from them.
-// Derivatives by Taylor series, I_r and M_g by theory 2.1 and 2.2 over all links.
+// planar_linkage.h — a mechanism at one angle of its crank as bodies and joints with their series: what its bodies in Simbody,
+// its reduced functions and its reactions all come from.
 #pragma once
 
 #include <vector>
 
-#include "mechanisms/bodies/linkage_bodies.h"
-#include "mechanisms/linkages/four_bar.h"
-#include "mechanisms/linkages/knuckle_press.h"
-#include "mechanisms/linkages/mechanism_bodies.h"
-#include "mechanisms/linkages/quick_return.h"
-#include "mechanisms/linkages/slider_crank_simbody.h"
-#include "mechanisms/linkages/slotted_lever.h"
 #include "mechanisms/loops/taylor.h"
 
 namespace kurbel {
@@ -46,35 +36,33 @@ struct PlanarLinkage {
   Path load_at;                       // … this point of it
   double gravity = 0, elevation = 0;  // [m/s²]; of +x above the horizontal [rad]
   long double output[3] = {0, 0, 0};  // position and its derivatives by φ: [m] or [rad]
+  bool stands_still = false;          // the output does, for good: what rounding would leave of its motion is none
   // Of a linkage that passes change points: what is 0 there and of one sign between them; reactions go with its inverse.
+  bool changes = false;
   long double sine = 1;
 
   void add(const Body& body) { bodies.push_back(body), ++body_count; }
   void join(const Joint& joint) { joints.push_back(joint), ++joint_count; }
 };
 
-// For data without faults.
-PlanarLinkage linkage_of(const SliderCrankData& data, long double phi);
-PlanarLinkage linkage_of(const FourBarData& data, long double phi);
-PlanarLinkage linkage_of(const QuickReturnData& data, long double phi);
-PlanarLinkage linkage_of(const KnucklePressData& data, long double phi);
-PlanarLinkage linkage_of(const SlottedLeverData& data, long double phi);
-PlanarLinkage linkage_of(const LinkageData& data, long double phi);
-
-// As a ReducedSample, which says what is what.
+// Its reduced functions by sums over the links (theory 2.1, 2.2), as a ReducedSample, which says what is what:
+//     I_r = Σ m v_S′² + J ϑ′²,   M_g = −g Σ m h_S′,   each with its derivatives by φ from the links' Taylor series.
 struct ClosedForm {
   long double inertia = 0, inertia_slope = 0, inertia_curvature = 0;
   long double output_position = 0, output_velocity_ratio = 0, output_acceleration_ratio = 0;
   long double gravity_torque = 0, gravity_torque_slope = 0, gravity_torque_scale = 0;
   long double potential_energy = 0;  // [J], zero at the height of the crank's axis
 };
+ClosedForm closed_form_of(const PlanarLinkage& linkage);
 
-// For data without faults.
-ClosedForm closed_form(const SliderCrankData& data, long double phi);
-ClosedForm closed_form(const FourBarData& data, long double phi);
-ClosedForm closed_form(const QuickReturnData& data, long double phi);
-ClosedForm closed_form(const KnucklePressData& data, long double phi);
-ClosedForm closed_form(const SlottedLeverData& data, long double phi);
-ClosedForm closed_form(const LinkageData& data, long double phi);
+// A function of φ with its first derivative by φ, or with two.
+template <class T>
+struct ValueAndSlope {
+  T value, slope;
+};
+template <class T>
+struct ValueSlopeCurvature {
+  T value, slope, curvature;
+};
 
 }  // namespace kurbel

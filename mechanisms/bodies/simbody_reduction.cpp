@@ -1,5 +1,5 @@
 // simbody_reduction.cpp — reduced inertia and its derivatives from Simbody's constraint and mass matrices.
-#include "mechanisms/linkages/simbody_reduction.h"
+#include "mechanisms/bodies/simbody_reduction.h"
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
 // multibody_run.cpp — forward dynamics of the closed loop by Simbody's own integrators (C++17 island).
-#include "mechanisms/linkages/multibody_run.h"
+#include "mechanisms/bodies/multibody_run.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "mechanisms/linkages/slider_crank_system.h"
+#include "mechanisms/bodies/planar_system.h"
 
 namespace kurbel {
 
@@ -51,28 +51,28 @@ std::unique_ptr<SimTK::Integrator> make_integrator(const std::string& name, cons
   throw std::invalid_argument(fmt::format("multibody run: unknown integrator \"{}\"; valid: {}", name, valid));
 }
 
-// The user's torque and force. Simbody's integrators take an exception for a step that failed and try a shorter one: it
+// The user's torque and load. Simbody's integrators take an exception for a step that failed and try a shorter one: it
 // is kept for the end, and thrown again whatever they try.
 class AppliedForces : public SimTK::Force::Custom::Implementation {
  public:
-  AppliedForces(const MultibodyProblem& problem, const SliderCrankSystem& bodies, std::exception_ptr& error)
+  AppliedForces(const MultibodyProblem& problem, const PlanarSystem& bodies, std::exception_ptr& error)
       : problem_(problem), bodies_(bodies), error_(error) {}
 
   void calcForce(const State& state, Vector_<SpatialVec>& body_forces, Vector_<Vec3>&,
                  Vector& mobility_forces) const override {
     if (error_) std::rethrow_exception(error_);
-    const Vec3 end(bodies_.data.rod_length, 0, 0);
     try {
       if (problem_.shaft_torque)
-        bodies_.crank.applyOneMobilityForce(
-            state, 0,
-            problem_.shaft_torque(state.getTime(), bodies_.crank.getAngle(state), bodies_.crank.getRate(state)),
-            mobility_forces);
-      if (problem_.slider_force) {
-        const double x = bodies_.rod.findStationLocationInGround(state, end)[0];
-        const double v = bodies_.rod.findStationVelocityInGround(state, end)[0];
-        bodies_.rod.applyForceToBodyPoint(state, end, Vec3(problem_.slider_force(state.getTime(), x, v), 0, 0),
-                                          body_forces);
+        bodies_.crank().applyOneMobilityForce(
+            state, 0, problem_.shaft_torque(state.getTime(), state.getQ()[0], state.getU()[0]), mobility_forces);
+      if (problem_.load) {
+        const TrackedPoint& output = bodies_.points[bodies_.output_point];
+        const SimTK::MobilizedBody& body = bodies_.matter.getMobilizedBody(output.body);
+        const double load = problem_.load(state.getTime(), bodies_.output_position(state), bodies_.output_speed(state));
+        if (bodies_.output_coordinates.empty())
+          body.applyForceToBodyPoint(state, output.station, Vec3(load, 0, 0), body_forces);
+        else
+          body.applyBodyTorque(state, Vec3(0, 0, load), body_forces);
       }
     } catch (...) {
       error_ = std::current_exception();
@@ -83,7 +83,7 @@ class AppliedForces : public SimTK::Force::Custom::Implementation {
 
  private:
   const MultibodyProblem& problem_;
-  const SliderCrankSystem& bodies_;
+  const PlanarSystem& bodies_;
   std::exception_ptr& error_;
 };
 
@@ -103,24 +103,18 @@ void validate(const MultibodyProblem& p) {
   }
 }
 
-MultibodySample observe(const SliderCrankSystem& bodies, const State& state) {
+MultibodySample observe(const PlanarSystem& bodies, const State& state) {
   bodies.system.realize(state, SimTK::Stage::Velocity);
-  const Vec3 end(bodies.data.rod_length, 0, 0);
   const MultibodySample sample{state.getTime(),
-                               bodies.crank.getAngle(state),
-                               bodies.crank.getRate(state),
-                               bodies.rod.findStationLocationInGround(state, end)[0],
-                               bodies.rod.findStationVelocityInGround(state, end)[0],
+                               state.getQ()[0],
+                               state.getU()[0],
+                               bodies.output_position(state),
+                               bodies.output_speed(state),
                                bodies.matter.calcKineticEnergy(state)};
   if (!std::isfinite(sample.phi + sample.omega + sample.x + sample.v + sample.kinetic_energy))
     throw std::runtime_error(fmt::format("multibody run: non-finite state at t = {:.9g} s: phi = {}, omega = {}",
                                          sample.t, sample.phi, sample.omega));
-  const double rod_angle = state.getQ()[0] + state.getQ()[1];
-  if (!(std::cos(rod_angle) > 0))
-    throw std::runtime_error(
-        fmt::format("multibody run: the rod turned over at t = {:.9g} s: cos(beta) = {:.3g}, must "
-                    "be > 0 (phi = {:.9g} rad)",
-                    sample.t, std::cos(rod_angle), sample.phi));
+  bodies.check_branch(state);
   return sample;
 }
 
@@ -134,14 +128,12 @@ std::vector<std::string> multibody_integrators() {
 
 MultibodyResult run_multibody(const MultibodyProblem& problem) {
   validate(problem);
-  const SliderCrankData& data = problem.mechanism;
 
   // Bodies, weights, applied forces.
-  SliderCrankSystem bodies(data, problem.shaft_inertia);
+  const std::unique_ptr<PlanarSystem> made = planar_system(problem.mechanism, problem.shaft_inertia);
+  PlanarSystem& bodies = *made;
   std::exception_ptr error;
-  if (data.gravity != 0)
-    SimTK::Force::UniformGravity(bodies.forces, bodies.matter,
-                                 -data.gravity * Vec3(std::sin(data.stroke_angle), std::cos(data.stroke_angle), 0));
+  if (bodies.gravity != 0) SimTK::Force::UniformGravity(bodies.forces, bodies.matter, -bodies.gravity * bodies.up());
   SimTK::Force::Custom(bodies.forces, new AppliedForces(problem, bodies, error));  // Simbody owns and deletes it
 
   // A closed and consistent start.

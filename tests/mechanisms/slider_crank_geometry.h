@@ -1,90 +1,13 @@
-// slider_crank_geometry.h — the slider-crank in closed form: motion, reduced inertia and weight over the crank angle.
-//
-//                                        ___
-//        y       A  r = OA, l = AB      |   |        O  crank axis, origin        β  rod's angle from +x
-//        |      / `-._  β               | B |  y = e A  crank pin                 e  offset of the slider line
-//        |     / φ    `-._______________|_o_|        B  slider pin
-//        O----------------------------------- x      C  rod's centre of mass, AC = rod_com
-//
-// φ is measured from the +x stroke axis to OA, counter-clockwise, with and without offset. For e = 0, φ = 0 is the
-// extended dead centre and φ = π the folded one; for e ≠ 0 they lie at extended_angle() and folded_angle(). The rod
-// points towards +x (cos β > 0): that is the assembly branch. Primes are derivatives by φ.
-//
-// At l = r + |e| crank and rod pass upright, a change point, and the motion goes on smoothly (mechanisms/loops). Without
-// offset β = −φ and x = 2 r cos φ (the branch that follows), or β = φ + π and x = 0 (the rod folds onto the crank); with
-// an offset cos β changes its sign once a turn, so that two turns are the cycle, and the branch is how φ = 0 finds it.
-//
-// A crank whose rod is shorter than r + |e| rocks within CrankArc; the rod points towards +x throughout or, where it
-// folds, towards −x.
+// slider_crank_geometry.h — the slider-crank in closed form, a third source beside both extractions: motion, reduced inertia and
+// weight over the crank angle, with derivatives by hand. Shares with them nothing but the data (slider_crank.h has the drawing).
 #pragma once
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 #include <type_traits>
 
-#include "mechanisms/loops/loops.h"
+#include "mechanisms/linkages/slider_crank.h"
 
 namespace kurbel {
-
-struct SliderCrankData {
-  double radius = 0;         // r [m], > 0
-  double rod_length = 0;     // l [m], ≥ r + |e|, else the crank rocks
-  double offset = 0;         // e [m], the slider moves on the line y = e
-  double crank_mass = 0;     // [kg], ≥ 0
-  double crank_com = 0;      // from the axis towards the pin [m], < 0: counterweighted
-  double crank_inertia = 0;  // about the crank's axis [kg·m²], ≥ crank_mass · crank_com²
-  double rod_mass = 0;       // [kg], ≥ 0
-  double rod_com = 0;        // from the crank pin along the rod [m]
-  double rod_inertia = 0;    // central [kg·m²], ≥ 0
-  double slider_mass = 0;    // [kg], ≥ 0
-  double gravity = 0;        // [m/s²]
-  double stroke_angle = 0;   // of +x above the horizontal [rad]; +y is 90° ahead of +x
-  bool folds = false;        // of l ≤ r + |e|: the rod points towards −x, at l = r + |e| so at φ = 0
-
-  SliderLoop loop() const { return {radius, rod_length, offset}; }
-  bool changes() const { return loop().changes(); }  // passes change points
-  bool rocks() const { return loop().arc().has_value(); }
-  // The slider, with the rod on the crank.
-  bool stands_still() const { return folds && offset == 0 && changes(); }
-};
-
-// A function of φ with its first two derivatives by φ.
-template <class T>
-struct ValueSlopeCurvature {
-  T value, slope, curvature;
-};
-
-// A function of φ with its first derivative by φ.
-template <class T>
-struct ValueAndSlope {
-  T value, slope;
-};
-
-// Throws std::invalid_argument naming the first value outside its domain.
-inline void validate(const SliderCrankData& d) {
-  const auto require = [](bool holds, const char* what, double got, const char* domain) {
-    if (holds) return;
-    std::ostringstream message;
-    message << "slider-crank: " << what << " = " << got << "; must be " << domain;
-    throw std::invalid_argument(message.str());
-  };
-  const double values[] = {d.radius,   d.rod_length, d.offset,      d.crank_mass,  d.crank_com, d.crank_inertia,
-                           d.rod_mass, d.rod_com,    d.rod_inertia, d.slider_mass, d.gravity,   d.stroke_angle};
-  for (const double value : values) require(std::isfinite(value), "a value", value, "finite");
-  require(d.radius > 0, "radius", d.radius, "> 0 m");
-  require(d.rod_length > 0, "rod_length", d.rod_length, "> 0 m");
-  require(d.rod_length > std::fabs(d.offset) - d.radius, "rod_length", d.rod_length, "> |offset| - radius");
-  require(!d.folds || d.changes() || d.rocks(), "rod_length", d.rod_length,
-          "<= radius + |offset| for a rod that folds");
-  require(d.crank_mass >= 0, "crank_mass", d.crank_mass, ">= 0 kg");
-  require(d.rod_mass >= 0, "rod_mass", d.rod_mass, ">= 0 kg");
-  require(d.slider_mass >= 0, "slider_mass", d.slider_mass, ">= 0 kg");
-  require(d.rod_inertia >= 0, "rod_inertia", d.rod_inertia, ">= 0 kg m2");
-  const double least_inertia = d.crank_mass * d.crank_com * d.crank_com;
-  require(d.crank_inertia >= least_inertia * (1 - 1e-12), "crank_inertia", d.crank_inertia,
-          ">= crank_mass crank_com^2 (it is taken about the crank's axis)");
-}
 
 // Closed form over T = double, long double or a dual number with sin, cos, sqrt, + − · / and comparison by value.
 class SliderCrankGeometry {

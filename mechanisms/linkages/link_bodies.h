@@ -1,0 +1,16 @@
+// link_bodies.h — the links of the named mechanisms as bodies of a planar linkage.
+#pragma once
+
+#include "mechanisms/linkages/mechanism_bodies.h"
+#include "mechanisms/loops/planar_linkage.h"
+
+namespace kurbel {
+
+// Inertia about its bearing.
+PlanarLinkage::Body pivoted(const char* name, const LinkBody& link, const Path& bearing, const Direction& direction);
+// Central inertia; `joint`: where its centre of mass is measured from.
+PlanarLinkage::Body floating(const char* name, const LinkBody& link, const Path& joint, const Direction& direction);
+// What slides along x in the frame, pinned to the last body: its weight and its load stand in its pin.
+void add_slider(PlanarLinkage& to, const char* name, double mass, const char* pin, const Path& at);
+
+}  // namespace kurbel
