@@ -70,8 +70,8 @@ std::shared_ptr<const Traces> traces_of(const Model& model, const Mechanism& cra
   const auto traces = std::make_shared<Traces>();
   traces->over_time = {{"angle", "rad", {}, {}},
                        {"speed." + link, "rad/s", {}, {}},
-                       {"position." + crank.name, "m", {}, {}},
-                       {"velocity." + crank.name, "m/s", {}, {}},
+                       {"position." + crank.name, crank.rocks() ? "rad" : "m", {}, {}},
+                       {"velocity." + crank.name, crank.rocks() ? "rad/s" : "m/s", {}, {}},
                        {"kinetic_energy", "J", {}, {}}};
   for (const MultibodySample& s : run.samples) {
     const double values[] = {s.phi - crank.phase, s.omega, s.x, s.v, s.kinetic_energy};
@@ -90,10 +90,11 @@ const Mechanism& crank_of(const Model& model) {
     throw SceneError({{model.scene.file, model.scene.run.model_at,
                        fmt::format("model = \"multibody\": {}; use model = \"reduced\"", why)}});
   };
-  if (!mechanism || !mechanism->mechanism().data.as<SliderCrankData>())
-    refuse("needs exactly one slider-crank, and no other mechanism");
-  if (mechanism->mechanism().data.as<SliderCrankData>()->changes())
-    refuse("its crank and rod pass change points, where the closed loop leaves open which way they go on");
+  if (!mechanism) refuse("needs exactly one mechanism");
+  if (!mechanism->mechanism().data.joints_are_known())
+    refuse("needs a mechanism of which the joints are known, not a kind of its user's own");
+  if (!mechanism->mechanism().reduced->cycle().change_points().empty())
+    refuse("its links pass change points, where the closed loop leaves open which way they go on");
   if (mechanism->dynamics())
     refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
   if (mechanism->mechanism().joint_friction) refuse("its joints are ideal, so joint_friction must be off");
