@@ -28,10 +28,12 @@ BodiesOf MechanismData::bodies_of() const {
 }
 
 std::unique_ptr<MechanismBodies> MechanismData::make_bodies() const {
-  if constexpr (has_bodies)
+  if constexpr (!has_bodies) {
+    bodies_of();  // its faults are found all the same
+    return nullptr;
+  } else {
     return held_->own_bodies ? held_->own_bodies() : kurbel::make_bodies(bodies_of());
-  else
-    return bodies_of(), nullptr;
+  }
 }
 
 ReducedSample closed_sample(const MechanismData& data, double phi) { return rounded(data.closed_form(phi)); }
