@@ -20,6 +20,12 @@ class ReactingPool : public ElementPool {
   virtual const std::vector<int>& side_guards() const = 0;  // their places among guards()
   // How far the reactions are from the kinks at the accelerations alpha per shaft, with their signs; of order one.
   virtual void find_sides(const Instant& now, const double* alpha, double* side) const = 0;
+
+  // Shafts of the elements that react, one entry an element.
+  virtual const std::vector<int>& reacting_shafts() const = 0;
+  // Of a pool with one that reacts: its reaction M_r where its shaft has the acceleration alpha + response M_r, both found
+  // at once. response: what a unit of torque on the shaft adds to its acceleration, ≥ 0 [1/(kg·m²)].
+  virtual void add_answered(const Instant& now, double alpha, double response, Reactions& sums) const = 0;
 };
 
 }  // namespace kurbel

@@ -6,6 +6,7 @@
 
 #include "engine/equations/contact.h"
 #include "engine/equations/jam.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
@@ -22,6 +23,12 @@ ReactionBalance::ReactionBalance(const Model& model, const Modes& modes) : model
   for (auto* per_shaft : {&alpha_, &next_, &torque_, &slope_, &effective_torque_, &effective_inertia_})
     per_shaft->assign(model.shafts.size(), 0);
   element_torque_.assign(model.network.elements.size(), 0);
+  alone_ = pools_.size() == 1 ? dynamic_cast<const ReactingPool*>(pools_.front()) : nullptr;
+  if (alone_ && alone_->reacting_shafts().size() != 1) alone_ = nullptr;
+  if (!alone_) return;
+  alone_shaft_ = at(alone_->reacting_shafts().front());
+  for (const JacobianLayout::Coupled& group : model.jacobian.coupled)
+    for (const int s : group.shafts) alone_coupled_ = alone_coupled_ || at(s) == alone_shaft_;
 }
 
 void ReactionBalance::react(const Instant& now, double* work_rate) {
@@ -44,8 +51,50 @@ double ReactionBalance::newton_step(std::span<const double> inertia) {
   return change;
 }
 
+// False: the shaft has no inertia of its own that could be asked for an answer.
+bool ReactionBalance::settle_alone(const Instant& now, std::span<const double> free_torque,
+                                   std::span<const double> inertia, const Accelerate& accelerate, double* alpha,
+                                   Sums& sums) {
+  const std::size_t s = alone_shaft_, free = model_.free_shafts;
+  if (!(inertia[s] > 0) && s < free) return false;
+  std::copy(inertia.begin(), inertia.end(), effective_inertia_.begin());
+  slope_[s] = 0;
+  if (modes_.direction[s] == 0) return true;  // what stands reacts to nothing
+  std::fill(element_torque_.begin(), element_torque_.end(), 0.0);
+  torque_[s] = 0;
+  double before = 0, response = 0;
+  if (s >= free) {
+    before = prescribed_acceleration(model_, modes_, s, now.t);
+  } else {
+    before = alpha[s];
+    response = 1 / inertia[s];
+    if (alone_coupled_) {
+      const double unit = std::max(std::abs(free_torque[s]), model_.shafts[s].torque_scale);
+      std::copy(free_torque.begin(), free_torque.end(), effective_torque_.begin());
+      effective_torque_[s] += unit;
+      accelerate(effective_torque_, inertia, next_.data());
+      response = (next_[s] - before) / unit;
+    }
+  }
+  Reactions reactions{torque_.data(), slope_.data(), element_torque_.data(), sums.work_rate};
+  alone_->add_answered(now, before, response, reactions);
+  if (s < free) {
+    if (alone_coupled_) {
+      effective_torque_[s] = free_torque[s] + torque_[s];
+      accelerate(effective_torque_, inertia, alpha);
+    } else {
+      alpha[s] = (free_torque[s] + torque_[s]) / inertia[s];
+    }
+  }
+  effective_inertia_[s] += slope_[s];
+  sums.torque[s] += torque_[s];
+  for (std::size_t e = 0; e < element_torque_.size(); ++e) sums.element_torque[e] += element_torque_[e];
+  return true;
+}
+
 void ReactionBalance::settle(const Instant& now, std::span<const double> free_torque, std::span<const double> inertia,
                              const Accelerate& accelerate, double* alpha, Sums& sums) {
+  if (alone_ && settle_alone(now, free_torque, inertia, accelerate, alpha, sums)) return;
   const std::size_t shafts = model_.shafts.size(), free = model_.free_shafts;
   std::copy(alpha, alpha + free, alpha_.begin());
   for (std::size_t s = free; s < shafts; ++s) alpha_[s] = prescribed_acceleration(model_, modes_, s, now.t);

@@ -3,6 +3,8 @@
 //
 //     I α = M + M_r(α),   by Newton's method: −∂M_r/∂α counts as inertia
 //
+// Where one element alone reacts, on the shaft s, the others answer it in proportion: α_s = α_s0 + m M_r with m = ∂α_s/∂M,
+// 1/I_s where nothing ties it to other shafts, and the element finds M_r itself (ReactingPool::add_answered).
 // Costs nothing where no element reacts.
 #pragma once
 
@@ -11,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/elements/element_pool.h"
+#include "engine/elements/reacting_pool.h"
 #include "engine/equations/state.h"
 #include "engine/model/model.h"
 
@@ -34,12 +36,17 @@ class ReactionBalance {
   std::span<const double> effective_inertia() const { return effective_inertia_; }
 
  private:
+  bool settle_alone(const Instant& now, std::span<const double> free_torque, std::span<const double> inertia,
+                    const Accelerate& accelerate, double* alpha, Sums& sums);
   void react(const Instant& now, double* work_rate);
   double newton_step(std::span<const double> inertia);
 
   const Model& model_;
   const Modes& modes_;
   std::vector<const ElementPool*> pools_;
+  const ReactingPool* alone_ = nullptr;  // has the only element that reacts
+  std::size_t alone_shaft_ = 0;
+  bool alone_coupled_ = false;  // other shafts may be tied to that one
   std::vector<std::unique_ptr<ElementPool::Memory>> memory_;
   std::vector<double> alpha_, next_, torque_, slope_, element_torque_, effective_torque_, effective_inertia_;
 };

@@ -27,14 +27,14 @@ bool Contacts::is_open(std::size_t c) const { return sense(c) == 0 && !modes().r
 // ---------------------------------------------------------------------------------------------------------------------
 // Guards
 
-void Contacts::guards(double t, std::span<const double> y, double* g) {
+void Contacts::guards(double t, std::span<const double> y, bool evaluated, double* g) {
   const Instant now = flow_.instant(t, y);
   const Ties& ties = flow_.ties();
   const std::vector<Contact>& contacts = list();
   bool stuck = !ties.lossy().empty();
   for (std::size_t c = 0; c < contacts.size() && !stuck; ++c) stuck = sense(c) == 0 && !modes().regularised[c];
   if (stuck) {
-    flow_.evaluate(t, y);
+    if (!evaluated) flow_.evaluate(t, y);
     flow_.ties().find_holds(flow_.now());
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {

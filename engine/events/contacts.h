@@ -24,8 +24,8 @@ class Contacts {
 
   // Two guards a contact, one a gear with losses.
   std::size_t guard_count() const { return 2 * list().size() + flow_.ties().lossy().size(); }
-  // Positive while the modes hold, of order one.
-  void guards(double t, std::span<const double> y, double* g);
+  // Positive while the modes hold, of order one. evaluated: the flow was, at this state.
+  void guards(double t, std::span<const double> y, bool evaluated, double* g);
   // A contact, or the gear whose flanks change, that this guard watches.
   std::size_t contact_of(std::size_t guard) const;
   std::string owner(std::size_t guard) const { return list()[contact_of(guard)].name; }

@@ -33,8 +33,8 @@ void Equations::guards(double t, std::span<const double> y, std::span<double> g)
   const Model& m = model();
   const Instant now = instant(t, y);
   for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);
-  guard_reactions(*this, t, y, guard_begin_, g);
-  if (contact_guards_ < sequence_guard_) contacts_.guards(t, y, g.data() + contact_guards_);
+  const bool evaluated = guard_reactions(*this, t, y, guard_begin_, g);
+  if (contact_guards_ < sequence_guard_) contacts_.guards(t, y, evaluated, g.data() + contact_guards_);
   if (switching_.has_sequence()) g[sequence_guard_] = switching_.guard(y, now.speed);
 }
 

@@ -23,8 +23,9 @@ bool holds_sides(const ReactingPool& pool, const Flow& flow) {
 }
 
 // Of every pool with sides that is wanted: visit(pool, its index, its sides).
+// True: it was evaluated for that.
 template <class Wanted, class Visit>
-void for_sides(Flow& flow, double t, std::span<const double> y, Wanted wanted, Visit visit) {
+bool for_sides(Flow& flow, double t, std::span<const double> y, Wanted wanted, Visit visit) {
   const auto& pools = flow.model().pools;
   bool evaluated = false;
   std::vector<double> side;
@@ -37,20 +38,22 @@ void for_sides(Flow& flow, double t, std::span<const double> y, Wanted wanted, V
     pool->find_sides(flow.now(), flow.accelerations().data(), side.data());
     visit(*pool, p, side);
   }
+  return evaluated;
 }
 
 }  // namespace
 
-void guard_reactions(Flow& flow, double t, std::span<const double> y, std::span<const std::size_t> pool_guards,
+bool guard_reactions(Flow& flow, double t, std::span<const double> y, std::span<const std::size_t> pool_guards,
                      std::span<double> g) try {
   const auto watched = [&](const ReactingPool& pool) { return holds_sides(pool, flow); };
-  for_sides(flow, t, y, watched, [&](const ReactingPool& pool, std::size_t p, const std::vector<double>& side) {
+  return for_sides(flow, t, y, watched, [&](const ReactingPool& pool, std::size_t p, const std::vector<double>& side) {
     for (std::size_t k = 0; k < side.size(); ++k) {
       const int mode = flow.modes().piece[at(pool.side_modes()[k])];
       if (mode == 1 || mode == -1) g[pool_guards[p] + at(pool.side_guards()[k])] = mode * side[k];
     }
   });
 } catch (const Jam&) {  // a trial step goes too far: its rates are no numbers, either
+  return false;
 }
 
 OpenSides::OpenSides(Flow& flow) : flow_(flow) {

@@ -9,8 +9,9 @@
 
 namespace kurbel {
 
-// Guards of all reactions: positive while their sides hold, 1 where nothing is to be told.
-void guard_reactions(Flow& flow, double t, std::span<const double> y, std::span<const std::size_t> pool_guards,
+// Guards of all reactions: positive while their sides hold, 1 where nothing is to be told. True: the flow was evaluated at
+// this state for them.
+bool guard_reactions(Flow& flow, double t, std::span<const double> y, std::span<const std::size_t> pool_guards,
                      std::span<double> g);
 
 // While other modes change, reactions may jump across kinks: until settle() each counts as it comes.

@@ -128,8 +128,9 @@ void switch_effects(Compilation& c) {
   leave_out_what_is_gone(m);
   if (m.effects.joint_friction && !any)
     c.messages.add(c.place_of_line(),
-                   "joint_friction is on, but no joint of a slider-crank has friction; give its main_bearing, "
-                   "crank_pin, slider_pin or guide a coefficient, or switch the effect off");
+                   "joint_friction is on, but no joint of a mechanism has friction; give one a coefficient: of a "
+                   "slider-crank its main_bearing, crank_pin, slider_pin or guide, of another mechanism one of its "
+                   "joints; or switch the effect off");
 }
 
 std::vector<char> standing_nodes(const Network& net) {

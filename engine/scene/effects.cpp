@@ -90,7 +90,7 @@ std::span<const EffectFlag> effect_flags() {
   using Unsaid = EffectFlag::Unsaid;
   static constexpr std::array<EffectFlag, 14> flags = {{
       {"joint_friction", &Effects::joint_friction, "joint friction", Unsaid::off,
-       "friction in the joints of a slider-crank, found together with the reactions", "a joint's friction_coefficient",
+       "friction in the joints of mechanisms, found together with the reactions", "a joint's friction_coefficient",
        "none; dead centres and standstill are events", "efficiency, heat in the joints, starting under load"},
       {"backlash", &Effects::backlash, "backlash", Unsaid::where_given,
        "gaps between flanks, with contact and flight as modes", "the backlash of a coupling or a gear stage",

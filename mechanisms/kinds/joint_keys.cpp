@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 namespace kurbel {
 namespace {
 
@@ -76,13 +79,127 @@ Fields<SliderGuide> guide() {
       .check(check_guide);
 }
 
+// "crank pin" of crank_pin; of a linkage "pin A" of A and "slide ram" of ram.
+std::string joint_named(const std::string& name, const std::set<std::string>& joints) {
+  std::string spaced = name;
+  std::replace(spaced.begin(), spaced.end(), '_', ' ');
+  for (const std::string& known : {name, spaced, "pin " + name, "slide " + name})
+    if (joints.count(known)) return known;
+  return {};
+}
+
+std::shared_ptr<const JointFrictionSource> source_of(const MechanismData& data, std::vector<RubbingJoint> joints,
+                                                     OffThePin off) {
+  return std::make_shared<const JointFrictionSource>([=](bool second) {
+    return tabulate_joint_friction(data, joints, off, second ? Extraction::second : Extraction::first);
+  });
+}
+
 const Tables<SliderGuide>& guides() {
   static const auto made = Tables<SliderGuide>().add(
       "guide", "of the slider: friction f N, from both edges where the reaction leaves the guide's length", guide());
   return made;
 }
 
+// A pin has a radius, a slide has none: what belongs to the other sort is refused.
+bool fits(const Reading<RubbingJoint>& joint, bool slides) {
+  const auto keep_off = [&](auto member, const char* of) {
+    return !joint.given(member) ||
+           joint.refuse(member, fmt::format("belongs to a {}; this joint is a {}", of, slides ? "slide" : "pin"));
+  };
+  if (slides) return keep_off(&RubbingJoint::radius, "pin");
+  bool sound = true;
+  for (const auto member : {&RubbingJoint::length, &RubbingJoint::middle, &RubbingJoint::width,
+                            &RubbingJoint::rolling_arm, &RubbingJoint::roller_radius})
+    sound = keep_off(member, "slide") && sound;
+  if (!joint.friction.none() && joint.radius == 0)
+    sound = joint.refuse("has friction but no radius; give radius = \"20 mm\", of a rolling bearing half its bore");
+  return sound;
+}
+
 }  // namespace
+
+std::shared_ptr<const JointFrictionSource> friction_of(const SliderCrankData& data, const SliderCrankJoints& joints) {
+  if (joints.frictionless()) return nullptr;
+  const SliderGuide& g = joints.guide;
+  std::vector<RubbingJoint> rubbing;
+  for (const auto& [name, j] : {std::pair("main bearing", &joints.main_bearing),
+                                std::pair("crank pin", &joints.crank_pin), std::pair("slider pin", &joints.slider_pin)})
+    rubbing.push_back({.name = name, .friction = j->friction, .radius = j->radius});
+  rubbing.push_back({.name = "guide",
+                     .friction = g.friction,
+                     .length = g.length,
+                     .middle = g.middle,
+                     .width = g.width,
+                     .rolling_arm = g.rolling_arm,
+                     .roller_radius = g.roller_radius});
+  return source_of(data, std::move(rubbing), {.com = g.com_x, .load = g.force_offset});
+}
+
+std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data,
+                                                       const std::vector<Reading<RubbingJoint>>& joints) {
+  if (joints.empty()) return nullptr;
+  const PlanarLinkage linkage = data.linkage(data.arc() ? data.arc()->middle : 0.5);
+  std::set<std::string> names;
+  std::vector<std::string> list;
+  for (const PlanarLinkage::Joint& j : linkage.joints)
+    if (names.insert(j.name).second) list.emplace_back(j.name);
+  const std::string why = refusal_of_joint_friction(data, CrankCycle(data));
+  std::vector<RubbingJoint> rubbing;
+  bool sound = true, any = false;
+  for (const Reading<RubbingJoint>& joint : joints) {
+    RubbingJoint to = joint;
+    to.name = joint_named(joint.section().name, names);
+    if (to.name.empty()) {
+      sound = joint.refuse(fmt::format("no joint of this name{}; joints are {}", suggestion(joint.section().name, list),
+                                       shortened_list(list, "and")));
+      continue;
+    }
+    for (const PlanarLinkage::Joint& j : linkage.joints)
+      if (to.name == j.name) sound = fits(joint, j.slides) && sound, any = any || to.rubs(j.slides);
+    if (!why.empty())
+      sound =
+          joint.refuse(fmt::format("friction of its joints cannot be found: {}; leave the joints out, or change the "
+                                   "lengths",
+                                   why));
+    rubbing.push_back(std::move(to));
+  }
+  if (!sound || !any) return nullptr;
+  return source_of(data, std::move(rubbing), {});
+}
+
+const Tables<Reading<RubbingJoint>>& rubbing_tables() {
+  static const auto made = [] {
+    using Joint = RubbingJoint;
+    Tables<Reading<Joint>> tables;
+    tables.named = true;
+    tables.add("joint",
+               "A joint with friction: of a pin ρ times the reaction, ρ = r sin(atan f) the radius of the friction "
+               "circle; of a slide f N, from both edges where the reaction leaves its length",
+               Fields<Joint>()
+                   .add(quantity("radius", "m", positive, "of a pin's journal; of a rolling bearing half its bore"),
+                        &Joint::radius)
+                   .add(friction(), &Joint::friction)
+                   .add(defaulted("length", "m", "0 m", not_negative,
+                                  "bearing length of a slide; 0: its tilting is not considered"),
+                        &Joint::length)
+                   .add(defaulted("middle", "m", "0 m", any_number, "of that length, from the joint along the slide"),
+                        &Joint::middle)
+                   .add(defaulted("width", "m", "0 m", not_negative,
+                                  "between the two faces of a slide: lever of their friction"),
+                        &Joint::width)
+                   .add(defaulted("rolling_arm", "m", "0 m", not_negative,
+                                  "lever arm k_r of rolling friction, for a slide on rollers"),
+                        &Joint::rolling_arm)
+                   .add(quantity("roller_radius", "m", positive, "of these rollers"), &Joint::roller_radius)
+                   .check([](const Reading<Joint>& joint) {
+                     if (joint.rolling_arm > 0 && joint.roller_radius == 0)
+                       joint.refuse(&Joint::rolling_arm, "rolling_arm without roller_radius; give the rollers' radius");
+                   }));
+    return tables;
+  }();
+  return made;
+}
 
 Fields<SliderCrankJoints> joint_fields() {
   using Joints = SliderCrankJoints;

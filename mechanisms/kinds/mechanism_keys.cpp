@@ -73,6 +73,14 @@ Fields<LinkBody> floating_link(const std::string& name, const std::string& from)
 Key gravity_key() { return defaulted("gravity", "m/s2", "0 m/s2", not_negative, "0: weight is neglected", "gravity"); }
 
 Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>& loads) {
+  return mounting_without_joints(load_doc, loads)
+      .add({.name = "joints",
+            .doc = "joints with friction, by their names: joints = { crank_pin = { radius = \"20 mm\", "
+                   "friction = 0.05 } }; of a linkage by the point of a pin and the link that slides"},
+           &Mounting::joints, rubbing_tables());
+}
+
+Fields<Mounting> mounting_without_joints(const std::string& load_doc, const Tables<LoadReading>& loads) {
   return Fields<Mounting>()
       .add(defaulted("phase", "rad", "0 deg", any_number, "crank angle ahead of the shaft's angle (several cylinders)"),
            &Mounting::phase)
@@ -105,7 +113,7 @@ void limit_loads(const Mechanism& mechanism, int node, Network& net) {
 }  // namespace
 
 void build_mechanism(const Section& s, const MechanismData& data, const Mounting& mounting, const DataFaults& faults,
-                     Network& net, Messages& messages, std::shared_ptr<const SliderCrankStatics> joints,
+                     Network& net, Messages& messages, std::shared_ptr<const JointFrictionSource> joints,
                      Deformation deformation) {
   const int node = net.add_node(s.name, "", 0);
   net.ports[s.name] = {node, node};
@@ -131,7 +139,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
     return;
   }
   mechanism->phase = mounting.phase;
-  mechanism->joints = std::move(joints);
+  mechanism->joints = joints ? std::move(joints) : friction_of(data, mounting.joints);
   mechanism->clearances = std::move(deformation.clearances);
   mechanism->flexibility = deformation.flexibility;
   put_loads(mounting.loads, *mechanism);

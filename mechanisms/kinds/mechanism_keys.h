@@ -8,6 +8,7 @@
 #include "engine/model/network.h"
 #include "engine/scene/fields.h"
 #include "mechanisms/kinds/deformation_keys.h"
+#include "mechanisms/kinds/joint_keys.h"
 #include "mechanisms/kinds/load_kinds.h"
 #include "mechanisms/reduced/mechanism.h"
 
@@ -29,8 +30,11 @@ Key gravity_key();
 struct Mounting {
   double phase = 0;  // crank angle ahead of the shaft's [rad]
   std::vector<LoadReading> loads;
+  std::vector<Reading<RubbingJoint>> joints;
 };
 Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>& loads);
+// The same for a kind that names its joints' keys itself.
+Fields<Mounting> mounting_without_joints(const std::string& load_doc, const Tables<LoadReading>& loads);
 
 template <class Linkage>
 struct Mounted {
@@ -43,10 +47,11 @@ Fields<Mounted<Linkage>> mounted(const Fields<Linkage>& linkage, const Fields<Mo
 }
 
 // Adds the component: its node first, so that others may refer to it, then the element with its loads. What `faults`
-// holds, and what Simbody refuses, goes into the messages. Joints, deformation: of a slider-crank.
+// holds, and what Simbody refuses, goes into the messages. Joints: in place of the mounting's; deformation: of a
+// slider-crank.
 void build_mechanism(const Section& section, const MechanismData& data, const Mounting& mounting,
                      const DataFaults& faults, Network& net, Messages& messages,
-                     std::shared_ptr<const SliderCrankStatics> joints = nullptr, Deformation deformation = {});
+                     std::shared_ptr<const JointFrictionSource> joints = nullptr, Deformation deformation = {});
 // A kind of mechanism by its fields alone.
 template <const auto& fields>
 Kind mounted_kind(std::string name, std::string doc) {

@@ -119,13 +119,13 @@ struct SliderCrankKeys : Mounted<SliderCrankData> {
 };
 
 const Fields<SliderCrankKeys>& slider_crank_fields() {
-  static const auto made =
-      Fields<SliderCrankKeys>()
-          .add(slider_crank_linkage(), &SliderCrankKeys::linkage)
-          .add(mounting("force on the slider, or a list of them", slider_loads()), &SliderCrankKeys::mounting)
-          .add(firing(), &SliderCrankKeys::firing)
-          .add(joint_fields(), &SliderCrankKeys::joints)
-          .add(deformation_fields(), &SliderCrankKeys::deformation);
+  static const auto made = Fields<SliderCrankKeys>()
+                               .add(slider_crank_linkage(), &SliderCrankKeys::linkage)
+                               .add(mounting_without_joints("force on the slider, or a list of them", slider_loads()),
+                                    &SliderCrankKeys::mounting)
+                               .add(firing(), &SliderCrankKeys::firing)
+                               .add(joint_fields(), &SliderCrankKeys::joints)
+                               .add(deformation_fields(), &SliderCrankKeys::deformation);
   return made;
 }
 
@@ -215,8 +215,8 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
                      "decide how far it goes, beyond any arc that is known: lengthen the rod, or leave out "
                      "clearance and rod_flexibility",
                      in_mm(d.rod_length))});
-  std::shared_ptr<const SliderCrankStatics> joints;
-  if (sound && faults.empty() && friction) joints = std::make_shared<SliderCrankStatics>(d, mechanism.joints);
+  std::shared_ptr<const JointFrictionSource> joints;
+  if (sound && faults.empty()) joints = friction_of(d, mechanism.joints);
   build_mechanism(s, d, mechanism.mounting, faults, net, messages, std::move(joints),
                   deformation_of(mechanism.deformation, d, s, messages));
 }

@@ -91,7 +91,7 @@ DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : Mechanis
   const std::string what = m.clearances.empty() ? "a flexible rod"
                            : m.flexibility      ? "joint clearance and a flexible rod"
                                                 : "joint clearance";
-  if (m.joint_friction)
+  if (m.friction)
     throw std::invalid_argument(what +
                                 " and joint_friction cannot both be on: reactions with friction are those of ideal "
                                 "joints; give the clearance a friction and switch joint_friction off");

@@ -174,11 +174,11 @@ bool Mechanism::has_weight() const { return !weightless && data.gravity() != 0; 
 MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(mechanism)) {
   const auto& loads = mechanism_.loads;
   const auto any = [&](auto what) { return std::any_of(loads.begin(), loads.end(), what); };
-  is = {.directional = mechanism_.joint_friction || mechanism_.watches_travel(), .uses_angle = true};
+  is = {.directional = mechanism_.friction || mechanism_.watches_travel(), .uses_angle = true};
   account = Account::weight;
   // Weight and forces over travel depend on the angle alone; so does I_r.
   uses_time = false;
-  uses_speed = mechanism_.joint_friction || any([](const SliderLoad& l) { return l.uses_speed(); });
+  uses_speed = mechanism_.friction || any([](const SliderLoad& l) { return l.uses_speed(); });
   mean_inertia = mechanism_.travel.mean_inertia;
   least_inertia = mechanism_.travel.least_inertia;
   cycle = mechanism_.cycle();
@@ -188,11 +188,12 @@ MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(m
     cycle = std::max(cycle, load.period());
     further_accounts.emplace_back(load.name, load.account);
   }
-  if (mechanism_.joint_friction) further_accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
+  if (mechanism_.friction) further_accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
   angle_period = cycle;
   if (mechanism_.arc()) cycle = HUGE_VAL;          // it never comes round
   rated = {force * mechanism_.output_scale(), 0};  // greatest force times half the stroke
-  modes = 1 + static_cast<int>(loads.size()) + (mechanism_.joint_friction ? 3 : 0);
+  modes = 1 + static_cast<int>(loads.size()) +
+          (mechanism_.friction ? mechanism_.friction->sign_count() + mechanism_.friction->side_count() : 0);
 }
 
 std::string MechanismElement::describe() const {
@@ -204,13 +205,16 @@ std::string MechanismElement::describe() const {
     text += fmt::format(" {} {:.0e},", channel.name, channel.error);
   text.back() = report.converged ? ' ' : ';';
   return text + (report.converged ? "(relative)" : " the tolerance was not reached") +
+         (mechanism_.friction ? "; " + mechanism_.friction->describe() : "") +
          (mechanism_.arc() ? "; its " + words_of_arc(mechanism_) : words_of(mechanism_.reduced->cycle()));
 }
 
 // A crank of constant inertia has no rod and no joints: without variable inertia they cannot deform, either.
 ShaftForm MechanismElement::form_under(const Effects& effects) const {
   Mechanism changed = mechanism_;
-  changed.joint_friction = effects.joint_friction && mechanism_.joints;
+  changed.friction = effects.joint_friction && mechanism_.joints
+                         ? mechanism_.joints->get(mechanism_.extraction == Extraction::second)
+                         : nullptr;
   changed.weightless = !effects.gravity;
   changed.mean_inertia = !effects.variable_inertia;
   changed.in_the_loop = effects.multibody;
@@ -222,7 +226,7 @@ ShaftForm MechanismElement::form_under(const Effects& effects) const {
   if (!effects.flexible_rod) changed.flexibility.reset();
   if ((!changed.clearances.empty() || changed.flexibility) && !changed.mean_inertia)
     return std::make_shared<DeformingMechanismElement>(std::move(changed));
-  if (!changed.joint_friction && !changed.weightless && !changed.mean_inertia && !changed.in_the_loop && !rounded)
+  if (!changed.friction && !changed.weightless && !changed.mean_inertia && !changed.in_the_loop && !rounded)
     return nullptr;
   return std::make_shared<MechanismElement>(std::move(changed));
 }

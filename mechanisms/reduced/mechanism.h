@@ -12,10 +12,10 @@
 #include "engine/elements/any_shaft_element.h"
 #include "engine/elements/reacting_pool.h"
 #include "engine/model/network.h"
+#include "mechanisms/friction/joint_friction.h"
 #include "mechanisms/loads/slider_loads.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
 #include "mechanisms/slider_crank/slider_crank_dynamics.h"
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 namespace kurbel {
 
@@ -39,14 +39,14 @@ struct Mechanism {
   std::shared_ptr<MechanismBodies> bodies;  // for the independent kinetic energy
   TravelOfTurn travel;
   std::vector<SliderLoad> loads;
-  double phase = 0;                                  // added to the shaft's angle [rad]
-  std::shared_ptr<const SliderCrankStatics> joints;  // of a slider-crank whose joints have friction; else null
-  bool joint_friction = false;                       // is an effect that is on
-  bool weightless = false;                           // the effect gravity is off
-  bool mean_inertia = false;                         // I_r is its mean: the effect variable inertia is off
-  bool in_the_loop = false;                          // its bodies are evaluated at every step: the effect multibody
-  std::vector<JointClearance> clearances = {};       // of a slider-crank, as the scene gives them
-  std::optional<RodFlexibility> flexibility = {};    // of its rod
+  double phase = 0;                                             // added to the shaft's angle [rad]
+  std::shared_ptr<const JointFrictionSource> joints = nullptr;  // where joints have friction; else null
+  std::shared_ptr<const JointFriction> friction = nullptr;      // the effect joint friction is on; else null
+  bool weightless = false;                                      // the effect gravity is off
+  bool mean_inertia = false;                                    // I_r is its mean: the effect variable inertia is off
+  bool in_the_loop = false;                        // its bodies are evaluated at every step: the effect multibody
+  std::vector<JointClearance> clearances = {};     // of a slider-crank, as the scene gives them
+  std::optional<RodFlexibility> flexibility = {};  // of its rod
 
   bool rocks() const { return data.rocks(); }  // the output is an angle
   bool has_weight() const;
@@ -111,8 +111,8 @@ const MechanismElement* mechanism_of(const Network::ShaftElement& element);
 // Of a network as drawn, or of a model's, where it is as its effects have it. Null: no component of that name is one.
 const Mechanism* find_mechanism(const Network& network, const std::string& component);
 
-// Modes of a placed mechanism: the sign of x′ first, then the piece of each load; with joint friction the sign of β′ and
-// of what the two edges of the guide bear, behind these.
+// Modes of a placed mechanism: the sign of x′ first, then the piece of each load; with joint friction the signs that turn
+// of its joints' velocities, and the sides of its slides, behind these.
 class MechanismPool final : public ReactingPool {
  public:
   void place(Mechanism mechanism, ShaftPorts at);
@@ -129,6 +129,8 @@ class MechanismPool final : public ReactingPool {
   void find_sides(const Instant& now, const double* alpha, double* side) const override;
   // Over travel or crank angle, whatever the speed; beside those of the sides of reactions.
   bool guards_are_of_angle() const override { return true; }
+  const std::vector<int>& reacting_shafts() const override { return reacting_shafts_; }
+  void add_answered(const Instant& now, double alpha, double response, Reactions& sums) const override;
   void guards(const Instant& now, double* g) const override;
   void fire(const Instant& now, int guard, int* mode) const override;
   GuardLabel label(int guard, const Instant& now) const override;
@@ -147,14 +149,14 @@ class MechanismPool final : public ReactingPool {
     ShaftPorts at;
     int slot_angle = 0, slot_rate = 0;
     bool has_weight = false;
-    double output_scale = 1, rod_scale = 1;  // of x′, β′
-    bool watches_travel = false;             // some load depends on the direction of travel
+    double output_scale = 1;      // of x′
+    bool watches_travel = false;  // some load depends on the direction of travel
   };
   struct GuardOwner {
     std::size_t placed;
-    int load;  // or the sign of x′, of β′, of what an edge of the guide bears
+    int load;  // or the sign of x′, of a joint's velocity, of what a side of a slide bears
     int which;
-    static constexpr int travel = -1, rod = -2, edge = -3, limit = -4;
+    static constexpr int travel = -1, turning = -2, side = -3, limit = -4;
   };
   // What acts at an angle: from the tables, or from the bodies.
   struct Reduced {
@@ -167,20 +169,24 @@ class MechanismPool final : public ReactingPool {
   }
   double load_force(const Placed& p, const Instant& now) const;
   struct FrictionMemory;
-  static SliderCrankStatics::FrictionTorque friction_torque(const Placed& p, const CrankState& state,
-                                                            SliderCrankStatics::Memory& memory);
-  CrankState crank_state(const Placed& p, const Instant& now, const double* alpha, double slider_force) const;
-  void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, const Dual<2>& slider_force,
+  static JointFriction::Torque friction_torque(const Placed& p, const JointFriction::State& state, double response,
+                                               JointFriction::Place& place);
+  JointFriction::State crank_state(const Placed& p, const Instant& now, double alpha, double load) const;
+  void add_friction(const Placed& p, const JointFriction::State& state, const JointFriction::Torque& friction,
+                    Reactions& sums) const;
+  void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, const Dual<2>& load,
                              double* slots) const;
-  static int rod_mode(const Placed& p) { return p.at.mode + 1 + static_cast<int>(p.mechanism.loads.size()); }
-  static int edge_mode(const Placed& p, int edge) { return rod_mode(p) + 1 + edge; }
+  static int turning_mode(const Placed& p, int which) {
+    return p.at.mode + 1 + static_cast<int>(p.mechanism.loads.size()) + which;
+  }
+  static int side_mode(const Placed& p, int side) { return turning_mode(p, p.mechanism.friction->sign_count() + side); }
   void take_first_signs(const Placed& p, const Instant& now, int* mode) const;
   Hold load_hold(const Placed& p, const Instant& now) const;
   Hold friction_hold(const Placed& p, const Instant& now) const;
 
   std::vector<Placed> placed_;
   std::vector<GuardOwner> owners_;
-  std::vector<int> side_modes_, side_guards_;  // two edges a mechanism with joint friction
+  std::vector<int> side_modes_, side_guards_, reacting_shafts_;
   int guards_ = 0;
   bool reacts_ = false;
 };

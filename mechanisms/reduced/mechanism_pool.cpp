@@ -29,13 +29,11 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   Placed placed{std::move(mechanism), std::move(at)};
   placed.has_weight = placed.mechanism.has_weight();
   placed.output_scale = placed.mechanism.output_scale();
-  if (placed.mechanism.joints) {
-    const SliderCrankData& d = placed.mechanism.joints->data();
-    placed.rod_scale = d.radius / d.rod_length;
-  }
-  // The guide's friction turns round with the slider.
-  placed.watches_travel = placed.mechanism.joint_friction || placed.mechanism.watches_travel();
-  reacts_ = reacts_ || placed.mechanism.joint_friction;
+  // A guide's friction turns round with the slider.
+  const JointFriction* friction = placed.mechanism.friction.get();
+  placed.watches_travel = friction || placed.mechanism.watches_travel();
+  reacts_ = reacts_ || friction;
+  if (friction) reacting_shafts_.push_back(placed.at.shaft);
   const std::size_t index = placed_.size();
   if (placed.mechanism.arc())
     for (const int end : {-1, 1}) owners_.push_back({index, GuardOwner::limit, end});
@@ -43,13 +41,11 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   for (std::size_t k = 0; k < placed.mechanism.loads.size(); ++k)
     if (placed.mechanism.loads[k].has_pieces())
       for (const int which : {0, 1}) owners_.push_back({index, static_cast<int>(k), which});
-  if (placed.mechanism.joint_friction) {
-    owners_.push_back({index, GuardOwner::rod, 0});
-    for (const int edge : {0, 1}) {
-      side_modes_.push_back(edge_mode(placed, edge));
-      side_guards_.push_back(static_cast<int>(owners_.size()));
-      owners_.push_back({index, GuardOwner::edge, edge});
-    }
+  for (int k = 0; friction && k < friction->sign_count(); ++k) owners_.push_back({index, GuardOwner::turning, k});
+  for (int k = 0; friction && k < friction->side_count(); ++k) {
+    side_modes_.push_back(side_mode(placed, k));
+    side_guards_.push_back(static_cast<int>(owners_.size()));
+    owners_.push_back({index, GuardOwner::side, k});
   }
   guards_ = static_cast<int>(owners_.size());
   placed_.push_back(std::move(placed));
@@ -124,31 +120,27 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
   }
 }
 
-// --- joint friction: −M_f(φ, ω, ε, F) on the crank, found together with ε (slider_crank_forces.h) ---
+// --- joint friction: M(φ, ω, ε, F) on the crank, found together with ε (joint_friction.h) ---
 
-CrankState MechanismPool::crank_state(const Placed& p, const Instant& now, const double* alpha,
-                                      double slider_force) const {
-  const int rod = rod_mode(p);
-  const auto edge = [&](int which) {
-    const int side = now.mode[edge_mode(p, which)];
-    return side == without_events ? 0 : side;
-  };
+JointFriction::State MechanismPool::crank_state(const Placed& p, const Instant& now, double alpha, double load) const {
   return {.phi = angle_of(p.at, now),
           .omega = p.at.gain * now.speed[p.at.shaft],
-          .alpha = p.at.gain * alpha[p.at.shaft],
-          .slider_force = slider_force,
+          .alpha = p.at.gain * alpha,
+          .load = load,
           .direction = p.at.direction(now),
-          .sign = {now.mode[p.at.mode], now.mode[rod], {edge(0), edge(1)}}};
+          .weightless = p.mechanism.weightless,
+          .travel = now.mode[p.at.mode],
+          .modes = now.mode + turning_mode(p, 0)};
 }
 
 struct MechanismPool::FrictionMemory final : ElementPool::Memory {
   struct Of {  // a mechanism
-    SliderCrankStatics::Memory search;
-    std::optional<double> slider_force;
+    JointFriction::Place place;
+    std::optional<double> load;
   };
   std::vector<Of> of;
   void begin() override {
-    for (Of& memory : of) memory.search.forget(), memory.slider_force.reset();
+    for (Of& memory : of) memory.load.reset();
   }
 };
 
@@ -158,59 +150,72 @@ std::unique_ptr<ElementPool::Memory> MechanismPool::make_memory() const {
   return memory;
 }
 
-SliderCrankStatics::FrictionTorque MechanismPool::friction_torque(const Placed& p, const CrankState& state,
-                                                                  SliderCrankStatics::Memory& memory) {
+JointFriction::Torque MechanismPool::friction_torque(const Placed& p, const JointFriction::State& state,
+                                                     double response, JointFriction::Place& place) {
   // A trial step so long that its speeds or accelerations are none: like one that jams, it is tried again, shorter.
-  if (!std::isfinite(state.omega * state.omega) || !std::isfinite(state.alpha) || !std::isfinite(state.slider_force))
-    throw Jam("slider-crank: no finite motion to find its joints' friction by", p.at.shaft);
+  if (!std::isfinite(state.omega * state.omega) || !std::isfinite(state.alpha) || !std::isfinite(state.load))
+    throw Jam("no finite motion to find the joints' friction by", p.at.shaft);
   try {
-    return p.mechanism.joints->friction_torque(state, memory);
-  } catch (Jam& jam) {
-    jam.shaft = p.at.shaft;
-    throw;
+    return p.mechanism.friction->torque(state, response, place);
+  } catch (const Jam& jam) {
+    throw Jam("\"" + p.mechanism.name + "\": " + jam.what(), p.at.shaft);
   }
 }
 
+void MechanismPool::add_friction(const Placed& p, const JointFriction::State& state,
+                                 const JointFriction::Torque& friction, Reactions& sums) const {
+  sums.torque[p.at.shaft] += p.at.gain * friction.torque;
+  sums.slope[p.at.shaft] -= p.at.gain * p.at.gain * friction.slope;
+  sums.element_torque[p.at.id] += friction.torque;
+  if (sums.work_rate)
+    sums.work_rate[p.at.account + 1 + static_cast<int>(p.mechanism.loads.size())] += friction.torque * state.omega;
+}
+
 void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums, Memory* memory) const {
-  auto& friction = static_cast<FrictionMemory&>(*memory);
+  auto& known = static_cast<FrictionMemory&>(*memory);
   for (std::size_t k = 0; k < placed_.size(); ++k) {
     const Placed& p = placed_[k];
-    if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) continue;  // at standstill: friction_hold
-    FrictionMemory::Of& known = friction.of[k];
-    if (!known.slider_force) known.slider_force = load_force(p, now);
-    const CrankState state = crank_state(p, now, alpha, *known.slider_force);
-    const auto [torque, slope] = friction_torque(p, state, known.search);
-    sums.torque[p.at.shaft] -= p.at.gain * torque;
-    sums.slope[p.at.shaft] += p.at.gain * p.at.gain * slope;
-    sums.element_torque[p.at.id] -= torque;
-    if (sums.work_rate)
-      sums.work_rate[p.at.account + 1 + static_cast<int>(p.mechanism.loads.size())] -= torque * state.omega;
+    if (!p.mechanism.friction || now.direction[p.at.shaft] == 0) continue;  // at standstill: friction_hold
+    FrictionMemory::Of& of = known.of[k];
+    if (!of.load) of.load = load_force(p, now);
+    const JointFriction::State state = crank_state(p, now, alpha[p.at.shaft], *of.load);
+    add_friction(p, state, friction_torque(p, state, 0, of.place), sums);
+  }
+}
+
+void MechanismPool::add_answered(const Instant& now, double alpha, double response, Reactions& sums) const {
+  for (const Placed& p : placed_) {
+    if (!p.mechanism.friction) continue;
+    JointFriction::Place place;
+    const JointFriction::State state = crank_state(p, now, alpha, load_force(p, now));
+    add_friction(p, state, friction_torque(p, state, p.at.gain * p.at.gain * response, place), sums);
   }
 }
 
 // At the acceleration that was found, which answers in turn: ReactionBalance::slope.
-void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha,
-                                          const Dual<2>& slider_force, double* slots) const {
-  if (!p.mechanism.joint_friction || now.direction[p.at.shaft] == 0) return;
-  const auto by = p.mechanism.joints->friction_slopes(crank_state(p, now, alpha, slider_force.value));
-  slots[p.slot_angle] -= p.at.gain * (by.by_angle + by.by_force * slider_force.d[0]);
-  slots[p.slot_rate] -= p.at.gain * p.at.gain * (by.by_speed + by.by_force * slider_force.d[1]);
+void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, const Dual<2>& load,
+                                          double* slots) const {
+  if (!p.mechanism.friction || now.direction[p.at.shaft] == 0) return;
+  const auto by = p.mechanism.friction->slopes(crank_state(p, now, alpha[p.at.shaft], load.value));
+  slots[p.slot_angle] += p.at.gain * (by.by_angle + by.by_load * load.d[0]);
+  slots[p.slot_rate] += p.at.gain * p.at.gain * (by.by_speed + by.by_load * load.d[1]);
 }
 
-// Static friction holds the crank within the torques of resting_torque(), seen from the torque without friction. What
-// loads can hold against the slider presses on the joints as well: each end of it widens what friction holds.
+// Static friction holds the crank between what it takes to move it either way, seen from the torque without friction. What
+// loads can hold against the output presses on the joints as well: each end of it widens what friction holds.
 Hold MechanismPool::friction_hold(const Placed& p, const Instant& now) const {
   const double phi = angle_of(p.at, now), force = load_force(p, now);
   const Hold held = load_hold(p, now);
+  const auto here = p.mechanism.reduced->at(phi);
+  const double ratio = here.output_position().slope, free = here.gravity_torque().value + force * ratio;
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const double at_rest : {force, force + held.low, force + held.high}) {
-    const auto bounds = p.mechanism.joints->resting_torque(phi, at_rest);
-    low = std::min(low, bounds.low);
-    high = std::max(high, bounds.high);
-  }
-  const double free = p.mechanism.joints->solve_frictionless({.phi = phi, .slider_force = force}).torque;
+  const auto needed = [&](double further, int direction) {
+    return p.mechanism.friction->resting(phi, force + further, direction, p.mechanism.weightless) - further * ratio;
+  };
+  for (const double further : {0.0, held.low, held.high})
+    low = std::min(low, needed(further, -1)), high = std::max(high, needed(further, 1));
   const double most = 1e6 * (1 + std::abs(free) + std::abs(force) * p.output_scale);  // locks itself
-  return {-std::min(high - free, most), std::min(free - low, most)};
+  return {-std::min(high, most), std::min(-low, most)};
 }
 
 void MechanismPool::register_jacobian(JacobianPattern& pattern) {
@@ -255,11 +260,12 @@ void MechanismPool::guards(const Instant& now, double* g) const {
   for (std::size_t i = 0; i < owners_.size(); ++i) {
     const GuardOwner& owner = owners_[i];
     const Placed& p = placed_[owner.placed];
-    if (owner.load == GuardOwner::rod) {
-      g[i] = now.mode[rod_mode(p)] * p.mechanism.joints->rod_ratio(angle_of(p.at, now)).value / p.rod_scale;
+    if (owner.load == GuardOwner::turning) {
+      g[i] = now.mode[turning_mode(p, owner.which)] *
+             p.mechanism.friction->turning(owner.which, angle_of(p.at, now)).value;
       continue;
     }
-    if (owner.load == GuardOwner::edge) {
+    if (owner.load == GuardOwner::side) {
       g[i] = 1;  // find_sides()
       continue;
     }
@@ -288,12 +294,12 @@ void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
     return;
   }
   if (owner.load == GuardOwner::limit) throw std::runtime_error(limit_reached(p.mechanism, owner.which));
-  if (owner.load == GuardOwner::rod) {
-    mode[rod_mode(p)] = -mode[rod_mode(p)];
+  if (owner.load == GuardOwner::turning) {
+    mode[turning_mode(p, owner.which)] = -mode[turning_mode(p, owner.which)];
     return;
   }
-  if (owner.load == GuardOwner::edge) {
-    int& side = mode[edge_mode(p, owner.which)];
+  if (owner.load == GuardOwner::side) {
+    int& side = mode[side_mode(p, owner.which)];
     if (side != without_events) side = -side;
     return;
   }
@@ -310,7 +316,7 @@ void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
 GuardLabel MechanismPool::label(int guard, const Instant& now) const {
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
   const Placed& p = placed_[owner.placed];
-  if (owner.load == GuardOwner::rod || owner.load == GuardOwner::edge) return {p.mechanism.name, {}};
+  if (owner.load == GuardOwner::turning || owner.load == GuardOwner::side) return {p.mechanism.name, {}};
   if (owner.load == GuardOwner::limit) return {p.mechanism.name, "end of the crank's arc"};
   if (owner.load == GuardOwner::travel)
     return {p.mechanism.name, name_of_reversal(p.mechanism, now.mode[p.at.mode] * p.at.direction(now) > 0)};
@@ -330,37 +336,37 @@ void MechanismPool::first_modes(const Instant& now, int* mode) const {
     mode[p.at.mode] = p.mechanism.growth(angle_of(p.at, now), p.at.direction(now));
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
       p.mechanism.loads[k].take_first_piece(slider(p, now, k), mode[p.at.mode + 1 + static_cast<int>(k)]);
-    if (p.mechanism.joint_friction) take_first_signs(p, now, mode);
+    if (p.mechanism.friction) take_first_signs(p, now, mode);
   }
 }
 
-// Of β′, where it is zero that of the motion to come; the edges of the guide as they come.
+// Of the joints' velocities, where one is zero that of the motion to come; the sides of the slides as they come.
 void MechanismPool::take_first_signs(const Placed& p, const Instant& now, int* mode) const {
-  const int rod = rod_mode(p);
-  auto [ratio, slope] = p.mechanism.joints->rod_ratio(angle_of(p.at, now));
-  if (std::abs(ratio) < 1e-12 * p.rod_scale) ratio = slope * (p.at.direction(now) >= 0 ? 1 : -1);
-  mode[rod] = ratio >= 0 ? 1 : -1;
-  for (const int edge : {0, 1})
-    if (mode[edge_mode(p, edge)] != without_events) mode[edge_mode(p, edge)] = 0;
+  for (int k = 0; k < p.mechanism.friction->sign_count(); ++k) {
+    auto [ratio, slope] = p.mechanism.friction->turning(k, angle_of(p.at, now));
+    if (std::abs(ratio) < 1e-12) ratio = slope * (p.at.direction(now) >= 0 ? 1 : -1);
+    mode[turning_mode(p, k)] = ratio >= 0 ? 1 : -1;
+  }
+  for (int k = 0; k < p.mechanism.friction->side_count(); ++k)
+    if (mode[side_mode(p, k)] != without_events) mode[side_mode(p, k)] = 0;
 }
 
 // At standstill nothing slides.
 void MechanismPool::find_sides(const Instant& now, const double* alpha, double* side) const {
   for (const Placed& p : placed_) {
-    if (!p.mechanism.joint_friction) continue;
-    side[0] = side[1] = 1;
-    if (now.direction[p.at.shaft] != 0) {
-      const auto share = p.mechanism.joints->edge_shares(crank_state(p, now, alpha, load_force(p, now)));
-      side[0] = share[0], side[1] = share[1];
-    }
-    side += 2;
+    if (!p.mechanism.friction) continue;
+    const int count = p.mechanism.friction->side_count();
+    std::fill_n(side, count, 1.0);
+    if (now.direction[p.at.shaft] != 0)
+      p.mechanism.friction->sides(crank_state(p, now, alpha[p.at.shaft], load_force(p, now)), side);
+    side += count;
   }
 }
 
 // Edges that go to and fro bear as it comes: by the same law, so that there is nothing to tell.
 bool MechanismPool::regularise(int guard, int* mode) const {
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
-  if (owner.load == GuardOwner::edge) mode[edge_mode(placed_[owner.placed], owner.which)] = without_events;
+  if (owner.load == GuardOwner::side) mode[side_mode(placed_[owner.placed], owner.which)] = without_events;
   return false;
 }
 
@@ -391,7 +397,7 @@ Hold MechanismPool::load_hold(const Placed& p, const Instant& now) const {
 void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) const {
   for (const Placed& p : placed_) {
     Hold hold;
-    if (p.mechanism.joint_friction) {
+    if (p.mechanism.friction) {
       // Nothing asks what would hold a crank that moves, and reactions with friction are dear to find.
       if (now.direction[p.at.shaft] != 0 && now.speed[p.at.shaft] != 0) continue;
       hold = friction_hold(p, now);

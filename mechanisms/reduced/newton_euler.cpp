@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include "mechanisms/reduced/crank_cycle.h"
@@ -19,6 +20,7 @@ constexpr int most = 3 * PlanarLinkage::most_bodies;
 enum Case : int { speed_case, acceleration_case, weight_case, load_case, cases };
 using CaseMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
 using Columns = Eigen::Matrix<Real, Eigen::Dynamic, cases, 0, most, cases>;
+using RightSides = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using CaseColumn = Eigen::Matrix<Real, Eigen::Dynamic, 1, 0, most, 1>;
 
 struct Vector {
@@ -51,11 +53,35 @@ class Equations {
     for (int i = 0; i < l.body_count; ++i) load(i);
   }
   // Forces [N] and moments over length() [N].
-  Columns solve() const {
+  Columns solve() const { return solve(right_); }
+  template <class Right>
+  Right solve(const Right& right) const {
     const Eigen::PartialPivLU<CaseMatrix> factors(matrix_);
-    Columns x = factors.solve(right_);
-    x += factors.solve(right_ - matrix_ * x);
+    Right x = factors.solve(right);
+    x += factors.solve(right - matrix_ * x);
     return x;
+  }
+  // The four cases, and behind them a unit of each friction load.
+  RightSides with_friction(std::span<const FrictionPlace> friction) const {
+    RightSides right = RightSides::Zero(n_, cases + static_cast<Eigen::Index>(friction.size()));
+    right.leftCols(static_cast<Eigen::Index>(cases)) = right_;
+    for (std::size_t k = 0; k < friction.size(); ++k) {
+      const PlanarLinkage::Joint& j = l_.joints[static_cast<std::size_t>(friction[k].joint)];
+      const Eigen::Index column = cases + static_cast<Eigen::Index>(k);
+      const Vector place = at(j.at), along{j.along.cos.value(), j.along.sin.value()};
+      for (const auto& [body, sense] : {std::pair{j.on, Real(1)}, std::pair{j.from, Real(-1)}}) {
+        if (body == PlanarLinkage::frame) continue;
+        const Vector com = at(l_.bodies[static_cast<std::size_t>(body)].com);
+        if (friction[k].couple) {
+          right(3 * body + 2, column) -= sense / length_;
+        } else {
+          right(3 * body, column) -= sense * along.x;
+          right(3 * body + 1, column) -= sense * along.y;
+          right(3 * body + 2, column) -= sense * cross({place.x - com.x, place.y - com.y}, along) / length_;
+        }
+      }
+    }
+    return right;
   }
   // Of the equations for one mixture of the cases, relative to their largest term.
   double residual(const CaseColumn& solution, const Eigen::Matrix<Real, cases, 1>& mixture) const {
@@ -192,6 +218,20 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
   f.load_power = state.load * f.output_velocity;
   f.residual = equations.residual(x, mixture);
   return f;
+}
+
+std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std::span<const FrictionPlace> friction) {
+  const Equations equations(l);
+  const RightSides unit = equations.solve(equations.with_friction(friction));
+  std::vector<std::vector<long double>> columns(static_cast<std::size_t>(unit.cols()));
+  for (Eigen::Index c = 0; c < unit.cols(); ++c)
+    for (int k = 0; k < l.joint_count; ++k) {
+      columns[static_cast<std::size_t>(c)].push_back(unit(2 * k, c));
+      const Real second = unit(2 * k + 1, c);
+      columns[static_cast<std::size_t>(c)].push_back(
+          l.joints[static_cast<std::size_t>(k)].slides ? second * equations.length() : second);
+    }
+  return columns;
 }
 
 double beside_change_point(const MechanismData& data, double phi) {

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,16 @@ struct LinkageForces {
 // Throws std::runtime_error with the numbers where the equations are singular: in a position where the mechanism
 // cannot be moved by its crank.
 LinkageForces forces_in(const PlanarLinkage& linkage, const LinkageState& state);
+
+// What friction does in a joint, on its body `on`, and the opposite on `from`: a couple of 1 N·m, or along a slide 1 N.
+struct FrictionPlace {
+  int joint = 0;
+  bool couple = true;
+};
+// Of all joints in their order R_x, R_y [N], of a slide its normal force [N] and moment [N·m], by columns: for ω² = 1,
+// ε = 1, the weights, a unit load, each of the friction loads alone (theory 10.2).
+std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& linkage,
+                                                     std::span<const FrictionPlace> friction);
 
 // Of a mechanism that passes change points: φ itself, or if it lies nearer to one than a thousandth of what the sine there
 // changes by in a radian, the place at that distance on its side. Reactions go with the inverse of the distance.

@@ -95,6 +95,14 @@ class PeriodicTable {
     return even + x * odd;
   }
 
+  // Derivative by the angle of what value() gives.
+  static double slope(Cursor at, std::size_t channel) {
+    const double* c = at.coefficients + channel * (degree + 1);
+    double sum = 0;
+    for (std::size_t k = degree; k > 0; --k) sum = sum * at.x + static_cast<double>(k) * c[k];
+    return sum * at.coefficients[-1];
+  }
+
   // Of a channel over the period: the pieces' own integrals, however sharply they bend.
   double mean(std::size_t channel) const;
 

@@ -1,4 +1,4 @@
-// slider_crank_acceleration.cpp — what friction adds to the torque, acceleration under a torque, torques at rest.
+// slider_crank_acceleration.cpp — acceleration under a torque, implicit through the friction; torques at rest.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -182,11 +182,6 @@ SliderCrankStatics::Rates SliderCrankStatics::rates(double phi, double omega) co
   return {omega, rod - omega, -rod, p.x1 * omega};
 }
 
-ValueAndSlope<double> SliderCrankStatics::rod_ratio(double phi) const {
-  const SliderCrankPose<double> p(data_, changes_, phi);
-  return {p.beta1, p.beta2};
-}
-
 SliderCrankStatics::Column SliderCrankStatics::load_column(const Table& unit, const CrankState& s) const {
   return unit.col(speed_case) * (s.omega * s.omega) + unit.col(acceleration_case) * s.alpha + unit.col(gravity_case) +
          unit.col(force_case) * s.slider_force;

@@ -17,12 +17,11 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <string>
 
 #include "engine/base/enumerators.h"
+#include "mechanisms/friction/friction.h"
 #include "mechanisms/linkages/slider_crank.h"
-#include "mechanisms/slider_crank/friction.h"
 
 namespace kurbel {
 
@@ -73,15 +72,6 @@ struct CrankState {
   double slider_force = 0;               // along +x, without weight [N]
   int direction = 0;                     // ±1: of the motion, whatever ω; 0: the sign of ω
   bool at_rest = false;                  // about to move that way: static coefficients
-
-  // The sides of the kinks of joint friction that hold as modes, ±1: of x′, of β′, of what the two edges of the guide
-  // bear (joint_friction.h). 0: as it comes.
-  struct Signs {
-    int slider = 0, rod = 0;
-    std::array<int, 2> edge{};
-    bool operator==(const Signs&) const = default;
-  } sign = {};
-  bool operator==(const CrankState&) const = default;
 };
 
 enum class Joint : std::size_t { main_bearing, crank_pin, slider_pin, guide };
@@ -109,10 +99,6 @@ struct SliderCrankForces {
 
   double friction_loss() const;  // [W]
 };
-
-template <class T>
-struct FrictionFrame;
-struct FrictionBalance;
 
 class SliderCrankStatics {
  public:
@@ -153,35 +139,6 @@ class SliderCrankStatics {
   // std::invalid_argument where nothing has inertia; std::runtime_error where the joints jam.
   double acceleration(CrankState state, double torque, double shaft_inertia = 0) const;
 
-  // What friction adds to the balancing torque, with its derivative by ε; its power is lost. Throws as solve does.
-  struct FrictionTorque {
-    double torque = 0, slope = 0;  // [N·m], [kg·m²]
-  };
-  FrictionTorque friction_torque(const CrankState& state) const;
-  // ∂torque/∂(φ, ω, slider force) at that ε.
-  struct FrictionSlopes {
-    double by_angle = 0, by_speed = 0, by_force = 0;  // [N·m], [N·m·s], [m]
-  };
-  FrictionSlopes friction_slopes(const CrankState& state) const;
-  // How far both edges of the guide are from bearing nothing, by the signs given: of order one. A guide without length
-  // has the first alone; the other is 1.
-  std::array<double, 2> edge_shares(const CrankState& state) const;
-  // Asked again and again at one position and speed, as Newton's method on ε does, it goes on from its last solution.
-  // Who asks at another one, or wants an answer that does not hang on what was asked before, begins with a new memory.
-  class Memory {
-   public:
-    Memory();
-    ~Memory();
-    Memory(Memory&&) noexcept;
-    void forget();
-
-   private:
-    friend class SliderCrankStatics;
-    struct Content;
-    std::unique_ptr<Content> content_;
-  };
-  FrictionTorque friction_torque(const CrankState& state, Memory& memory) const;
-
   // Torques within which the mechanism rests under a slider force: low … high; static coefficients. −∞ or +∞ where it
   // locks itself against that direction.
   struct Range {
@@ -195,21 +152,15 @@ class SliderCrankStatics {
     double slider;                               // v [m/s]
   };
   Rates rates(double phi, double omega) const;
-  // β′ = ω_rod/ω and β″.
-  ValueAndSlope<double> rod_ratio(double phi) const;
 
  private:
   struct Law;  // coefficients and directions at one state
   struct Solution;
   Law law_at(const CrankState& state) const;
   Column load_column(const Table& unit, const CrankState& state) const;
+  struct FrictionTorque;
   FrictionTorque torque_of(const Table& unit, const Solution& solution) const;
-  FrictionBalance balance(const FrictionFrame<double>& frame, const CrankState& state,
-                          const FrictionBalance* near) const;
-  Solution solve_friction(const Table& unit, const Column& base, const Law& law, double phi,
-                          const Solution* near = nullptr) const;
-  template <class T>
-  FrictionFrame<T> friction_frame(const CrankState& state, const T& phi, const T& omega, const T& force) const;
+  Solution solve_friction(const Table& unit, const Column& base, const Law& law, double phi) const;
   void add_motion(const CrankState& state, SliderCrankForces& out) const;
   SliderCrankForces assemble(const Column& reaction, const Solution& solution, const CrankState& state) const;
 

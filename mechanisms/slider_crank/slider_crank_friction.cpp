@@ -96,16 +96,10 @@ bool SliderCrankStatics::Solution::settle(const Law& law, double share, const In
 // q = s · law(base + U q), led from s = 0 to 1. The solution wanted is the one that hangs together with the
 // frictionless one: along it the determinant of 1 − s ∂law/∂q keeps its sign; where it would vanish the joints jam.
 SliderCrankStatics::Solution SliderCrankStatics::solve_friction(const Table& unit, const Column& base, const Law& law,
-                                                                double phi, const Solution* near) const {
+                                                                double phi) const {
   Solution solution;
   if (law.none()) return solution;
   const Solution::Influence influence = unit.rightCols<frictions>();
-  if (near) {
-    solution = *near;
-    solution.iterations = 0;
-    if (solution.settle(law, 1, influence, base)) return solution;
-    solution = {};
-  }
   double share = 0, step = 1;
   constexpr double least_step = 1.0 / 4096;
   while (share < 1) {

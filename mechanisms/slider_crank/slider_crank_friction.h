@@ -50,6 +50,11 @@ struct SliderCrankStatics::Law {
   bool none() const { return circle[0] == 0 && circle[1] == 0 && circle[2] == 0 && guide == 0; }
 };
 
+// What friction adds to the balancing torque, with its derivative by ε.
+struct SliderCrankStatics::FrictionTorque {
+  double torque = 0, slope = 0;  // [N·m], [kg·m²]
+};
+
 // LU of a matrix of the frictions, with partial pivoting: of a size that the compiler unrolls.
 class FrictionLu {
  public:

@@ -369,7 +369,15 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   LinkageStudy out;
   describe(asked, out);
   out.kind = asked.kind;
-  const Effects effects = options.effects.value_or(scene.effects);
+  Effects effects = options.effects.value_or(scene.effects);
+  if (effects.joint_friction && asked.mechanism().joints) {
+    effects.joint_friction = false;
+    out.notes.push_back(
+        fmt::format("{}: forces counts its joints as ideal, their friction is left out of motion and reactions; run "
+                    "and steady have "
+                    "it",
+                    asked.name));
+  }
   const MachineMotion machine(asked, effects, options);
   const MechanismData& data = asked.mechanism().data;
   if (const std::string why = data.undetermined(); !why.empty())

@@ -97,7 +97,7 @@ const Mechanism& crank_of(const Model& model) {
     refuse("its links pass change points, where the closed loop leaves open which way they go on");
   if (mechanism->dynamics())
     refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
-  if (mechanism->mechanism().joint_friction) refuse("its joints are ideal, so joint_friction must be off");
+  if (mechanism->mechanism().friction) refuse("its joints are ideal, so joint_friction must be off");
   if (!model.scene.sequence.steps.empty())
     refuse("its integrators know no events, so that no operating sequence is carried out");
   if (model.shafts.size() != 1 || model.shafts.front().prescribed >= 0)

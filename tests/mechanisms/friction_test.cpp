@@ -1,5 +1,5 @@
 // friction_test.cpp — joint friction against published numbers (tests/cases/fr01_friction.toml), closed forms, limits.
-#include "mechanisms/slider_crank/friction.h"
+#include "mechanisms/friction/friction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// joint_friction_law_test.cpp — friction in joints by two unknowns: the torque of the reactions, its derivatives, its
-// kinks as events.
+// joint_friction_law_test.cpp — friction in joints over tabulated reactions: the torque of all reactions together, its
+// derivatives, its kinks as events.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -7,9 +7,10 @@
 #include <random>
 
 #include "engine/elements/reacting_pool.h"
+#include "engine/equations/jam.h"
 #include "engine/events/equations.h"
 #include "engine/run/run.h"
-#include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "mechanisms/kinds/joint_keys.h"
 #include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
@@ -51,72 +52,125 @@ class Draw {
   std::mt19937 random_{7};
 };
 
-// The sides on which a state is, for the law to be held on them.
-CrankState on_its_sides(const SliderCrankStatics& statics, CrankState s) {
-  const auto share = statics.edge_shares(s);
-  const auto rate = statics.rates(s.phi, 1);
-  s.direction = s.omega > 0 ? 1 : -1;
-  s.sign = {rate.slider > 0 ? 1 : -1, rate.slider_pin < 0 ? 1 : -1, {share[0] > 0 ? 1 : -1, share[1] > 0 ? 1 : -1}};
-  return s;
+JointFriction::State same_state(const CrankState& s) {
+  return {.phi = s.phi, .omega = s.omega, .alpha = s.alpha, .load = s.slider_force, .direction = s.direction};
 }
 
-double scale_of(const SliderCrankStatics& statics, const CrankState& s) {
-  return std::abs(statics.solve_frictionless(s).torque) + statics.data().radius * std::abs(s.slider_force);
+// A slider-crank by the closed form, and by the tables of its reactions.
+struct Both {
+  Both(const SliderCrankData& d, const SliderCrankJoints& j) : statics(d, j), law(friction_of(d, j)->get(false)) {}
+  double scale(const CrankState& s) const {
+    return std::abs(statics.solve_frictionless(s).torque) + statics.data().radius * std::abs(s.slider_force);
+  }
+  SliderCrankStatics statics;
+  std::shared_ptr<const JointFriction> law;
+};
+
+// The sides on which a state is, for the law to be held on them: the sign of β′ or others that turn, then the edges.
+std::vector<int> sides_of(const Both& of, JointFriction::State& s) {
+  std::vector<int> modes;
+  for (int k = 0; k < of.law->sign_count(); ++k) modes.push_back(of.law->turning(k, s.phi).value > 0 ? 1 : -1);
+  std::vector<double> side(static_cast<std::size_t>(of.law->side_count()));
+  of.law->sides(s, side.data());
+  for (const double value : side) modes.push_back(value > 0 ? 1 : -1);
+  s.direction = s.omega > 0 ? 1 : -1;
+  s.travel = of.statics.rates(s.phi, 1).slider > 0 ? 1 : -1;
+  return modes;
 }
 
 TEST(JointFrictionLaw, TorqueIsThatOfAllReactionsTogether) {
   Draw draw;
-  for (int k = 0; k < 400; ++k) {
-    const SliderCrankStatics statics(draw.mechanism(), draw.joints(k % 2));
-    const CrankState s = draw.state();
-    const double all = statics.solve(s).torque - statics.solve_frictionless(s).torque;
-    EXPECT_NEAR(statics.friction_torque(s).torque, all, 1e-12 * (scale_of(statics, s) + std::abs(all))) << k;
-    const CrankState held = on_its_sides(statics, s);
-    EXPECT_NEAR(statics.friction_torque(held).torque, all, 1e-12 * (scale_of(statics, s) + std::abs(all))) << k;
+  for (int k = 0; k < 60; ++k) {
+    const Both both(draw.mechanism(), draw.joints(k % 2));
+    for (int i = 0; i < 8; ++i) {
+      const CrankState s = draw.state();
+      const double all = both.statics.solve(s).torque - both.statics.solve_frictionless(s).torque;
+      const double enough = 1e-10 * (both.scale(s) + std::abs(all));
+      JointFriction::State state = same_state(s);
+      EXPECT_NEAR(both.law->torque(state).torque, -all, enough) << k;
+      const std::vector<int> modes = sides_of(both, state);
+      state.modes = modes.data();
+      EXPECT_NEAR(both.law->torque(state).torque, -all, enough) << k;
+    }
+  }
+}
+
+// ε and the torque by it at once, as the scalar equation in ε has them.
+TEST(JointFrictionLaw, AnswersWithTheAccelerationOfTheImplicitEquation) {
+  Draw draw;
+  for (int k = 0; k < 40; ++k) {
+    const Both both(draw.mechanism(), draw.joints(k % 2));
+    for (int i = 0; i < 6; ++i) {
+      const CrankState s = draw.state();
+      const double torque = draw.between(-50, 50), shaft = draw.between(0.01, 1);
+      CrankState still = s;
+      still.alpha = 0;
+      CrankState unit = still;
+      unit.alpha = 1;
+      const double at_rest = both.statics.solve_frictionless(still).torque;
+      const double inertia = both.statics.solve_frictionless(unit).torque - at_rest + shaft;
+      JointFriction::State state = same_state(s);
+      state.alpha = (torque - at_rest) / inertia;
+      const JointFriction::Torque found = both.law->torque(state, 1 / inertia);
+      const double expected = both.statics.acceleration(s, torque, shaft);
+      EXPECT_NEAR(found.alpha, expected, 1e-8 * (std::abs(expected) + s.omega * s.omega)) << k;
+      state.alpha = found.alpha;
+      const JointFriction::Torque there = both.law->torque(state);
+      EXPECT_NEAR(there.torque, found.torque, 1e-9 * (both.scale(s) + std::abs(found.torque)));
+      EXPECT_NEAR(there.slope, found.slope, 1e-6 * (inertia + std::abs(found.slope)));
+    }
   }
 }
 
 // Also where β′ or x′ has changed its sign already: with its sides held the law goes on smoothly.
 TEST(JointFrictionLaw, DerivativesEqualDifferencesOnBothSidesOfAKink) {
   Draw draw;
-  for (int k = 0; k < 300; ++k) {
-    const SliderCrankStatics statics(draw.mechanism(), draw.joints(k % 2));
-    CrankState s = draw.state();
-    if (k % 3 == 0) s.phi = (k % 4) * std::acos(0.0) + 1e-7;  // β′ = 0, and near x′ = 0
-    s = on_its_sides(statics, s);
-    if (k % 6 == 0) s.phi -= 2e-7;
-    const auto at = [&](double CrankState::*of, double step) {
-      CrankState there = s;
-      there.*of += step;
-      return statics.friction_torque(there).torque;
-    };
-    const auto slope = [&](double CrankState::*of, double h) {  // of fourth order
-      return (8 * (at(of, h) - at(of, -h)) - (at(of, 2 * h) - at(of, -2 * h))) / (12 * h);
-    };
-    const auto by = statics.friction_slopes(s);
-    const double scale = scale_of(statics, s);
-    const auto close = [&](double exact, double difference, double unit, const char* what) {
-      EXPECT_NEAR(exact, difference, 1e-6 * (std::abs(exact) + 1e-2 * scale / unit)) << k << what;
-    };
-    close(by.by_angle, slope(&CrankState::phi, 1e-4), 1, " angle");
-    close(by.by_speed, slope(&CrankState::omega, 1e-4 * std::abs(s.omega)), std::abs(s.omega), " speed");
-    close(by.by_force, slope(&CrankState::slider_force, 1e-2), 1000, " force");
-    close(statics.friction_torque(s).slope, slope(&CrankState::alpha, 1e-2), 100, " acceleration");
+  for (int k = 0; k < 60; ++k) {
+    const Both both(draw.mechanism(), draw.joints(k % 2));
+    for (int i = 0; i < 5; ++i) {
+      CrankState crank = draw.state();
+      if (i == 0) crank.phi = (k % 4) * std::acos(0.0) + 1e-7;  // β′ = 0, and near x′ = 0
+      JointFriction::State s = same_state(crank);
+      const std::vector<int> modes = sides_of(both, s);
+      s.modes = modes.data();
+      if (i == 0 && k % 2) s.phi -= 2e-7;
+      const auto at = [&](double JointFriction::State::*of, double step) {
+        JointFriction::State there = s;
+        there.*of += step;
+        return both.law->torque(there).torque;
+      };
+      const auto slope = [&](double JointFriction::State::*of, double h) {  // of fourth order
+        return (8 * (at(of, h) - at(of, -h)) - (at(of, 2 * h) - at(of, -2 * h))) / (12 * h);
+      };
+      const auto by = both.law->slopes(s);
+      const double scale = both.scale(crank);
+      const auto close = [&](double exact, double difference, double unit, const char* what) {
+        EXPECT_NEAR(exact, difference, 1e-6 * (std::abs(exact) + 1e-2 * scale / unit)) << k << what;
+      };
+      using State = JointFriction::State;
+      close(by.by_angle, slope(&State::phi, 1e-4), 1, " angle");
+      close(by.by_speed, slope(&State::omega, 1e-4 * std::abs(s.omega)), std::abs(s.omega), " speed");
+      close(by.by_load, slope(&State::load, 1e-2), 1000, " force");
+      close(both.law->torque(s).slope, slope(&State::alpha, 1e-2), 100, " acceleration");
+    }
   }
 }
 
-// What is remembered within one balance is where to begin, not what to find.
-TEST(JointFrictionLaw, MemoryChangesNoAnswer) {
+// The second extraction has other pieces: it differs, and by no more than tables may.
+TEST(JointFrictionLaw, SecondExtractionAgreesAndIsAnother) {
   Draw draw;
-  for (int k = 0; k < 100; ++k) {
-    const SliderCrankStatics statics(draw.mechanism(), draw.joints(k % 2));
-    CrankState s = draw.state();
-    SliderCrankStatics::Memory memory;
-    for (int i = 0; i < 4; ++i, s.alpha += draw.between(-50, 50)) {
-      const double alone = statics.friction_torque(s).torque;
-      EXPECT_NEAR(statics.friction_torque(s, memory).torque, alone, 1e-12 * (scale_of(statics, s) + std::abs(alone)));
-    }
+  const SliderCrankData d = draw.mechanism();
+  const SliderCrankJoints j = draw.joints(true);
+  const auto source = friction_of(d, j);
+  EXPECT_EQ(source->get(false), source->get(false));
+  double greatest = 0, apart = 0;
+  for (int k = 0; k < 200; ++k) {
+    const JointFriction::State s = same_state(draw.state());
+    const double first = source->get(false)->torque(s).torque, second = source->get(true)->torque(s).torque;
+    greatest = std::max(greatest, std::abs(first)), apart = std::max(apart, std::abs(first - second));
   }
+  EXPECT_GT(apart, 0);
+  EXPECT_LT(apart, 1e-10 * greatest);
 }
 
 std::string press(const std::string& length) {

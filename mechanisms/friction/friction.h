@@ -1,4 +1,4 @@
-// friction.h — friction in the joints of a slider-crank: its coefficient over the sliding speed, its friction circle.
+// friction.h — friction in a joint: its coefficient over the sliding speed, its friction circle.
 //                                                                                                     (theory 8)
 // f is a coefficient of friction [1], φ_f = atan f its angle [rad]. What stands outside of its domain is refused with
 // std::invalid_argument.
