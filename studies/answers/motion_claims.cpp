@@ -132,8 +132,8 @@ class Judge {
   std::optional<Claim> stalls(Claims& contacts) const {
     const MotorTorque* motor = standing_motor();
     const std::optional<double> since = is_held() ? rest() : std::optional(recorder_.turned_at());
-    if (!rests() || !(since > 0.0) || (!is_held() && !motor) || (is_commanded() && !motor) || brake_that_holds())
-      return {};
+    if (!rests() || !since || (is_commanded() && !motor) || brake_that_holds()) return {};
+    if (!is_held() && (!motor || *since == 0)) return {};
     const double torque = drive();
     if (torque == 0) return {};
     const double degrees = angle() * 180 / std::numbers::pi;
