@@ -57,9 +57,9 @@ std::string output_of(const std::string& arguments, const fs::path& where) {
   return text;
 }
 
-// The short form takes one of several commands that are alike but for the values that they set.
+// The short form takes one of several commands that are alike but for the values that they set and how much they print.
 std::string but_for_values(const std::string& line) {
-  return std::regex_replace(line, std::regex(R"( --set (?:'[^']*'|"[^"]*"|[^ "']|"[^"]*")*)"), "");
+  return std::regex_replace(line, std::regex(R"( --all| --set (?:'[^']*'|"[^"]*"|[^ "']|"[^"]*")*)"), "");
 }
 
 class Task : public ::testing::TestWithParam<std::string> {};
