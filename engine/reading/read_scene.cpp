@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "engine/model/model.h"
-#include "engine/reading/read_document.h"
 #include "engine/reading/scene_reading.h"
 #include "engine/reading/sequence_reader.h"
 #include "engine/scene/units.h"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/reading/settings.h"
+#include "engine/scene/document.h"
 #include "engine/scene/scene.h"
 #include "engine/values/data_files.h"
 
@@ -15,6 +16,10 @@ Scene read_scene(const std::string& path, const std::vector<Kind>& kinds,
                  DataFiles allowed = DataFiles::below_the_scene);
 Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds,
                   DataFiles allowed = DataFiles::below_the_scene);
+
+// As parse_scene of the text that the document was made from, without its [[case]]; an empty text if there is none.
+Scene scene_from(DocumentValue document, const std::string& text, const std::string& file,
+                 const std::vector<Kind>& kinds, DataFiles allowed = DataFiles::below_the_scene);
 
 // With settings put into its text (settings.h). Errors are placed in the file as it stands and in the settings; those
 // of what is built from the scene later must be placed by settled.placed(). `with_cases`: those of [[case]] are

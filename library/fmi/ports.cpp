@@ -9,7 +9,7 @@
 
 #include "drivetrain/kinds.h"
 #include "engine/model/network.h"
-#include "engine/reading/read_document.h"
+#include "engine/reading/read_scene.h"
 #include "mechanisms/kinds/kinds.h"
 
 namespace kurbel {

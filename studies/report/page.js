@@ -1278,11 +1278,15 @@
       opened = null;
     }
     root.classList.toggle('printing', on);
-    // A table that is wider than the paper gets smaller words.
+    // A table that is wider than the paper gets smaller words, then words that break.
     for (const scroll of document.querySelectorAll('.scroll')) {
-      const table = scroll.firstChild;
-      table.style.fontSize = '';
-      for (let size = 7.5; on && table.offsetWidth > scroll.clientWidth + 1 && size > 4.5; size -= 0.25) table.style.fontSize = size + 'pt';
+      const table = scroll.firstChild, wide = () => on && table.offsetWidth > scroll.clientWidth + 1;
+      for (const breaks of [false, true]) {
+        table.style.fontSize = '';
+        table.classList.toggle('breaks', breaks && wide());
+        for (let size = 7.5; wide() && size > (breaks ? 4.5 : 6); size -= 0.25) table.style.fontSize = size + 'pt';
+        if (!wide()) break;
+      }
     }
     drawAll();
   }

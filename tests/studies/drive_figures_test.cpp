@@ -156,7 +156,8 @@ TEST(Coupling, RmsTorqueOfARunThatGoesOnIsOfWhatFollows) {
     fan = { kind = "load", torque = "10 N*m", inertia = "0.5 kg*m2" }
     run = { start = "rest", until = "30 s", accuracy = 1e-9 }
   )");
-  SimulateOptions options{.measure_error = false, .keep_state = true};
+  SimulateOptions options;
+  options.measure_error = false, options.keep_state = true;
   options.go_on_from = simulate(scene, Effects{.all_elastic = true}, "warm", options).checkpoint;
   options.until = 31;
   const Result later = simulate(scene, Effects{.all_elastic = true}, "on", options);

@@ -201,7 +201,9 @@ TEST(SteadyRatings, AreNotJudgedTwice) {
         EXPECT_NE(v.requirement.find("K_A"), std::string::npos) << v.component;
         EXPECT_NEAR(v.value, 1.5 * 30 / (pi * 8e-6 / 16), 2e-3 * v.value) << "30 N·m, 20 mm";
       }
-      if (v.requirement == requirement::maximum && v.assessed) EXPECT_NEAR(v.value, 30, 0.1) << "without S_z";
+      if (v.requirement == requirement::maximum && v.assessed) {
+        EXPECT_NEAR(v.value, 30, 0.1) << "without S_z";
+      }
       if (v.requirement == requirement::maximum && !v.assessed) {
         EXPECT_NE(v.note.find("kurbel modes judges the start"), std::string::npos) << v.note;
       }

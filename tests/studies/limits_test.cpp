@@ -128,9 +128,10 @@ TEST(Limits, MachineThatTurnsBackwardsHasTheVerdictsOfTheOneThatTurnsForwards) {
   ASSERT_GE(forwards.verdicts.size(), 3u);
   ASSERT_EQ(backwards.verdicts.size(), forwards.verdicts.size());
   for (std::size_t k = 0; k < forwards.verdicts.size(); ++k)
-    if (forwards.verdicts[k].assessed)
+    if (forwards.verdicts[k].assessed) {
       EXPECT_NEAR(backwards.verdicts[k].value, forwards.verdicts[k].value, 1e-6 * forwards.verdicts[k].value)
           << forwards.verdicts[k].requirement;
+    }
   EXPECT_NEAR(verdict_on(backwards, "nominal").value, 1.25 * drive, 1e-6);
   EXPECT_NEAR(backwards.here.joints[0].mean, -drive, 1e-6);
   ASSERT_EQ(forwards.barred.size(), 1u);
