@@ -240,7 +240,7 @@ KURBEL_FMI2 fmi2GetDirectionalDerivative(fmi2Component component, const fmi2Valu
   });
 }
 
-// --- model exchange (3.2) ---
+// --- model exchange (clause 3.2) ---
 
 KURBEL_FMI2 fmi2EnterEventMode(fmi2Component component) {
   return call2(component, "fmi2EnterEventMode", continuous_time, [](Component& c) { c.phase = event_mode; });
@@ -302,7 +302,7 @@ KURBEL_FMI2 fmi2GetNominalsOfContinuousStates(fmi2Component component, fmi2Real 
                });
 }
 
-// --- co-simulation (4.2) ---
+// --- co-simulation (clause 4.2) ---
 
 KURBEL_FMI2 fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference references[],
                                         std::size_t count, const fmi2Integer orders[], const fmi2Real values[]) {

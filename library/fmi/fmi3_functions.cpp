@@ -241,7 +241,7 @@ KURBEL_FMI3 fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefer
   });
 }
 
-// --- model exchange (3.2) ---
+// --- model exchange (clause 3.2) ---
 
 KURBEL_FMI3 fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean* need_update, fmi3Boolean* terminate,
                                      fmi3Boolean* nominals_changed, fmi3Boolean* states_changed,
@@ -314,7 +314,7 @@ KURBEL_FMI3 fmi3GetNumberOfContinuousStates(fmi3Instance instance, std::size_t* 
                [&](Component& c) { *count = c.instance->state_count(); });
 }
 
-// --- co-simulation (4.2) ---
+// --- co-simulation (clause 4.2) ---
 
 KURBEL_FMI3 fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 step, fmi3Boolean,
                        fmi3Boolean* event_handling_needed, fmi3Boolean* terminate, fmi3Boolean* early_return,

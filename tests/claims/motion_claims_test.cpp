@@ -40,7 +40,7 @@ TEST(Falling, IsSaidOfAWeightThatNothingHolds) {
   ASSERT_TRUE(falls) << said(r);
   EXPECT_NEAR(*falls->evidence.value, -30, 1e-6);
   EXPECT_TRUE(said(r).starts_with(
-      "\"motor\" turns backwards, at -30 rad/s at the end: its loads drive it, and nothing holds them."))
+      "\"motor\" turns backwards, at -286.5 rpm at the end: its loads drive it, and nothing holds them."))
       << said(r);
 }
 
@@ -53,7 +53,7 @@ TEST(Falling, IsNotSaidOfWhatWasDrivenBackwards) {
     run = { start = "rest", until = "5 s" }
   )");
   EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << said(r);
-  EXPECT_TRUE(has(said(r), "-16 rad/s")) << said(r);
+  EXPECT_NEAR(test::figure(r, "final_speed.drum"), -16, 1e-6);
 }
 
 // What swings through more than half a turn, driven or not, falls nowhere.
@@ -174,7 +174,7 @@ TEST(Vibration, HasItsFrequencyAndItsPlaces) {
 TEST(Sticking, IsSaidOfAShaftThatRestsAgainAndAgain) {
   const Result r = test::run(test::scene_file("scenes/stick_slip.toml"), false);
   const std::string text = said(r);
-  EXPECT_TRUE(has(text, "\"table\" sticks and slips: it rests ")) << text;
+  EXPECT_TRUE(has(text, "\"train.out\" sticks and slips: it rests ")) << text;
   EXPECT_TRUE(has(text, "\"drive\" runs steadily at 0.05 rad/s")) << text;
 }
 
@@ -183,7 +183,7 @@ TEST(Limiters, ThatSlipLeaveNoSentenceThatAllHolds) {
   const Result r = test::run(R"(
     line = ["motor", "limiter", "wheel"]
     motor = { kind = "dc shunt motor", stall_torque = "2 kN*m", no_load_speed = "100 rad/s", inertia = "5 kg*m2" }
-    limiter = { kind = "torque limiter", torque = "100 N*m", static_torque = "120 N*m", allowable_heat = "1 MJ" }
+    limiter = { kind = "torque limiter", torque = "100 N*m", allowable_heat = "1 MJ" }
     wheel = { kind = "flywheel", inertia = "5 kg*m2", rim_radius = "100 mm", allowable_rim_speed = "100 m/s" }
     blow = { kind = "load", on = "wheel", torque = "300 N*m", acts = "against motion", start = "1 s", stop = "1.05 s" }
     run = { start = { speed = "100 rad/s" }, until = "4 s" }
