@@ -80,7 +80,7 @@ std::string partly_rigid(const test::Machine& m) {
 
 TEST(FreeBodies, OfRandomMachinesAreInBalance) {
   int looked_at = 0;
-  test::expect_for_all(41000, 160, false, [&](const test::Machine& m) -> std::string {
+  test::expect_for_all(41000, 180, false, [&](const test::Machine& m) -> std::string {
     Scene scene;
     try {
       scene = test::scene_from(partly_rigid(m));

@@ -79,7 +79,8 @@ TEST(TrainReport, SaysWhatItsQuestionsSay) {
 TEST(TrainReport, RefersTheTrainToOneShaft) {
   const Asked asked;
   const StudyOutput report = asked.answer("report", {{"sections", "train"}});
-  const auto tables = tables_of(report.report());
+  const Report page = report.report();
+  const auto tables = tables_of(page);
   const auto found =
       std::find_if(tables.begin(), tables.end(), [](const auto& t) { return t.first.starts_with("Drive as"); });
   ASSERT_NE(found, tables.end());
