@@ -135,7 +135,8 @@ try {
       writeFileSync(file, pdf);
       const pages = pagesOf(file);
       rmSync(folder, {recursive: true});
-      checkPages(pages);
+      // Only the document of a drive train is made for paper throughout, and printed from a window that is not narrow.
+      checkPages(pages, sheet && width > 1000);
       if (sheet) checkSheet(readFileSync(sheet, 'utf8'), pages);
       sheets = pages.length;
       // A train's report: scope, verdict and what was not assessed are its first page.

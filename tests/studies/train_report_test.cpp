@@ -87,7 +87,12 @@ TEST(TrainReport, RefersTheTrainToOneShaft) {
   const auto fan = std::find_if(found->second->rows.begin(), found->second->rows.end(),
                                 [](const auto& row) { return row[1].find("fan") != std::string::npos; });
   ASSERT_NE(fan, found->second->rows.end());
-  const double own = std::stod((*fan)[2]), ratio = std::stod((*fan)[3]), reduced = std::stod((*fan)[5]);
+  const auto cell = [&](const char* column) {
+    const auto& columns = found->second->columns;
+    return std::stod(
+        fan->at(static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin())));
+  };
+  const double own = cell("own"), ratio = cell("speed ratio i"), reduced = cell("reduced");
   EXPECT_NEAR(ratio, 31.0 / 93, 1e-6);
   EXPECT_NEAR(reduced, own * ratio * ratio, 1e-5 * reduced);
   EXPECT_NEAR(own, 140, 0.5);  // and half of its shaft
