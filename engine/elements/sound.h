@@ -365,9 +365,10 @@ consteval bool demand_sound_shaft_element() {
 
 template <class S>
 consteval bool demand_sound_specification() {
-  static_assert(SoundSpecification<S>,
-                "a specification has using Element = E, E settled(double) const, bool "
-                "damping_hangs_on_inertia() const, and with other_forms = true ConnectionForm under(const S&, const Effects&)");
+  static_assert(
+      SoundSpecification<S>,
+      "a specification has using Element = E, E settled(double) const, bool "
+      "damping_hangs_on_inertia() const, and with other_forms = true ConnectionForm under(const S&, const Effects&)");
   return true;
 }
 

@@ -114,9 +114,9 @@ std::string words_of(const Contact& contact, const std::string& holders, const H
   const bool nothing = std::abs(holding.acts) <= rounding * std::max(std::abs(holding.backwards), holding.forwards);
   const double acts = nothing ? 0 : holding.acts;
   const auto side = [&](double limit, const char* way) {
-    return std::abs(limit) > holding.unbounded
-               ? fmt::format("{}: it locks itself", way)
-               : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way, limit + 0.0, std::abs(limit - acts));
+    return std::abs(limit) > holding.unbounded ? fmt::format("{}: it locks itself", way)
+                                               : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way,
+                                                             limit + 0.0, std::abs(limit - acts));
   };
   return fmt::format("\"{}\" is held at the end by {}: {:.4g} N·m act; {}; {}", contact.name, holders, acts,
                      side(holding.forwards, "forwards"), side(holding.backwards, "backwards"));

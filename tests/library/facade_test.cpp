@@ -161,8 +161,9 @@ TEST(Facade, TwoMachinesFigureByFigure) {
   EXPECT_NEAR(frequency(stiff) / frequency(soft), 2, 1e-9);
   EXPECT_NEAR(frequency(soft), std::sqrt(4000 * (1 / 0.2 + 1 / 1.5)) / (2 * std::acos(-1.0)), 1e-6);
   EXPECT_NE(message_of([&] { diff(soft, stiff, {{"off", "run"}}); }).find("diff has no option"), std::string::npos);
-  EXPECT_NE(message_of([&] { modes(soft, {{"effects", "none"}, {"effects", "elasticity"}}); })
-                .find("effects is given 2 times; give one"),
+  EXPECT_NE(message_of([&] {
+              modes(soft, {{"effects", "none"}, {"effects", "elasticity"}});
+            }).find("effects is given 2 times; give one"),
             std::string::npos);
 }
 
