@@ -119,7 +119,7 @@ class LinkageTree {
     return {c * v.x + s * v.y, c * v.y - s * v.x};
   }
 
-  // What slides on the frame does not turn. With one pin beside, and its centre of mass in it, it rides on what it is pinned
+  // What slides on the frame does not turn. With one pin beside, and its centre of mass and the output in it, it rides on what it is pinned
   // to, and the slide keeps the pin on a line: one closure in place of two.
   void let_ride(int body) {
     int pin = -1, slide = -1, joints = 0;
@@ -131,8 +131,12 @@ class LinkageTree {
       if (!joint(k).slides && !on_frame && !rides(other_end(joint(k), body))) pin = k;
     }
     if (joints != 2 || pin < 0 || slide < 0) return;
-    const Planar<long double> off = value_of(drawn_.bodies[at(body)].com) - value_of(joint(pin).at);
-    if (std::hypot(off.x, off.y) > nothing * size_) return;
+    const auto is_off = [&](const Path& place) {
+      const Planar<long double> off = value_of(place) - value_of(joint(pin).at);
+      return std::hypot(off.x, off.y) > nothing * size_;
+    };
+    if (is_off(drawn_.bodies[at(body)].com)) return;
+    if (body == count() - 1 && !drawn_.rocks && is_off(drawn_.load_at)) return;
     links_[at(body)].pin = pin, links_[at(body)].slide = slide;
     used_[at(pin)] = used_[at(slide)] = true;
   }

@@ -72,6 +72,14 @@ class SketchOf {
   }
 };
 
+// A slider-crank OAD whose ram has its centre of mass in its pin and a point E beside it, which is the output.
+inline SketchOf ram_with_a_point_beside_its_pin() {
+  SketchOf of;
+  of.point('O', 0, 0).point('A', 0, 0.06).point('D', 0.25, 0).point('E', 0.4, 0.05).frame("O");
+  of.link("crank", "OA", 2, 0.004).link("rod", "AD", 3, 0.03).link("ram", "DE", 40).com(0.25, 0);
+  return of.slide("ram", 0).moves("ram", 'E', 0);
+}
+
 // Stephenson's chain: a four-bar OABC, a rod from a point D of its coupler, a rocker GE.
 inline SketchOf stephenson() {
   SketchOf of;

@@ -124,6 +124,19 @@ TEST(Linkage, ScotchYokeIsACosine) {
   }
 }
 
+// It does not turn with what it is pinned to: x_E = r cos φ′ + √(AD² − r² sin² φ′) + 0.15 m, the crank along OA.
+TEST(Linkage, ASlidersPointBesideItsPinMovesAsTheSliderDoes) {
+  const LinkageData data = test::ram_with_a_point_beside_its_pin().data();
+  expect_both_extractions(data, 1e-12);
+  const auto bodies = make_bodies(data);
+  for (int i = 0; i < 24; ++i) {
+    const double phi = 0.26 * i, s = 0.06 * std::sin(phi), c = 0.06 * std::cos(phi);
+    const double along = std::sqrt(0.25 * 0.25 + 0.06 * 0.06 - s * s);
+    EXPECT_NEAR(bodies->sample(phi).output_position, c + along + 0.15, 1e-14);
+    EXPECT_NEAR(bodies->sample(phi).output_velocity_ratio, -s - s * c / along, 1e-14);
+  }
+}
+
 TEST(Linkage, PeaucelliersPointMovesOnAStraightLine) {
   const LinkageData data = test::peaucellier().data();
   expect_rigid(data);
