@@ -43,13 +43,12 @@ double share_of_joint(const Margin& row) {
   return row.response && row.not_assessed.empty() ? row.response->share : std::nan("");
 }
 
-// "60.75 N·m in coupling, 5.91 % of what it may bear"
+// "60.75 N·m in coupling, 5.91 % of its limit"
 std::string severity_text(const Margin& row) {
   if (!row.not_assessed.empty()) return "not assessed: " + row.not_assessed;
   if (!std::isfinite(row.response->amplitude)) return "unbounded in " + row.response->joint + ": nothing damps it";
   std::string text = with_unit(row.response->amplitude, "N*m", 4) + " in " + row.response->joint;
-  if (std::isfinite(row.response->share))
-    text += fmt::format(", {:.3g} % of what it may bear", 100 * row.response->share);
+  if (std::isfinite(row.response->share)) text += fmt::format(", {:.3g} % of its limit", 100 * row.response->share);
   return text;
 }
 

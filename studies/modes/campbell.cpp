@@ -135,7 +135,7 @@ std::string words_of(const ModesStudy& m, const Margin& row, double speed) {
                                  m.speed_unit.text(speed, 4), 100 * row.margin, line.label,
                                  line.source.empty() ? "" : " of " + line.source, mode.number, mode.name);
   if (!row.not_assessed.empty()) return text + "response not assessed: " + row.not_assessed;
-  return text + fmt::format("{} in {}\n{:.3g} % of what it may bear", torque_text(row.response->amplitude),
+  return text + fmt::format("{} in {}\n{:.3g} % of its limit", torque_text(row.response->amplitude),
                             readable(row.response->joint), 100 * row.response->share);
 }
 
@@ -361,7 +361,7 @@ Rows critical_table(const ModesStudy& m) {
       .column("amplitude", "amplitude of that order there [N·m]", &CriticalSpeed::amplitude,
               {.digits = 5, .otherwise = "unbounded"})
       .column("joint", "in", [&](const CriticalSpeed& c) { return m.joint_names[c.joint]; })
-      .column("share", "of what it may bear [%]", [](const CriticalSpeed& c) { return c.share; },
+      .column("share", "of its limit [%]", [](const CriticalSpeed& c) { return c.share; },
               {.factor = 100, .digits = 4, .otherwise = "unbounded"});
 }
 
