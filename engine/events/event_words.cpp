@@ -103,10 +103,10 @@ Event modes_event(double t, std::size_t contacts, bool fits, int changes) {
 }
 
 Event restless_event(double t, const std::string& owners, std::size_t events, double within) {
-  return {
-      .t = t,
-      .component = owners,
-      .what = fmt::format("{} events within {:.2g} s find no rest: a law without events from here on", events, within)};
+  return {.t = t,
+          .component = owners,
+          .what = fmt::format("{} events within {:.2g} s: the contact chatters; a law without events from here on",
+                              events, within)};
 }
 
 std::string words_of(const Contact& contact, const std::string& holders, const Holding& holding) {

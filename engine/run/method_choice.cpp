@@ -39,7 +39,7 @@ Method MethodChoice::first() {
   const Model& m = equations_.model();
   if (!automatic()) {
     first_ = as_asked();
-    reason_ = "asked for";
+    reason_ = "requested";
   } else if (work_equation_pays()) {
     first_ = Method::work_equation;
     reason_ = "rigid, torques of angle and speed: load edges lie at known angles";

@@ -72,7 +72,7 @@ class Adviser {
       const std::string instead = told_instead(name, names);
       throw std::invalid_argument(fmt::format(
           "--figures: no figure \"{}\"{}; see kurbel figures", name,
-          instead.empty() ? suggestion(name, names) : fmt::format(" here; what is told is \"{}\"", instead)));
+          instead.empty() ? suggestion(name, names) : fmt::format(" here; what is reported is \"{}\"", instead)));
     }
   }
 

@@ -49,7 +49,7 @@ std::string conclusion_of(const EffectStudy& s) {
     const bool any_ran =
         std::any_of(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) { return l.failed.empty(); });
     return any_ran ? "No figure that is compared is other than zero, with or without an effect: nothing to rank by."
-                   : "No effect of this scene can be left out: without any of them it does not run.";
+                   : "No effect of this scene can be omitted: without any of them it does not run.";
   }
   const FigureChange& most = strongest->changes.front();
   if (!most.told()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);

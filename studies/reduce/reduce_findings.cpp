@@ -245,9 +245,8 @@ Formulas formulas_of(const MachineReduction& r) {
 
 std::string errors_text(const MachineReduction& r) {
   if (!r.inertia_error || !r.drive_error || !r.load_error)
-    return fmt::format(
-        "no errors are known{}: {}", r.inertia_error ? " of M_d and M_c" : "",
-        r.outside_data.empty() ? "nothing comes round" : "torques are taken from outside of their tables");
+    return fmt::format("no errors are known{}: {}", r.inertia_error ? " of M_d and M_c" : "",
+                       r.outside_data.empty() ? "nothing repeats" : "torques are taken from outside of their tables");
   return fmt::format(
       "errors, on {}: I_r ± {:.1g} kg·m², M_d ± {:.1g} N·m, M_c ± {:.1g} N·m (found and sampled 100 times "
       "less closely)",

@@ -72,7 +72,7 @@ Rows statistics_table(const Results& results) {
   table.row("processor time of a run [ms]",
             [](const Result& r) { return fmt::format("{:.3g}", 1e3 * r.statistics.cpu_seconds); });
   table.row("runs", [](const Result& r) { return r.runs; });
-  table.row("accuracy asked for", [](const Result& r) { return fmt::format("{:.1e}", r.accuracy); });
+  table.row("requested accuracy", [](const Result& r) { return fmt::format("{:.1e}", r.accuracy); });
   table.row("accuracy measured", [](const Result& r) {
     return r.errors_measured ? fmt::format("{:.1e}", r.measured_accuracy) : std::string("—");
   });

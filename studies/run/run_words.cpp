@@ -140,7 +140,7 @@ std::vector<std::string> balance_words(const Result& r) {
         (e.free_bodies > 0 ? fmt::format("; torques of joints by both sides {:.1e}", e.free_bodies) : ""));
   }
   if (r.errors_measured)
-    lines.push_back(fmt::format("  accuracy: {:.1e} asked for, {:.1e} measured{}", r.accuracy, r.measured_accuracy,
+    lines.push_back(fmt::format("  accuracy: {:.1e} requested, {:.1e} measured{}", r.accuracy, r.measured_accuracy,
                                 r.accuracy_confirmed ? "" : " — NOT confirmed"));
   else if (r.complete)
     lines.push_back(r.unconfirmed() ? "  accuracy: errors could not be measured — NOT confirmed"

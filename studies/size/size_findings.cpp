@@ -37,7 +37,7 @@ std::string conclusion_of(const Sizing& s) {
         s.estimate ? "by an estimate, the rigid machine without its losses, " : "", s.delta,
         exact.drive_inertia > 0
             ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
-            : std::string("its torques would not swing the speed as far with any inertia"));
+            : std::string("its torques would not make the speed fluctuate as much with any inertia"));
   std::string text = s.estimate ? fmt::format(
                                       "{}: an estimate, by the rigid machine without its losses: a flywheel of about "
                                       "{:.3g} kg·m² on {} for δ = {:g} {}",

@@ -168,7 +168,7 @@ class UncertaintyWork {
     }
     if (rows.size() < enough_for_ends)
       study_.notes.push_back(
-          fmt::format("{} samples do not tell where 95 % of the machines lie: that takes {} and more", rows.size(),
+          fmt::format("{} samples do not give an interval of 95 % of the machines: that takes {} and more", rows.size(),
                       enough_for_ends));
     for (const FigureLimit& limit : limits_) {
       LimitCount& count = study_.limits.emplace_back(LimitCount{.limit = limit.given});
@@ -272,7 +272,7 @@ class UncertaintyWork {
                                   : fmt::format(", not in proportion to them; small changes of {} move it most",
                                                 swept_[most.parameter].path);
     }
-    if (text.empty()) text = "No figure hangs on the tolerances that are given";
+    if (text.empty()) text = "No figure depends on the tolerances that are given";
     if (study_.failed > 0)
       text += fmt::format("; {} of {} machines drawn failed, as the notes say", study_.failed, study_.drawn);
   }

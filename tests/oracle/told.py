@@ -13,7 +13,7 @@ SENTENCES = {
     "turns back": r'"([^"]+)" turns backwards',
     "runs away": r'"([^"]+)" runs away',
     "hangs": r'"([^"]+)" does not come up to speed',
-    "no round": r'"([^"]+)" does not get round',
+    "no round": r'"([^"]+)" does not complete a cycle',
     "slips to the end": r'"([^"]+)" slips to the end',
     "brake too weak": r'"([^"]+)" does not stop it',
     "brake not done": r'"([^"]+)" has not stopped it by the end',

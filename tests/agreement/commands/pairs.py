@@ -489,7 +489,7 @@ def ratings_of(told):
 def load_case(command, rating):
     """That a verdict is on, as it says itself: "start", "steady", "run", a step of the sequence; what says none is on the
     run of the scene with its start, or on the steady motion. None where it is not assessed, or on a start that is made up."""
-    if rating["verdict"] == "not assessed" or "not told by the scene" in rating.get("note", ""):
+    if rating["verdict"] == "not assessed" or "not given by the scene" in rating.get("note", ""):
         return None
     if "load_case" in rating:
         return rating["load_case"]
