@@ -141,7 +141,8 @@ constexpr std::array kinds = {
               "run, compare, steady"},
     ClaimKind{demand_missed, bears, fault, above, "the sized machine has a δ greater than the demanded one",
               "value: δ reached; limit: δ demanded",
-              "419 kg·m², by the work equation, do not keep δ = 0.05: simulated it is 0.0561 at the crank", "size"},
+              "419 kg·m², by the work equation, are too little for δ = 0.05: simulated, δ is 0.0561 at the crank",
+              "size"},
     ClaimKind{geometry_faulty, bears, fault, anything, "a pair of gears cannot be made, or cannot run", "none",
               "the teeth of wheel 2 are pointed", "gears"},
     ClaimKind{clutch_slips_closed, bears, warning, above, "a closed clutch that had locked slips again",
@@ -154,7 +155,7 @@ constexpr std::array kinds = {
               "\"limiter\" lets go once, first at 0.41 s: the torque reaches the 37.5 N·m that it holds",
               "run, compare"},
     ClaimKind{belt_slips, bears, warning, anything, "a belt slips and grips again", "at: first; value: how often",
-              "\"belts\" slips once, first at 0.01642 s, and grips again", "run, compare"},
+              "\"belts\" slips once, first at 0.01642 s, for 2.467 s in all, and grips again", "run, compare"},
     ClaimKind{geometry_doubtful, bears, warning, anything, "a pair of gears runs, and not as gears should", "none",
               "wheel 1 is undercut", "gears"},
     ClaimKind{

@@ -297,7 +297,7 @@ std::optional<double> operating_speed_of(const MachineMotion& machine) try {
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {
   if (options.speed) return {*options.speed, "as requested"};
   if (const std::optional<double> operating = operating_speed_of(machine))
-    return {*operating, "operating speed: there the mean torques of drive and load balance"};
+    return {*operating, "the operating speed, at which the mean torques of drive and load balance"};
   if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
   return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
 }

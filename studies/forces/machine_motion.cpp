@@ -228,9 +228,9 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
         {along_round(loads, *loose, other.found ? other.z : orbit.point.z, looser_tolerance).along, 1});
     if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(orbit.still_changes, enough)), 1});
     const int cycles = static_cast<int>(std::lround(tight.along.cycle / loads.cycle()));
-    motion.description = fmt::format("the machine as it keeps going ({}), crank's cycle of {:.0f}°{}",
+    motion.description = fmt::format("steady motion of the machine ({}), crank's cycle of {:.0f}°{}",
                                      effects_ == "none" ? "rigid" : effects_, loads.cycle() * 360 / turn,
-                                     cycles > 1 ? fmt::format(", {} of them until it comes again", cycles) : "");
+                                     cycles > 1 ? fmt::format(", {} of them until it repeats", cycles) : "");
     motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
     motion.outside_data = kurbel::outside_data(*orbit.map, orbit.point);
     motion.kept = true;

@@ -26,7 +26,7 @@ std::string first_mode(const Mode& mode) {
 
 // "mechanical and electrical: 0.86 Hz (ζ = 0.78)"
 std::string internal_mode(const ModesStudy& m, const Mode& mode) {
-  return fmt::format("{}: {:.4g} Hz (ζ = {:.3g})", nature_of(m, mode), hertz(mode.omega), mode.ratio);
+  return fmt::format("internal mode ({}) at {:.4g} Hz (ζ = {:.3g})", nature_of(m, mode), hertz(mode.omega), mode.ratio);
 }
 
 EnergyStore::Kind kind_of(const OwnState& state) {

@@ -273,13 +273,13 @@ class Study {
     }
     std::string text;
     for (const SteadyCycle& c : out_.cycles) {
-      const char* begin = c.kind == Orbit::Kind::equilibrium ? "Equilibrium, "
-                          : c.kind == Orbit::Kind::vibrating ? "Vibration about a place, "
-                                                             : "Steady cycle, ";
+      const std::string begin = c.kind == Orbit::Kind::equilibrium ? fmt::format("Equilibrium of \"{}\", ", out_.link)
+                                : c.kind == Orbit::Kind::vibrating ? std::string("Vibration about a position, ")
+                                                                   : fmt::format("Steady cycle of \"{}\", ", out_.link);
       text += fmt::format("{}{}: {}, {}", text.empty() ? begin : "; ", c.label,
                           c.kind == Orbit::Kind::vibrating ? vibration_text(c) : speed_text(c), c.stability);
       if (c.held_quantity)
-        text += fmt::format(", with {} = {} in place of {}", c.held_quantity->key,
+        text += fmt::format(", with {} = {} instead of {}", c.held_quantity->key,
                             with_unit(c.held_quantity->value, c.held_quantity->unit, 6),
                             with_unit(c.held_quantity->of_scene, c.held_quantity->unit, 6));
       else if (options_.holds_speed())
@@ -287,7 +287,7 @@ class Study {
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),
                         c.added_torque < 0 ? "less" : "more", c.added_at);
     }
-    out_.conclusion = text + (out_.later.empty() ? "." : fmt::format(". In the end {}.", out_.later));
+    out_.conclusion = text + (out_.later.empty() ? "." : fmt::format(". At the end {}.", out_.later));
   }
 
   const Scene& scene_;

@@ -154,7 +154,10 @@ void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
       f.brief->words.push_back(fmt::format("the rigid model is sufficient: its key figures differ by less than {:g} %",
                                            100 * least_that_changes_the_answer));
   } else {
-    const MovedFigure moved = moved_by(rigid, speed).front();
+    // A figure that both machines have, where one differs.
+    const std::vector<MovedFigure> all = moved_by(rigid, speed);
+    const auto both = std::find_if(all.begin(), all.end(), [](const MovedFigure& m) { return m.on != "—"; });
+    const MovedFigure& moved = both == all.end() ? all.front() : *both;
     f.claim(Predicate::effect_matters, moved.on == "—"
                                            ? fmt::format("The rigid model has no {}", moved.figure)
                                            : fmt::format("The rigid model gives {} instead of {} for {} ({})", moved.on,

@@ -95,7 +95,7 @@ class UncertaintyWork {
         }
         if (!std::isfinite(share.deviation)) {
           study_.notes.push_back(
-              fmt::format("{}: no gradient by {}, beside its value the machine does not run; it counts as none",
+              fmt::format("{}: no gradient by {}: at a value beside it the figure does not exist; it counts as none",
                           figure.figure.name, swept_[p].path));
           share.gradient = share.deviation = 0, share.noise.reset();
         }
@@ -265,11 +265,12 @@ class UncertaintyWork {
       const std::string& name = speed ? study_.speed_unit.name : figure->figure.unit;
       const std::string unit = name.empty() ? "" : " " + pretty_unit(name);
       const auto told = [&](double x) { return speed ? study_.speed_unit.of(x) : x; };
-      text += fmt::format("{}{} is {:.5g}{} with a deviation of {:.2g}{} by the tolerances", text.empty() ? "" : "; ",
-                          figure->figure.name, told(figure->value), unit, told(figure->deviation()), unit);
-      text += figure->is_linear() ? fmt::format("; a tighter {} would help most: without its tolerance {:.2g}{}",
+      text += fmt::format("{}{} is {:.5g}{} with a standard deviation of {:.2g}{} by the tolerances",
+                          text.empty() ? "" : "; ", figure->figure.name, told(figure->value), unit,
+                          told(figure->deviation()), unit);
+      text += figure->is_linear() ? fmt::format("; {} contributes most: without its tolerance {:.2g}{}",
                                                 swept_[most.parameter].path, told(most.without), unit)
-                                  : fmt::format(", not in proportion to them; small changes of {} move it most",
+                                  : fmt::format(", not in proportion to them; it depends most on small changes of {}",
                                                 swept_[most.parameter].path);
     }
     if (text.empty()) text = "No figure depends on the tolerances that are given";
