@@ -287,7 +287,7 @@ class Search {
       const double of_laws = std::exchange(period_.time, exact);
       rest_on_run(map);
       if (done_) {
-        out_.words = fmt::format("everything comes again after {:.6g} s: {}", exact, why);
+        out_.words = fmt::format("the motion repeats after {:.6g} s: {}", exact, why);
         return true;
       }
       period_.time = of_laws;
@@ -369,10 +369,10 @@ class Search {
   }
   std::string cycle_words() const {
     if (period_.by_time)
-      return fmt::format("everything comes again after {:.6g} s, the common period of all that depends on time{}",
+      return fmt::format("the motion repeats after {:.6g} s, the common period of all that depends on time{}",
                          round_time(), period_.angle_matters ? " and on an angle" : "");
     const double turns = round_angle() / (2 * std::numbers::pi);
-    return fmt::format("everything comes again after {:.6g} turn{} of \"{}\"", turns, turns == 1 ? "" : "s", link());
+    return fmt::format("the motion repeats after {:.6g} turn{} of \"{}\"", turns, turns == 1 ? "" : "s", link());
   }
 
   void drift() {

@@ -46,8 +46,8 @@ Method MethodChoice::first() {
   } else {
     first_ = explicit_;
     reason_ = m.elastic.empty() && m.own_states.empty()
-                  ? "rigid: nothing is stiff, and a high order takes the longest steps"
-                  : "explicit while its steps are held by accuracy, not by stability";
+                  ? "rigid: not stiff, and a method of high order takes the longest steps"
+                  : "explicit, as accuracy limits its steps and not stability";
   }
   return now_ = first_;
 }

@@ -208,12 +208,12 @@ class Adviser {
       const TriedSet* const alone = known(without(all_, k));
       if (!alone) return "stays: no set without it was run";
       return !alone->refused.empty() ? "stays: the full model does not run without it"
-                                     : fmt::format("stays: the full model without it is {:.2g} % off in {}",
+                                     : fmt::format("stays: the full model without it is {:.3g} % off in {}",
                                                    100 * alone->deviation, alone->figure);
     }
     if (!found->refused.empty()) return "stays: the machine does not run without it";
-    return found->within ? "stays: leaving it out saves no time"
-                         : fmt::format("stays: without it {} is {:.2g} % off", found->figure, 100 * found->deviation);
+    return found->within ? "stays: omitting it saves no time"
+                         : fmt::format("stays: without it {} is {:.3g} % off", found->figure, 100 * found->deviation);
   }
 
   // What is advised was run once more, as it will be: it stays within, and says how far processor times can be trusted.

@@ -86,14 +86,14 @@ constexpr std::array kinds = {
               "at: end of the run-up; value: mean speed [rad/s]",
               "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
     ClaimKind{vibrates, runs, note, anything,
-              "everything comes again, and the link does not turn in the mean; in a run the link turns to and fro in "
+              "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
               "its last quarter, and gains less than a quarter of its way",
               "value: frequency [Hz]",
               "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
               "run, compare, steady"},
     ClaimKind{works_in_strokes, runs, note, anything, "the cycles come again, and the link stands within each",
               "at: end of the last cycle; value: its time [s]",
-              "\"press\" makes single strokes, one every 1.961 s, and stands between them", "run, compare"},
+              "\"press\" makes single strokes, one every 1.961 s, and rests between them", "run, compare"},
     ClaimKind{goes_through_sequence, runs, note, anything,
               "a sequence commands the machine, which comes to no steady motion", "value: speed at the end [rad/s]",
               "\"press\" goes through its operating sequence and ends at rest", "run, compare"},

@@ -55,7 +55,7 @@ std::string conclusion_of(const EffectStudy& s) {
   if (!most.told()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);
   const std::string off = most.from_nothing
                               ? std::string("within its error")
-                              : fmt::format("{:.2g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
+                              : fmt::format("{:.3g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
   // Where four digits do not tell them apart the two are not told.
   text = most.relative < 1e-2
              ? fmt::format("The strongest effect is {}: without it {} is {}", strongest->effect.words, most.figure, off)

@@ -218,7 +218,7 @@ std::string name_of(const Verdict& v) {
 
 // "clutch", heat of an engagement (run): 132 % of what is allowed
 std::string use_in_words(const Verdict& v) {
-  if (v.gives_way) return name_of(v) + ": more than it holds";
+  if (v.gives_way) return name_of(v) + ": more than its capacity";
   return fmt::format("{}: {:.0f} % of what is allowed", name_of(v), 100 * v.share());
 }
 

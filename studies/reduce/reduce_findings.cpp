@@ -248,8 +248,8 @@ std::string errors_text(const MachineReduction& r) {
     return fmt::format("no errors are known{}: {}", r.inertia_error ? " of M_d and M_c" : "",
                        r.outside_data.empty() ? "nothing repeats" : "torques are taken from outside of their tables");
   return fmt::format(
-      "errors, on {}: I_r ± {:.1g} kg·m², M_d ± {:.1g} N·m, M_c ± {:.1g} N·m (found and sampled 100 times "
-      "less closely)",
+      "errors, on {}: I_r ± {:.1g} kg·m², M_d ± {:.1g} N·m, M_c ± {:.1g} N·m (from a repetition with tolerances and "
+      "samples 100 times coarser)",
       r.link, *r.inertia_error, *r.drive_error, *r.load_error);
 }
 

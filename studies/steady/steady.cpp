@@ -191,7 +191,7 @@ class Study {
     SteadyCycle cycle = search_cycle(scene_, effects, options_);
     log(
         fmt::format("{}: {} unknowns; {} after a run of {} cycles and {} of Newton's, {} with derivative; cost {:.1f} "
-                    "cycles, {:.0f} aimed at; residual {:.1e}; {:.3g} ms",
+                    "cycles (target {:.0f}); residual {:.1e}; {:.3g} ms",
                     cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.rounds,
                     cycle.point.rounds, cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual,
                     1e3 * cycle.cpu_seconds));

@@ -235,8 +235,8 @@ TEST(Jams, ARestSaysWhatHoldsItAndWhatIsMissing) {
       false);
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_TRUE(has_note(r,
-                       "held at the end by bearing: 9 N·m act; forwards: 15 N·m are held, 6 N·m are missing; "
-                       "backwards: -15 N·m are held, 24 N·m are missing"))
+                       "held at the end by bearing: 9 N·m act; forwards: up to 15 N·m are held, 6 N·m more would move it; "
+                       "backwards: up to -15 N·m are held, 24 N·m more would move it"))
       << (r.notes.empty() ? "no notes" : r.notes.front());
 }
 

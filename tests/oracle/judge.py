@@ -120,7 +120,7 @@ class Judge:
                 self.contradiction("comes to rest, but never moved", f"standstill said at {at:.4g} s")
             elif abs(at - m["rests_since"]) > 0.02 * m["until"]:
                 self.contradiction("comes to rest at another time", f"said {at:.4g}, sampled {m['rests_since']:.4g} s")
-        at_rest = any(w in self.run.conclusion for w in ("is at rest", "ends at rest", "is all but at rest", "all but at rest"))
+        at_rest = any(w in self.run.conclusion for w in ("is at rest", "ends at rest", "is nearly at rest", "nearly at rest"))
         if at_rest and abs(m["speed_at_end"]) > 0.02 * self.usual:
             self.contradiction("at rest, but turns", f"{m['speed_at_end']:.4g} rad/s at the end")
         acting = abs(m["load_at_end"]) + (abs(m["drive_at_end"]) if m["pushed_at_end"] else 0)

@@ -22,7 +22,7 @@ SENTENCES = {
     "steady": r'"([^"]+)" runs steadily at ',
     "sequence done": r'"([^"]+)" goes through its operating sequence',
     "not steady": r'"([^"]+)" has not come to a steady motion',
-    "ends": r'"([^"]+)" is (at rest|all but at rest|at )',
+    "ends": r'"([^"]+)" is (at rest|nearly at rest|at )',
     "too hot": r'"([^"]+)" gets too hot',
 }
 # The same of typed claims (docs/claims.md).
