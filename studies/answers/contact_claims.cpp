@@ -140,11 +140,10 @@ class ContactJudge {
       since = event.t;
     }
     if (count == 0) return;
-    add(claims_,
-        claimed(Predicate::belt_slips,
-                fmt::format("\"{}\" slips {}, first at {:.4g} s, for {:.4g} s in all, and grips again", belt,
-                            so_often(count), first, slipping),
-                belt, {.at = first, .value = count}));
+    add(claims_, claimed(Predicate::belt_slips,
+                         fmt::format("\"{}\" slips {}, first at {:.4g} s, for {:.4g} s in all, and grips again", belt,
+                                     so_often(count), first, slipping),
+                         belt, {.at = first, .value = count}));
   }
 
   // --- brakes ---

@@ -287,11 +287,11 @@ class Search {
     out_.unknowns = map_->size();
     out_.section = map_->section_angle();
     out_.cycle_time = out_.point.time;
-    out_.stability =
-        !out_.uncertain ? stability_in_words()
-        : out_.kind == Orbit::Kind::vibrating ? "its stability is not assessed"
-        : out_.point.grazed ? "of uncertain stability, for an event is only just touched; the run comes here and stays"
-                            : "the run comes here and stays";
+    out_.stability = !out_.uncertain                       ? stability_in_words()
+                     : out_.kind == Orbit::Kind::vibrating ? "its stability is not assessed"
+                     : out_.point.grazed
+                         ? "of uncertain stability, for an event is only just touched; the run comes here and stays"
+                         : "the run comes here and stays";
     out_.neutral = out_.point.neutral();
     Round fine = go_round(*map_, out_.point, map_tolerance);
     if (!fine.failed.empty()) {

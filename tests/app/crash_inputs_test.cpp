@@ -94,8 +94,7 @@ TEST_F(CrashInputs, ForcesOfEqualLinksEnd) {
   const Answer a = answer("forces", "equal_links.toml", "--positions 8");
   EXPECT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("     45         1  151.492 "), std::string::npos) << a.out;
-  EXPECT_NE(a.out.find("the crank does not turn fully in the steady motion"), std::string::npos)
-      << a.out;
+  EXPECT_NE(a.out.find("the crank does not turn fully in the steady motion"), std::string::npos) << a.out;
   EXPECT_LT(a.seconds, 30);
 }
 

@@ -182,7 +182,8 @@ TEST(ModesAtRest, WithoutWeightsThereIsNothingToSwingBy) {
     modes_of(light);
     ADD_FAILURE() << "it has no rest";
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("small vibrations about a position of rest"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("small vibrations about a position of rest"), std::string::npos)
+        << error.what();
   }
 }
 
