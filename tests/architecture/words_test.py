@@ -1,6 +1,6 @@
 """words_test.py: none of the words of words.txt stands in READMEs, docs, help or messages.
 
-    python3 tests/house/words_test.py [PROGRAM]
+    python3 tests/architecture/words_test.py [PROGRAM]
 
 Reads the pages as people see them (no code, no links), every text of more than one word in the sources of C++ and of the page,
 the docstrings of Python's module, and, given the program, the help of each of its commands.
@@ -16,7 +16,7 @@ LITERAL = re.compile(r'//[^\n]*|/\*.*?\*/|#include[^\n]*|R"(\w*)\((.*?)\)\1"|"((
 
 
 def patterns():
-    for line in (ROOT / "tests/house/words.txt").read_text().splitlines():
+    for line in (ROOT / "tests/architecture/words.txt").read_text().splitlines():
         if line and not line.startswith("#"):
             # The first two bars with blanks around part the columns; bars of the patterns have none.
             what, instead, passes = (part.strip() for part in re.split(r" +\|(?: +|$)", line, maxsplit=2))
