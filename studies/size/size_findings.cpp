@@ -60,7 +60,7 @@ std::string conclusion_of(const Sizing& s) {
 // What the sized machine has, a sentence a model: δ is demanded of the crank, and judged there.
 std::string words_of(const Sizing& s, const DeltaReached& r) {
   return fmt::format(
-      "{} with {:.4g} kg·m², δ is {:.5g} at the crank, where {:g} is demanded{}",
+      "{} with {:.6g} kg·m², δ is {:.5g} at the crank, where {:g} is demanded{}",
       r.model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", r.flywheel, r.crank.value, s.delta,
       s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.5g} at the motor", r.motor.value));
 }
