@@ -1,5 +1,5 @@
 // reduce_sheet.cpp — positions and edges of the load, works and flywheel; tables and diagrams of torques and works.
-#include "studies/handout/reduce_sheet.h"
+#include "studies/worksheet/reduce_sheet.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include "engine/numerics/angles.h"
 #include "engine/rigid/rigid_machine.h"
 #include "studies/cycle/classical.h"
-#include "studies/handout/energy_mass_sheet.h"
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/table.h"
+#include "studies/worksheet/energy_mass_sheet.h"
 
 namespace kurbel {
 namespace {

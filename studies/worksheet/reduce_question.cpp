@@ -1,8 +1,8 @@
 // reduce_question.cpp — kurbel reduce: inertia and torques reduced to one link.
 #include <stdexcept>
 
-#include "studies/handout/reduce_sheet.h"
-#include "studies/handout/sheet_options.h"
+#include "studies/worksheet/reduce_sheet.h"
+#include "studies/worksheet/sheet_options.h"
 
 namespace kurbel {
 namespace {
