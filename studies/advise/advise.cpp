@@ -300,7 +300,7 @@ class Adviser {
         "full model; {} sets were run{}.",
         100 * options_.within,
         chosen.words == "none"
-            ? "no effect is needed, the rigid machine will do"
+            ? "no effect is needed, the rigid machine suffices"
             : chosen.words + (std::count(chosen.on.begin(), chosen.on.end(), true) > 1 ? " are enough" : " is enough"),
         100 * chosen.deviation, 100 * chosen.error, chosen.figure.empty() ? "no figure differs" : chosen.figure,
         chosen.cpu_seconds / std::max(full.cpu_seconds, 1e-9), a_.tried.size(),
