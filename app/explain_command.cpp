@@ -44,7 +44,7 @@ const Verb verb{
       .name = "explain",
       .arguments = "delta",
       .help = "what a figure means: definition, formula, unit, what it is not",
-      .does = "what a figure means: definition, formula, unit, what it is not, which commands tell it; without "
+      .does = "what a figure means: definition, formula, unit, what it is not, which commands give it; without "
               "a name all figures"},
      set_up,
      false}};

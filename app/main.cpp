@@ -25,9 +25,9 @@ int run(int argc, char** argv) {
   const kurbel::Deadline deadline(HUGE_VAL, &interrupted());  // whatever a command is at
   const bool right =
       parse(argc, argv,
-            "kurbel — dynamics of machine units: is the rigid model good enough, and if not, how far is it off?\n"
+            "kurbel — dynamics of machine units: is the rigid model sufficient, and if not, how large is its error?\n"
             "begin with: kurbel new press\n"
-            "exit codes: 0 done, 2 the input is wrong, 3 a run failed or did not reach the accuracy asked for, 130 "
+            "exit codes: 0 done, 2 the input is wrong, 3 a run failed or did not reach the requested accuracy, 130 "
             "interrupted",
             "kurbel " KURBEL_VERSION, commands);
   return right ? code : exit_user_error;
@@ -49,7 +49,7 @@ int run_and_tell(int argc, char** argv) {
       complain(fmt::format("kurbel: {}\n", over.what()));
       return exit_interrupted;
     }
-    complain(fmt::format("kurbel: {}; raise `budget` in [run], or ask for less\n", over.what()));
+    complain(fmt::format("kurbel: {}; raise `budget` in [run], or reduce the task\n", over.what()));
     return exit_run_failed;
   } catch (const std::bad_alloc&) {
     complain("kurbel: the memory that is allowed does not suffice; raise the limit, or take a smaller scene\n");

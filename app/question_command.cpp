@@ -63,7 +63,7 @@ int answer(const Question& question, const StudyOptions& options, const GivenOpt
     if (option.text.makes_a_file && options.no_files &&
         std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first == option.text.name; }))
       throw std::invalid_argument(
-          fmt::format("--{0} with --no-files: the {0} is a file; leave out one of the two", option.text.name));
+          fmt::format("--{0} with --no-files: the {0} is a file; omit one of the two", option.text.name));
   const Scene scene = read(options);
   check_folder(options);
   Progress progress(options.quiet);

@@ -149,20 +149,17 @@ const Verb run_verb{
       .name = "run",
       .arguments = "scene.toml",
       .help = "simulate a scene",
-      .does =
-          "simulates; prints the conclusion and at most twelve key figures with units and measured errors (`--all`: "
-          "all of them), writes `report.html`, `summary.json` and "
-          "`trajectory.csv` into `results/SCENE/run`; short "
-          "runs try the effects that are off, and tell which would move a key figure, and what the rigid machine "
-          "would tell, which stands grey behind",
+      .does = "simulates; prints the conclusion and at most twelve key figures with units and measured errors "
+              "(`--all`: all of them), writes `report.html`, `summary.json` and `trajectory.csv` into "
+              "`results/SCENE/run`; short runs try the effects that are off, and report which would change a key "
+              "figure, and compare with the rigid machine, whose curves are drawn in grey",
       .more =
           {"scene.toml --explain | what was merged, the coordinates and their inertias, and why",
            "scene.toml --until \"2 s\" --save-state warm.json | keeps the state at the end; `--from-state warm.json` "
            "goes on from there, in this scene or in one whose parameters differ, to the last bit the same each "
            "time",
-           "scene.toml --measured test.csv --map \"T1=torque.main_coupling\" --shift fit | lays a test's record over "
-           "the "
-           "plots and tells what is left between them"}},
+           "scene.toml --measured test.csv --map \"T1=torque.main_coupling\" --shift fit | draws a measured record "
+           "over the plots and computes the difference"}},
      set_up_run}};
 
 }  // namespace

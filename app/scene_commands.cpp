@@ -79,9 +79,9 @@ int write_scene(std::string_view text, const std::string& doc, const fs::path& p
   if (fresh) say(fmt::format("wrote {} — editors complete and check keys by it\n", schema.string()));
   say(
       fmt::format("next:\n{2}"
-                  "  kurbel compare {0}    the rigid against the elastic machine: is rigid good enough?\n"
+                  "  kurbel compare {0}    the rigid against the elastic machine: is the rigid model sufficient?\n"
                   "  kurbel run {0}        the machine as the scene says\n"
-                  "  kurbel check {0}      after a change: is the scene sound?\n"
+                  "  kurbel check {0}      after a change: is the scene valid?\n"
                   "  kurbel keys coupling{1}    what a component may hold; `kurbel keys` without a kind: everything\n",
                   word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' '),
                   first.empty() ? "" : fmt::format("  kurbel modes {}    {}\n", word, first)));
@@ -125,7 +125,7 @@ int check(const std::string& file, bool allow_files, const std::vector<std::stri
   const Scene scene = read(file, allow_files, set);
   const auto model = compile(scene, scene.effects);
   const auto coordinates = model->free_shafts + model->twist_count();
-  say(fmt::format("{}: sound; {} component{}, {} coordinate{} with effects: {}\n", file, scene.components.size(),
+  say(fmt::format("{}: valid; {} component{}, {} coordinate{} with effects: {}\n", file, scene.components.size(),
                   scene.components.size() == 1 ? "" : "s", coordinates, coordinates == 1 ? "" : "s",
                   scene.effects.describe()));
   return exit_done;
@@ -258,7 +258,7 @@ const Verb commands_verb{{{.place = 170,
                            .name = "commands",
                            .arguments = "run",
                            .help = "list the commands, or the options of one, for completion and manual",
-                           .does = "options of a command, a line each, as completion asks for them; without a name the "
+                           .does = "options of a command, a line each, as completion uses them; without a name the "
                                    "commands"},
                           set_up_commands,
                           false}};

@@ -56,7 +56,7 @@ std::size_t errors_every(const std::string& errors) {
 VariantTable table_asked(const SweepArguments& a) {
   if (!a.variants.empty()) {
     if (!a.vary.empty() || !a.design.empty())
-      throw std::invalid_argument("--variants is the whole design; leave out --vary and --design");
+      throw std::invalid_argument("--variants is the whole design; omit --vary and --design");
     return read_variants(a.variants);
   }
   VariantTable table;
@@ -150,8 +150,8 @@ void set_up_sweep(OptionList& command, int& code) {
   command.add_option("--errors", a->errors, "measure (default), none, or every:20 for those of every 20th row");
   command
       .add_option("--into", a->into,
-                  "the database (SQLite) that is filled, or gone on with, on a disk of this machine; what is committed "
-                  "(four times a second) survives a kill and, where the disk flushes when told to, a power cut")
+                  "the database (SQLite) that is filled or continued, on a local disk; what is committed (four times a "
+                  "second) survives a kill and, if the disk really flushes, a power cut")
       .required();
   command.add_option("--jobs", a->jobs, "threads (default: one for each core)").check(thread_count);
   command.add_option("--shard", a->shard, "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together");

@@ -51,7 +51,7 @@ class OwnCoupling {
     double near = 0, far = torque / stiffness_at_rest();
     for (int i = 0; i < 60; ++i, near = far, far *= 2)
       if ((missing(far) >= 0) == (torque > 0)) return find_root(missing, near, missing(near), far, missing(far));
-    throw std::runtime_error(fmt::format("a coupling's own law bears no torque of {:g} N·m", torque));
+    throw std::runtime_error(fmt::format("a coupling's own law transmits no torque of {:g} N·m", torque));
   }
 
  private:

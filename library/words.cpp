@@ -41,7 +41,7 @@ std::string sentences_on(const Definition& d, const std::string& asked) {
   line("formula", std::string(d.formula));
   line("unit", d.unit.empty() ? "a plain number" : pretty_unit(d.unit));
   line("is not", std::string(d.is_not));
-  line("told by", d.verbs.empty() ? "no command" : std::string(d.verbs));
+  line("given by", d.verbs.empty() ? "no command" : std::string(d.verbs));
   line("more", place_of(d));
   return text;
 }

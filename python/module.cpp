@@ -78,7 +78,7 @@ void translate(std::exception_ptr thrown) {
 }
 
 void bind_machine(py::module_& m) {
-  py::class_<Machine>(m, "Machine", "A machine as its scene describes it, read and found to be sound. Never changes.")
+  py::class_<Machine>(m, "Machine", "A machine as its scene describes it, read and checked. Never changes.")
       .def_static("from_file", &Machine::from_file, without_lock, py::arg("path"), py::arg("settings") = Settings{},
                   "Reads a scene's file. Raises SceneError with all faults at once.")
       .def_static("from_text", &Machine::from_text, without_lock, py::arg("text"), py::arg("file") = "text",
@@ -90,7 +90,7 @@ void bind_machine(py::module_& m) {
       .def_property_readonly("effects", &Machine::effects, "the effects that the scene names, in words")
       .def_property_readonly("components", &Machine::components, "along the lines, then by name")
       .def_property_readonly("until", &Machine::until, "end of its run [s]")
-      .def_property_readonly("accuracy", &Machine::accuracy, "asked of every figure, over its scale")
+      .def_property_readonly("accuracy", &Machine::accuracy, "requested for every figure, over its scale")
       .def("figures", &Machine::figures, without_lock, "(name, unit) of the figures that its runs may yield.")
       .def("explain", &Machine::explain, without_lock, "What is merged, the coordinates and their inertias.")
       .def("__repr__",
@@ -105,7 +105,8 @@ void bind_study(py::module_& m) {
       .def_property_readonly("html", &Study::html, "the page, whole in itself")
       .def_property_readonly("complete", &Study::complete, "it came to its end")
       .def_property_readonly("diagnosis", &Study::diagnosis, "why it is not complete, in words")
-      .def_property_readonly("unconfirmed", &Study::unconfirmed, "why the accuracy asked for is not sure; empty: it is")
+      .def_property_readonly("unconfirmed", &Study::unconfirmed,
+                             "why the requested accuracy is not confirmed; empty: it is")
       .def_property_readonly("figures", &Study::figures, "of all models, in the order of the summary")
       .def_property_readonly("tables", &Study::tables, "(name, text) of the CSV files")
       .def("write", &Study::write, without_lock, py::arg("folder"), py::arg("formats") = "csv",
@@ -250,7 +251,7 @@ void bind_motion(py::module_& m) {
       m, "State",
       "A moment of a machine as a value, to compare and to keep: its text is exact, Motion.state_from reads it.")
       .def_property_readonly("time", &SavedState::time, "[s]")
-      .def_property_readonly("y", &SavedState::y, "angles, twists, speeds, own states: Motion.state_names")
+      .def_property_readonly("y", &SavedState::y, "angles, twists, speeds, internal states: Motion.state_names")
       .def_property_readonly("text", &SavedState::text, "JSON, exact")
       .def("__repr__", [](const SavedState& s) { return fmt::format("<State at {:.10g} s>", s.time()); })
       .def(

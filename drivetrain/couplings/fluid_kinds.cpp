@@ -88,7 +88,7 @@ std::vector<Kind> fluid_kinds() {
       between_shafts("fluid coupling",
                      "hydrodynamic coupling by its performance coefficient over the speed ratio; slips always",
                      fluid_coupling_fields().keys(), build_fluid_coupling),
-      on_a_shaft("viscous damper", "ring that hangs on the shaft by a viscous film (Houdaille)",
+      on_a_shaft("viscous damper", "ring that is driven by the shaft through a viscous film (Houdaille)",
                  viscous_damper_fields().keys(), build_viscous_damper),
   };
 }

@@ -21,8 +21,7 @@ std::string BeltData::describe() const {
       fmt::format("belt of ratio {:.6g}; slips at {:.6g} N·m on the driving pulley, {:.6g} N in the belt", ratio, limit,
                   limit / radius);
   if (axial_stiffness > 0)
-    text +=
-        fmt::format("; elastic creep there {:.3g} % (left out of the motion)", 100 * limit / radius / axial_stiffness);
+    text += fmt::format("; elastic creep there {:.3g} % (not in the motion)", 100 * limit / radius / axial_stiffness);
   return text;
 }
 
@@ -71,7 +70,7 @@ const Fields<BeltKeys>& belt_fields() {
           .add(quantity("stiffness", "N*m/rad", positive, "k, referred to the driving pulley"), &Keys::stiffness)
           .add(quantity("axial_stiffness", "N", positive, "EA of the belt, in place of the stiffness: k = 2 EA r₁²/L"),
                &Keys::axial_stiffness)
-          .add(quantity("allowable_tension", "N", positive, "force that a strand may bear, limit for kurbel run"),
+          .add(quantity("allowable_tension", "N", positive, "allowable force of a strand, limit for kurbel run"),
                &Keys::allowable_tension)
           .add(quantity("slip_reserve", "", {.low = 1},
                         "demanded: torque at which it slips over the largest one, for kurbel run"),

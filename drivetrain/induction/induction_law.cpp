@@ -155,11 +155,11 @@ bool suits_two_axes(const Motor& m) {
   const auto refuse = [&](const std::string& text) { sound = m.refuse(&Keys::frequency, text); };
   if (m.starting_ratio)
     refuse(
-        "\"frequency\" asks for the two-axis model, whose characteristic is Kloss'; drop it, or "
+        "\"frequency\" selects the two-axis model, whose characteristic is Kloss'; drop it, or "
         "\"starting_ratio\"");
   if (m.starting != Starting::direct)
     refuse(
-        fmt::format("\"frequency\" asks for the two-axis model, which starting = \"{}\" does not know; drop one of "
+        fmt::format("\"frequency\" selects the two-axis model, which starting = \"{}\" does not know; drop one of "
                     "them",
                     name_of(m.starting)));
   return sound;
@@ -171,7 +171,7 @@ Law two_axis(const Motor& m, const InductionMotor& kloss) {
   // brakes and shakes at the supply's frequency for ever.
   const bool damped = kloss.resistance_ratio > 0 || m.starting_ratio ||
                       m.refuse(&Keys::frequency,
-                               "\"frequency\" asks for the two-axis model, whose stator must have a resistance; give "
+                               "\"frequency\" selects the two-axis model, whose stator must have a resistance; give "
                                "resistance_ratio = R_s/R_r′ > 0 (cage motors: about 1), or voltage, rated_current and "
                                "power_factor from the nameplate");
   if (!suits_two_axes(m) || pole_pairs_of(m, kloss.synchronous_speed) == 0 || !damped) return {};

@@ -57,9 +57,8 @@ struct LaggingMotor : Motor {
   std::string describe() const {
     return fmt::format(
         "induction motor on its static curve with the lag of the fluxes, T_e dM/dt + M = M(ω), T_e = 1/(s_b 2π f) = "
-        "{:.3g} ms by the breakdown slip {:.3g} at {:g} Hz; without its pulsation at {:g} Hz after switching on, which "
-        "may "
-        "make the peaks of a start several times as large and which the two-axis model has (key frequency, effect "
+        "{:.3g} ms by the breakdown slip {:.3g} at {:g} Hz; it has no pulsation at {:g} Hz after switching on, which "
+        "can make the peak torques of a start several times as large; the two-axis model has it (key frequency, effect "
         "transients)",
         1e3 * lag.time(), lag.breakdown_slip, lag.mains, lag.mains);
   }

@@ -149,9 +149,10 @@ void check_shunt(const Reading<ShuntKeys>& m) {
   if (m.duty.duty != DutyRating::Duty::none && m.rated_torque == 0)
     m.refuse(&ShuntKeys::duty, "\"duty\" is of the rated torque; give \"rated_torque\", too");
   if (m.duty.duty != DutyRating::Duty::none && m.field)
-    m.refuse(&ShuntKeys::duty,
-             "\"duty\" judges by the torque, which tells the heat of the armature under the full field alone; drop it "
-             "beside \"field\"");
+    m.refuse(
+        &ShuntKeys::duty,
+        "\"duty\" judges by the torque, which determines the heat of the armature only under the full field; drop it "
+        "beside \"field\"");
   if (m.electrical()) {
     if (!m.voltage || !m.resistance || !m.constant || m.stall_torque || m.no_load_speed)
       m.refuse("give either stall_torque and no_load_speed, or voltage, resistance and constant");

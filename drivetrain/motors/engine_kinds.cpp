@@ -190,7 +190,7 @@ bool shows_its_zero(const Reading<EngineKeys>& e, Diagram key, const Curve& diag
   return work >= -1e-3 * size ||
          e.refuse(key,
                   fmt::format("over a cycle it takes {:.4g} J, as where its angle counts backwards or from another "
-                              "dead centre; turn it round, or say zero = \"firing\" or \"gas exchange\" where it "
+                              "dead centre; reverse it, or give zero = \"firing\" or \"gas exchange\" where it "
                               "brakes all the same",
                               -work));
 }

@@ -84,8 +84,8 @@ const Fields<ScrewKeys>& screw_fields() {
                         "in place of efficiencies",
                         "gear_losses"),
                &Keys::friction)
-          .add(quantity("collar_diameter", "m", positive,
-                        "mean diameter of the collar that bears the thrust, with collar_friction", "gear_losses"),
+          .add(quantity("collar_diameter", "m", positive, "mean diameter of the thrust collar, with collar_friction",
+                        "gear_losses"),
                &Keys::collar)
           .add(quantity("collar_friction", "", {.low = 0, .high = 10},
                         "μ_c of that collar: adds μ_c d_c/d₂ to tan(γ ± ρ′)", "gear_losses"),

@@ -111,20 +111,24 @@ Event modes_event(double t, std::size_t contacts, bool fits, int changes) {
 }
 
 Event restless_event(double t, const std::string& owners, std::size_t events, double within) {
-  return {
-      .t = t,
-      .component = owners,
-      .what = fmt::format("{} events within {:.2g} s find no rest: a law without events from here on", events, within)};
+  return {.t = t,
+          .component = owners,
+          .what = fmt::format("{} events within {:.2g} s: the contact chatters; a law without events from here on",
+                              events, within)};
 }
 
 std::string words_of(const Contact& contact, const std::string& holders, const Holding& holding) {
   constexpr double rounding = 1e-8;  // of what is held: nothing acts
   const bool nothing = std::abs(holding.acts) <= rounding * std::max(std::abs(holding.backwards), holding.forwards);
   const double acts = nothing ? 0 : holding.acts;
+  if (nothing && holding.forwards == 0 && holding.backwards == 0)
+    return fmt::format("\"{}\" is held at the end by {}: no torque acts, and any torque would move it", contact.name,
+                       holders);
   const auto side = [&](double limit, const char* way) {
-    return std::abs(limit) > holding.unbounded ? fmt::format("{}: it locks itself", way)
-                                               : fmt::format("{}: {:.4g} N·m are held, {:.4g} N·m are missing", way,
-                                                             limit + 0.0, std::abs(limit - acts));
+    return std::abs(limit) > holding.unbounded
+               ? fmt::format("{}: it is self-locking", way)
+               : fmt::format("{}: up to {:.4g} N·m are held, {:.4g} N·m more would move it", way, limit + 0.0,
+                             std::abs(limit - acts));
   };
   return fmt::format("\"{}\" is held at the end by {}: {:.4g} N·m act; {}; {}", contact.name, holders, acts,
                      side(holding.forwards, "forwards"), side(holding.backwards, "backwards"));

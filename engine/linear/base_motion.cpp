@@ -60,8 +60,8 @@ BaseMotion::BaseMotion(std::shared_ptr<const Model> model, LinearisationPoint po
   for (const Network::ShaftElement& e : m_.network.elements)
     if (std::isinf(e.element->cycle) && !point_.angle)
       throw std::invalid_argument(fmt::format(
-          "the crank of \"{}\" rocks and never comes round, so that there is no mean over its angle to "
-          "linearise about; hold it at an angle, e.g. --angle \"0 deg\", or follow its motion with kurbel run",
+          "the crank of \"{}\" rocks and never turns fully, so that there is no mean over its angle to linearise "
+          "about; hold it at an angle, e.g. --angle \"0 deg\", or follow its motion with kurbel run",
           e.component));
   turn_of_joint_.assign(m_.elastic.size(), -1);
   for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
@@ -146,7 +146,7 @@ void BaseMotion::find_coordinates() {
   coordinates_ = coordinates_of(m_, equations_.ties(), shaft_inertia_);
   if (coordinates_.size() == 0)
     throw std::invalid_argument(
-        "every shaft is held by friction at rest, so nothing can swing; give a speed, e.g. --speed \"10 rpm\"");
+        "every shaft is held by friction at rest, so nothing can vibrate; give a speed, e.g. --speed \"10 rpm\"");
   std::vector<double> speed(m_.shafts.size(), 0.0);
   for (std::size_t s = 0; s < m_.free_shafts; ++s) speed[s] = begin_[equations_.speed_index(static_cast<int>(s))];
   rates_ = coordinates_.rates(speed, shaft_inertia_);

@@ -72,7 +72,7 @@ CycleSamples sample_cycle(const Orbit& orbit, std::size_t count, double toleranc
   Sampler sampler(m, out, map.start_time(), count);
   const RunOutcome outcome = follow_period(map, orbit.point, equations, {.tolerance = tolerance}, {&sampler});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
-  if (!sampler.is_full()) throw std::invalid_argument("the round of the steady motion ended before its period");
+  if (!sampler.is_full()) throw std::invalid_argument("the cycle of the steady motion ended before its period");
   out.events = outcome.events;
   mean.mean = sampler.means();
   mean.speed = (equations.angle_with_turns(at(m.reduction_angle), outcome.state) - out.link_angle) / out.time;

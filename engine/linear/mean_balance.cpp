@@ -120,8 +120,10 @@ class BaseMotion::Balance {
       const int held = hold_states_of_elements();
       const bool found = newton();
       if (held > 0)
-        b_.words_ = "own states of motors and loads have no balance at this speed: they keep the values that they had";
-      if (!found) b_.words_ = "no twists and own states were found with which the mean torques balance exactly here";
+        b_.words_ =
+            "internal states of motors and loads have no balance at this speed: they keep their previous values";
+      if (!found)
+        b_.words_ = "no twists and internal states were found with which the mean torques balance exactly here";
     }
     b_.acceleration_ = free_ * free_alpha_;
     tell_left_over();

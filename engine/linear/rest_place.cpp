@@ -31,7 +31,8 @@ double torque_at(const std::shared_ptr<const Model>& model, double angle) {
 
 [[noreturn]] void refuse(const Model& model, const std::string& why) {
   throw std::invalid_argument(
-      fmt::format("the crank rocks, so that modes are small swings about a rest, and {} from the start of \"{}\" on; "
+      fmt::format("the crank rocks, so that modes are small vibrations about a position of rest, and {} from the start "
+                  "of \"{}\" on; "
                   "start it nearer to its rest, or give one with --angle",
                   why, model.node_label(model.reduction_node)));
 }
@@ -42,7 +43,7 @@ double downhill(const std::shared_ptr<const Model>& model, double start) {
   constexpr int turn = 720;
   try {
     double here = start + 1e-3, torque = torque_at(model, here);
-    if (torque == 0) refuse(*model, "no torque that hangs on the angle alone was found");
+    if (torque == 0) refuse(*model, "no torque that depends on the angle alone was found");
     for (int i = 0; i < turn; ++i) {
       const double next = here + std::copysign(step, torque), there = torque_at(model, next);
       if (there == 0) return next;

@@ -23,7 +23,7 @@ Eigen::SelfAdjointEigenSolver<MatrixXd> solved_symmetric(const MatrixXd& a, int 
 Eigen::EigenSolver<MatrixXd> solved(const MatrixXd& a, bool with_vectors) {
   if (!a.allFinite())  // the solver may not notice, and hand out what looks like a result
     throw std::runtime_error(
-        fmt::format("the eigenvalues of a matrix of {} rows were asked for that holds no numbers", a.rows()));
+        fmt::format("a matrix of {} rows contains values that are not finite; it has no eigenvalues", a.rows()));
   const Eigen::EigenSolver<MatrixXd> solver(a, with_vectors);
   if (solver.info() != Eigen::Success)
     throw std::runtime_error(

@@ -41,7 +41,7 @@ class HeldSearch {
     ReturnMap::Image& last = out_.last;
     if (out_.cost > held_.most_cost) {
       last.end = ReturnMap::End::interrupted;
-      last.why = fmt::format("no cycle was found within {:.0f} rounds", out_.cost);
+      last.why = fmt::format("no cycle was found within {:.0f} cycles of simulation", out_.cost);
       return false;
     }
     ReturnMap map(held_.machine(x.tail(x.size() - n_)), options_);

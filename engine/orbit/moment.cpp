@@ -38,9 +38,8 @@ Scene as_of(const Scene& scene, const Effects& effects, const Moment& moment) {
   if (!moment.any() || steps == 0) return then;
   if (moment.time && scene.sequence.repeat)
     throw std::invalid_argument(
-        "at a time: the operating sequence repeats, and what earlier rounds have set would be left out; ask for a step "
-        "of "
-        "its first round, e.g. \"step 2\"");
+        "at a time: the operating sequence repeats, and the settings of its earlier repetitions would be omitted; give "
+        "a step of its first repetition, e.g. \"step 2\"");
   const std::size_t last = moment.after_step ? *moment.after_step : steps_before(scene, effects, *moment.time);
   then.sequence.repeat = false, then.sequence.every = 0;
   if (last >= steps) return then;

@@ -115,7 +115,7 @@ class Search {
       run.stop = [this, angle, begin](double, std::span<const double> y) {
         return std::min(1.0, round_angle() - std::abs(equations_.angle_with_turns(angle, y) - begin));
       };
-    if (options_.progress) options_.progress(fmt::format("regime: round {}", out_.rounds + 1), 0);
+    if (options_.progress) options_.progress(fmt::format("steady motion: cycle {}", out_.rounds + 1), 0);
     LinkSpeeds speeds(m_);
     const RunOutcome outcome = integrate(equations_, run, {&speeds, &last_motion_});
     ++out_.rounds;
@@ -251,8 +251,8 @@ class Search {
       for (auto e = events_.rbegin(); e != events_.rend(); ++e)
         if (e->component == last.component && e->what == last.what) times.push_back(e->t);
     }
-    return comes_again(
-        times, sequence ? "the operating sequence goes round" : "it swings by itself, no law asks for this period");
+    return comes_again(times,
+                       sequence ? "the operating sequence repeats" : "self-excited vibration, no law sets this period");
   }
 
   // The link turns back again and again, and nothing happens that tells a period.
@@ -264,7 +264,7 @@ class Search {
     if (outcome.complete) {
       state_ = {outcome.t, outcome.state, equations_.modes()};
       period_changes_ = 0;  // it has settled
-      if (comes_again({turning.times().rbegin(), turning.times().rend()}, "no law asks for this period")) return;
+      if (comes_again({turning.times().rbegin(), turning.times().rend()}, "no law sets this period")) return;
     }
     drift();
   }
@@ -287,7 +287,7 @@ class Search {
       const double of_laws = std::exchange(period_.time, exact);
       rest_on_run(map);
       if (done_) {
-        out_.words = fmt::format("everything comes again after {:.6g} s: {}", exact, why);
+        out_.words = fmt::format("the motion repeats after {:.6g} s: {}", exact, why);
         return true;
       }
       period_.time = of_laws;
@@ -331,7 +331,7 @@ class Search {
   bool keeps_its_member(const ReturnMap& map, SteadyPoint& point) {
     constexpr int patient = 64;  // rounds: what does not fade does not come nearer either
     if (!point.neutral() || is_member_of_run(map, point) || settled_rounds_ >= patient) return true;
-    why_not_ = "the motion is one of a family, and the run is still too far from it to tell which";
+    why_not_ = "the motion is one of a family, and the run is still too far from it to decide which";
     return false;
   }
   void spend(const ReturnMap& map) { out_.cost += map.cost(); }
@@ -369,31 +369,32 @@ class Search {
   }
   std::string cycle_words() const {
     if (period_.by_time)
-      return fmt::format("everything comes again after {:.6g} s, the common period of all that depends on time{}",
+      return fmt::format("the motion repeats after {:.6g} s, the common period of all that depends on time{}",
                          round_time(), period_.angle_matters ? " and on an angle" : "");
     const double turns = round_angle() / (2 * std::numbers::pi);
-    return fmt::format("everything comes again after {:.6g} turn{} of \"{}\"", turns, turns == 1 ? "" : "s", link());
+    return fmt::format("the motion repeats after {:.6g} turn{} of \"{}\"", turns, turns == 1 ? "" : "s", link());
   }
 
   void drift() {
-    const std::string where = fmt::format("after {} rounds, at {:.4g} s, ", out_.rounds, state_.t);
+    const std::string where = fmt::format("after {} cycles, at {:.4g} s, ", out_.rounds, state_.t);
     if (settled_rounds_ == 0 && is_settled())
-      return end(Orbit::Kind::drifting,
-                 where + fmt::format("\"{}\" has neither come round nor come to rest: it swings to and fro", link()));
+      return end(
+          Orbit::Kind::drifting,
+          where + fmt::format("\"{}\" has neither completed a cycle nor come to rest: it moves to and fro", link()));
     if (settled_rounds_ == 0)
       return end(Orbit::Kind::drifting,
-                 where + (m_.scene.sequence.repeat ? "the operating sequence still goes round without coming again"
+                 where + (m_.scene.sequence.repeat ? "the operating sequence still repeats without the motion repeating"
                                                    : "something is still being switched"));
     if (grows()) return run_away(speeds_.back());
     if (period_.by_time && angle_changes_most_)
       return end(
           Orbit::Kind::drifting,
-          where + fmt::format("nothing has come again: what repeats after {:.6g} s and what hangs on the {} have no "
+          where + fmt::format("nothing has repeated: what repeats after {:.6g} s and what depends on the {} have no "
                               "common period",
                               period_.time, changes_most_));
     end(Orbit::Kind::drifting,
         where +
-            fmt::format("the motion still changes by {:.2g} of the rated values from round to round, most of all the "
+            fmt::format("the motion still changes by {:.2g} of the rated values from cycle to cycle, most of all the "
                         "{}{}",
                         out_.still_changes, changes_most_, why_not_.empty() ? "" : ": " + why_not_));
   }

@@ -83,7 +83,7 @@ class Machine {
     MeanJacobian mean(equations_);
     const RunOutcome outcome = follow_period(map_, z, equations_, {.tolerance = tolerance_}, {&mean});
     if (!outcome.complete) throw BrokenOff(outcome.diagnosis);
-    if (!map_.periodicity().by_time && !outcome.stopped) throw BrokenOff("the machine does not come round");
+    if (!map_.periodicity().by_time && !outcome.stopped) throw BrokenOff("the machine does not complete a cycle");
     const double from = map_.start_time();
     Way way{outcome.t - from, mean.mean(), {}};
     for (const Event& e : outcome.events) way.events.push_back(e.t - from);

@@ -165,7 +165,7 @@ void report_ring(SceneReading& r, std::size_t first, const std::map<std::string,
                                 component_of(from.front())));
   r.refuse(where,
            fmt::format(
-               "the branches from {} hang on each other in a ring; begin one of them at a component of the main line",
+               "the branches from {} begin at each other in a ring; begin one of them at a component of the main line",
                shortened_list(from, "and")));
 }
 

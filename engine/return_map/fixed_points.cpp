@@ -125,7 +125,7 @@ SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double 
     if ((out.residual > enough && !begins_loose) || out.residual <= floor_of_rounds) break;
   }
   if (out.residual > enough) {
-    out.why = "rounds still change";
+    out.why = "cycles still change";
     return out;
   }
   double shrinking = 0;

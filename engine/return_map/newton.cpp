@@ -72,7 +72,7 @@ class Newton {
     }
     out_.residual = norm_;
     if (norm_ <= residual_floor * enough_) return finish();
-    out_.why = fmt::format("Newton's iteration does not settle (residual {:.1e} of the rated values after {} rounds)",
+    out_.why = fmt::format("Newton's iteration does not settle (residual {:.1e} of the rated values after {} cycles)",
                            norm_, out_.rounds);
   }
 

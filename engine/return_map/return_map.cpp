@@ -90,10 +90,11 @@ void ReturnMap::take_period(const Periodicity& periodicity) {
   if (options_.cycles < 1) throw std::invalid_argument(fmt::format("{} cycles; must be ≥ 1", options_.cycles));
   const Model& m = *shared_;
   if (const std::size_t unknowns = m.state_count() - m.angle_count(); unknowns > most_unknowns)
-    throw std::invalid_argument(fmt::format(
-        "a steady cycle is sought for up to {} twists, speeds and own states; this model has {}. Switch elasticity off "
-        "where it matters least (--effects), or simulate with kurbel run",
-        most_unknowns, unknowns));
+    throw std::invalid_argument(
+        fmt::format("a steady cycle is sought for up to {} twists, speeds and internal states; this model has {}. "
+                    "Switch elasticity off "
+                    "where it matters least (--effects), or simulate with kurbel run",
+                    most_unknowns, unknowns));
   periodicity_ = periodicity;
   // Joints with friction have a Jacobian that is near enough for steps, not for derivatives.
   variational_ = contacts_of(m).empty() && m.scene.sequence.steps.empty() && !m.effects.joint_friction;
@@ -164,14 +165,14 @@ ReturnMap::Image ReturnMap::judge(const RunOutcome& outcome, double from, double
     image.end = End::returned;
   } else if (std::abs(speed) < 1e-6 * m.speed_scale) {
     image.end = End::stands;
-    image.why = fmt::format("\"{}\" comes to rest at {:.2f}° of its cycle and does not come round", name,
+    image.why = fmt::format("\"{}\" comes to rest at {:.2f}° of its cycle and does not complete it", name,
                             phi * 180 / std::numbers::pi);
   } else if (sense_ * (image.link_angle - link_begin) < 0 || speed < 0) {
     image.end = End::turns_back;
     image.why = fmt::format("\"{}\" is stopped within the cycle and driven backwards", name);
   } else {
     image.end = End::too_slow;
-    image.why = fmt::format("\"{}\" does not come round within {:.4g} s; it stands at {:.2f}° of its cycle", name,
+    image.why = fmt::format("\"{}\" does not complete a cycle within {:.4g} s; it is at {:.2f}° of its cycle", name,
                             image.time, phi * 180 / std::numbers::pi);
   }
   return image;

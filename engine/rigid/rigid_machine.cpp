@@ -37,14 +37,14 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
         "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
   if (!model->own_states.empty())
     throw std::invalid_argument(fmt::format(
-        "the {} of \"{}\" is a state besides angle and speed, which this question leaves out; replace \"{}\" "
+        "the {} of \"{}\" is a state besides angle and speed, which this question does not include; replace \"{}\" "
         "by a motor or a load, or switch its effect off",
         model->own_states.front().state.name, model->own_states.front().component,
         model->own_states.front().component));
   for (const Network::ShaftElement& e : model->network.elements)
     if (std::isinf(e.element->cycle))
       throw std::invalid_argument(
-          fmt::format("the crank of \"{}\" rocks and never comes round, so that there is no cycle over its angle; "
+          fmt::format("the crank of \"{}\" rocks and never turns fully, so that there is no cycle over its angle; "
                       "follow its motion with kurbel run",
                       e.component));
   return model;
@@ -78,7 +78,7 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
   fill_state(0, 1);
   const double whole = equations_.shaft_balance(0, 0, state_).inertia;
   if (std::abs(constant_inertia() + mechanism_inertia(0).value - whole) > 1e-9 * whole)
-    throw std::logic_error("a mechanism tells its reduced inertia otherwise than its equations");
+    throw std::logic_error("a mechanism states another reduced inertia than its equations");
 }
 
 bool RigidMachine::uses_time() const {

@@ -30,7 +30,7 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
            "another method";
   for (const Network::ShaftElement& e : model->network.elements)
     if (std::isinf(e.element->cycle))
-      return fmt::format("the crank of \"{}\" rocks and never comes round; choose another method", e.component);
+      return fmt::format("the crank of \"{}\" rocks and never turns fully; choose another method", e.component);
   const RigidMachine machine(model);
   for (const Network::ShaftElement& e : model->network.elements)
     if (e.element->uses_time || e.window.start > Window{}.start || e.window.stop < Window{}.stop)

@@ -142,7 +142,7 @@ std::string diagnosis(const Breakdown& broken, Equations& equations, const RunOp
   if (broken.kind == Cause::other) return outcome.events.empty() ? text : text + "; " + last_events(outcome.events);
   const Culprit culprit = culprit_of(broken, equations, outcome);
   const char* role = broken.kind == Cause::not_finite ? "lost its value"
-                     : broken.kind == Cause::restless ? "finds no rest"
+                     : broken.kind == Cause::restless ? "chatters"
                                                       : "keeps the steps short";
   if (!culprit.bound.empty())
     text += fmt::format("; {} end {:.0f} % of the steps{}", culprit.bound, 100 * culprit.share,

@@ -39,15 +39,15 @@ Method MethodChoice::first() {
   const Model& m = equations_.model();
   if (!automatic()) {
     first_ = as_asked();
-    reason_ = "asked for";
+    reason_ = "requested";
   } else if (work_equation_pays()) {
     first_ = Method::work_equation;
     reason_ = "rigid, torques of angle and speed: load edges lie at known angles";
   } else {
     first_ = explicit_;
     reason_ = m.elastic.empty() && m.own_states.empty()
-                  ? "rigid: nothing is stiff, and a high order takes the longest steps"
-                  : "explicit while its steps are held by accuracy, not by stability";
+                  ? "rigid: not stiff, and a method of high order takes the longest steps"
+                  : "explicit, as accuracy limits its steps and not stability";
   }
   return now_ = first_;
 }

@@ -158,7 +158,7 @@ class Loop {
   // Steps of the sequence that wait for nothing, again and again.
   [[noreturn]] static void broken_clock(double t) {
     throw std::runtime_error(
-        fmt::format("the operating sequence goes round without a pause at {:.9g} s: all its steps are due at once, and "
+        fmt::format("the operating sequence repeats without a pause at {:.9g} s: all its steps are due at once, and "
                     "the first one again; let one of them wait for a time, an angle or a speed",
                     t));
   }

@@ -104,7 +104,7 @@ std::span<const EffectFlag> effect_flags() {
       {"torque_lag", &Effects::torque_lag, "torque lag", Unsaid::with_elasticity,
        "the lag of the fluxes behind an induction motor's static curve, T_e dM/dt + M = M(ω), T_e = 1/(s_b 2π f)",
        "an induction motor and anything elastic", "a torque per motor",
-       "where the speed of a motor swings faster than a tenth of s_b f; transients, where data allow, replace it"},
+       "where the speed of a motor oscillates faster than a tenth of s_b f; transients, where data allow, replace it"},
       {"relaxation", &Effects::relaxation, "relaxation", Unsaid::where_given,
        "Maxwell branches of rubber couplings as states", "the branches of a rubber coupling", "a twist per branch",
        "where damping must fit over a range of frequencies", true},

@@ -33,7 +33,7 @@ void filled_twice(const std::string& key) {
   throw std::logic_error(fmt::format("the member that key \"{}\" fills is filled by another key, too", key));
 }
 
-void not_filled() { throw std::logic_error("a member was asked for that no key fills"); }
+void not_filled() { throw std::logic_error("a member was requested that no key fills"); }
 
 std::string who(const Section& section) { return fmt::format("{} \"{}\"", section.kind->name, section.name); }
 

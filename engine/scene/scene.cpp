@@ -99,7 +99,7 @@ const std::vector<Key>& operation_keys() {
       {.name = "pole_pairs",
        .type = KeyType::integer,
        .domain = {.low = 1, .high = 100},
-       .doc = "of that motor: the output frequency is pole_pairs times its speed, slip left out; default: by its data"},
+       .doc = "of that motor: the output frequency is pole_pairs times its speed, without slip; default: by its data"},
   };
   return keys;
 }

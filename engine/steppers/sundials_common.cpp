@@ -70,7 +70,7 @@ std::string explanation(int flag) {
     case CV_LSOLVE_FAIL:
       return "the linear system of the implicit equations could not be solved";
     case CV_TOO_MUCH_ACC:
-      return "the tolerance asks for more digits than the states have";
+      return "the tolerance requires more digits than the states have";
     case CV_TOO_CLOSE:
       return "the end of the step is within round-off of its beginning";
     default:

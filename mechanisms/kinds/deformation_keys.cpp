@@ -102,7 +102,7 @@ Fields<RodKeys> prismatic_rod() {
       .add(quantity("second_moment", "m4", positive, "of area of another section, for bending in the plane of motion"),
            &RodKeys::another_second_moment)
       .add(quantity("edge", "m", positive,
-                    "outermost fibre from the axis, for the stress; default: height/2, else no stress is told"),
+                    "outermost fibre from the axis, for the stress; default: height/2, else no stress is given"),
            &RodKeys::edge, [](const RodKeys& rod) { return rod.height.value_or(0) / 2; })
       .add(defaulted("modes", "", "2", {.low = 0, .high = RodFlexibility::most_modes}, "of bending, between the pins"),
            &RodKeys::modes)

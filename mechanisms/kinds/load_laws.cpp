@@ -133,7 +133,7 @@ bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& lo
       if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
       if (mechanism.travel.winding != 0)
         return refuse(
-            fmt::format("a table over {}, but the output goes round with the crank and has no end of a swing; "
+            fmt::format("a table over {}, but the output rotates with the crank and has no end of a swing; "
                         "give the table over the crank's angle",
                         data.over));
       TravelForce law{end, data.curve(), {}, mechanism.stroke()};

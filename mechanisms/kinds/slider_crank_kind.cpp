@@ -203,7 +203,7 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   if (sound && faults.empty() && d.changes() && (friction || deforms))
     faults.push_back(
         {"rod", fmt::format("rod = radius + |offset| = {}, so that crank and rod pass change points, where "
-                            "{}; lengthen the rod, or leave out {}",
+                            "{}; lengthen the rod, or omit {}",
                             in_mm(d.rod_length),
                             friction ? "reactions have no bound and friction by them jams the crank"
                                      : "gaps and bending decide which way the rod goes on",
@@ -211,10 +211,10 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   if (sound && faults.empty() && d.rocks() && deforms)
     faults.push_back(
         {"rod",
-         fmt::format("rod = {} is shorter than radius + |offset|, so that the crank rocks; gaps and bending then "
-                     "decide how far it goes, beyond any arc that is known: lengthen the rod, or leave out "
-                     "clearance and rod_flexibility",
-                     in_mm(d.rod_length))});
+         fmt::format(
+             "rod = {} is shorter than radius + |offset|, so that the crank rocks; gaps and bending then decide how "
+             "far it goes, beyond any arc that is known: lengthen the rod, or omit clearance and rod_flexibility",
+             in_mm(d.rod_length))});
   std::shared_ptr<const JointFrictionSource> joints;
   if (sound && faults.empty()) joints = friction_of(d, mechanism.joints);
   build_mechanism(s, d, mechanism.mounting, faults, net, messages, std::move(joints),

@@ -12,11 +12,10 @@ Fields<Lever> slotted_lever_linkage() {
       .add(required("crank", "m", positive, "crank length r, from the crank axis to its pin, which carries the block",
                     "variable_inertia multibody"),
            &Lever::crank)
-      .add(
-          required("ground", "m", positive,
-                   "distance d of the two bearings; > r: the lever rocks by 2 arcsin(r/d); < r: it goes round with the "
-                   "crank; = r: once in two turns of the crank, through a change point"),
-          &Lever::ground)
+      .add(required("ground", "m", positive,
+                    "distance d of the two bearings; > r: the lever rocks by 2 arcsin(r/d); < r: it rotates with the "
+                    "crank; = r: once in two turns of the crank, through a change point"),
+           &Lever::ground)
       .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &Lever::crank_body)
       .add(pivoted_link("lever", "from its bearing along the slot; negative: counterweighted"), &Lever::lever_body)
       .add(mass_key("block_mass", "mass of the block on the crank pin"), &Lever::block_mass)

@@ -32,7 +32,7 @@ std::string words_of(const CrankCycle& cycle) {
     text += fmt::format("{}{:.6g}°", text.empty() ? "; passes change points at " : ", ", phi * 180 / std::numbers::pi);
   if (cycle.turns() > 1) text += "; its links come back after two turns of the crank";
   if (cycle.winding() != 0)
-    text += fmt::format("; its output goes round {:g} times as often as the crank", cycle.winding());
+    text += fmt::format("; its output makes {:g} times as many turns as the crank", cycle.winding());
   return text;
 }
 
@@ -50,10 +50,9 @@ std::string words_of_arc(const Mechanism& mechanism) {
 std::string limit_reached(const Mechanism& mechanism, int end) {
   const CrankArc& arc = *mechanism.arc();
   return fmt::format(
-      "\"{}\" comes to the end of its arc at φ = {:.4g}°: its {}; there the crank turns back while the other links go "
-      "on into "
-      "the other branch, and what is reduced to the crank has no bound; let a load, a spring or a brake turn it round "
-      "before, or let a link that turns fully be the crank",
+      "\"{}\" comes to the end of its arc at φ = {:.4g}°: its {}; there the crank turns back while the other links "
+      "continue on the other branch, and quantities reduced to the crank have no bound; let a load, a spring or a "
+      "brake reverse it before, or let a link that turns fully be the crank",
       mechanism.name, (arc.middle + end * arc.reach()) / degree, words_of_arc(mechanism));
 }
 

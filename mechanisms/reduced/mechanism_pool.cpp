@@ -11,7 +11,7 @@ namespace {
 
 // The end of the travel that the output has just left.
 const char* name_of_reversal(const Mechanism& m, bool now_growing) {
-  if (m.travel.reversals.size() > 2 || !m.reduced->cycle().change_points().empty()) return "output turns round";
+  if (m.travel.reversals.size() > 2 || !m.reduced->cycle().change_points().empty()) return "output reverses";
   if (m.rocks()) return now_growing ? "least angle" : "greatest angle";
   return now_growing ? "folded dead centre" : "extended dead centre";
 }

@@ -279,7 +279,7 @@ UnboundedReactions unbounded_reactions(const MechanismData& data,
   if (found.any())
     found.words = fmt::format(
         "at the change point{} φ = {} reactions have no bound: they go with the inverse of the distance "
-        "({:.3g} rad and {:.3g} rad beside {}); positions nearer to it than that are told by the place there",
+        "({:.3g} rad and {:.3g} rad beside {}); positions nearer to it than that have the values there",
         found.at.size() > 1 ? "s" : "", places, far, near, forces);
   return found;
 }

@@ -7,7 +7,7 @@
 
 A scene is the path of a file, a text (with a line end in it), a mapping as tomllib hands out (a dict), or a Machine.
 What is handed out is in SI units, angles in rad, speeds in rad/s; values of a scene and of `set` carry their units, as in
-its file. What is wrong with a scene raises SceneError, a ValueError whose `places` tell file, line, column and text of
+its file. What is wrong with a scene raises SceneError, a ValueError whose `places` give file, line, column and text of
 every fault. A run that cannot go on is no exception: `complete` is
 False, `diagnosis` says why.
 """
@@ -39,9 +39,9 @@ def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None
     until     end of the simulated time [s]
     errors    measure them by further runs, two or three of tighter tolerances: several times the time of one
     plots     follow what the page draws; errors=False, plots=False is the quick way
-    trials    behind a short run: the rigid machine's figures, and which effects that are off would move a key figure
+    trials    behind a short run: the rigid machine's figures, and which effects that are off would change a key figure
     measured  a test's record (a CSV file) laid over it; map: {"T1": "torque.main_coupling"}; shift: "0.2 s" or "fit";
-              offset: {"T1": "5 N*m"}, {"T1": "fit"} or "fit"; what is left between them is told as figures
+              offset: {"T1": "5 N*m"}, {"T1": "fit"} or "fit"; the difference is given as figures
     state     of Motion.state: goes on from there
     """
     choices = choices_of(effects=effects, method=method, accuracy=accuracy, until=until, errors=errors, plots=plots)
@@ -83,7 +83,7 @@ def diff(scene, other, *, set=None, other_set=None, **options):
 
 
 def check(scene, *, set=None):
-    """The machine of a scene that is sound; raises SceneError with all that is wrong."""
+    """Checks a scene and returns its machine; raises SceneError with all faults."""
     sound = machine(scene, set=set)
     sound.explain()  # compiled, too
     return sound

@@ -41,12 +41,12 @@ class Study:
 
     @property
     def unconfirmed(self):
-        """Why the accuracy asked for is not sure; empty: it is."""
+        """Why the requested accuracy is not confirmed; empty: it is."""
         return self._output.unconfirmed
 
     @property
     def tables(self):
-        """CSV files by their names, and "sheet.html" where a sheet was asked for."""
+        """CSV files by their names, and "sheet.html" where a worksheet was requested."""
         return dict(self._output.tables)
 
     def figures_of(self, model=""):
@@ -107,7 +107,7 @@ class Trajectory:
         return self.units.keys()
 
     def to_pandas(self):
-        """A DataFrame over time [s]; attrs["units"] tells the units."""
+        """A DataFrame over time [s]; attrs["units"] has the units."""
         import pandas
         frame = pandas.DataFrame({name: self[name] for name in self}, index=pandas.Index(self.time, name="time"),
                                  copy=False)

@@ -93,7 +93,7 @@ def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None,
     vary      ["main_coupling.stiffness=500..1500 kN*m/rad", "flywheel.inertia=200,400 kg*m2"]
     design    "grid:21x3", "sobol:4096", "lhs:500", "random:500"; row i is a function of i, design and seed alone
     figures   whole names, or a quantity ("delta"); none: all
-    of        "run", "steady", "modes" or "size": what is asked of each variant
+    of        "run", "steady", "modes" or "size": the question computed for each variant
     executor  with submit(f, …) -> future, or map(f, rows): concurrent.futures, a Dask Client, multiprocessing's Pool;
               None: here, one by one
     into      a file (SQLite) that keeps the rows as they come, in threads of this process (`jobs`; 0: one a core), and

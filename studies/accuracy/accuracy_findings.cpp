@@ -216,7 +216,7 @@ Text how_measured(const AccuracyStudy& study) {
 void show_measured(Findings& f, const AccuracyStudy& study) {
   const Chapter words = f.chapter("What it means"), plane = f.chapter("Model and numbers"),
                 motion = f.chapter("The motion"), figures = f.chapter("The figures"), numbers = f.chapter("Numbers"),
-                left_out = f.chapter("Left out");
+                left_out = f.chapter("Omitted");
   std::vector<std::string> sentences;
   for (const auto* list : {&study.findings, &study.answers})
     for (const std::string& sentence : *list) sentences.push_back(sentence + ".");
@@ -267,7 +267,7 @@ Findings findings_of(const AccuracyStudy& study) {
     const auto other = std::find_if(o, study.omissions.end(), [&](const Omission& next) { return next.why != o->why; });
     std::string what = o->what;
     for (++o; o != other; ++o) what += "; " + o->what;
-    say({.lines = {fmt::format("left out: {}: {}", what, std::prev(other)->why)}, .indent = "  "});
+    say({.lines = {fmt::format("omitted: {}: {}", what, std::prev(other)->why)}, .indent = "  "});
   }
   say({.lines = {fmt::format("{} settings in {:.3g} s of processor time; {}", study.settings.size(), study.seconds,
                              machine_info())},

@@ -23,7 +23,7 @@ void AccuracyWork::progress(const std::string& what, double fraction) const { op
 
 void AccuracyWork::omit(const std::string& what, const std::string& why) {
   study.omissions.push_back({what, why});
-  log(fmt::format("left out: {}: {}", what, why));
+  log(fmt::format("omitted: {}: {}", what, why));
 }
 
 SimulateOptions AccuracyWork::simulate_options(const std::string& method, double tolerance) const {

@@ -27,7 +27,7 @@ std::string text_of(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status))
-    refuse(file, {}, "--setting: no such file; kurbel accuracy SCENE writes one and tells its path");
+    refuse(file, {}, "--setting: no such file; kurbel accuracy SCENE writes one and prints its path");
   if (std::filesystem::is_directory(status))
     refuse(file, {}, "--setting: is a folder; give the summary.json that kurbel accuracy SCENE wrote");
   try {
@@ -127,7 +127,7 @@ KnownSetting known_setting(const std::filesystem::path& summary, const Scene& sc
     }
     if (!best)
       refuse(summary, {},
-             fmt::format("--setting: no setting had an error of {:.1e} or less, the least was {:.1e}; ask for less "
+             fmt::format("--setting: no setting had an error of {:.1e} or less, the least was {:.1e}; request less "
                          "(--accuracy), or run without --setting",
                          accuracy, least));
     check(summary, *best);

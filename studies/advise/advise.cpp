@@ -72,7 +72,7 @@ class Adviser {
       const std::string instead = told_instead(name, names);
       throw std::invalid_argument(fmt::format(
           "--figures: no figure \"{}\"{}; see kurbel figures", name,
-          instead.empty() ? suggestion(name, names) : fmt::format(" here; what is told is \"{}\"", instead)));
+          instead.empty() ? suggestion(name, names) : fmt::format(" here; what is reported is \"{}\"", instead)));
     }
   }
 
@@ -208,12 +208,12 @@ class Adviser {
       const TriedSet* const alone = known(without(all_, k));
       if (!alone) return "stays: no set without it was run";
       return !alone->refused.empty() ? "stays: the full model does not run without it"
-                                     : fmt::format("stays: the full model without it is {:.2g} % off in {}",
+                                     : fmt::format("stays: the full model without it is {:.3g} % off in {}",
                                                    100 * alone->deviation, alone->figure);
     }
     if (!found->refused.empty()) return "stays: the machine does not run without it";
-    return found->within ? "stays: leaving it out saves no time"
-                         : fmt::format("stays: without it {} is {:.2g} % off", found->figure, 100 * found->deviation);
+    return found->within ? "stays: omitting it saves no time"
+                         : fmt::format("stays: without it {} is {:.3g} % off", found->figure, 100 * found->deviation);
   }
 
   // What is advised was run once more, as it will be: it stays within, and says how far processor times can be trusted.
@@ -300,7 +300,7 @@ class Adviser {
         "full model; {} sets were run{}.",
         100 * options_.within,
         chosen.words == "none"
-            ? "no effect is needed, the rigid machine will do"
+            ? "no effect is needed, the rigid machine suffices"
             : chosen.words + (std::count(chosen.on.begin(), chosen.on.end(), true) > 1 ? " are enough" : " is enough"),
         100 * chosen.deviation, 100 * chosen.error, chosen.figure.empty() ? "no figure differs" : chosen.figure,
         chosen.cpu_seconds / std::max(full.cpu_seconds, 1e-9), a_.tried.size(),

@@ -90,9 +90,10 @@ class Screening {
                                      share > within_ ? "it takes part in the motion" : "little goes through it"),
                          share > within_});
       screens.push_back({"swing", swing,
-                         about_zero ? std::string("its torque swings about zero")
-                                    : fmt::format("the largest torque is {:.3g} × its mean: {}", swing,
-                                                  swing > 1.5 ? "it swings, or is shaken" : "it follows the mean"),
+                         about_zero
+                             ? std::string("its torque alternates about zero")
+                             : fmt::format("the largest torque is {:.3g} × its mean: {}", swing,
+                                           swing > 1.5 ? "it vibrates, or is loaded by shocks" : "it follows the mean"),
                          swing > 1.5});
     }
     for (std::size_t j = 0; modes_ && j < modes_->joint_names.size(); ++j) {
@@ -166,11 +167,12 @@ class Screening {
     const double ratio = swing / still;
     // What it adds to the greatest torque, mean included.
     const double mean = std::abs(modes_->here.joints[joint].mean), share = std::abs(swing - still) / (mean + still);
-    return Screen{"quasi-static amplification", ratio,
-                  fmt::format("the forced swing at the operating point is {:.3g} × the quasi-static one, {:.2g} of its "
-                              "torque: {}",
-                              ratio, share, share > within_ ? "elasticity changes it" : "it twists quasi-statically"),
-                  share > within_};
+    return Screen{
+        "quasi-static amplification", ratio,
+        fmt::format("the forced amplitude at the operating point is {:.3g} × the quasi-static one, {:.2g} of its "
+                    "torque: {}",
+                    ratio, share, share > within_ ? "elasticity changes it" : "it twists quasi-statically"),
+        share > within_};
   }
 
   Screen reversals() const {

@@ -131,15 +131,19 @@ class ContactJudge {
   // Of a belt that stretches or not.
   void slips_at_times(const std::string& belt) {
     int count = 0;
-    double first = 0;
-    for (const Event& event : outcome_.events)
-      if (event.component == belt && event.what.starts_with("slips") && event.from != event.what && ++count == 1)
-        first = event.t;
+    double first = 0, since = 0, slipping = 0;
+    for (const Event& event : outcome_.events) {
+      if (event.component != belt) continue;
+      if (event.what == "grips") slipping += event.t - since;
+      if (!event.what.starts_with("slips") || event.from == event.what) continue;
+      if (++count == 1) first = event.t;
+      since = event.t;
+    }
     if (count == 0) return;
-    add(claims_,
-        claimed(Predicate::belt_slips,
-                fmt::format("\"{}\" slips {}, first at {:.4g} s, and grips again", belt, so_often(count), first), belt,
-                {.at = first, .value = count}));
+    add(claims_, claimed(Predicate::belt_slips,
+                         fmt::format("\"{}\" slips {}, first at {:.4g} s, for {:.4g} s in all, and grips again", belt,
+                                     so_often(count), first, slipping),
+                         belt, {.at = first, .value = count}));
   }
 
   // --- brakes ---

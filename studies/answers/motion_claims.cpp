@@ -173,11 +173,10 @@ class Judge {
     const double limit = far_away * m_.speed_scale;
     if (is_commanded() || p.steady || p.run_down_begin || !p.without_limit) return {};
     if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed()) return {};
-    return claimed(
-        Predicate::runs_away,
-        fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed that its data tell of, and {}", link(),
-                    m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
-        link(), of_speed(r, std::abs(speed()), limit));
+    return claimed(Predicate::runs_away,
+                   fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data, and {}", link(),
+                               m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
+                   link(), of_speed(r, std::abs(speed()), limit));
   }
   // Over a cycle of the rigid machine at constant speed: beyond which one do loads and drag hold what drives?
   bool settles_at_a_higher_speed() const try {
@@ -235,10 +234,11 @@ class Judge {
     if (is_commanded() || !r.cycles.empty() || m_.cycle == 0 || r.periods.run_down_begin || brake_that_holds())
       return {};
     if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
-    return claimed(Predicate::does_not_get_round,
-                   fmt::format("\"{}\" does not get round: it is at {:.1f}° at the end, with {}, where {} N·m drive it",
-                               link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive()),
-                   link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
+    return claimed(
+        Predicate::does_not_get_round,
+        fmt::format("\"{}\" does not complete a cycle: it is at {:.1f}° at the end, with {}, where {} N·m drive it",
+                    link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive()),
+        link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }
 
   // To and fro to the end, of what is to come to no steady motion and is not commanded.
@@ -261,8 +261,8 @@ class Judge {
       const double mean = p.steady_speed * m_.node_ratio[at(motor.node)];
       if (!(std::max(now, mean) < breakdown) || !(now > stands * motor.rated_speed)) continue;
       return claimed(Predicate::hangs_below_breakdown,
-                     fmt::format("\"{}\" does not come up to speed: it hangs at {}, below the {} at which it gives "
-                                 "most; its loads take all that it gives there",
+                     fmt::format("\"{}\" does not come up to speed: it stays at {}, below the {} of its breakdown "
+                                 "torque; its loads take all its torque there",
                                  motor.component, m_.scene.speed_unit.text(mean), m_.scene.speed_unit.text(breakdown)),
                      motor.component, {.value = mean, .limit = breakdown, .unit = "rad/s"});
     }

@@ -28,7 +28,7 @@ class RunWords {
     const bool rests = last && last->value == 0;
     const std::string end = !last                  ? std::string()
                             : rests                ? "at rest"
-                            : all_but_rests(*last) ? fmt::format("all but at rest ({})", speed(last->value))
+                            : all_but_rests(*last) ? fmt::format("nearly at rest ({})", speed(last->value))
                                                    : "at " + speed_and_sense(last->value);
     const Evidence at_end = last ? of(*last) : Evidence{.at = r_.until};
     if (r_.model && !r_.model->commands.empty())
@@ -62,7 +62,7 @@ class RunWords {
   std::optional<Claim> strokes() const {
     const Figure* time = figure(quantities::cycle_time);
     return claimed(Predicate::works_in_strokes,
-                   fmt::format("\"{}\" makes single strokes{}, and stands between them", link(),
+                   fmt::format("\"{}\" makes single strokes{}, and rests between them", link(),
                                time ? fmt::format(", one every {}", seconds(time->value)) : ""),
                    link(), time ? of(*time) : Evidence{});
   }

@@ -53,8 +53,8 @@ std::string claims_in_markdown() {
       "`name`, `of`, `at`, `value`, `limit`, `error`, `unit`, `severity`, `load_case`, `remedy` and the sentence, "
       "`text`;\n"
       "values are in SI.\n";
-  static constexpr const char* questions[] = {"Does it run?", "Is it sure?", "Does it bear what it brings?",
-                                              "What would change the answer?", "What was asked for"};
+  static constexpr const char* questions[] = {"Does it run?", "Is it confirmed?", "Are the limits kept?",
+                                              "What would change the answer?", "The figures"};
   std::optional<Topic> topic;
   for (const ClaimKind& kind : claim_kinds()) {
     if (topic != kind.topic) {

@@ -177,8 +177,8 @@ OrbitCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::vec
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   if (!recorder.singular().empty())
     throw std::invalid_argument(
-        fmt::format("{}: its angle does not tell where the machine is in its cycle, and torques reduced to it are "
-                    "infinite there; look at the machine with kurbel run",
+        fmt::format("{}: its angle does not determine where the machine is in its cycle, and torques reduced to it are "
+                    "infinite there; simulate the machine with kurbel run",
                     recorder.singular()));
   OrbitCycle c = assembled(m, recorder, sense, sampled_within * tolerance, nodes.size());
   c.time = outcome.t - map.start_time();

@@ -50,7 +50,7 @@ inline constexpr Definition of_elements[] = {
     {"motor_rms_current", "RMS current of a motor over a run", "A", "MOTOR", "1.3", of_runs,
      "root of the mean square of the armature's current over the time run, of a direct-current motor, or of a line's "
      "effective current, of the two-axis model; times the winding's resistance and squared the power that heats it; "
-     "not told of a weakened field, nor of a series motor that a sequence reverses",
+     "not given for a weakened field, nor for a series motor that a sequence reverses",
      "√( (1/t) ∫ i² dt ), i² = ½ |i_s|²",
      "the current that its supply gives where a rheostat or a converter stands between"},
     {"motor_mean_power", "mean power of a motor over a run", "W", "MOTOR", "1.3", of_runs,
@@ -61,7 +61,7 @@ inline constexpr Definition of_elements[] = {
      "start included",
      "ω_s ∫ M dt − ∫ M ω dt, of the two-axis model 3/2 R_r ∫ |i_r|² dt",
      "all of its losses: those of the stator, of iron and of friction come on top; of motors that the operating "
-     "sequence switches it is told by the two-axis model alone"},
+     "sequence switches only the two-axis model gives it"},
     {"cycle_motor_power", "mean power of a motor over a cycle", "W", "MOTOR", "1.3", of_both,
      "work that the motor gives to its shaft in the last whole cycle of a motion that repeats, over its time",
      "(1/T) ∫ M ω dt", "its rated power"},
@@ -106,7 +106,7 @@ inline constexpr Definition of_elements[] = {
      "∮ F dx, of gas ∮ (p − p_out) dV", "work of friction in its joints"},
     {"flywheel_energy", "energy that a flywheel gives in a cycle", "J", "FLYWHEEL", "1.3", of_both,
      "kinetic energy of the flywheel at its largest speed less that at its least one, in the last whole cycle of a "
-     "motion that repeats; `run` tells it of those that turn rigidly with the link, `steady` of all",
+     "motion that repeats; `run` gives it for those that turn rigidly with the link, `steady` for all",
      "½ J (ω_max² − ω_min²) = J δ ω_mid²", "its whole kinetic energy"},
     {"work_of_run_up", "works of the run-up", "J", "driving, useful, harmful, weight or energy", "1.3", of_runs,
      "from the start to the begin of the first whole cycle of steady motion", "A_d + A_u + A_h + A_w = ΔE",
@@ -118,9 +118,9 @@ inline constexpr Definition of_elements[] = {
      "from the end of the last whole cycle that is driven to the end of the run", "A_d + A_u + A_h + A_w = ΔE",
      "of one cycle: that is driving_work_per_cycle and its like"},
     {"greatest_torque", "greatest torque of a shaft", "N*m", "SHAFT", "12.14", of_files,
-     "with its sign, of the time run or of the steady cycle; told where a cycle of the shaft's stress is rated"},
+     "with its sign, of the time run or of the steady cycle; given where a cycle of the shaft's stress is rated"},
     {"least_torque", "least torque of a shaft", "N*m", "SHAFT", "12.14", of_files,
-     "with its sign, of the time run or of the steady cycle; told where a cycle of the shaft's stress is rated"},
+     "with its sign, of the time run or of the steady cycle; given where a cycle of the shaft's stress is rated"},
     {"rim_speed", "largest speed of the rim", "m/s", "FLYWHEEL", "1.3", of_files,
      "rim_radius times the shaft's angular velocity, where that is largest"},
     {"integral", "integral part of a governor", "N*m", "GOVERNOR", "4", of_files,
@@ -132,7 +132,7 @@ inline constexpr Definition of_elements[] = {
     {"creep*", "creep of rubber", "rad", "COUPLING", "5", of_files,
      "twist of a dashpot in one of its spring-and-dashpot branches"},
     {"travelled", "way of a slide since the start", "m", "SCREW, WEDGE or SLIDE", "7", of_files,
-     "how far a slide whose force hangs on its travel has moved"},
+     "how far a slide whose force depends on its travel has moved"},
     {"bending_*_rate", "rate of bending of the rod", "m/s", "MECHANISM", "13", of_files,
      "how fast that mode's amplitude changes"},
     {"bending_*", "bending of the rod in a mode", "m", "MECHANISM", "13", of_files,

@@ -23,7 +23,7 @@ inline constexpr Definition of_channels_and_runs[] = {
      "", "reduced to another shaft"},
     {"spring_torque", "torque of a spring alone", "N*m", "COUPLING", "5.1", of_files,
      "the part of what an elastic element transmits that its twist gives", "τ = k θ",
-     "what it transmits: its damper's torque is left out"},
+     "what it transmits: without its damper's torque"},
     // mechanisms
     {"position", "position of what a mechanism moves", "m", "MECHANISM", "9", of_files,
      "of its slider along its line, of a screw's nut, a wedge's or a pinion's slide its travel; of what rocks its "
@@ -45,14 +45,13 @@ inline constexpr Definition of_channels_and_runs[] = {
      "the peak of a steady cycle, which is cycle_peak_torque: a start or a stop counts here"},
     {"peak_spring_torque", "peak torque of a spring alone, of a whole run", "N*m", "COUPLING", "5.1", of_runs,
      "the spring torque of greatest magnitude during the run; of a rigid element its whole torque", "max |k θ(t)|",
-     "what is transmitted: its damper's torque is left out"},
+     "what is transmitted: without its damper's torque"},
     {"peak_velocity", "peak velocity of a whole run", "m/s", "MECHANISM", "9", of_runs,
      "velocity of greatest magnitude of what the mechanism moves"},
     {"peak_acceleration", "peak acceleration of a whole run", "m/s2", "MECHANISM", "9", of_runs,
      "acceleration of greatest magnitude of what the mechanism moves"},
     {"peak_force", "peak force of the loads in a whole run", "N", "MECHANISM", "10", of_runs,
-     "force of greatest magnitude that the loads exert on the slider", "",
-     "a reaction in a joint: those are told by forces"},
+     "force of greatest magnitude that the loads exert on the slider", "", "a reaction in a joint: forces gives those"},
     {"peak_load_torque", "peak torque of the loads on what rocks, of a whole run", "N*m", "MECHANISM", "10", of_runs,
      "torque of greatest magnitude that the loads exert on the rocker"},
     // speeds of the reduction link, RMS torques, ends
@@ -126,7 +125,7 @@ inline constexpr Definition of_a_cycle[] = {
      "ω_mean = Φ/T = 2π n/T for n turns in the time T",
      "(ω_max + ω_min)/2, which is mid_speed; in a press the two may differ by 5 % and more"},
     {"delta", "speed fluctuation δ", "", "SHAFT", "2.6", of_both,
-     "how far the speed swings within one cycle of motion that repeats, over its middle",
+     "range of the speed within one cycle of motion that repeats, over its middle",
      "δ = (ω_max − ω_min)/ω_mid, ω_mid = ½ (ω_max + ω_min)",
      "of a whole run with its start, nor of motion that does not repeat (cycle_fluctuation); an elastic machine has "
      "another δ at every shaft"},
@@ -155,7 +154,7 @@ inline constexpr Definition of_a_cycle[] = {
      "the peak of a whole run with its start and stop: peak_torque"},
     {"cycle_peak_spring_torque", "peak torque of a spring alone, of a steady cycle", "N*m", "COUPLING", "5.1",
      of_cycles, "the spring torque of greatest magnitude within one steady cycle", "",
-     "what is transmitted: the damper's part is left out"},
+     "what is transmitted: without the damper's part"},
     {"cycle_peak_velocity", "peak velocity of a steady cycle", "m/s", "MECHANISM", "9", of_cycles,
      "velocity of greatest magnitude of what the mechanism moves, within one steady cycle", "",
      "that of a whole run: peak_velocity"},
@@ -164,7 +163,7 @@ inline constexpr Definition of_a_cycle[] = {
      "that of a whole run: peak_acceleration"},
     {"cycle_peak_force", "peak force of the loads in a steady cycle", "N", "MECHANISM", "10", of_cycles,
      "force of greatest magnitude that the loads exert on the slider, within one steady cycle", "",
-     "a reaction in a joint: those are told by forces"},
+     "a reaction in a joint: forces gives those"},
     {"cycle_peak_load_torque", "peak torque of the loads on what rocks, of a steady cycle", "N*m", "MECHANISM", "10",
      of_cycles, "torque of greatest magnitude that the loads exert on the rocker, within one steady cycle", "",
      "that of a whole run: peak_load_torque"},
@@ -198,9 +197,9 @@ inline constexpr Definition of_a_cycle[] = {
      "the sum over a line of the balance"},
     // what swings, over the link's angle
     {"speed_order", "amplitude of an order of a speed", "rad/s", "ORDER.SHAFT", "11.10", of_cycles,
-     "amplitude of the part of a shaft's speed that swings ORDER times in a turn of the reduction link, in steady "
+     "amplitude of the part of a shaft's speed that oscillates ORDER times in a turn of the reduction link, in steady "
      "motion, over the link's angle; a cycle of two turns has halves. Of a vibration about a place: ORDER times in its "
-     "period, over time. Told are those of at least 1 % of the largest",
+     "period, over time. Given are those of at least 1 % of the largest",
      "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r)",
      "half of what the speed goes from its least to its greatest value, which all orders make together"},
     {"speed_order_phase", "phase of an order of a speed", "deg", "ORDER.SHAFT", "11.10", of_cycles,
@@ -209,19 +208,20 @@ inline constexpr Definition of_a_cycle[] = {
      "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r), −180° < ψ_r ≤ 180°",
      "an angle of the link, which is ψ_r over the order; a lead over some other order"},
     {"angle_order", "amplitude of an order of a vibration", "rad", "ORDER.SHAFT", "11.10", of_cycles,
-     "amplitude of the part of a shaft's angle that swings ORDER times in the period of a vibration about a place, in "
-     "steady motion, over time. Told are those of at least 1 % of the largest",
+     "amplitude of the part of a shaft's angle that oscillates ORDER times in the period of a vibration about a place, "
+     "in "
+     "steady motion, over time. Given are those of at least 1 % of the largest",
      "φ(t) = φ̄ + Σ a_r cos(2π r t/T − ψ_r)",
      "half the way between the extreme angles, which all orders make together: vibration_amplitude"},
     {"angle_order_phase", "phase of an order of a vibration", "deg", "ORDER.SHAFT", "11.10", of_cycles,
      "ψ_r of that part: it is greatest where ORDER times 360° t/T is ψ_r; of amplitudes beyond their error",
      "φ(t) = φ̄ + Σ a_r cos(2π r t/T − ψ_r), −180° < ψ_r ≤ 180°", "an angle of the shaft"},
     {"torque_order", "amplitude of an order of a torque", "N*m", "ORDER.COMPONENT", "11.10", of_cycles,
-     "amplitude of the part of a torque that swings ORDER times in a turn of the reduction link, in steady motion, "
+     "amplitude of the part of a torque that oscillates ORDER times in a turn of the reduction link, in steady motion, "
      "over the link's angle; a cycle of two turns has halves. Of a vibration about a place: ORDER times in its period, "
-     "over time. Told are those of at least 1 % of the largest",
+     "over time. Given are those of at least 1 % of the largest",
      "x(φ) = x̄ + Σ a_r cos(r φ − ψ_r)",
-     "of the linear forced response at a constant speed, which modes tells; the alternating torque of all orders"},
+     "of the linear forced response at a constant speed, which modes gives; the alternating torque of all orders"},
     {"torque_order_phase", "phase of an order of a torque", "deg", "ORDER.COMPONENT", "11.10", of_cycles,
      "ψ_r of that part: it is greatest where ORDER times the angle of the reduction link is ψ_r; of amplitudes beyond "
      "their error",

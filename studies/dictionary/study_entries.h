@@ -54,12 +54,14 @@ inline constexpr Definition of_one_study[] = {
      "I_fly = I₀/i² − Σ others", "I₀, which is the whole constant inertia on the reduction link"},
     {"flywheel_with_slope", "inertia of the flywheel with the drive's slope", "kg*m2", "", "11.5", of_sizing,
      "the same with the torques as they depend on the speed", "δ(I₀) = δ"},
-    {"flywheel_that_meets", "inertia of the flywheel whose regime has the demanded δ", "kg*m2", "", "3.6", of_sizing,
+    {"flywheel_that_meets", "inertia of the flywheel whose steady motion has the demanded δ", "kg*m2", "", "3.6",
+     of_sizing,
      "inertia on the flywheel's own shaft with which the machine's steady cycle, with the scene's effects, has the δ "
      "that is demanded; sought where the flywheel of the work equation misses it",
      "δ(I₀) = δ"},
     {"delta_reached", "δ reached", "", "", "2.6", of_sizing,
-     "δ of the machine with the sized flywheel: of its work equation, or of its regime, rigid or elastic, at the crank "
+     "δ of the machine with the sized flywheel: of its work equation, or of its steady motion, rigid or elastic, at "
+     "the crank "
      "or at the motor",
      "δ = (ω_max − ω_min)/ω_mid", "the δ demanded"},
     {"fluctuation_of_energy", "greatest fluctuation of energy", "J", "", "3.4", of_sizing,
@@ -69,7 +71,7 @@ inline constexpr Definition of_one_study[] = {
     // reduce
     {"constant_inertia", "constant inertia of the drive", "kg*m2", "", "2.1", "reduce",
      "what turns at a constant ratio, reduced to the link by kinetic energy", "Σ J i²",
-     "the whole reduced inertia: the mechanism's, which changes over the angle, is left out"},
+     "the whole reduced inertia: without the mechanism's, which changes over the angle"},
     {"mean_driving_torque", "mean driving torque", "N*m", "", "2.2", "reduce",
      "mean over the angle of a cycle of all driving torques, reduced to the link by power at constant speed",
      "(1/Φ) ∮ M_d dφ", "a mean over time"},
@@ -86,7 +88,7 @@ inline constexpr Definition of_one_study[] = {
     {"damped_frequency", "damped frequency of a mode", "Hz", "MODE", "12.3", "sweep, uncertainty",
      "frequency at which a mode dies out or grows, by its eigenvalue at the operating point, with all damping, slopes "
      "of "
-     "motors and loads and internal states of elements; told of modes that swing",
+     "motors and loads and internal states of elements; given for modes that oscillate",
      "ω_d = Im λ", "the natural frequency, which is undamped"},
     {"internal_frequency", "frequency of a mode of internal states", "Hz", "MODE", "12.3", "modes, sweep, uncertainty",
      "magnitude of the eigenvalue of a mode that grows out of no natural frequency: a motor's winding against inertia, "
@@ -95,33 +97,33 @@ inline constexpr Definition of_one_study[] = {
      "|λ|", "a natural frequency of the drive, which springs and inertias alone have"},
     {"damping_ratio", "damping ratio of a mode", "", "MODE", "12.3", "modes, sweep, uncertainty",
      "share of critical damping with which a mode dies out, by its eigenvalue at the operating point: what is left "
-     "after a cycle is exp(−2πζ/√(1 − ζ²)); told of modes that swing",
+     "after a cycle is exp(−2πζ/√(1 − ζ²)); given for modes that oscillate",
      "ζ = −Re λ/|λ|", "the damping ratio that a coupling is given, which is of that coupling alone"},
-    {"largest_swing", "largest swing at that speed", "N*m", "", "12.7", "modes",
+    {"largest_swing", "largest amplitude at that speed", "N*m", "", "12.7", "modes",
      "the greatest of all joints' torque peaks above its mean in the steady forced motion of the linearised drive", "",
      "a peak torque: the mean is not in it, nor is anything not linear"},
-    {"spot_swing", "swing at a speed of the range, by the nonlinear cycle", "N*m", "", "12.13", "modes",
+    {"spot_swing", "amplitude at a speed of the range, by the nonlinear cycle", "N*m", "", "12.13", "modes",
      "the greatest departure of a joint's torque from its mean in the nonlinear cycle of the machine whose mean speed "
      "is held there, at the spot check where the linear response is off by most",
      "", "the motion that the machine keeps: torques proportional to inertia hold the speed"},
     {"nominal_torque_verdict", "mean torque against T_KN", "N*m", "", "12.9", "modes",
-     "K_A S_t times the mean of a joint's torque over a round of the motion that the machine keeps",
-     "K_A S_t |T_mean| ≤ T_KN", "a peak, nor the torque of a start"},
+     "K_A S_t times the mean of a joint's torque over a cycle of the steady motion", "K_A S_t |T_mean| ≤ T_KN",
+     "a peak, nor the torque of a start"},
     {"maximum_torque_verdict", "largest torque from rest against T_Kmax", "N*m", "", "12.9", "modes",
-     "the largest torque of a joint on a simulated way from rest to the motion that the machine keeps, what starts add "
-     "times S_z, all times S_t; without such a way a bound, the largest steady swing below the operating speed",
+     "the largest torque of a joint in a simulated start from rest to the steady motion, what starts add times S_z, "
+     "all times S_t; without such a start a bound, the largest steady amplitude below the operating speed",
      "S_t (T_N + S_z T_S) ≤ T_Kmax", "the standard's estimate by shock and resonance factors"},
     {"vibratory_torque_verdict", "alternating torque against T_KW", "N*m", "", "12.11", "modes",
-     "the largest departure of a joint's torque from its mean over a round of the motion that the machine keeps, times "
-     "S_t and the frequency factor of what swings in it",
+     "the largest departure of a joint's torque from its mean over a cycle of the steady motion, times "
+     "S_t and the frequency factor of its harmonics",
      "S_t S_f T_W ≤ T_KW", "half the range from least to greatest torque; the amplitude of one order"},
     // forces
     {"reaction", "largest reaction in a joint", "N", "", "9.6", "forces",
      "greatest magnitude of the joint's force over the cycle, masses in motion included", "",
      "the force of the loads on the slider: peak_force"},
     {"reaction_moment", "largest moment in a slide", "N*m", "", "9.6", "forces",
-     "greatest moment over the cycle that a slide's two bodies exert on each other, about the pin it is told at", "",
-     "a friction torque"},
+     "greatest moment over the cycle that a slide's two bodies exert on each other, about the pin at which it is given",
+     "", "a friction torque"},
     {"balancing_torque", "largest balancing torque", "N*m", "", "9.6", "forces",
      "torque on the crank that keeps the motion as prescribed", "", "what a motor gives, whose speed yields"},
     {"shaking_force", "largest shaking force", "N", "", "9", "forces",
@@ -132,7 +134,7 @@ inline constexpr Definition of_one_study[] = {
     {"centre_distance", "centre distance", "mm", "", "6", "gears", "between the wheels' axes, as they run"},
     {"contact_ratio", "contact ratio ε_α", "", "", "6", "gears",
      "length of the path of contact over the base pitch: pairs in mesh in the mean", "ε_α = g_α/p_b",
-     "the overlap of helical teeth, which is told beside it"},
+     "the overlap of helical teeth, which is given beside it"},
     {"specific_sliding", "greatest specific sliding", "", "", "6", "gears",
      "sliding over rolling speed of a flank, at the worse foot"},
     {"backlash_angle", "backlash at wheel 1", "mrad", "", "6", "gears",
@@ -142,7 +144,7 @@ inline constexpr Definition of_one_study[] = {
     // which model, which method
     {"coordinates", "coordinates", "", "", "14", "run",
      "independent coordinates of the compiled machine: shafts that are free and twists", "",
-     "states: velocities and own states are counted apart"},
+     "states: velocities and internal states are counted separately"},
     {"processor_time", "processor time of a run", "s", "", "", "compare, advise",
      "of one integration, without those that measure the errors"},
     {"change_with", "change with an effect that is off", "", "", "14.1", of_files,

@@ -48,18 +48,18 @@ std::string conclusion_of(const EffectStudy& s) {
   if (strongest == s.left_out.end()) {
     const bool any_ran =
         std::any_of(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) { return l.failed.empty(); });
-    return any_ran ? "No figure that is compared is other than zero, with or without an effect: nothing to rank by."
-                   : "No effect of this scene can be left out: without any of them it does not run.";
+    return any_ran ? "All figures compared are zero, with and without each effect: the effects cannot be ranked."
+                   : "No effect of this scene can be omitted: without any of them it does not run.";
   }
   const FigureChange& most = strongest->changes.front();
   if (!most.told()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);
   const std::string off = most.from_nothing
                               ? std::string("within its error")
-                              : fmt::format("{:.2g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
+                              : fmt::format("{:.3g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
   // Where four digits do not tell them apart the two are not told.
   text = most.relative < 1e-2
-             ? fmt::format("Most depends on {}: without it {} is {}", strongest->effect.words, most.figure, off)
-             : fmt::format("Most depends on {}: without it {} is {} instead of {}, {}", strongest->effect.words,
+             ? fmt::format("The strongest effect is {}: without it {} is {}", strongest->effect.words, most.figure, off)
+             : fmt::format("The strongest effect is {}: without it {} is {} instead of {}, {}", strongest->effect.words,
                            most.figure, told_shortly(most.without, most.unit),
                            most.from_nothing ? "zero" : told_shortly(most.full, most.unit), off);
   std::vector<std::string> idle;
@@ -69,7 +69,8 @@ std::string conclusion_of(const EffectStudy& s) {
   const auto dearest = std::max_element(s.left_out.begin(), s.left_out.end(),
                                         [](const LeftOut& a, const LeftOut& b) { return a.time_ratio < b.time_ratio; });
   if (dearest->time_ratio > alike_in_time)
-    text += fmt::format("; {} costs most, {:.2g} × the time without it", dearest->effect.words, dearest->time_ratio);
+    text +=
+        fmt::format("; {} takes most time, {:.2g} × the time without it", dearest->effect.words, dearest->time_ratio);
   return text + "." + beyond(s);
 }
 

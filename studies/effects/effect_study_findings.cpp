@@ -39,8 +39,8 @@ Rows ranking(const EffectStudy& s) {
                      fmt::format("{:+d}", l.events_added), fmt::format("{:.2f}", l.time_ratio), ""});
   }
   Rows table = words_table(
-      "Each effect left out of the full model",
-      {"left out", "greatest change", "numerical error", "in", "states", "nonzeros", "guards", "events", "time ×", ""},
+      "The full model without one effect at a time",
+      {"omitted", "greatest change", "numerical error", "in", "states", "nonzeros", "guards", "events", "time ×", ""},
       lines);
   table.apart = false;
   return table;
@@ -68,7 +68,7 @@ Rows matrix(const EffectStudy& s) {
   const std::vector<std::string> figures = figures_shown(s);
   auto table = table_of("", "Change of each figure", ran);
   table.even_if_empty = !figures.empty();
-  table.people_see_it_if(!figures.empty()).only_for_people("change when left out", words_of);
+  table.people_see_it_if(!figures.empty()).only_for_people("change when omitted", words_of);
   for (const std::string& name : figures)
     table.only_for_people(name, [&](const LeftOut& l) {
       const auto found =

@@ -33,7 +33,7 @@ const Figure* Result::find(const QuantityKind& what, const std::string& of) cons
 
 std::string Result::accuracy_in_words() const {
   return fmt::format(
-      "accuracy {:.1e} was asked for, {}", accuracy,
+      "accuracy {:.1e} requested, {}", accuracy,
       errors_measured ? fmt::format("{:.1e} measured", measured_accuracy) : "errors could not be measured");
 }
 

@@ -124,8 +124,8 @@ std::vector<double> OutputLoads::edges(int direction) {
 std::string OutputLoads::words_of_sequence() const {
   if (goes_round_)
     return fmt::format(
-        "the operating sequence switches loads of {} as it goes round: where the crank turns evenly all act, in the "
-        "motion of the machine those that are on",
+        "the operating sequence switches loads of {} within its repetition: with the crank at constant speed all act, "
+        "in the motion of the machine those that are on",
         mechanism_.name);
   std::vector<std::string> off;
   for (std::size_t k = 0; k < left_.size(); ++k)
@@ -326,7 +326,7 @@ const Section& chosen_mechanism(const Scene& scene, const std::string& wanted) {
   if (names.empty())
     throw std::invalid_argument(fmt::format(
         "{}: forces are found in the joints of mechanisms ({}), and there is none on its lines; add one (kurbel keys "
-        "{}), or ask for the torques of joints (kurbel run), forces of teeth (kurbel gears)",
+        "{}), or see the torques of joints (kurbel run), forces of teeth (kurbel gears)",
         scene.file, listed(kinds), kinds.front()));
   throw std::invalid_argument(
       fmt::format("--mechanism {}: no mechanism of that name; allowed: {}", wanted, listed(names)));

@@ -202,7 +202,7 @@ class Study {
     const SliderCrankStatics rough(out_.data, given);
     const ForceCycle cycle = cycle_along(rough, *loads_, prescribed_);
     out_.notes.push_back(
-        fmt::format("friction in the joints is left out{}: in the first problem it would take {} a cycle, and the "
+        fmt::format("friction in the joints is omitted{}: in the first problem it would take {} per cycle, and the "
                     "crank's torque would peak at {} instead of {}",
                     machine_->deforms() ? ", for clearance and a rod that bends cannot be had with it" : "",
                     with_unit(cycle.harmful.value, "J", 4), with_unit(std::abs(cycle.torque.value), "N*m", 5),
@@ -295,9 +295,9 @@ std::optional<double> operating_speed_of(const MachineMotion& machine) try {
 }  // namespace
 
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {
-  if (options.speed) return {*options.speed, "as asked for"};
+  if (options.speed) return {*options.speed, "as requested"};
   if (const std::optional<double> operating = operating_speed_of(machine))
-    return {*operating, "operating speed: there the mean torques of drive and load balance"};
+    return {*operating, "the operating speed, at which the mean torques of drive and load balance"};
   if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
   return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
 }

@@ -88,7 +88,8 @@ std::string checks_of(const ForceCycle& c) {
     text += fmt::format("; friction laws hold to {:.1e}, at most {} Newton steps a position", c.friction_residual,
                         c.most_iterations);
   if (c.both_edges > 0)
-    text += fmt::format("; the slider bears on both edges at {} of {} positions", c.both_edges, c.positions.size());
+    text +=
+        fmt::format("; the slider is in contact at both edges at {} of {} positions", c.both_edges, c.positions.size());
   return text;
 }
 

@@ -12,7 +12,7 @@ namespace {
 Plot guide_point_plot(const Forces& f) {
   Plot plot =
       angle_plot("Where the guide's reaction acts, from the slider pin towards the extended end", "point of action");
-  plot.note = "Beyond the guide's ends both edges bear.";
+  plot.note = "Beyond the guide's ends both edges are in contact.";
   // Where N passes through zero the point runs away to infinity: left out where it is as far beyond the guide's ends as
   // these are apart.
   const double reach = f.joints.guide.length > 0 ? 1.5 * f.joints.guide.length : 3 * f.data.radius;
@@ -66,9 +66,9 @@ std::vector<Plot> polar_plots(const Forces& f) {
                 [](P p) { return -1.0 * p.forces.crank_pin; }),
           locus(f, "Crank pin: rod on pin, turning with the crank", "outwards", "ahead",
                 [](P p) { return (-1.0 * p.forces.crank_pin).seen_from(p.state.phi); }),
-          locus(f, "Rod's big end: pin on rod, swinging with the rod", "along the rod", "across",
+          locus(f, "Rod's big end: pin on rod, in axes of the rod", "along the rod", "across",
                 [](P p) { return p.forces.crank_pin.seen_from(p.rod_angle); }),
-          locus(f, "Slider pin: slider on rod, swinging with the rod", "along the rod", "across",
+          locus(f, "Slider pin: slider on rod, in axes of the rod", "along the rod", "across",
                 [](P p) { return (-1.0 * p.forces.slider_pin).seen_from(p.rod_angle); }),
           locus(f, "Slider pin: rod on slider, in the frame", "along the stroke", "across",
                 [](P p) { return p.forces.slider_pin; })};

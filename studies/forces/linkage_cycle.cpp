@@ -372,11 +372,9 @@ LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& option
   Effects effects = options.effects.value_or(scene.effects);
   if (effects.joint_friction && asked.mechanism().joints) {
     effects.joint_friction = false;
-    out.notes.push_back(
-        fmt::format("{}: forces counts its joints as ideal, their friction is left out of motion and reactions; run "
-                    "and steady have "
-                    "it",
-                    asked.name));
+    out.notes.push_back(fmt::format(
+        "{}: forces takes its joints as ideal: motion and reactions do not include their friction; run and steady do",
+        asked.name));
   }
   const MachineMotion machine(asked, effects, options);
   const MechanismData& data = asked.mechanism().data;

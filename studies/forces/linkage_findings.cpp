@@ -179,9 +179,9 @@ std::string conclusion_of(const LinkageStudy& f) {
 std::string signs_of(const LinkageStudy& f) {
   return fmt::format(
       "Axes of the mechanism: origin on the crank's axis, +x along the {}, +y 90° ahead of it; angles, torques and "
-      "moments counter-clockwise. “{}: {} on {}” is the force that the first body does to the second; the second does "
-      "its opposite to the first. A slide's force is normal to it, positive 90° ahead of its direction; its moment is "
-      "about the pin that it is told at. The balancing torque is the shaft's on the crank. Shaking force and moment "
+      "moments counter-clockwise. “{}: {} on {}” is the force of the first body on the second; the second exerts the "
+      "opposite on the first. A slide's force is normal to it, positive 90° ahead of its direction; its moment is "
+      "about the pin at which it is given. The balancing torque is the shaft's on the crank. Shaking force and moment "
       "are those of all inertia forces −m a and couples −I ε on the frame, moments about the crank's axis; loads and "
       "weights are not in them.",
       f.rocks ? "ground link" : "stroke", front_of(f).positions.front().forces.joints[1].name,

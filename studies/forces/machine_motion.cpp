@@ -228,9 +228,9 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
         {along_round(loads, *loose, other.found ? other.z : orbit.point.z, looser_tolerance).along, 1});
     if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(orbit.still_changes, enough)), 1});
     const int cycles = static_cast<int>(std::lround(tight.along.cycle / loads.cycle()));
-    motion.description = fmt::format("the machine as it keeps going ({}), crank's cycle of {:.0f}°{}",
+    motion.description = fmt::format("steady motion of the machine ({}), crank's cycle of {:.0f}°{}",
                                      effects_ == "none" ? "rigid" : effects_, loads.cycle() * 360 / turn,
-                                     cycles > 1 ? fmt::format(", {} of them until it comes again", cycles) : "");
+                                     cycles > 1 ? fmt::format(", {} of them until it repeats", cycles) : "");
     motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
     motion.outside_data = kurbel::outside_data(*orbit.map, orbit.point);
     motion.kept = true;
@@ -259,7 +259,7 @@ MachineMotion::Window MachineMotion::round_of(const ReturnMap& map, const Eigen:
   window.way = angle_in(equations, outcome.state) - window.begin;
   for (const Event& e : outcome.events) window.events.push_back(ends.angle(e.t) + crank_.phase);
   const double cycles = std::abs(window.way) / cycle;
-  if (cycles < 0.5) throw std::invalid_argument("the crank does not turn round in the motion that the machine keeps");
+  if (cycles < 0.5) throw std::invalid_argument("the crank does not turn fully in the steady motion");
   if (std::abs(cycles - std::round(cycles)) > 1e-6 || cycles * cycle / turn > most_turns + 0.5)
     throw std::invalid_argument(
         fmt::format("what the machine keeps doing comes again after {:.6g} cycles of the crank", cycles));
@@ -296,7 +296,7 @@ MachineMotion::Sampled MachineMotion::along_round(OutputLoads& loads, const Retu
   PassageRecorder passages(crank_.tracked, crank_.node, forces_, where, std::move(targets), direction);
   const RunOutcome outcome = follow_period(map, z, equations, follow, {&passages});
   if (passages.passed.size() != where.size())
-    throw std::invalid_argument(outcome.diagnosis.empty() ? "the round ended before the crank's cycle"
+    throw std::invalid_argument(outcome.diagnosis.empty() ? "the motion ended before the crank's cycle"
                                                           : outcome.diagnosis);
   out.along.motion = std::move(passages.passed), out.machine = std::move(passages.machine);
   check_sense(out.along, direction);
@@ -346,7 +346,7 @@ MachineMotion::Sampled MachineMotion::one_run(const std::vector<Abscissa>& where
   integrate(equations, run_options(tolerance), {&passages, &ranges});
   if (passages.passed.size() != where.size())
     throw std::runtime_error(
-        "the simulated crank does not repeat its way between two tolerances; ask for more accuracy (run.accuracy)");
+        "the simulated crank does not repeat its motion between two tolerances; request more accuracy (run.accuracy)");
   out.along.motion = std::move(passages.passed), out.machine = std::move(passages.machine);
   out.outside_data = ranges.sentences();
   return out;
@@ -385,7 +385,7 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   const double first = last - direction;
   if (direction * (first * cycle - begin_angle) < -1e-9) {
     out.notes.push_back(fmt::format(
-        "second problem left out: the machine keeps no motion that turns the crank round ({}), and within {} the crank "
+        "second problem omitted: the machine has no steady motion with a turning crank ({}), and within {} the crank "
         "turns by {:.4g}°, less than a whole cycle of {:.0f}° that begins at a multiple of it; simulate longer "
         "(run.until) or start the machine",
         why, with_unit(outcome.t, "s", 4), std::abs(end_angle - begin_angle) * 360 / turn, cycle * 360 / turn));

@@ -63,7 +63,7 @@ Gears find_gears(const Scene& scene, const GearsOptions& options) {
                                             near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(names)));
   }
   for (const std::string& name : without_module)
-    if (wanted(name, options.pair)) gears.notes.push_back(fmt::format("{}: left out, its module is not given.", name));
+    if (wanted(name, options.pair)) gears.notes.push_back(fmt::format("{}: omitted, its module is not given.", name));
   return gears;
 }
 

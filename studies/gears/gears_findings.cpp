@@ -31,7 +31,7 @@ std::string summary_of(const GearStage& s) {
                                  p.data.teeth[1], in_millimetres * p.data.module, p.contact_ratio);
   if (p.overlap_ratio > 0) text += fmt::format(", ε_β = {:.3f}", p.overlap_ratio);
   const Finding worst = worst_of(s);
-  if (worst < Finding::warning) return text + ": sound geometry";
+  if (worst < Finding::warning) return text + ": valid geometry";
   int count = 0;
   std::string first;
   for (const GearVerdict& v : s.verdicts)

@@ -70,7 +70,7 @@ Plot specific_plot(const GearPair& p) {
           .series = {over_path(p, "wheel 1", Role::elastic, [&](double g) { return p.specific_sliding(g)[0]; }),
                      over_path(p, "wheel 2", Role::orange, [&](double g) { return p.specific_sliding(g)[1]; })},
           .marks = path_marks(p),
-          .note = fmt::format("Values beyond ±{:g} are left out: at a base circle ζ runs to −∞.", shown_sliding)};
+          .note = fmt::format("Values beyond ±{:g} are omitted: at a base circle ζ runs to −∞.", shown_sliding)};
 }
 
 Plot thickness_plot(const MeshedWheel& w, int i) {

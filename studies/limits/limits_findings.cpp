@@ -75,7 +75,7 @@ Rows verdict_table(const std::vector<Verdict>& verdicts) {
   // What matters first: a narrow page shows the left of it.
   constexpr std::size_t at_use = 1;
   Rows table =
-      table_of("verdicts", "Loads against the limits of components", verdicts)
+      table_of("verdicts", "Limits of the components", verdicts)
           .headed("limits")
           .text_in(4)
           .column("component", "component", &Verdict::component)
@@ -155,8 +155,8 @@ std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, cons
           name, reason_in_words(b), b.peak / b.limit));
     else if (b.by == BarredRange::By::rule)
       notes.push_back(
-          fmt::format("\"{}\" swings by more than {} at every speed looked at, by up to {:.3g} times: that rule tells "
-                      "no range to keep away from; give the limits of \"{}\"",
+          fmt::format("\"{}\" oscillates by more than {} at every speed examined, by up to {:.3g} times: that rule "
+                      "gives no barred range; give the limits of \"{}\"",
                       name, b.reason, b.peak / b.limit, name));
     else
       notes.push_back(

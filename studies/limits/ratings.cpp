@@ -178,8 +178,9 @@ class Rater {
     if (b.reserve && peak) {
       const bool slips = std::abs(peak->value) >= b.limit * (1 - 1e-9);
       add("reserve against slip: S |τ| ≤ M", *b.reserve * abs(*peak), peak->at, b.limit, "N*m", [&](double times) {
-        return Mend{.remedy = remedy("pretension", b.pretension * times, "N"),
-                    .more = slips ? "; it slips, and would carry more than it does with more" : ""};
+        // A belt that slips limits its torque: what it would have to transmit is not known.
+        if (slips) return Mend{.more = "; the belt slips, so that the torque without slip is larger and not known"};
+        return Mend{.remedy = remedy("pretension", b.pretension * times, "N")};
       });
       out_.back().factor = *b.reserve, out_.back().factors = fmt::format("S = {:g}", *b.reserve);
     }

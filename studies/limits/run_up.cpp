@@ -79,7 +79,7 @@ class Search {
       options.interrupted = watch_.interrupted;
       made_ = find_orbit(machine_, options);
     } catch (const std::exception& error) {
-      return none(fmt::format("from rest, which the scene does not tell: {}", error.what())), false;
+      return none(fmt::format("from rest, which the scene does not give: {}", error.what())), false;
     }
     const SteadyLoads there = steady_loads(made_, machine_, joints_);
     if (!there.found || std::abs(there.speed - loads_.speed) > same_motion * std::abs(loads_.speed)) {
@@ -170,7 +170,7 @@ class Search {
     out_.found = true;
     out_.words =
         fmt::format("{} from rest{}, {} at {:.4g} s",
-                    out_.made ? "a run-up made for it, not told by the scene," : "the scene's own start",
+                    out_.made ? "a run-up made for this purpose, not given by the scene," : "the scene's own start",
                     machine_->scene.run.start.equilibrium ? " with its twists in balance" : "", where_to(), out_.until);
   }
 

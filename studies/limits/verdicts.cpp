@@ -36,7 +36,7 @@ class Judge {
     if (limits_.vibratory > 0)
       counted("vibratory torque: S_t S_f T_W ≤ T_KW", abs(load_.swing), limits_.vibratory,
               {{"S_t", limits_.temperature_factor}, {"S_f", limits_.frequency_factor(load_.frequency_factor)}},
-              load_.frequency > 0 ? fmt::format("strongest at {:.4g} Hz", load_.frequency) : "it does not swing",
+              load_.frequency > 0 ? fmt::format("strongest at {:.4g} Hz", load_.frequency) : "it does not oscillate",
               "vibratory_torque");
     if (limits_.power > 0)
       add("dissipated power: P_W ≤ P_KW", abs(load_.power), limits_.power, "W", load_case::steady, "",
@@ -91,7 +91,7 @@ class Judge {
 
   std::string of_start() const { return fmt::format("at {:.4g} s of {}", peak_->time, run_up_.words); }
   std::string of_passing() const {
-    return fmt::format("a bound: steady swing at {}, which a quick passage stays below",
+    return fmt::format("a bound: steady amplitude at {}; a quick passage stays below it",
                        unit_.text(passing_->speed, 5));
   }
   bool passes() const { return passing_ && std::abs(passing_->torque) > std::abs(load_.largest().value); }
@@ -218,7 +218,7 @@ std::string name_of(const Verdict& v) {
 
 // "clutch", heat of an engagement (run): 132 % of the limit
 std::string use_in_words(const Verdict& v) {
-  if (v.gives_way) return name_of(v) + ": more than it holds";
+  if (v.gives_way) return name_of(v) + ": more than its capacity";
   return fmt::format("{}: {:.0f} % of the limit", name_of(v), 100 * v.share());
 }
 

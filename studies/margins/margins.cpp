@@ -78,7 +78,7 @@ OperatingSpeeds operating_speeds(const Model& m, std::optional<double> asked, st
     if (ratio > 0) speeds.slowest = o.speeds.front() / ratio, speeds.fastest = o.speeds.back() / ratio;
     return speeds;
   }
-  if (asked && *asked != 0) return one(*asked, "asked for");
+  if (asked && *asked != 0) return one(*asked, "requested");
   for (const MotorTorque& motor : m.motors) {
     const InductionData* data =
         m.network.data.find<InductionData>(motor.component);  // else its synchronous speed counts

@@ -48,7 +48,7 @@ std::string severity_text(const Margin& row) {
   if (!row.not_assessed.empty()) return "not assessed: " + row.not_assessed;
   if (!std::isfinite(row.response->amplitude)) return "unbounded in " + row.response->joint + ": nothing damps it";
   std::string text = with_unit(row.response->amplitude, "N*m", 4) + " in " + row.response->joint;
-  if (std::isfinite(row.response->share)) text += fmt::format(", {:.3g} % of its limit", 100 * row.response->share);
+  if (std::isfinite(row.response->share)) text += fmt::format(", {:.3g} % of the limit", 100 * row.response->share);
   return text;
 }
 

@@ -110,7 +110,7 @@ std::string other_speed(const SteadyCycle& c, const Measurement& m, const Alignm
     const SpeedUnit& unit = c.model->scene.speed_unit;
     return fmt::format(
         "{} model: its {} is {} in the mean, the record's {}: torques and fluctuations are those of another "
-        "speed; --mean-speed asks for the cycle of the record's",
+        "speed; --mean-speed finds the cycle at that of the record",
         c.label, m.signals[k].channel, unit.text(here, 4), unit.text(record, 4));
   }
   return {};

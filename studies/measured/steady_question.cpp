@@ -8,11 +8,10 @@ namespace kurbel {
 const OptionsOf<MeasurementRequest>& measurement_options() {
   static const auto made =
       OptionsOf<MeasurementRequest>()
-          .add(
-              {.name = "measured",
-               .doc = "a test's record (CSV: headings with units, a column \"time [s]\"), laid over the plots; what is "
-                      "left between them is told as figures"},
-              &MeasurementRequest::file)
+          .add({.name = "measured",
+                .doc = "a test's record (CSV: headings with units, a column \"time [s]\"), drawn over the plots; the "
+                       "difference is given as figures"},
+               &MeasurementRequest::file)
           .add({.name = "map",
                 .doc =
                     "which column of the record is which channel, e.g. \"T1=torque.main_coupling\"; with a unit where "

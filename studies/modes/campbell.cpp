@@ -135,7 +135,7 @@ std::string words_of(const ModesStudy& m, const Margin& row, double speed) {
                                  m.speed_unit.text(speed, 4), 100 * row.margin, line.label,
                                  line.source.empty() ? "" : " of " + line.source, mode.number, mode.name);
   if (!row.not_assessed.empty()) return text + "response not assessed: " + row.not_assessed;
-  return text + fmt::format("{} in {}\n{:.3g} % of its limit", torque_text(row.response->amplitude),
+  return text + fmt::format("{} in {}\n{:.3g} % of the limit", torque_text(row.response->amplitude),
                             readable(row.response->joint), 100 * row.response->share);
 }
 
@@ -354,14 +354,14 @@ Rows critical_table(const ModesStudy& m) {
       .people_see(severest)
       .column("speed", fmt::format("order meets mode at [{}]", m.speed_unit.name), &CriticalSpeed::speed,
               {.factor = m.speed_unit.of(1)})
-      .column("peak", fmt::format("swings most at [{}]", m.speed_unit.name), &CriticalSpeed::peak,
+      .column("peak", fmt::format("largest response at [{}]", m.speed_unit.name), &CriticalSpeed::peak,
               {.factor = m.speed_unit.of(1), .otherwise = "no peak"})
       .column("mode", "mode", &CriticalSpeed::mode)
       .column("order", "order", &CriticalSpeed::order, {.digits = 4, .otherwise = "unbounded"})
       .column("amplitude", "amplitude of that order there [N·m]", &CriticalSpeed::amplitude,
               {.digits = 5, .otherwise = "unbounded"})
       .column("joint", "in", [&](const CriticalSpeed& c) { return m.joint_names[c.joint]; })
-      .column("share", "of its limit [%]", [](const CriticalSpeed& c) { return c.share; },
+      .column("share", "share of the limit [%]", [](const CriticalSpeed& c) { return c.share; },
               {.factor = 100, .digits = 4, .otherwise = "unbounded"});
 }
 

@@ -228,13 +228,13 @@ Rows swing_table(const ModesStudy& m) {
                          : fmt::format("{} at {}", torque_text(most.peak), m.speed_unit.text(most.speed, 4)));
     }
   }
-  Rows table = words_table("Largest peak of the swinging torque over the operating speeds", headings, lines);
-  table.heading = "largest peak of the swinging torque over the operating speeds, by cases";
+  Rows table = words_table("Largest alternating torque over the operating speeds", headings, lines);
+  table.heading = "largest alternating torque over the operating speeds, by cases";
   return table;
 }
 
 std::optional<Plot> case_plot(const ModesStudy& m, std::size_t joint) {
-  Plot plot{.title = fmt::format("Swinging torque in {} over the speed, by cases", m.joint_names[joint]),
+  Plot plot{.title = fmt::format("Alternating torque in {} over the speed, by cases", m.joint_names[joint]),
             .x = {"speed of " + m.link, m.speed_unit.name},
             .y = {"peak of the torque", ""}};
   std::size_t role = 0;

@@ -240,9 +240,9 @@ void leave_out_what_is_not_kept(ModesStudy& found) {
   found.critical.erase(kept, found.critical.end());
   const std::size_t gone = found.not_kept.size();
   found.notes.push_back(fmt::format(
-      "at {} the machine does not stay by itself: small motions grow (a motor beyond its breakdown), or the "
-      "speed would swing by more than itself; {}what is barred there and spot checks are left out. Passing "
-      "through on the way up is judged by the start",
+      "at {} the machine cannot run continuously: small deviations grow (a motor beyond its breakdown), or the speed "
+      "would fluctuate by more than its mean; {}barred ranges there and spot checks are omitted. Passing these speeds "
+      "during run-up is judged by the start",
       where, gone > 0 ? fmt::format("{} critical speed{} (with the margins), ", gone, gone == 1 ? "" : "s") : ""));
 }
 
@@ -260,7 +260,7 @@ std::vector<CrossingResponse> responses_of(const ModesStudy& found) {
                    .not_assessed = why});
   };
   for (const CriticalSpeed& c : found.critical) add(c, "");
-  for (const CriticalSpeed& c : found.not_kept) add(c, "the machine does not stay there by itself");
+  for (const CriticalSpeed& c : found.not_kept) add(c, "the machine cannot run continuously there");
   std::map<double, Forcing> laws;
   for (const FrequencySource& f : found.excitations.by_frequency)
     laws.try_emplace(f.omega, Forcing::none(found.drive)).first->second.add(f.kind, f.index, f.amplitude);

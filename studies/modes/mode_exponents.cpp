@@ -96,9 +96,9 @@ class Exponents {
     mode.periodic.push_back(candidate.swing);
     if (!candidate.swing.branch_by_mean || (mode.periodic.size() > 1 && mode.periodic.front().branch_by_mean)) return;
     found_.notes.push_back(
-        fmt::format("frequencies of mode {} in the periodic system are known but for multiples of 1/T = {:.6g} Hz: "
-                    "other parts take its swing over within the round, so that its turns cannot be counted; told are "
-                    "those nearest to the mean's",
+        fmt::format("frequencies of mode {} in the periodic system are known except for multiples of 1/T = {:.6g} Hz: "
+                    "other parts take over the vibration within the cycle, so that its turns cannot be counted; given "
+                    "are those nearest to the mean's",
                     mode.number, 1 / spectrum_.time));
   }
   void give_own() {
@@ -126,11 +126,11 @@ class Exponents {
       give(mode, own[0]);
       give(mode, own[1]);
       const PeriodicSwing &one = mode.periodic[0], &two = mode.periodic[1];
-      found_.notes.push_back(
-          fmt::format("mode {} is locked to the round by what changes within it: it swings at {:.6g} Hz and {:.6g} Hz, "
-                      "with ζ = {:.4g} and {:.4g}; the mean of the coefficients says {:.6g} Hz and {:.4g}",
-                      mode.number, one.exponent.imag() / (2 * pi), two.exponent.imag() / (2 * pi), one.ratio(),
-                      two.ratio(), mode.lambda.imag() / (2 * pi), mode.ratio));
+      found_.notes.push_back(fmt::format(
+          "mode {} is locked to the cycle by what changes within it: it oscillates at {:.6g} Hz and {:.6g} Hz, "
+          "with ζ = {:.4g} and {:.4g}; the mean of the coefficients says {:.6g} Hz and {:.4g}",
+          mode.number, one.exponent.imag() / (2 * pi), two.exponent.imag() / (2 * pi), one.ratio(), two.ratio(),
+          mode.lambda.imag() / (2 * pi), mode.ratio));
     }
   }
 
@@ -148,9 +148,9 @@ class Exponents {
           !mode.only_of_mean ? "no exponent of the periodic system lies near " + which +
                                    ": its figures are those of the mean alone, with an error that is not known"
           : gone
-              ? "nothing of " + which + " is left after a round: contacts that hold within it take the swing away"
+              ? "nothing of " + which + " remains after a cycle: contacts that stick within it suppress the vibration"
               : which +
-                    " does not swing in the periodic system: what changes within the round makes a slow decay of it");
+                    " does not oscillate in the periodic system: changes within the cycle turn it into a slow decay");
     }
   }
   // One that swings and grows out of no other mode of the round's mean.
@@ -169,8 +169,8 @@ class Exponents {
       mode.fades_within_round = -mode.periodic.front().exponent.real() * spectrum_.time > fades;
       if (mode.fades_within_round)
         found_.notes.push_back(fmt::format(
-            "mode {} has faded long before a round is over: a swing that is started at one angle has the frequency of "
-            "the drive held there, between {:.4g} and {:.4g} Hz (undamped); {:.4g} Hz is the mean over the round",
+            "mode {} decays long before the end of a cycle: a vibration that starts at one angle has the frequency of "
+            "the drive held there, between {:.4g} and {:.4g} Hz (undamped); {:.4g} Hz is the mean over the cycle",
             mode.number, mode.least / (2 * pi), mode.greatest / (2 * pi),
             mode.periodic.front().exponent.imag() / (2 * pi)));
     }
@@ -187,7 +187,7 @@ class Exponents {
     if (!of) return;
     const PeriodicSwing& swing = of->periodic.front();
     found_.notes.push_back(fmt::format(
-        "coefficients change within the round: by the exponents of the periodic system mode {} swings at {:.6g} Hz "
+        "coefficients change within the cycle: by the exponents of the periodic system mode {} oscillates at {:.6g} Hz "
         "with ζ = {:.4g}, the mean of the coefficients says {:.6g} Hz and {:.4g}",
         of->number, swing.exponent.imag() / (2 * pi), swing.ratio(), of->lambda.imag() / (2 * pi), of->ratio));
   }

@@ -173,7 +173,7 @@ void add_wave_errors(ModesStudy& found) {
   if (really > static_cast<int>(found.modes.size()))
     found.notes.push_back(fmt::format(
         "up to {:.5g} Hz continuous shafts have {} modes by their exact dynamic stiffness, and {} are listed: the "
-        "others swing within shafts whose elements follow no such waves; give those shafts segments",
+        "others vibrate within shafts whose elements follow no such waves; give those shafts segments",
         above / (2 * pi), really, found.modes.size()));
 }
 
@@ -194,7 +194,7 @@ void list_modes(int count, ModesStudy& found) {
       found.notes.push_back(
           fmt::format("{} grows by itself at this point (λ = {:.4g} 1/s): the operating point is unstable: the torques "
                       "there feed it more than they damp it (as those of a motor below its breakdown speed)",
-                      d.lambda.imag() > 0 ? fmt::format("the swing at {:.5g} Hz", d.lambda.imag() / (2 * pi))
+                      d.lambda.imag() > 0 ? fmt::format("the vibration at {:.5g} Hz", d.lambda.imag() / (2 * pi))
                                           : "the motion as a whole",
                       d.lambda.real()));
       break;
@@ -249,7 +249,7 @@ void note_changes(const CycleSamples& samples, ModesStudy& found) {
   for (const auto& [component, count] : changes)
     list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", component, count);
   found.notes.push_back(
-      fmt::format("within a round of the steady motion contacts change: {}. Modes and forced response have them as "
+      fmt::format("within a cycle of the steady motion contacts change: {}. Modes and forced response have them as "
                   "they are at {:.4g}° of {}; what the joints do in the steady motion is that of the full equations",
                   list, samples.link_angle * 180 / pi, found.link));
 }
@@ -261,7 +261,8 @@ void note_missing_swings(ModesStudy& found) {
     const double linear = found.here.joints[j].peak, really = found.cycle->joints[j].peak;
     if (!(really > 1e-6 * std::abs(found.cycle->joints[j].mean) && linear < hardly * really)) continue;
     found.notes.push_back(fmt::format(
-        "the linear response says {} of {}, which swings by {} in the steady motion: its critical speeds, barred "
+        "the linear response says {} of {}, which has an amplitude of {} in the steady motion: its critical speeds, "
+        "barred "
         "ranges and curves over the speed do not hold{}",
         with_unit(linear, "N*m", 3), found.joint_names[j], with_unit(really, "N*m", 3),
         found.drive.model->effects.joint_clearance
@@ -301,8 +302,8 @@ void find_rattles(const CycleSamples& samples, int count, ModesStudy& found) {
   for (Rattle& rattle : found.rattles) {
     for (Eigen::Index i = modes.rigid; i < modes.omega.size(); ++i) rattle.omega.push_back(modes.omega[i]);
     found.notes.push_back(
-        fmt::format("\"{}\" rattles: its law changes piece {} times in a round of the steady motion, so that its "
-                    "stiffness hangs on the amplitude. At the mean twist it is {:.5g} N·m/rad, over the round as it is "
+        fmt::format("\"{}\" rattles: its law changes piece {} times in a cycle of the steady motion, so that its "
+                    "stiffness depends on the amplitude. At the mean twist it is {:.5g} N·m/rad, over the actual cycle "
                     "{:.5g} N·m/rad; with that the first mode lies at {:.5g} Hz",
                     found.joint_names[rattle.joint], rattle.changes, rattle.linear, rattle.stiffness,
                     rattle.omega.empty() ? 0.0 : rattle.omega.front() / (2 * pi)));

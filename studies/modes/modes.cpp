@@ -200,7 +200,7 @@ class Study {
     orbit_->words = fmt::format(
         "the scene's own start leads to none within a fifth of the budget ({:.3g} s of processor time)", most);
     found_.notes.push_back(
-        "not assessed, for want of a steady motion: torques in it, contacts that change within its round, limits in it "
+        "not assessed, for want of a steady motion: torques in it, contacts that change within its cycle, limits in it "
         "and on the way to it; a larger budget in [run] gives the start more time");
   }
 
@@ -262,10 +262,10 @@ class Study {
     options_.angle = found_.rests_at = place.angle;
     rest_ = place.orbit;
     samples_.reset();
-    found_.notes.push_back(fmt::format(
-        "small swings about the rest at {:.4g}° of \"{}\": weights and loads that hang on the angle act as springs, "
-        "K = −∂M/∂φ; the farther it swings, the less they hold",
-        place.angle * 180 / pi, found_.link));
+    found_.notes.push_back(
+        fmt::format("small vibrations about the position of rest at {:.4g}° of \"{}\": weights and loads that depend "
+                    "on the angle act as springs, K = −∂M/∂φ; valid for small amplitudes",
+                    place.angle * 180 / pi, found_.link));
   }
 
   void note_unsteady_motion() {
@@ -322,7 +322,7 @@ class Study {
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
     if (found_.excitations.by_order.empty() && found_.excitations.by_frequency.empty())
       found_.notes.push_back(
-          "nothing in the scene excites the drive by order or frequency: no torque depends on an angle or swings "
+          "nothing in the scene excites the drive by order or frequency: no torque depends on an angle or oscillates "
           "over time");
     note_missing_swings(found_);
   }

@@ -17,7 +17,7 @@ constexpr double of_weight = 0.1;  // share of a mode's energy that makes its na
 std::string first_mode(const Mode& mode) {
   constexpr double much = 0.005;
   std::string text = fmt::format("First mode at {:.6g} Hz", hertz(mode.omega));
-  if (!(mode.lambda.imag() > 0)) return text + " undamped (it does not swing: ζ ≥ 1)";
+  if (!(mode.lambda.imag() > 0)) return text + " undamped (it does not oscillate: ζ ≥ 1)";
   text += fmt::format(" (ζ = {:.3g}", mode.ratio);
   if (std::abs(mode.lambda.imag() - mode.omega) > much * mode.omega)
     text += fmt::format("; damped {:.4g} Hz", hertz(mode.lambda.imag()));
@@ -26,7 +26,7 @@ std::string first_mode(const Mode& mode) {
 
 // "mechanical and electrical: 0.86 Hz (ζ = 0.78)"
 std::string internal_mode(const ModesStudy& m, const Mode& mode) {
-  return fmt::format("{}: {:.4g} Hz (ζ = {:.3g})", nature_of(m, mode), hertz(mode.omega), mode.ratio);
+  return fmt::format("internal mode ({}) at {:.4g} Hz (ζ = {:.3g})", nature_of(m, mode), hertz(mode.omega), mode.ratio);
 }
 
 EnergyStore::Kind kind_of(const OwnState& state) {
@@ -47,17 +47,18 @@ std::size_t joint_to_tell(const ModesStudy& m, const SpeedResponse& said) {
   return joint;
 }
 
-// "at 1500 rpm "coupling" swings by 9.893 N·m about 153.9 N·m"
+// "at 1500 rpm the torque in "coupling" oscillates by ± 9.893 N·m about 153.9 N·m"
 std::string swing_at_that_speed(const ModesStudy& m) {
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
   const std::size_t j = joint_to_tell(m, said);
   const JointResponse& joint = said.joints[j];
-  std::string text = fmt::format("at {} \"{}\" swings by {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
-                                 m.joint_names[j], torque_text(joint.peak));
+  std::string text =
+      fmt::format("at {} the torque in \"{}\" oscillates by ± {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
+                  m.joint_names[j], torque_text(joint.peak));
   if (std::abs(joint.mean) > 1e-6 * joint.peak) text += " about " + torque_text(joint.mean);
   const double linear = m.here.joints[j].peak;
   if (m.cycle && std::abs(linear - joint.peak) > 0.1 * joint.peak)
-    text += fmt::format(" (the linear drive says {}: {:+.0f} %)", torque_text(linear), 100 * (linear / joint.peak - 1));
+    text += fmt::format(" (linear model: {}, {:+.0f} %)", torque_text(linear), 100 * (linear / joint.peak - 1));
   return text;
 }
 
@@ -120,7 +121,7 @@ std::string conclusion_of(const ModesStudy& m) {
       m.rests_at ? fmt::format("about its rest at {:.4g}° of {}", *m.rests_at * 180 / std::numbers::pi, m.link) : "";
   const std::size_t natural = natural_modes(m);
   if (natural == 0) {
-    text = m.rests_at ? "The machine does not swing " + rest : "The drive has no mode with twist";
+    text = m.rests_at ? "The machine does not oscillate " + rest : "The drive has no mode with twist";
   } else {
     text = first_mode(m.modes.front());
     if (m.rests_at) text += ", " + rest;

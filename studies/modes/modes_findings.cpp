@@ -43,12 +43,12 @@ std::string largest_shares(const std::vector<double>& share, const std::vector<s
 }
 
 std::string damped_text(const Mode& m) {
-  return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(6)) : "does not swing";
+  return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(6)) : "does not oscillate";
 }
 
 // Of the periodic system: damped frequency and damping ratio.
 std::string periodic_text(const Mode& m) {
-  if (m.only_of_mean) return "does not swing";
+  if (m.only_of_mean) return "does not oscillate";
   std::string text;
   for (const PeriodicSwing& swing : m.periodic)
     text += fmt::format("{}{}, {}{}", text.empty() ? "" : " and ", read_as(hertz(swing.exponent.imag()), digits(6)),
@@ -159,7 +159,7 @@ Rows response_table(const ModesStudy& m) {
       .people_see_first(is_forced(m) ? responses_shown : 0)
       .column("joint", "joint", [&](std::size_t j) { return m.joint_names[j]; })
       .column("mean", "mean [N·m]", of(&JointResponse::mean), digits(5))
-      .column("peak", "peak of swing [N·m]", of(&JointResponse::peak), digits(6));
+      .column("peak", "amplitude [N·m]", of(&JointResponse::peak), digits(6));
   if (m.cycle) {
     const auto really = [&](auto member) { return [&m, member](std::size_t j) { return m.cycle->joints[j].*member; }; };
     table.column("cycle_peak", "in the steady motion", really(&JointResponse::peak), digits(6))
@@ -194,7 +194,7 @@ Rows rainflow_table(const TorqueHistory& h) {
   }
   return table_of("", "Rainflow count (ASTM E1049)", std::move(list))
       .headed(fmt::format("rainflow count of the simulated {} (ASTM E1049), equivalent amplitude at m = {:g}: {}; "
-                          "ranges up to {} are not told from none",
+                          "ranges up to {} are within the error of zero",
                           h.channel, load_exponent, with_error(h.equivalent_amplitude, "N*m"),
                           torque_text(h.resolution)))
       .text_in(0)
@@ -307,7 +307,7 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
   const std::size_t j = joint_with_largest_swing(said);
   if (std::isfinite(said.joints[j].peak))
-    f.key(fmt::format("largest swing at {}", m.speed_unit.text(std::abs(m.drive.at.speed), 4)),
+    f.key(fmt::format("largest amplitude at {}", m.speed_unit.text(std::abs(m.drive.at.speed), 4)),
           {said.joints[j].peak, swing_error(m, j)}, "largest_swing", m.joint_names[j], 5);
 }
 
@@ -325,8 +325,9 @@ Formulas rayleigh(const ModesStudy& m) {
 Formulas about_rest(const ModesStudy& m) {
   const double stiffness = m.drive.stiffness.coeff(0, 0) + m.drive.other_stiffness.coeff(0, 0);
   return Formulas()
-      .add("The swing about its rest (theory 9)", "ω² = K / I_r, K = −∂M/∂φ", "ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s",
-           stiffness, m.drive.inertia[0], std::sqrt(stiffness / m.drive.inertia[0]))
+      .add("Vibration about its position of rest (theory 9)", "ω² = K / I_r, K = −∂M/∂φ",
+           "ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s", stiffness, m.drive.inertia[0],
+           std::sqrt(stiffness / m.drive.inertia[0]))
       .note(point_text(m) + ".");
 }
 

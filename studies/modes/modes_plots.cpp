@@ -82,7 +82,7 @@ Plot shape_plot(const ModesStudy& m) {
   if (plot.x.names.empty()) plot.note = numbered(m.shaft_names, "Shafts: ") + ", …";
   for (std::size_t i = 0; i < held.size() && i < m.shaft_names.size(); ++i)
     if (!held[i])
-      plot.note += fmt::format("{}No spring holds {}: left out.", plot.note.empty() ? "" : " ", m.shaft_names[i]);
+      plot.note += fmt::format("{}No spring holds {}: omitted.", plot.note.empty() ? "" : " ", m.shaft_names[i]);
   return plot;
 }
 
@@ -124,7 +124,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
         [&](const SpeedResponse* s) { return value(s->joints[j]); });
   };
   Plot plot{
-      .title = fmt::format("Swinging torque in {} over the speed", m.joint_names[j]),
+      .title = fmt::format("Alternating torque in {} over the speed", m.joint_names[j]),
       .x = {"speed of " + m.link, m.speed_unit.name},
       .y = {"torque", ""},
       .series = {

@@ -61,7 +61,8 @@ OptionsOf<ModesAsked> options() {
             .domain = positive},
            &ModesOptions::orders)
       .add({.name = "barred",
-            .doc = "bars speeds where a joint without limits swings by more than this times its mean or the rated "
+            .doc = "bars speeds where the torque of a joint without limits oscillates by more than this times its mean "
+                   "or the rated "
                    "torque (default: 1)",
             .example = "1",
             .what = "a plain number > 0",
@@ -81,7 +82,8 @@ OptionsOf<ModesAsked> options() {
             .each_time = true},
            &ModesOptions::spots)
       .add({.name = "no_misfires",
-            .doc = "where stresses of shafts are judged: leaves out the same as one cylinder after the other misfires"},
+            .doc =
+                "where stresses of shafts are judged: omits the response with one cylinder after the other misfiring"},
            &ModesOptions::misfires, false)
       .add({.name = "cases",
             .doc = "of the scene's [[case]]s those of these names; none: no case (default: all)",

@@ -37,9 +37,11 @@ std::string sentence(const ModesStudy& m, const SpotCheck& spot) {
   if (!spot.cycle)
     return begin + fmt::format("no nonlinear cycle was found beside the linear {} in {}: {}", linear,
                                m.joint_names[spot.joint], spot.why);
-  std::string text = begin + fmt::format("{} swings by {} in the nonlinear cycle, by {} in the linear response ({})",
-                                         m.joint_names[spot.joint], torque_text(really(spot, spot.joint).peak), linear,
-                                         difference_text(spot, spot.joint));
+  std::string text =
+      begin +
+      fmt::format("the torque of {} has an amplitude of {} in the nonlinear cycle, {} in the linear response ({})",
+                  m.joint_names[spot.joint], torque_text(really(spot, spot.joint).peak), linear,
+                  difference_text(spot, spot.joint));
   if (!spot.stable) text += "; the cycle is unstable: a machine held at this speed leaves it";
   return text;
 }
@@ -131,7 +133,7 @@ void say_spots(Findings& f, Chapter in, const ModesStudy& m) {
   f.say(in, spot_table(m));
   f.tell("spot_checks", each(m.spots, [&m](const SpotCheck& spot) { return spot_record(m, spot); }));
   if (const SpotCheck* spot = to_tell(m))
-    f.key(fmt::format("swing at {}, nonlinear", m.speed_unit.text(spot->speed, 5)),
+    f.key(fmt::format("amplitude at {}, nonlinear", m.speed_unit.text(spot->speed, 5)),
           {really(*spot, spot->joint).peak, spot->error(spot->joint)}, "spot_swing",
           fmt::format("{}; linear {}", m.joint_names[spot->joint], difference_text(*spot, spot->joint)), 5);
 }

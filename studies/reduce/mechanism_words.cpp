@@ -25,7 +25,7 @@ std::string time_ratio(const Mechanism& m) {
 
 std::string travel(const Mechanism& m) {
   if (m.arc()) return "its " + words_of_arc(m);
-  if (m.travel.winding != 0) return fmt::format("its output goes round {:g} times as often as it", m.travel.winding);
+  if (m.travel.winding != 0) return fmt::format("its output makes {:g} times as many turns as it", m.travel.winding);
   const char* unit = m.rocks() ? "deg" : "m";
   std::string centres;
   for (const double phi : m.travel.reversals)

@@ -93,10 +93,10 @@ class Reducer {
   }
   void find_cycle() {
     if (options_.speed)
-      throw std::invalid_argument(
-          fmt::format("--speed: the torques hang on more than angle and speed ({}), so they are those along the steady "
-                      "cycle, which has its own speed; leave the option out, or take --basis classical",
-                      fmt::join(beyond_, ", ")));
+      throw std::invalid_argument(fmt::format(
+          "--speed: the torques depend on more than angle and speed ({}), so they are those along the steady "
+          "cycle, which has its own speed; omit the option, or use --basis classical",
+          fmt::join(beyond_, ", ")));
     const Orbit orbit = orbit_of(model_, OrbitOptions{}.most_rounds);
     if (!orbit.repeats()) return without_a_cycle(orbit.words);
     const bool other = target_node_ != model().reduction_node;
@@ -122,7 +122,7 @@ class Reducer {
       machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
     } catch (const std::invalid_argument&) {
       throw std::invalid_argument(
-          fmt::format("the torques hang on more than angle and speed ({}), and {}", fmt::join(beyond_, ", "), text));
+          fmt::format("the torques depend on more than angle and speed ({}), and {}", fmt::join(beyond_, ", "), text));
     }
     r_.basis = ReduceBasis::classical;
     has_cycle_ = false;
@@ -131,7 +131,7 @@ class Reducer {
     choose_speed(*machine_, options_, r_);
   }
   std::string left_out() const {
-    return fmt::format("{} {} left out", fmt::join(beyond_, ", "), beyond_.size() == 1 ? "is" : "are");
+    return fmt::format("{} {} omitted", fmt::join(beyond_, ", "), beyond_.size() == 1 ? "is" : "are");
   }
 
   void choose_target() {
@@ -161,9 +161,9 @@ class Reducer {
     const std::string equation = rocks ? "I_r ε + ½ I_r′ ω² = M_d − M_c" : "m_r a + ½ m_r′ v² = F_d − F_c";
     r_.notes.push_back(
         r_.turns_back
-            ? fmt::format("{} goes to and fro: beside its dead centres what is reduced to it grows as 1/x′² and 1/x′, "
+            ? fmt::format("{} moves to and fro: near its dead centres quantities reduced to it grow as 1/x′² and 1/x′, "
                           "and figures hold between them; its mean velocity over a cycle is zero, so that it has no δ: "
-                          "that of \"{}\" is told by kurbel steady. Between two dead centres it moves by {}, but no "
+                          "kurbel steady gives that of \"{}\". Between two dead centres it moves by {}, but no "
                           "motion goes through them that way: kurbel run integrates it over time",
                           r_.to, r_.link, equation)
             : fmt::format("{} may be the reduction link: it moves by {} throughout, which is the equation of \"{}\" "
@@ -347,7 +347,7 @@ class Reducer {
           left_out += fmt::format("{}{} ({:.4g}°)", left_out.empty() ? "" : ", ", p.number, p.phi * 360 / turn);
       if (!left_out.empty())
         r_.notes.push_back(fmt::format(
-            "left out: position {}: a dead centre, where {} stands still; {} are infinite there", left_out, r_.to,
+            "omitted: position {}: a dead centre, where {} stands still; {} are infinite there", left_out, r_.to,
             r_.to_rocker ? "reduced inertia I_r/x′² and torque M/x′"
                          : "reduced mass m_r = I_r/x′² and force F_r = M/x′"));
     }
@@ -382,7 +382,8 @@ class Reducer {
         off = std::max(off, std::abs(c.inertia.value(s) / rigid - 1));
       }
       r_.notes.push_back(fmt::format(
-          "classical: at constant speed, rigid; left out is that the speed swings{}: in the steady cycle (mid speed "
+          "classical: at constant speed, rigid; the fluctuation of the speed is neglected{}: in the steady cycle (mid "
+          "speed "
           "{}) the mean driving torque is {}, the mean resisting torque {}, and 2T/ω² {}",
           and_effects(), r_.speed_unit.text(c.mid_speed()), in_place_of(c.cycle.drive.mean(), r_.mean_drive.value),
           in_place_of(c.cycle.load.mean(), r_.mean_load.value),

@@ -245,12 +245,11 @@ Formulas formulas_of(const MachineReduction& r) {
 
 std::string errors_text(const MachineReduction& r) {
   if (!r.inertia_error || !r.drive_error || !r.load_error)
-    return fmt::format(
-        "no errors are known{}: {}", r.inertia_error ? " of M_d and M_c" : "",
-        r.outside_data.empty() ? "nothing comes round" : "torques are taken from outside of their tables");
+    return fmt::format("no errors are known{}: {}", r.inertia_error ? " of M_d and M_c" : "",
+                       r.outside_data.empty() ? "nothing repeats" : "torques are taken from outside of their tables");
   return fmt::format(
-      "errors, on {}: I_r ± {:.1g} kg·m², M_d ± {:.1g} N·m, M_c ± {:.1g} N·m (found and sampled 100 times "
-      "less closely)",
+      "errors, on {}: I_r ± {:.1g} kg·m², M_d ± {:.1g} N·m, M_c ± {:.1g} N·m (from a repetition with tolerances and "
+      "samples 100 times coarser)",
       r.link, *r.inertia_error, *r.drive_error, *r.load_error);
 }
 
@@ -311,7 +310,7 @@ Findings findings_of(const MachineReduction& r) {
   f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
   f.conclude(true, conclusion_of(r));
   if (r.speed_source != "no torque depends on it")
-    f.conclude(true, fmt::format("Torques are those at {} of \"{}\": {}", r.speed_unit.text(r.speed, 5), r.link,
+    f.conclude(true, fmt::format("Torques are those at {} of \"{}\" ({})", r.speed_unit.text(r.speed, 5), r.link,
                                  r.speed_source));
   for (const std::string& sentence : r.outside_data) f.claim(Predicate::outside_data, sentence);
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),

@@ -103,7 +103,7 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
   if (!r.to_output)
     inertia.note = fmt::format("The drive adds a constant {:.6g} kg·m².", r.constant_inertia);
   else if (r.turns_back)
-    inertia.note = "Near the dead centres it grows beyond all bounds and is left out.";
+    inertia.note = "Near the dead centres it grows without bound and is omitted.";
   Plot slope{
       .title = fmt::format("Its derivative {}_r′", n.inertia),
       .x = {angle, "°"},

@@ -90,7 +90,7 @@ void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineRe
   if (machine.uses_speed() && machine.periodic()) {
     try {
       r.speed = operating_speed(machine).speed;
-      r.speed_source = "operating speed: there the mean torques of drive and load balance";
+      r.speed_source = "the operating speed, at which the mean torques of drive and load balance";
       return;
     } catch (const std::invalid_argument& error) {
       r.notes.push_back(fmt::format("no operating speed: {}", error.what()));

@@ -288,7 +288,7 @@ class SourceSearch {
     }
     if (worst > misfit_told * largest)
       found_.notes.push_back(fmt::format(
-          "torques hang on angle and time together: split into orders and frequencies they are off by up to "
+          "torques depend on angle and time together: split into orders and frequencies they are off by up to "
           "{:.1g} of the largest",
           worst / largest));
   }

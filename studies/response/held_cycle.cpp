@@ -168,7 +168,7 @@ class CycleSearch {
     else if (own_period)
       out_.why = "its own motion has a period that no law gives, which is known only where it is kept";
     else if (period.by_time && period.angle_matters)
-      out_.why = "what hangs on time and what hangs on an angle have no common period at this speed";
+      out_.why = "what depends on time and what depends on an angle have no common period at this speed";
     return out_.why.empty();
   }
 

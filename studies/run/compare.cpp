@@ -72,8 +72,8 @@ void note_sudden_loads(Comparison& c) {
   std::string text = "sudden loads (";
   for (std::size_t i = 0; i < sudden.size() && i < 3; ++i) text += (i ? "; " : "") + sudden[i];
   c.notes.push_back(text +
-                    "): however stiff the drive, after a step its peak torque tends not to the rigid one but to as "
-                    "much as twice it, the less it is damped; the motion does converge");
+                    "): even in a very stiff drive the peak torque after a step exceeds the rigid one, by up to a "
+                    "factor of two without damping; the motion itself converges to the rigid one");
 }
 
 // "; both with joint friction": what the two have in common beyond the bare machine.

@@ -85,9 +85,9 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   const char* unit = model.cycle > 0 ? "cycle" : "sixteenth of the time";
   const char* speed = model.cycle > 0 ? "mid" : "mean";
   if (d.means.size() < 3) {
-    periods.verdict = model.cycle > 0 ? fmt::format("{} whole cycle{}, of at least 3 that tell", d.means.size(),
+    periods.verdict = model.cycle > 0 ? fmt::format("{} whole cycle{}, of at least 3 needed", d.means.size(),
                                                     d.means.size() == 1 ? "" : "s")
-                                      : "too short a time to tell";
+                                      : "too short a time to decide";
     return;
   }
   const double noise = std::min(noise_of_tolerance * tolerance, most_noise) * std::abs(d.speed);

@@ -72,7 +72,7 @@ Rows statistics_table(const Results& results) {
   table.row("processor time of a run [ms]",
             [](const Result& r) { return fmt::format("{:.3g}", 1e3 * r.statistics.cpu_seconds); });
   table.row("runs", [](const Result& r) { return r.runs; });
-  table.row("accuracy asked for", [](const Result& r) { return fmt::format("{:.1e}", r.accuracy); });
+  table.row("requested accuracy", [](const Result& r) { return fmt::format("{:.1e}", r.accuracy); });
   table.row("accuracy measured", [](const Result& r) {
     return r.errors_measured ? fmt::format("{:.1e}", r.measured_accuracy) : std::string("—");
   });
@@ -254,11 +254,12 @@ std::string coarse_rows_note(const TrajectoryRecorder& t, std::int64_t steps) {
   if (!(missed > tolerable) || t.time().size() < 2) return {};
   const double enough = std::max(std::pow(10, std::ceil(std::log10(2.0 * static_cast<double>(steps)))),
                                  10 * static_cast<double>(t.time().size()));
-  const std::string beyond = missed < 1 ? fmt::format("goes {:.0f} % beyond them", 100 * missed / (1 - missed))
-                                        : "is something only between them";
+  const std::string beyond = missed < 1
+                                 ? fmt::format("exceeds them by {:.0f} % in between", 100 * missed / (1 - missed))
+                                 : "is zero in all of them";
   return fmt::format(
-      "the rows of trajectory.csv, one every {}, are coarser than the motion: {} {}; its peaks "
-      "stand in rows of their own, and samples = {:.0f} gives rows that follow it",
+      "the rows of trajectory.csv, one every {}, are too coarse for the motion: {} {}; its peaks have rows of their "
+      "own; samples = {:.0f} gives sufficient rows",
       told_shortly(t.time()[1] - t.time()[0], "s"), t.channels()[worst].name.text, beyond, std::min(enough, 1e6));
 }
 

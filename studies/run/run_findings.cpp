@@ -186,7 +186,7 @@ Brief brief_of(const Result& r) {
                        [&](const Claim& c) { return c.in_conclusion && c.text == note; });
   });
   std::string sure = r.errors_measured
-                         ? fmt::format("accuracy {:.1e} asked for, {:.1e} measured", r.accuracy, r.measured_accuracy)
+                         ? fmt::format("accuracy {:.1e} requested, {:.1e} measured", r.accuracy, r.measured_accuracy)
                          : std::string("errors were not measured");
   if (has_works(r)) sure += "; " + told(r.energy);
   brief.words = {std::move(sure)};

@@ -144,7 +144,7 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
   const std::string link = link_of(r);
   if (p.steady) {
     const double from = p.run_up_end.value_or(r.begins_at), to = p.run_down_begin.value_or(r.until);
-    plot->series.push_back({.name = "middle of its swing",
+    plot->series.push_back({.name = "middle of its vibration",
                             .role = Role::reference,
                             .x = {from, to},
                             .y = {speed.of(p.steady_speed), speed.of(p.steady_speed)},

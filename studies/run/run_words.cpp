@@ -101,16 +101,16 @@ std::string figures_in_words(const Result& r) {
   if (const Figure* delta = first_of(r, quantities::delta); delta && delta->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
   if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)
-    more(fmt::format("the speed of \"{}\" changes by {} of its middle in the last cycle, which is not steady",
+    more(fmt::format("the speed of \"{}\" changes by {} of its mid value in the last cycle, which is not steady",
                      cycle->of, told(*cycle)));
   for (const Figure& f : r.figures)
     if (f.words() == "thermal_use" && f.value <= 1)  // more is told before
       more(fmt::format(
-          "\"{}\" is used to {:.0f} % thermally (RMS over rated torque{})", f.of, 100 * f.value,
+          "the thermal load of \"{}\" is {:.0f} % (RMS over rated torque{})", f.of, 100 * f.value,
           r.model && !r.model->commands.empty() && f.at
               ? fmt::format(", {} {:.4g} s", r.model->cycle > 0 ? "in its heaviest cycle, up to" : "at", *f.at)
               : ""));
-  if (has_works(r) && nothing_turned_over(r.energy)) more("no work is done and no energy changes its form");
+  if (has_works(r) && nothing_turned_over(r.energy)) more("no work is done and no energy is converted");
   return text;
 }
 
@@ -140,7 +140,7 @@ std::vector<std::string> balance_words(const Result& r) {
         (e.free_bodies > 0 ? fmt::format("; torques of joints by both sides {:.1e}", e.free_bodies) : ""));
   }
   if (r.errors_measured)
-    lines.push_back(fmt::format("  accuracy: {:.1e} asked for, {:.1e} measured{}", r.accuracy, r.measured_accuracy,
+    lines.push_back(fmt::format("  accuracy: {:.1e} requested, {:.1e} measured{}", r.accuracy, r.measured_accuracy,
                                 r.accuracy_confirmed ? "" : " — NOT confirmed"));
   else if (r.complete)
     lines.push_back(r.unconfirmed() ? "  accuracy: errors could not be measured — NOT confirmed"

@@ -155,7 +155,7 @@ class Simulation {
     }
     coarse_ = std::move(fine_);
     fine_ = std::move(finer);
-    log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}, energy within {:.1e}; {:.1e} asked for",
+    log(fmt::format("  tolerances {:.0e} and {:.0e} agree within {:.1e}, energy within {:.1e}; {:.1e} requested",
                     before, tolerance_, error_by(coarse_.get(), nullptr), fine_->energy->relative(),
                     settings_.accuracy));
     return true;
@@ -228,15 +228,15 @@ class Simulation {
     result_.measured_accuracy = std::max(of_figures, of_energy);
     result_.errors_measured = true;
     result_.accuracy_confirmed = confirmed();
-    log(fmt::format("  errors of up to {:.1e}; {:.1e} asked for: {}", result_.measured_accuracy, settings_.accuracy,
+    log(fmt::format("  errors of up to {:.1e}; {:.1e} requested: {}", result_.measured_accuracy, settings_.accuracy,
                     result_.accuracy_confirmed ? "reached" : "not reached"));
     if (!result_.accuracy_confirmed) note_unconfirmed(of_energy);
   }
   void note_unconfirmed(double of_energy) {
     if (coarse_ && elsewhere_)
-      result_.notes.push_back(fmt::format(
-          "accuracy {:.1e} was asked for, {:.1e} was reached{}", settings_.accuracy, result_.measured_accuracy,
-          result_.measured_accuracy == of_energy ? fine_->energy->where(of_energy) : ""));
+      result_.notes.push_back(
+          fmt::format("accuracy {:.1e} requested, {:.1e} reached{}", settings_.accuracy, result_.measured_accuracy,
+                      result_.measured_accuracy == of_energy ? fine_->energy->where(of_energy) : ""));
     result_.notes.push_back(unconfirmed_.empty() ? "the tolerances cannot be tightened further"
                             : !elsewhere_        ? unconfirmed_ + "; errors are by the run before it"
                             : !coarse_           ? unconfirmed_ + "; errors are by a run by another method"
@@ -401,7 +401,7 @@ class Simulation {
     for (const std::string& what : std::set<std::string>(list.begin(), list.end())) {
       const auto times = std::count(list.begin(), list.end(), what);
       result_.notes.push_back(
-          fmt::format("{}: its events found no rest{}, so it follows a law without events; see the events", what,
+          fmt::format("{}: the contact chatters{}, so it follows a law without events; see the events", what,
                       times > 1 ? fmt::format(" {} times", times) : ""));
     }
   }

@@ -239,7 +239,7 @@ std::string keys_in_markdown() {
       "last\n"
       "speed goes on along its last slope where that falls, and is refused beyond it where it does not; a motion that "
       "takes\n"
-      "something from there says so, and what hangs on it has no error bar.\n\n"
+      "something from there says so, and figures that depend on it have no error bar.\n\n"
       "In place of points it may have a formula: `{ over = \"travel\", formula = \"p0*A*(s0/(s0 + x))^1.3\", range = "
       "[\"0 mm\", \"200 mm\"],\n"
       "with = { s0 = \"20 mm\" } }`; see [formulas.md](formulas.md). `use = \"table.gas\"` takes what is not given "
@@ -261,7 +261,7 @@ std::string keys_in_markdown() {
       "else (else\n"
       "`decimal = \",\"`). Lines with #, banners above the heading, a line of units below it, and empty columns are "
       "passed over.\n"
-      "Units are those of the heading, `speed [rad/s]` or `speed (rad/s)`; `unit` may then be left out, and is refused "
+      "Units are those of the heading, `speed [rad/s]` or `speed (rad/s)`; `unit` may then be omitted, and is refused "
       "where it\n"
       "says another one. What may be meant in two ways is refused with its line.\n\n"
       "## At the top\n\n"
@@ -290,17 +290,14 @@ std::string keys_in_markdown() {
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", effect.name, effect.adds, effect.parameters,
                         effect.states, effect.matters, unsaid_text(effect));
   text +=
-      "\n## Steps of `[sequence]`\n\n"
-      "`steps = [{ at = \"0.2 s\", set = [\"clutch\", \"brake\"], to = 0, over = \"40 ms\" }, { angle = \"130 deg\", "
-      "of = "
-      "\"press\", set = \"brake\" }]`. `set` names the components: clutches, brakes and motors take any value of `to`, "
-      "everything else (motors on a starter, too, which begin their start anew) is on or off, at once; of a mechanism "
-      "its loads are, while its links "
-      "move on (valves held open at a start; a press that strikes every third time: three steps at one angle, to = 1, "
-      "0, 0, and `repeat`); one of several loads by its number, `set = \"press.load2\"`: it acts where neither the "
-      "mechanism nor itself was told 0. With "
-      "`law` in place of `to` and `over` a command follows a table or a "
-      "formula of the time since its step.\n\n";
+      "\n## Steps of `[sequence]`\n\n`steps = [{ at = \"0.2 s\", set = [\"clutch\", \"brake\"], to = 0, over = \"40 "
+      "ms\" }, { angle = \"130 deg\", of = \"press\", set = \"brake\" }]`. `set` names the components: clutches, "
+      "brakes and motors take any value of `to`, everything else (motors on a starter, too, which begin their start "
+      "anew) is on or off, at once; of a mechanism its loads are, while its links move on (valves held open at a "
+      "start; a press that strikes every third time: three steps at one angle, to = 1, 0, 0, and `repeat`); one of "
+      "several loads by its number, `set = \"press.load2\"`: it acts where neither the mechanism nor itself has the "
+      "command 0. With `law` in place of `to` and `over` a command follows a table or a formula of the time since its "
+      "step.\n\n";
   text += rows(sequence_step_keys());
   text +=
       "\n## `[sequence]`\n\nThe steps, and when they begin anew: a round by the clock that takes longer than `every` "
@@ -322,7 +319,7 @@ std::string keys_in_markdown() {
       "\"press.slider\", position = \"430 mm\", velocity = \"-0.2 m/s\", towards = \"folded\" }`, the position from "
       "the "
       "crank's axis as in `position.press`; `towards` says on which stroke it stands as the crank turns forwards "
-      "(`\"extended\"`, `\"folded\"`; of a rocker `\"greatest\"`, `\"least\"`), unless told the one along its "
+      "(`\"extended\"`, `\"folded\"`; of a rocker `\"greatest\"`, `\"least\"`), by default the one along its "
       "velocity, "
       "at rest the one towards the folded end.\n\n"
       "## `[operation]`\n\n" +

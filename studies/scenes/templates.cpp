@@ -63,7 +63,7 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"knuckle", "knuckle-joint press: toggle links fall into line at the lower end", knuckle()},
       {"linkage", "six-link drawing press: any linkage by a sketch of its points", linkage()},
       {"rocker", "shaking screen: crank–rocker four-bar, loads on the rocker", rocker()},
-      {"feeder", "drum feeder: drag link, whose output goes round unevenly", feeder()},
+      {"feeder", "drum feeder: drag link, whose output rotates unevenly", feeder()},
       {"saw", "reciprocating saw: rod as long as the crank, through its change points", saw()},
       {"chain", "six inertias on couplings: start of a fan", chain()},
       {"fan", "fan started star–delta: cage motor by its catalogue's points", fan()},

@@ -232,7 +232,7 @@ class Sheet {
   }
   void read_station(const std::vector<TableCell>& row, Station& s, bool again) {
     if (const auto ratio = number(row, "ratio")) {
-      if (*ratio == 0) refuse(cell(row, "ratio")->at, "a speed ratio of 0: leave out what stands still");
+      if (*ratio == 0) refuse(cell(row, "ratio")->at, "a speed ratio of 0: omit what does not turn");
       if (again && std::abs(std::abs(*ratio) - s.ratio) > same_speed * s.ratio)
         refuse(cell(row, "ratio")->at,
                fmt::format("station {} has another speed ratio in line {}", in_quotes(s.said), s.at.line));

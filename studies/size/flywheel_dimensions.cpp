@@ -82,8 +82,9 @@ void make_rim(const FlywheelRequest& r, double limit, FlywheelDimensions& d) {
         "flywheel: {:.6g} kg·m² do not go into a rim of {:.6g} m with b = 2 h (at most {:.6g} kg·m²); {}, or "
         "choose --form disc",
         r.inertia, d.diameter, most,
-        r.diameter > 0 ? "give a larger --diameter"
-                       : "take a --material that bears more rim speed, or put the flywheel on a slower shaft"));
+        r.diameter > 0
+            ? "give a larger --diameter"
+            : "choose a --material with a higher allowable rim speed, or put the flywheel on a slower shaft"));
   d.thickness =
       grown_to([&](double h) { return Spoked(d.diameter, h, density).inertia(); }, r.inertia, 0, widest * d.diameter);
   const Spoked parts(d.diameter, d.thickness, density);

@@ -63,7 +63,7 @@ class Reach {
   // Torques of the angle alone, in balance: the cycle is the one that energy gives.
   void reach_family() {
     if (std::abs(s_.cycle.drive.mean() / s_.diagram.mean_torque() - 1) > 1e-6) {
-      s_.notes.push_back("no regime: the drive of the scene does not balance its load at any speed");
+      s_.notes.push_back("no steady motion: the drive of the scene does not balance its load at any speed");
       return;
     }
     const SpeedCycle cycle(s_.diagram, s_.cycle.mechanism, s_.exact.inertia, s_.mid_speed);
@@ -137,7 +137,8 @@ class Reach {
     if (!found.orbit && first.crank.value <= s_.delta) return;  // it is smooth enough as it is
     if (!found.orbit) {
       s_.meeting_words = fmt::format(
-          "no flywheel was found with which the {} machine has δ = {:g}: the least of {} regimes is {:.5g}, with "
+          "no flywheel was found with which the {} machine has δ = {:g}: the least of {} steady motions is {:.5g}, "
+          "with "
           "{:.6g} kg·m²",
           which, s_.delta, found.orbits, found.least, found.least_at);
       if (!found.unknown.empty())
@@ -145,7 +146,7 @@ class Reach {
       return;
     }
     const double on_shaft = found.orbit->flywheel + others_;
-    s_.meeting = SizeMethod{fmt::format("regime, {}", which),
+    s_.meeting = SizeMethod{fmt::format("steady motion, {}", which),
                             on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
                             found.orbit->flywheel,
                             flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
@@ -184,7 +185,7 @@ void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
   } else if (s.delta_of_orbit) {
     const double least = *s.delta_of_orbit, by_work = s.delta_now;
     s.notes.push_back(
-        fmt::format("the work equation of the rigid machine leaves out {}: at the scene's own inertia it gives {}, the "
+        fmt::format("the work equation of the rigid machine omits {}: at the scene's own inertia it gives {}, the "
                     "steady cycle has δ = {:.5g}",
                     what.empty() ? "what the scene's effects change" : what,
                     std::isnan(by_work) ? "no cycle (the machine would stop)"
@@ -192,13 +193,13 @@ void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
                     least));
   } else if (!what.empty()) {
     s.notes.push_back(
-        fmt::format("classical: {} left out{}", what, beyond.size() == 1 ? " is" : " are") +
+        fmt::format("classical: {} omitted{}", what, beyond.size() == 1 ? " is" : " are") +
         (rigid ? fmt::format("; with it the sized machine has δ = {:.5g} instead of {:g}", rigid->crank.value, s.delta)
                : std::string()));
   }
   if (rigid && elastic && s.basis == SizeBasis::classical)
     s.notes.push_back(
-        fmt::format("the work equation leaves out elasticity: with it δ is {:.5g} instead of {:.5g} ({:+.3g} %)",
+        fmt::format("the work equation omits elasticity: with it δ is {:.5g} instead of {:.5g} ({:+.3g} %)",
                     elastic->crank.value, rigid->crank.value, 100 * (elastic->crank.value / rigid->crank.value - 1)));
 }
 

@@ -37,7 +37,7 @@ std::string conclusion_of(const Sizing& s) {
         s.estimate ? "by an estimate, the rigid machine without its losses, " : "", s.delta,
         exact.drive_inertia > 0
             ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
-            : std::string("its torques would not swing the speed as far with any inertia"));
+            : std::string("its torques would not make the speed fluctuate as much with any inertia"));
   std::string text = s.estimate ? fmt::format(
                                       "{}: an estimate, by the rigid machine without its losses: a flywheel of about "
                                       "{:.3g} kg·m² on {} for δ = {:g} {}",
@@ -48,9 +48,10 @@ std::string conclusion_of(const Sizing& s) {
       fmt::format(", at a mid speed of {} of {} ({})", s.speed_unit.text(s.mid_speed, 4), s.link, s.mid_speed_source);
   if (s.soft) {
     const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
-    text += s.soft->flywheel > 0 ? fmt::format("; with {} counted {:.6g} kg·m² do ({:.3g} % {})", slope_of_what(s),
-                                               s.soft->flywheel, std::abs(less), less >= 0 ? "less" : "more")
-                                 : fmt::format("; with {} counted none is needed", slope_of_what(s));
+    text += s.soft->flywheel > 0
+                ? fmt::format("; with {} considered {:.6g} kg·m² suffice ({:.3g} % {})", slope_of_what(s),
+                              s.soft->flywheel, std::abs(less), less >= 0 ? "less" : "more")
+                : fmt::format("; with {} considered none is needed", slope_of_what(s));
   }
   if (!s.meeting_words.empty()) text += "; " + s.meeting_words;
   return text;
@@ -59,9 +60,8 @@ std::string conclusion_of(const Sizing& s) {
 // What the sized machine has, a sentence a model: δ is demanded of the crank, and judged there.
 std::string words_of(const Sizing& s, const DeltaReached& r) {
   return fmt::format(
-      "{}, with {:.4g} kg·m², it has δ = {:.5g} at the crank, where {:g} is demanded{}",
-      r.model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", s.chosen().flywheel, r.crank.value,
-      s.delta,
+      "{} with {:.6g} kg·m², δ is {:.5g} at the crank, where {:g} is demanded{}",
+      r.model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", r.flywheel, r.crank.value, s.delta,
       s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.5g} at the motor", r.motor.value));
 }
 
@@ -345,7 +345,7 @@ void add_answers(Findings& f, const Sizing& s) {
   if (s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta)
     f.claim(claimed(
         Predicate::demand_missed,
-        fmt::format("{}{:.6g} kg·m², by the work equation, do not keep δ = {:g}: simulated it is {:.4g} at the "
+        fmt::format("{}{:.6g} kg·m², by the work equation, are too little for δ = {:g}: simulated, δ is {:.4g} at the "
                     "crank, {:.3g} times that",
                     s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",
                     exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),

@@ -62,7 +62,7 @@ OptionsOf<SizeOptions> options() {
             .what = "a length > 0",
             .domain = positive},
            &Asked::sheet)
-      .add({.name = "no_simulation", .doc = "do not look for the regime of the sized machine"}, &Asked::simulate,
+      .add({.name = "no_simulation", .doc = "do not compute the steady motion of the sized machine"}, &Asked::simulate,
            false);
 }
 

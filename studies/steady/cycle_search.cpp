@@ -273,16 +273,25 @@ class Search {
 
   // --- figures ---
 
+  // An equilibrium has no cycles to count: there the time is told.
+  std::string stability_in_words() {
+    const std::string text = stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error);
+    if (out_.kind != Orbit::Kind::equilibrium || !out_.halving) return text;
+    const std::size_t after = text.find(" cycles");
+    return text.substr(0, text.find(" in ") + 4) + fmt::format("{:.3g} s", *out_.halving * out_.cycle_time) +
+           text.substr(after + std::string_view(" cycles").size());
+  }
+
   void describe() {
     out_.periodicity = map_->periodicity();
     out_.unknowns = map_->size();
     out_.section = map_->section_angle();
     out_.cycle_time = out_.point.time;
-    out_.stability =
-        !out_.uncertain ? stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error)
-        : out_.kind == Orbit::Kind::vibrating ? "its stability is not assessed"
-        : out_.point.grazed ? "of uncertain stability, for an event is only just touched; the run comes here and stays"
-                            : "the run comes here and stays";
+    out_.stability = !out_.uncertain                       ? stability_in_words()
+                     : out_.kind == Orbit::Kind::vibrating ? "its stability is not assessed"
+                     : out_.point.grazed
+                         ? "of uncertain stability, for an event is only just touched; the run comes here and stays"
+                         : "the run comes here and stays";
     out_.neutral = out_.point.neutral();
     Round fine = go_round(*map_, out_.point, map_tolerance);
     if (!fine.failed.empty()) {

@@ -128,7 +128,7 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
   if (std::abs(least->net()) <= balance_error)
     return fmt::format(
         "the drive's mean torque on \"{}\" just balances the loads' at {} and falls behind at every other speed: "
-        "whether the machine keeps that speed is not told by mean torques",
+        "mean torques do not decide whether the machine keeps that speed",
         link, speed_text(speed_unit, least->omega));
   if (least->net() < 0)
     return fmt::format(

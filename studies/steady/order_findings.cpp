@@ -90,7 +90,7 @@ std::optional<Plot> bars_of_orders(const SteadyStudy& s, const std::string& name
       unit = of->unit;
       const FigureCells mean = figure_cells({of->mean}, unit, c.model->scene.speed_unit);
       plot.note +=
-          fmt::format("{}{}: mean {} {}, orders that matter hold {:.6g} % of what swings",
+          fmt::format("{}{}: mean {} {}, orders that matter contain {:.6g} % of the oscillation's mean square",
                       plot.note.empty() ? "" : "; ", c.label, mean.value, mean.unit, 100 * of->captured(of->telling()));
     }
   plot.note += ".";

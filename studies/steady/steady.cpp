@@ -107,7 +107,7 @@ class Study {
       out_.notes.push_back(out_.later);
     else if (options_.at.any())
       out_.notes.push_back(
-          fmt::format("the machine as it is {}: what is switched later is left out", options_.at.describe()));
+          fmt::format("the machine as it is {}: what is switched later is omitted", options_.at.describe()));
     find_diagram(*model);
     refuse_family();
     for (const Effects& effects : effects_)
@@ -143,18 +143,18 @@ class Study {
     if (out_.diagram->estimate)
       out_.notes.push_back(
           "operating points are estimates, by the static torques of the rigid machine: losses that depend on the load, "
-          "or states of its own, are left out of them; the steady cycle and the start from rest have them");
+          "or internal states, are not in them; the steady cycle and the start from rest include them");
   }
   std::string why_no_diagram(const Model& m) const {
     if (!scene_.sequence.steps.empty()) return "the operating sequence sets what drives and brakes";
     for (const ElasticJoint& e : m.elastic)
       if (e.slips || e.springless)
-        return fmt::format("\"{}\" may slip, so that one speed does not tell all torques",
+        return fmt::format("\"{}\" may slip, so that one speed does not determine all torques",
                            m.network.joints[at(e.joint)].component);
     if (prescribed_node(m) >= 0) return "a speed is prescribed: the drive gives whatever torque that needs";
     const Periodicity periodicity = periodicity_of(m);
     if (periodicity.by_time || periodicity.settled_from > 0 || is_switched(m.network))
-      return "a torque depends on time: angle and speed alone do not tell the mean torques";
+      return "a torque depends on time: angle and speed alone do not determine the mean torques";
     return {};
   }
   int sense() const {
@@ -178,7 +178,7 @@ class Study {
     compile(scene_, effects);
     return true;
   } catch (const SceneError& open) {
-    out_.notes.push_back(fmt::format("the machine with {} is left out: {}",
+    out_.notes.push_back(fmt::format("the machine with {} is omitted: {}",
                                      effects.describe() == "none" ? "no effects" : effects.describe(),
                                      open.messages.front().text));
     return false;
@@ -190,8 +190,8 @@ class Study {
     progress("steady cycle with effects: " + effects.describe(), 0);
     SteadyCycle cycle = search_cycle(scene_, effects, options_);
     log(
-        fmt::format("{}: {} unknowns; {} after a run of {} rounds and {} of Newton's, {} with derivative; cost {:.1f} "
-                    "cycles, {:.0f} aimed at; residual {:.1e}; {:.3g} ms",
+        fmt::format("{}: {} unknowns; {} after a run of {} cycles and {} of Newton's, {} with derivative; cost {:.1f} "
+                    "cycles (target {:.0f}); residual {:.1e}; {:.3g} ms",
                     cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.rounds,
                     cycle.point.rounds, cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual,
                     1e3 * cycle.cpu_seconds));
@@ -213,8 +213,8 @@ class Study {
     const bool stands = cycle.kind == Orbit::Kind::at_rest || cycle.kind == Orbit::Kind::equilibrium;
     if (stands && !scene_.sequence.steps.empty() && !options_.at.any())
       return fmt::format(
-          "{}. All steps of the sequence are done then; --at \"step N\" asks for the motion that the machine would "
-          "keep after the Nth of them ({} in all)",
+          "{}. All steps of the sequence are done then; --at \"step N\" gives the steady motion after the Nth of them "
+          "({} in all)",
           cycle.why, scene_.sequence.steps.size());
     if (is_interrupted(cycle) || !out_.diagram || options_.holds_speed()) return cycle.why;
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
@@ -273,13 +273,13 @@ class Study {
     }
     std::string text;
     for (const SteadyCycle& c : out_.cycles) {
-      const char* begin = c.kind == Orbit::Kind::equilibrium ? "Equilibrium, "
-                          : c.kind == Orbit::Kind::vibrating ? "Vibration about a place, "
-                                                             : "Steady cycle, ";
+      const std::string begin = c.kind == Orbit::Kind::equilibrium ? fmt::format("Equilibrium of \"{}\", ", out_.link)
+                                : c.kind == Orbit::Kind::vibrating ? std::string("Vibration about a position, ")
+                                                                   : fmt::format("Steady cycle of \"{}\", ", out_.link);
       text += fmt::format("{}{}: {}, {}", text.empty() ? begin : "; ", c.label,
                           c.kind == Orbit::Kind::vibrating ? vibration_text(c) : speed_text(c), c.stability);
       if (c.held_quantity)
-        text += fmt::format(", with {} = {} in place of {}", c.held_quantity->key,
+        text += fmt::format(", with {} = {} instead of {}", c.held_quantity->key,
                             with_unit(c.held_quantity->value, c.held_quantity->unit, 6),
                             with_unit(c.held_quantity->of_scene, c.held_quantity->unit, 6));
       else if (options_.holds_speed())
@@ -287,7 +287,7 @@ class Study {
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),
                         c.added_torque < 0 ? "less" : "more", c.added_at);
     }
-    out_.conclusion = text + (out_.later.empty() ? "." : fmt::format(". In the end {}.", out_.later));
+    out_.conclusion = text + (out_.later.empty() ? "." : fmt::format(". At the end {}.", out_.later));
   }
 
   const Scene& scene_;

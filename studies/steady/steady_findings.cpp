@@ -249,7 +249,7 @@ Plot diagram_plot(const SteadyStudy& s) {
                        series_of("loads M_c", Role::orange, d.curve, speed, &MeanTorques::load)},
             .note = "Mean over a cycle at constant speed, reduced to " + s.link +
                     "; stable where the drive's falls below." +
-                    (d.estimate ? " An estimate: losses by the load, or states of the machine, are left out." : "")};
+                    (d.estimate ? " An estimate: losses by the load, or states of the machine, are omitted." : "")};
   const double largest = largest_of(plot);
   for (const bool stable : {true, false}) {
     std::vector<OperatingPoint> points;

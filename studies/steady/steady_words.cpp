@@ -45,12 +45,12 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   words.push_back(c.stability);
   if (!c.orbit.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.orbit));
   words.push_back(fmt::format(
-      "{} unknown{} on the section at {:.4g}°; {}{} round{} of Newton's method ({} with derivative), {:.3g} cycles' "
-      "worth ({:.0f} aimed at{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
+      "{} unknown{} on the section at {:.4g}°; {}{} cycle{} of Newton's method ({} with derivative), cost {:.3g} "
+      "cycles (target {:.0f}{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
       c.unknowns, c.unknowns == 1 ? "" : "s", c.section * in_degrees,
-      c.rounds > 0 ? fmt::format("a run of {} round{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
+      c.rounds > 0 ? fmt::format("a run of {} cycle{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
       c.point.rounds, c.point.rounds == 1 ? "" : "s", c.point.derivatives, c.cost, c.cost_limit,
-      c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; the run-up takes most" : "", 1e3 * c.cpu_seconds,
+      c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; mostly the run-up" : "", 1e3 * c.cpu_seconds,
       c.point.residual, c.work_residual));
   if (c.point.grazed)
     words.push_back("an event is only just touched on the way: there the multipliers depend on the side");
@@ -145,7 +145,7 @@ std::string stability_text(const std::vector<std::complex<double>>& multipliers,
   if (halving) halving->reset();
   const std::complex<double> slowest = multipliers.empty() ? 0 : multipliers.front();
   const double size = std::abs(slowest);
-  const char* swinging = std::abs(slowest.imag()) > 1e-9 * size || slowest.real() < -1e-9 ? ", swinging" : "";
+  const char* swinging = std::abs(slowest.imag()) > 1e-9 * size || slowest.real() < -1e-9 ? ", oscillating" : "";
   if (!multipliers.empty() && std::abs(size - 1) <= error)
     return "neutral: a deviation neither fades nor grows (multiplier 1), the cycle is one of a family";
   if (size > 1)

@@ -162,7 +162,7 @@ std::string conclusion_of(const SweepStudyResult& s) {
   for (const FigureInfluence& f : s.influences) {
     if (f.ranked.empty()) continue;
     const Influence& most = f.ranked.front();
-    text += fmt::format("; {} hangs most on {} ({} of its variance)", s.identity.figures[f.figure].name,
+    text += fmt::format("; {} depends most on {} ({} of its variance)", s.identity.figures[f.figure].name,
                         s.identity.parameters[most.parameter].path, percent(std::clamp(most.first.value, 0.0, 1.0)));
     break;
   }

@@ -177,14 +177,14 @@ class TrainReport {
     if (cases_of(scene.text, scene.file).empty())
       lines.push_back("cases of failure: the scene names none ([[case]])");
     else if (asked_.cases.size() == 1 && asked_.cases.front() == "none")
-      lines.push_back("the scene's cases of failure: left out by --cases");
+      lines.push_back("the scene's cases of failure: omitted by --cases");
     if (tolerances_of(scene.text, scene.file).empty())
       lines.push_back("what tolerances do to the margins: the scene gives none");
     std::vector<std::string> left_out;
     for (std::size_t s = 0; s < section_names.size(); ++s)
       if (!wanted_[s]) left_out.emplace_back(section_names[s].word);
     if (!left_out.empty())
-      lines.push_back(fmt::format("sections left out by --sections: {}", fmt::join(left_out, ", ")));
+      lines.push_back(fmt::format("sections omitted by --sections: {}", fmt::join(left_out, ", ")));
     lines.push_back(
         "lateral and axial vibration; faults of the mains, and whatever else neither the scene's sequence nor its "
         "cases "

@@ -152,7 +152,7 @@ std::vector<std::string> not_assessed(const std::vector<Part>& parts) {
   std::vector<std::string> lines;
   for (const Part& part : parts) {
     if (!part.assessed()) {
-      lines.push_back(fmt::format("what kurbel {} would tell: {}", part.question, part.why));
+      lines.push_back(fmt::format("results of kurbel {}: {}", part.question, part.why));
       continue;
     }
     if (!part.output.complete) lines.push_back(fmt::format("{}: {}", part.question, part.output.diagnosis));

@@ -78,7 +78,7 @@ std::vector<MovedFigure> moved_by(const Trial& trial, const SpeedUnit& speed) {
 
 std::string one_line(const MovedFigure& moved) {
   if (moved.on == "—") return fmt::format("{}: on, the run would have no {}", moved.effect, moved.figure);
-  return fmt::format("{}: on would move {} from {} to {} ({})", moved.effect, moved.figure, moved.off, moved.on,
+  return fmt::format("{}: on would change {} from {} to {} ({})", moved.effect, moved.figure, moved.off, moved.on,
                      moved.change);
 }
 
@@ -151,14 +151,17 @@ void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
     if (f.brief) f.brief->words.push_back("the rigid machine: its run failed: " + rigid.failed);
   } else if (differs == rigid.changes.end()) {
     if (f.brief)
-      f.brief->words.push_back(fmt::format("the rigid model would do: its key figures differ by less than {:g} %",
+      f.brief->words.push_back(fmt::format("the rigid model is sufficient: its key figures differ by less than {:g} %",
                                            100 * least_that_changes_the_answer));
   } else {
-    const MovedFigure moved = moved_by(rigid, speed).front();
+    // A figure that both machines have, where one differs.
+    const std::vector<MovedFigure> all = moved_by(rigid, speed);
+    const auto both = std::find_if(all.begin(), all.end(), [](const MovedFigure& m) { return m.on != "—"; });
+    const MovedFigure& moved = both == all.end() ? all.front() : *both;
     f.claim(Predicate::effect_matters, moved.on == "—"
                                            ? fmt::format("The rigid model has no {}", moved.figure)
-                                           : fmt::format("The rigid model would tell {} in place of {} for {} ({})",
-                                                         moved.on, moved.off, moved.figure, moved.change));
+                                           : fmt::format("The rigid model gives {} instead of {} for {} ({})", moved.on,
+                                                         moved.off, moved.figure, moved.change));
   }
 }
 
@@ -168,9 +171,8 @@ void show_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
     f.tell("rigid", Record{{"failed", rigid.failed}});
     return;
   }
-  f.say(f.chapter_named(chapter_of_rigid),
-        moved_table("Key figures that the rigid machine (grey, behind) has otherwise", moved_by(rigid, speed),
-                    "elastic", "rigid", false));
+  f.say(f.chapter_named(chapter_of_rigid), moved_table("Key figures that differ in the rigid machine (grey curves)",
+                                                       moved_by(rigid, speed), "elastic", "rigid", false));
   f.tell("rigid", Record{changes_of(rigid, "elastic", "rigid")});
 }
 
@@ -195,13 +197,12 @@ void conclude(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   if (count > 0) {
     const MovedFigure moved = moved_by(*moving.front(), speed).front();
     f.claim(Predicate::effect_matters,
-            moved.on == "—"
-                ? capitalised(fmt::format("{}, which is off, would leave no {}", moved.effect, moved.figure))
-                : capitalised(fmt::format("{}, which is off, would move {} from {} to {} ({})", moved.effect,
-                                          moved.figure, moved.off, moved.on, moved.change)));
+            moved.on == "—" ? capitalised(fmt::format("{}, which is off, would give no {}", moved.effect, moved.figure))
+                            : capitalised(fmt::format("{}, which is off, would change {} from {} to {} ({})",
+                                                      moved.effect, moved.figure, moved.off, moved.on, moved.change)));
   }
   if (!f.brief) return;
-  std::string words = fmt::format("effects that are off: {} of {} tried would move a key figure by {:g} % or more",
+  std::string words = fmt::format("effects that are off: {} of {} tried would change a key figure by {:g} % or more",
                                   count, trials.tried.size(), 100 * least_that_changes_the_answer);
   if (!trials.not_tried.empty()) words += fmt::format("; {} not tried (report)", trials.not_tried.size());
   f.brief->words.push_back(std::move(words));

@@ -95,7 +95,7 @@ class UncertaintyWork {
         }
         if (!std::isfinite(share.deviation)) {
           study_.notes.push_back(
-              fmt::format("{}: no gradient by {}, beside its value the machine does not run; it counts as none",
+              fmt::format("{}: no gradient by {}: at a value beside it the figure does not exist; it counts as none",
                           figure.figure.name, swept_[p].path));
           share.gradient = share.deviation = 0, share.noise.reset();
         }
@@ -168,7 +168,7 @@ class UncertaintyWork {
     }
     if (rows.size() < enough_for_ends)
       study_.notes.push_back(
-          fmt::format("{} samples do not tell where 95 % of the machines lie: that takes {} and more", rows.size(),
+          fmt::format("{} samples do not give an interval of 95 % of the machines: that takes {} and more", rows.size(),
                       enough_for_ends));
     for (const FigureLimit& limit : limits_) {
       LimitCount& count = study_.limits.emplace_back(LimitCount{.limit = limit.given});
@@ -265,14 +265,15 @@ class UncertaintyWork {
       const std::string& name = speed ? study_.speed_unit.name : figure->figure.unit;
       const std::string unit = name.empty() ? "" : " " + pretty_unit(name);
       const auto told = [&](double x) { return speed ? study_.speed_unit.of(x) : x; };
-      text += fmt::format("{}{} is {:.5g}{} with a deviation of {:.2g}{} by the tolerances", text.empty() ? "" : "; ",
-                          figure->figure.name, told(figure->value), unit, told(figure->deviation()), unit);
-      text += figure->is_linear() ? fmt::format("; a tighter {} would help most: without its tolerance {:.2g}{}",
+      text += fmt::format("{}{} is {:.5g}{} with a standard deviation of {:.2g}{} by the tolerances",
+                          text.empty() ? "" : "; ", figure->figure.name, told(figure->value), unit,
+                          told(figure->deviation()), unit);
+      text += figure->is_linear() ? fmt::format("; {} contributes most: without its tolerance {:.2g}{}",
                                                 swept_[most.parameter].path, told(most.without), unit)
-                                  : fmt::format(", not in proportion to them; small changes of {} move it most",
+                                  : fmt::format(", not in proportion to them; it depends most on small changes of {}",
                                                 swept_[most.parameter].path);
     }
-    if (text.empty()) text = "No figure hangs on the tolerances that are given";
+    if (text.empty()) text = "No figure depends on the tolerances that are given";
     if (study_.failed > 0)
       text += fmt::format("; {} of {} machines drawn failed, as the notes say", study_.failed, study_.drawn);
   }

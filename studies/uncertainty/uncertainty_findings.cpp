@@ -59,7 +59,7 @@ Rows share_table(const UncertaintyStudy& s) {
   constexpr std::size_t most_at_once = 40;
   std::vector<ShareRow> rows = share_rows(s);
   const bool is_long = rows.size() > most_at_once;
-  return table_of("shares", "Which tolerance makes the deviation", std::move(rows))
+  return table_of("shares", "Share of each tolerance in the deviation", std::move(rows))
       .fold(is_long)
       .text_in(2)
       .column("figure", "figure", &ShareRow::figure)
@@ -67,9 +67,9 @@ Rows share_table(const UncertaintyStudy& s) {
       .column("share", "share [%]", [](const ShareRow& r) { return r.share.share; }, {.factor = 100, .digits = 3})
       .column("deviation", "deviation", [](const ShareRow& r) { return r.share.deviation; }, {.digits = 3})
       .only_for_programs("gradient", [](const ShareRow& r) { return r.share.gradient; })
-      .column("noise", "open by errors", [](const ShareRow& r) { return r.share.noise; }, {.digits = 1})
-      .column("step", "over ± deviations", [](const ShareRow& r) { return r.share.step; }, {.digits = 1})
-      .column("without", "figure's without it", [](const ShareRow& r) { return r.share.without; }, {.digits = 3})
+      .column("noise", "numerical noise", [](const ShareRow& r) { return r.share.noise; }, {.digits = 1})
+      .column("step", "step [deviations]", [](const ShareRow& r) { return r.share.step; }, {.digits = 1})
+      .column("without", "deviation without it", [](const ShareRow& r) { return r.share.without; }, {.digits = 3})
       .column("unit", "unit", &ShareRow::unit, as_unit);
 }
 

@@ -201,8 +201,8 @@ std::vector<std::string> DataRangeRecorder::sentences() const {
         continue;
       }
       std::string sentence = fmt::format(
-          "the {} of \"{}\" is taken from outside its table, which {}; {}. No error is known of "
-          "what hangs on it; beyond = {} would make it part of the data",
+          "the {} of \"{}\" is taken from outside its table, which {}; {}. Figures that depend on it have no known "
+          "error; beyond = {} would make it part of the data",
           range.of, range.component, where,
           (above ? range.line_above : range.line_below) ? "its last slope goes on there" : "its end value holds there",
           allowed);

@@ -69,9 +69,10 @@ std::vector<std::string> static_curve_notes(const Model& model,
     const DriveSwing swing = worst_swing(motion_of(name), motor, least_share);
     if (!(swing.missed() > least_torque * motor.rated_torque)) continue;
     notes.push_back(fmt::format(
-        "the drive \"{}\" swings at about {:.2g} Hz, {:.2g} % of the mains' {:g} Hz, from {:.3g} s on, and its static "
-        "torque-speed curve lets its torque swing by {:.3g} N·m with that: too fast for the curve, whose fluxes follow "
-        "at once. Estimated by its breakdown slip {:.2g}, a real motor's torque follows such a swing by {:.0f} %; {}{}",
+        "the drive \"{}\" oscillates at about {:.2g} Hz, {:.2g} % of the mains' {:g} Hz, from {:.3g} s on, and its "
+        "static torque-speed curve makes its torque oscillate by {:.3g} N·m: too fast for the curve, which assumes "
+        "that the fluxes follow without delay. Estimated by its breakdown slip {:.2g}, a real motor's torque follows "
+        "such an oscillation by {:.0f} %; {}{}",
         name, swing.frequency, 100 * swing.frequency / motor.mains, motor.mains, swing.at, swing.torque,
         motor.breakdown_slip, 100 * swing.followed,
         model.effects.torque_lag ? "" : "the effect torque_lag reckons with that; ",

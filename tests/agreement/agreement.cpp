@@ -298,7 +298,7 @@ Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSe
 }
 
 bool tells_how_much(const std::vector<std::string>& notes) {
-  static const char* const leaving[] = {"left out", "leaves out", "taken as", "counts as", "neglected", "not counted"};
+  static const char* const leaving[] = {"omitted", "omits", "taken as", "counts as", "neglected", "not counted"};
   return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     const bool leaves = std::any_of(std::begin(leaving), std::end(leaving),
                                     [&](const char* words) { return note.find(words) != std::string::npos; });

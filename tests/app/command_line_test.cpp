@@ -474,7 +474,7 @@ TEST_F(CommandLine, AnAccuracyThatWasNotConfirmedIsToldEverywhereAndEndsWithThre
   const std::string chain = std::string(KURBEL_SOURCE_DIR) + "/scenes/six_inertia_chain.toml";
   const Ended quiet = kurbel({"run", chain, "--accuracy", "1e-12", "--quiet", "--out", "out"});
   EXPECT_EQ(quiet.code, 3);
-  EXPECT_NE(quiet.out.find("NOT confirmed: accuracy 1.0e-12 was asked for"), std::string::npos) << quiet.out;
+  EXPECT_NE(quiet.out.find("NOT confirmed: accuracy 1.0e-12 requested"), std::string::npos) << quiet.out;
   EXPECT_NE(quiet.err.find("not confirmed"), std::string::npos) << quiet.err;
   EXPECT_NE(text_of(folder_ / "out/summary.json").find("\"confirmed\": false"), std::string::npos);
   EXPECT_NE(text_of(folder_ / "out/report.html").find("NOT confirmed"), std::string::npos);

@@ -59,12 +59,12 @@ TEST(SheetCommand, WhatCannotBeDrawnEndsWithTwoInWordsAndWritesNothing) {
   };
   const std::string press = scenes + "crank_press.toml";
   refused("reduce " + scenes + "belt_conveyor.toml --sheet", "has none on its lines that moves");
-  refused("reduce " + press + " --sheet --to press.slider", "leave out one of the two");
+  refused("reduce " + press + " --sheet --to press.slider", "omit one of the two");
   refused("reduce " + press + " --sheet --paper A5", "must be A4 or A3");
   refused("reduce " + press + " --paper A3", "add --sheet");
   refused("reduce " + press + " --delta 0.05", "add --sheet, or ask kurbel size");
   refused("reduce " + press + " --sheet --delta 3", "must be > 0 and < 2");
-  refused("reduce " + press + " --sheet --no-files", "leave out one of the two");
+  refused("reduce " + press + " --sheet --no-files", "omit one of the two");
   refused("forces " + press + " --sheet --positions 40", "a sheet has 4 … 36 of a turn");
 }
 

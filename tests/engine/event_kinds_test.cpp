@@ -30,7 +30,7 @@ EventKind kind_by_words(const Event& e) {
   if (begins("is set ") || begins("goes to ")) return EventKind::command;
   if (e.what == "on" || e.what == "off") return EventKind::window;
   if (begins("jams: ")) return EventKind::jam;
-  if (e.component == "modes" || e.what.find("find no rest") != std::string::npos) return EventKind::note;
+  if (e.component == "modes" || e.what.find("the contact chatters") != std::string::npos) return EventKind::note;
   return EventKind::law;
 }
 

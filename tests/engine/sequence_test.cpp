@@ -205,7 +205,7 @@ TEST(Sequence, ThatNeverPausesIsToldAndEndsTheRun) {
     const Result r =
         run(test::with(machine(steps, "until = \"3 s\"\n"), "[sequence]\n", "[sequence]\nrepeat = true\n"));
     EXPECT_FALSE(r.complete);
-    EXPECT_NE(r.diagnosis.find("goes round without a pause at 1 s"), std::string::npos) << r.diagnosis;
+    EXPECT_NE(r.diagnosis.find("repeats without a pause at 1 s"), std::string::npos) << r.diagnosis;
     EXPECT_NE(r.diagnosis.find("let one of them wait"), std::string::npos) << r.diagnosis;
   }
 }

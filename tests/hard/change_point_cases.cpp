@@ -174,7 +174,7 @@ HardCase ends_told(const std::string& name, const std::string& parameter, const 
           .name = name,
           .parameter = parameter,
           .scene = scene_of(crank, 1),
-          .refusal = {"comes to the end of its arc", "let a load, a spring or a brake turn it round before"}};
+          .refusal = {"comes to the end of its arc", "let a load, a spring or a brake reverse it before"}};
 }
 
 std::string four_bar(double crank, double coupler, double rocker, double ground) {

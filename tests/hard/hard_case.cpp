@@ -90,7 +90,7 @@ class Reference {
     options.accuracy = reference_accuracy;
     options.measure_error = false;
     Result result = simulate(scene, effects_of(scene, effects_), "reference", options);
-    if (!result.complete || !note_with(result, "its events found no rest").empty())
+    if (!result.complete || !note_with(result, "the contact chatters").empty())
       throw std::logic_error("the reference did not come to its end in order: " + result.diagnosis);
     return result;
   }
@@ -137,8 +137,8 @@ void judge_answer(const HardCase& hard_case, const Result& result, CaseOutcome& 
     out.words = result.complete ? note_with(result, "the confirming run failed") : result.diagnosis;
     return;
   }
-  if (!note_with(result, "its events found no rest").empty()) {
-    out.words = note_with(result, "its events found no rest");
+  if (!note_with(result, "the contact chatters").empty()) {
+    out.words = note_with(result, "the contact chatters");
     return;
   }
   const Judgement found = judge(hard_case, result);

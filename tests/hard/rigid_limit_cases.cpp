@@ -66,7 +66,7 @@ HardCase smooth(int decades, const std::shared_ptr<SoftSteps>& soft) {
                         residual(fmt::format("auto, accuracies from {:.0e}: at most 3 × the steps for 1e9 N·m/rad",
                                              above_rounding(decades)),
                                  [soft, from](const Result& r) {
-                                   const bool own_choice = r.statistics.reason != "asked for" && r.accuracy > from;
+                                   const bool own_choice = r.statistics.reason != "requested" && r.accuracy > from;
                                    const double steps = static_cast<double>(r.statistics.stepper.steps);
                                    return own_choice && steps > most_times * soft->at(r.accuracy) ? HUGE_VAL : 0.0;
                                  })}};

@@ -168,7 +168,7 @@ TEST(RigidLimit, ComparisonSaysThatAStepDoublesThePeakTorque) {
   ASSERT_EQ(c.amplification.size(), 1u);
   EXPECT_NEAR(c.amplification[0].b->value, 2, 0.01);
   const bool said = std::any_of(c.notes.begin(), c.notes.end(), [](const std::string& note) {
-    return note.find("sudden loads") != std::string::npos && note.find("as much as twice it") != std::string::npos;
+    return note.find("sudden loads") != std::string::npos && note.find("by up to a factor of two") != std::string::npos;
   });
   EXPECT_TRUE(said);
 }

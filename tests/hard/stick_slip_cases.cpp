@@ -36,7 +36,7 @@ std::string ramp(double begin, double rate, double until) {
 Truth few_steps(std::int64_t by_choice, std::int64_t at_all) {
   return residual(fmt::format("no steps wasted: at most {}, or {} by a method asked for", by_choice, at_all),
                   [=](const Result& r) {
-                    const bool asked = r.statistics.reason == "asked for";
+                    const bool asked = r.statistics.reason == "requested";
                     return r.statistics.stepper.steps > (asked ? at_all : by_choice) ? HUGE_VAL : 0.0;
                   });
 }

@@ -225,7 +225,7 @@ TEST(SwitchedLoads, ForcesOfARepeatedSequenceHaveTheLoadsAsTheyCome) {
   ASSERT_NE(load, f.simulated->work.end());
   EXPECT_NEAR(load->work.value, -stroke, 1e-6 * stroke);
   EXPECT_LT(*f.simulated->machine_residual, 1e-7);
-  EXPECT_NE(f.notes.front().find("as it goes round"), std::string::npos) << f.notes.front();
+  EXPECT_NE(f.notes.front().find("within its repetition"), std::string::npos) << f.notes.front();
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ class Judge:
                 self.contradiction("comes to rest, but never moved", f"standstill said at {at:.4g} s")
             elif abs(at - m["rests_since"]) > 0.02 * m["until"]:
                 self.contradiction("comes to rest at another time", f"said {at:.4g}, sampled {m['rests_since']:.4g} s")
-        at_rest = any(w in self.run.conclusion for w in ("is at rest", "ends at rest", "is all but at rest", "all but at rest"))
+        at_rest = any(w in self.run.conclusion for w in ("is at rest", "ends at rest", "is nearly at rest", "nearly at rest"))
         if at_rest and abs(m["speed_at_end"]) > 0.02 * self.usual:
             self.contradiction("at rest, but turns", f"{m['speed_at_end']:.4g} rad/s at the end")
         acting = abs(m["load_at_end"]) + (abs(m["drive_at_end"]) if m["pushed_at_end"] else 0)
@@ -345,7 +345,7 @@ class Judge:
     def steady_study(self):
         s, l, m = self.steady, self.later, self.motion
         rests = s.time_of(r"(?:comes to rest at|below 0\.1 % of its rated speed from) TIME")
-        # The time is that of the machine with all effects of the study (In the end …), or of the one that found no cycle.
+        # The time is that of the machine with all effects of the study (At the end …), or of the one that found no cycle.
         asked = s.summary.get("cycles", ())
         of = next((c for c in asked if f"({c.get('label')})" in s.conclusion), None) if "No steady cycle (" in s.conclusion else \
             asked[-1] if asked else None
@@ -360,11 +360,11 @@ class Judge:
             return
         cycles = [c for c in s.summary.get("cycles", ()) if c.get("found")]
         cycle = cycles[-1] if cycles and cycles[-1].get("effects") == self.run.summary.get("model", {}).get("effects") else None
-        if cycle and l["steady"] == "yes" and "In the end" not in s.conclusion:
+        if cycle and l["steady"] == "yes" and "At the end" not in s.conclusion:
             mean = next((f["value"] for f in cycle["figures"] if f["name"] == f"mean_speed.{self.truth['link']}"), None)
             if mean is not None and differs(mean, l["mean_speed"], 0.02):
                 self.contradiction("steady: another speed than the run comes to", f"said {mean:.5g}, sampled {l['mean_speed']:.5g} rad/s")
-        if cycle and s.summary.get("complete", True) and l["end"] == "rests" and "In the end" not in s.conclusion:
+        if cycle and s.summary.get("complete", True) and l["end"] == "rests" and "At the end" not in s.conclusion:
             mean = next((f["value"] for f in cycle["figures"] if f["name"] == f"mean_speed.{self.truth['link']}"), None)
             if mean is not None and abs(mean) > 0.01 * self.usual:
                 self.contradiction("steady: a cycle, but it comes to rest", f"said {mean:.5g} rad/s; rests since {l['rests_since']:.4g} s; {s.conclusion[:120]}")

@@ -49,7 +49,7 @@ REST = {"end": "rests", "speed_at_end": 0.0, "steady": "no", "held_at_end": True
         "drives_at_end": False}
 NEVER = {**REST, "moves": False, "fastest": 0.0, "rests_since": 0.0}
 NOTHING = {"complete": True, "conclusion": "", "cycles": []}
-HELD = ['"press" is held at the end by brake: -8.8 N·m act; forwards: 12 N·m are held, 21 N·m are missing']
+HELD = ['"press" is held at the end by brake: -8.8 N·m act; forwards: up to 12 N·m are held, 21 N·m more would move it']
 HOT = {"component": "clutch", "what": "heat", "value": 12.0, "limit": 10.0, "unit": "J"}
 TELLS = {"component": "clutch", "requirement": "heat of an engagement: W ≤ W_allowable", "value": 12.0, "limit": 10.0, "verdict": "exceeded"}
 MOTOR = {"component": "motor", "kind": "induction motor", "rated_torque": 20.0, "rated_speed": 30.0, "torque": 12.0, "speed": 30.0, "command": 1.0,
@@ -87,7 +87,7 @@ FALSE = {
     "runs away, but settles": answer('"press" runs away: 90 rad/s at the end.'),
     "runs away": answer('"press" is at 60 rad/s after 10 s.', {"speed_at_end": 60.0, "steady": "unclear"}, later={
         "mean_speed_of_last_tenth": 200.0, "mean_speed_before": 90.0}),
-    "does not get round, but does": answer('"press" does not get round: it is at 50° at the end.'),
+    "does not get round, but does": answer('"press" does not complete a cycle: it is at 50° at the end.'),
     "does not get round": answer('"press" is at 0 rad/s after 10 s.', {**REST, "end": "vibrates", "no_round": True, "rounds": 0}, steady=NOTHING),
     "vibrates, but does not": answer('"press" vibrates to the end.', claims=[("vibrates", "press")]),
     "final speed is another": answer('"press" is at 20 rad/s after 10 s.', figures={"final_speed.press": 20.0}),
@@ -139,7 +139,7 @@ FALSE = {
     "clutch slips while it engages": answer(claims=[("runs_steadily", "press")], contacts=[contact()]),
     "freewheel overruns": answer(claims=[("runs_steadily", "press")], contacts=[contact("one-way clutch")]),
     "motor stands under torque": answer(motors=[{**MOTOR, "speed": 0.0, "stands": True}]),
-    "does not come up to speed, but has": answer('"motor" does not come up to speed: it hangs at 12 rad/s.', motors=[MOTOR]),
+    "does not come up to speed, but has": answer('"motor" does not come up to speed: it stays at 12 rad/s.', motors=[MOTOR]),
     "motor beyond its rated torque in steady motion": answer(motors=[{**MOTOR, "late_rms_torque": 30.0}]),
     "steady: comes to rest, but never moved": answer('"press" is at rest after 10 s.', NEVER, steady={
         "complete": False, "conclusion": "No steady cycle: the machine comes to rest at 377 s and stays there.", "cycles": []}),

@@ -13,7 +13,7 @@ SENTENCES = {
     "turns back": r'"([^"]+)" turns backwards',
     "runs away": r'"([^"]+)" runs away',
     "hangs": r'"([^"]+)" does not come up to speed',
-    "no round": r'"([^"]+)" does not get round',
+    "no round": r'"([^"]+)" does not complete a cycle',
     "slips to the end": r'"([^"]+)" slips to the end',
     "brake too weak": r'"([^"]+)" does not stop it',
     "brake not done": r'"([^"]+)" has not stopped it by the end',
@@ -22,7 +22,7 @@ SENTENCES = {
     "steady": r'"([^"]+)" runs steadily at ',
     "sequence done": r'"([^"]+)" goes through its operating sequence',
     "not steady": r'"([^"]+)" has not come to a steady motion',
-    "ends": r'"([^"]+)" is (at rest|all but at rest|at )',
+    "ends": r'"([^"]+)" is (at rest|nearly at rest|at )',
     "too hot": r'"([^"]+)" gets too hot',
 }
 # The same of typed claims (docs/claims.md).

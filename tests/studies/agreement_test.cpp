@@ -102,8 +102,8 @@ TEST(AgreementCell, WorstFigureDecides) {
 }
 
 TEST(AgreementCell, NoteThatLeavesOutCountsOnlyWithAnAmount) {
-  EXPECT_FALSE(tells_how_much({"the operating sequence is left out: steady motion knows no switching"}));
-  EXPECT_TRUE(tells_how_much({"joint clearance is left out: it changes δ by 2 %"}));
+  EXPECT_FALSE(tells_how_much({"the operating sequence is omitted: steady motion knows no switching"}));
+  EXPECT_TRUE(tells_how_much({"joint clearance is omitted: it changes δ by 2 %"}));
   EXPECT_FALSE(tells_how_much({"12 positions of the cycle"}));
 }
 

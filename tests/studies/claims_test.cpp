@@ -189,7 +189,7 @@ TEST(MotionClaims, SingleStrokesAreNoSteadyRunning) {
   const Claims claims = run_claims(r);
   ASSERT_TRUE(find(claims, Predicate::works_in_strokes));
   EXPECT_EQ(find(claims, Predicate::works_in_strokes)->text,
-            "\"press\" makes single strokes, one every 1.961 s, and stands between them");
+            "\"press\" makes single strokes, one every 1.961 s, and rests between them");
   EXPECT_FALSE(find(claims, Predicate::runs_steadily));
   EXPECT_FALSE(has(figures_in_words(r), "δ")) << figures_in_words(r);
   r.figures.front().value = 0.2;

@@ -193,7 +193,7 @@ TEST(KeptSpeeds, NothingIsBarredWhereTheMachineCannotStay) {
   for (const CriticalSpeed& c : study.critical) EXPECT_TRUE(is_kept(c.speed)) << c.speed;
   for (const BarredRange& range : study.barred) EXPECT_TRUE(is_kept(range.from) && is_kept(range.to)) << range.from;
   EXPECT_TRUE(std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
-    return note.find("the machine does not stay by itself") != std::string::npos;
+    return note.find("the machine cannot run continuously") != std::string::npos;
   }));
 }
 

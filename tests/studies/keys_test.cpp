@@ -81,7 +81,7 @@ TEST(Documents, AnswerOfTheReadmeIsThatOfTheProgram) {
   EXPECT_TRUE(elastic.accuracy_confirmed);
   EXPECT_TRUE(rigid.accuracy_confirmed);
   const std::string said = but_for_the_time(findings_of(both).conclusion());
-  for (const std::string& sentence : sentences_of(but_for_the_time(quote_after(readme(), "of it, shortened:"))))
+  for (const std::string& sentence : sentences_of(but_for_the_time(quote_after(readme(), "conclusion (shortened)"))))
     EXPECT_NE(said.find(sentence), std::string::npos) << sentence << "\nis not said in\n" << said;
   std::istringstream answer(block_after(readme(), "compare docs/tasks/eccentric_press.toml"));
   int rows = 0;

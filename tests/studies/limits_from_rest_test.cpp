@@ -294,7 +294,7 @@ TEST(BarredRanges, JointBeyondItsLimitEverywhereIsBarredEverywhereAndTold) {
   EXPECT_EQ(ranges[0].reason, "maximum_torque");
   const auto notes = limits_notes({}, ranges, joints, {}, {});
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("at every speed looked at"), std::string::npos);
+  EXPECT_NE(notes[0].find("at every speed examined"), std::string::npos);
   EXPECT_NE(barred_claim(ranges, joints, {})->text.find("every speed"), std::string::npos);
 }
 
@@ -311,7 +311,7 @@ effects = { elasticity = true }
   EXPECT_TRUE(m.barred[0].everywhere);
   EXPECT_EQ(m.barred[0].reason, "vibratory_torque");
   EXPECT_TRUE(std::any_of(m.notes.begin(), m.notes.end(),
-                          [](const std::string& n) { return n.find("at every speed looked at") != n.npos; }));
+                          [](const std::string& n) { return n.find("at every speed examined") != n.npos; }));
 }
 
 // Each limit bars alone: upper, lower, alternating, stress, heat; and where all are given, the one used most.

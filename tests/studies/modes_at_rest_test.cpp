@@ -1,4 +1,4 @@
-// modes_at_rest_test.cpp — small swings about a rest against closed forms: pendulums, cranks that rock, a pendulum on a
+// modes_at_rest_test.cpp — small vibrations about a position of rest against closed forms: pendulums, cranks that rock, a pendulum on a
 // spring; and a rest that is none.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -182,7 +182,8 @@ TEST(ModesAtRest, WithoutWeightsThereIsNothingToSwingBy) {
     modes_of(light);
     ADD_FAILURE() << "it has no rest";
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("small swings about a rest"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("small vibrations about a position of rest"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -10,11 +10,11 @@
 #include <random>
 #include <string>
 
-#include "studies/handout/energy_mass_sheet.h"
-#include "studies/handout/forces_sheet.h"
-#include "studies/handout/reduce_sheet.h"
 #include "studies/sheet/linkage_drawing.h"
 #include "studies/sheet/table.h"
+#include "studies/worksheet/energy_mass_sheet.h"
+#include "studies/worksheet/forces_sheet.h"
+#include "studies/worksheet/reduce_sheet.h"
 #include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/support/scenes.h"
 #include "tests/support/sheet_page.h"

@@ -85,11 +85,11 @@ run   = { until = "5 s" }
 
 // One sentence, whoever says it; people, page and programs get it.
 void expect_told(const char* verb, const StudyOutput& output) {
-  const std::string begin = "the drive \"motor\" swings at about", end = "too fast for the curve";
+  const std::string begin = "the drive \"motor\" oscillates at about", end = "too fast for the curve";
   for (const std::string& text : {output.text(), output.json()}) {
     // In JSON its quotation marks are escaped.
-    EXPECT_NE(text.find("swings at about"), std::string::npos) << verb;
-    EXPECT_NE(text.find("static torque-speed curve lets its torque swing"), std::string::npos) << verb;
+    EXPECT_NE(text.find("oscillates at about"), std::string::npos) << verb;
+    EXPECT_NE(text.find("static torque-speed curve makes its torque oscillate"), std::string::npos) << verb;
     EXPECT_NE(text.find(end), std::string::npos) << verb;
   }
   EXPECT_NE(output.text().find(begin), std::string::npos) << verb;

@@ -105,7 +105,7 @@ TEST(Steady, StabilityIsToldInCyclesOfHalving) {
   EXPECT_NEAR(*halving, 1, 1e-12);
   EXPECT_TRUE(has(stability_text({{2, 0}}, nullptr, 1e-9), "unstable: a deviation doubles in 1 cycles"));
   EXPECT_TRUE(has(stability_text({{1, 0}, {0.2, 0}}, nullptr, 1e-9), "neutral"));
-  EXPECT_TRUE(has(stability_text({{0.3, 0.4}, {0.3, -0.4}}, nullptr, 1e-9), "swinging"));
+  EXPECT_TRUE(has(stability_text({{0.3, 0.4}, {0.3, -0.4}}, nullptr, 1e-9), "oscillating"));
 }
 
 // --- families ---

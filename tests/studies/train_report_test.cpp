@@ -108,8 +108,8 @@ TEST(TrainReport, SaysWhatWasNotAssessed) {
                        [&](const std::string& line) { return line.find(words) != std::string::npos; });
   };
   const std::vector<std::string> few = open(asked.answer("report", {{"sections", "scope,margins"}, {"cases", "none"}}));
-  EXPECT_TRUE(says(few, "left out by --sections: train, modes, response, time, assumptions, input"));
-  EXPECT_TRUE(says(few, "left out by --cases"));
+  EXPECT_TRUE(says(few, "omitted by --sections: train, modes, response, time, assumptions, input"));
+  EXPECT_TRUE(says(few, "omitted by --cases"));
   EXPECT_TRUE(says(few, "pairs of a mode and an excitation"));
   const Scene rigid = test::scene_from(R"(
 line = ["motor", "fan"]
@@ -120,7 +120,7 @@ run = { until = "1 s" }
   const StudyOutput output =
       question_named("report").answer({.scene = rigid, .text = rigid.text, .file = rigid.file, .settings = {}}, {});
   const std::vector<std::string> lines = open(output);
-  EXPECT_TRUE(says(lines, "What kurbel modes would tell: "));
+  EXPECT_TRUE(says(lines, "Results of kurbel modes: "));
   EXPECT_TRUE(says(lines, "range of operating speeds"));
   EXPECT_TRUE(says(lines, "the scene names none ([[case]])"));
   EXPECT_THROW(asked.answer("report", {{"sections", "margin"}}), std::invalid_argument);

@@ -83,7 +83,7 @@ TEST(TrajectoryCsv, HoldsThePeakBetweenItsRows) {
 TEST(TrajectoryCsv, CoarseRowsAreTold) {
   const auto told = [](const Result& r) {
     return std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& note) {
-      return note.find("are coarser than the motion") != std::string::npos;
+      return note.find("are too coarse for the motion") != std::string::npos;
     });
   };
   EXPECT_TRUE(told(run_with(4)));

@@ -33,8 +33,8 @@ TEST(Troubles, AMotorThatHangsBelowItsBreakdownSpeedDoesNotComeUpToSpeed) {
   )";
   expect_first(
       text,
-      "\"motor\" does not come up to speed: it hangs at 573 rpm, below the 1200 rpm at which it gives most; its "
-      "loads take all that it gives there.");
+      "\"motor\" does not come up to speed: it stays at 573 rpm, below the 1200 rpm of its breakdown torque; its "
+      "loads take all its torque there.");
 }
 
 // 100 N·m drive, the brake takes 60 N·m of them, 2 N·m·s/rad the rest: 20 rad/s for ever.

@@ -77,7 +77,7 @@ TEST(Uncertainty, FewSamplesTellNoEndsOfTheirDistribution) {
     const UncertaintyStudy s = study_uncertainty(resonator("\"1.5 kg*m2\""), options);
     EXPECT_EQ(of_figure(s, "natural_frequency.1").low.has_value(), samples >= 40) << samples;
     EXPECT_EQ(std::any_of(s.notes.begin(), s.notes.end(),
-                          [](const std::string& note) { return note.starts_with("39 samples do not tell"); }),
+                          [](const std::string& note) { return note.starts_with("39 samples do not give"); }),
               samples < 40);
   }
 }

@@ -78,7 +78,7 @@ SUMMARIES = {
     "reduce": {"basis": "classical", "link": "crank", "reduced_to": "crank", "speed": {"value": 30.5, "source": "operating speed"},
                "harmonics": ORDERS, "chain": {"springs": SPRINGS}},
     "forces": {"mechanism": "crank", "simulated": {
-        "description": f"the machine as it keeps going ({FULL}), crank's cycle of 360°", "cycle": SPEED * PERIOD, "mean_speed": SPEED,
+        "description": f"steady motion of the machine ({FULL}), crank's cycle of 360°", "cycle": SPEED * PERIOD, "mean_speed": SPEED,
         "mean_speed_error": 1e-9, "least_speed": 29.0, "greatest_speed": 31.0, "speed_extremes_error": 1e-9,
         "work": [{"name": "crank.load", "line": "useful", "work": -28.0, "error": 1e-9}]}},
     "modes": {"operating_point": {"speed": SPEED, "link": "crank"}, "joints": SPRINGS, "verdicts": run()["ratings"],
@@ -237,7 +237,7 @@ class Questions(unittest.TestCase):
         self.assertAlmostEqual(times[2] - times[1], PERIOD)
 
     def test_effects_of_forces_are_asked_of_steady(self):
-        forces = {"simulated": {"description": "the machine as it keeps going (elasticity of a, b and joint friction), crank's cycle of 360°"}}
+        forces = {"simulated": {"description": "steady motion of the machine (elasticity of a, b and joint friction), crank's cycle of 360°"}}
         self.assertEqual(asked.effects_of_forces(forces)[1], "elasticity:a,elasticity:b,joint_friction")
         told = {"forces": forces, "steady": STEADY}
         self.assertEqual([c.asked.arguments[3] for c in asked.as_forces("x", told)], ["elasticity:a,elasticity:b,joint_friction"])

@@ -117,7 +117,7 @@ EFFECT_WORDS = {"joint friction": "joint_friction", "flexible rod": "flexible_ro
 
 def effects_of_forces(forces):
     """The words and the option's value for the effects of the motion that `forces` is of; None: none."""
-    said = re.search(r"keeps going \((.*?)\), crank's cycle", (forces or {}).get("simulated", {}).get("description", ""))
+    said = re.search(r"steady motion of the machine \((.*?)\), crank's cycle", (forces or {}).get("simulated", {}).get("description", ""))
     if not said:
         return None
     parts = re.split(r", | and ", said.group(1))

@@ -429,7 +429,7 @@ def forces_and_steady(told):
                 if figure_name in own and number(s[key]):
                     yield Same(figure_name, Value(s[key], s[error], f"forces simulated {key}"), own[figure_name])
             # Extremes are over all cycles until it comes again, works over one of the crank.
-            if "of them until it comes again" in s["description"]:
+            if "of them until it repeats" in s["description"]:
                 return
             turns = own.get("period").value * own.get("mean_speed." + name).value / s["cycle"] if own.get("mean_speed." + name) else None
             for w in s["work"]:
@@ -489,7 +489,7 @@ def ratings_of(told):
 def load_case(command, rating):
     """That a verdict is on, as it says itself: "start", "steady", "run", a step of the sequence; what says none is on the
     run of the scene with its start, or on the steady motion. None where it is not assessed, or on a start that is made up."""
-    if rating["verdict"] == "not assessed" or "not told by the scene" in rating.get("note", ""):
+    if rating["verdict"] == "not assessed" or "not given by the scene" in rating.get("note", ""):
         return None
     if "load_case" in rating:
         return rating["load_case"]
@@ -561,7 +561,7 @@ def kinds_of_motion(told):
     cycle, run = pair
     end, stands = figure_time(run) or 0, run["periods"]["standstill"]
     why, conclusion = cycle.get("why") or "", told.get("steady")["conclusion"]
-    ends = why if not cycle.get("found") else conclusion if "In the end" in conclusion else ""
+    ends = why if not cycle.get("found") else conclusion if "At the end" in conclusion else ""
     rest = rest_of(ends)
     said, ran = f"steady: {why or conclusion}"[:240], f"run: {run['conclusion']}"[:240]
     if rest is not None and stands is not None:

@@ -1,5 +1,5 @@
-// rooms_test.cpp — the house as it is drawn: which room may import which, how large rooms and files are, and that each
-// room's README is its table of contents. The order of the rooms is that of add_subdirectory in the CMakeLists.txt.
+// modules_test.cpp — the architecture as drawn: which module may import which, how large modules and files are, and that each
+// module's README is its table of contents. The order of the modules is that of add_subdirectory in the CMakeLists.txt.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-namespace kurbel::rooms_test {
+namespace kurbel::modules_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> houses = {"engine", "drivetrain", "mechanisms", "studies", "library", "app"};
+const std::vector<std::string> areas = {"engine", "drivetrain", "mechanisms", "studies", "library", "app"};
 
 constexpr std::size_t most_files = 20;
 // Families of elements may be more; the others named here have grown too large, and may not grow further.
@@ -60,24 +60,24 @@ std::string quoted(const std::string& line, const std::string& begin, char close
 
 bool is_source(const std::string& name) { return name.ends_with(".h") || name.ends_with(".cpp"); }
 
-std::string room_of(const std::string& file) { return file.substr(0, file.rfind('/')); }
+std::string module_of(const std::string& file) { return file.substr(0, file.rfind('/')); }
 
 // "engine/numerics", …, "engine", "drivetrain/shared", …: each may import those before it.
-std::vector<std::string> rooms_in_order() {
-  std::vector<std::string> rooms;
-  for (const std::string& house : houses) {
-    for (const std::string& line : lines_of(house + "/CMakeLists.txt"))
-      if (const std::string room = quoted(line, "add_subdirectory(", ')'); !room.empty())
-        rooms.push_back(house + "/" + room);
-    rooms.push_back(house);
+std::vector<std::string> modules_in_order() {
+  std::vector<std::string> modules;
+  for (const std::string& area : areas) {
+    for (const std::string& line : lines_of(area + "/CMakeLists.txt"))
+      if (const std::string module = quoted(line, "add_subdirectory(", ')'); !module.empty())
+        modules.push_back(area + "/" + module);
+    modules.push_back(area);
   }
-  return rooms;
+  return modules;
 }
 
-// Files of a room by their names; folders (what others have written, brought along) with a "/" behind.
-std::vector<std::string> files_in(const std::string& room) {
+// Files of a module by their names; folders (what others have written, brought along) with a "/" behind.
+std::vector<std::string> files_in(const std::string& module) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(path_of(room)))
+  for (const auto& entry : fs::directory_iterator(path_of(module)))
     if (!entry.is_directory() || !fs::is_empty(entry))
       names.push_back(entry.path().filename().string() + (entry.is_directory() ? "/" : ""));
   std::sort(names.begin(), names.end());
@@ -95,10 +95,10 @@ std::vector<Include> includes_of(const std::string& file) {
   return all;
 }
 
-std::vector<std::string> sources_of(const std::string& room) {
+std::vector<std::string> sources_of(const std::string& module) {
   std::vector<std::string> files;
-  for (const std::string& name : files_in(room))
-    if (is_source(name)) files.push_back(room + "/" + name);
+  for (const std::string& name : files_in(module))
+    if (is_source(name)) files.push_back(module + "/" + name);
   return files;
 }
 
@@ -122,7 +122,7 @@ bool shows_simbody(const std::string& file) {
 }
 
 // Names in backquotes in the first column of a README's tables of files.
-std::set<std::string> names_told(const std::string& readme) {
+std::set<std::string> names_listed(const std::string& readme) {
   std::set<std::string> names;
   bool files = false;
   for (const std::string& line : lines_of(readme)) {
@@ -141,71 +141,72 @@ std::set<std::string> names_told(const std::string& readme) {
 
 }  // namespace
 
-// A room is understood with those before it alone.
-TEST(House, NoImportRunsBack) {
-  const std::vector<std::string> rooms = rooms_in_order();
-  const auto place = [&](const std::string& room) { return std::find(rooms.begin(), rooms.end(), room); };
-  for (const std::string& room : rooms)
-    for (const std::string& file : sources_of(room))
+// A module is understood with those before it alone.
+TEST(Architecture, NoImportRunsBack) {
+  const std::vector<std::string> modules = modules_in_order();
+  const auto place = [&](const std::string& module) { return std::find(modules.begin(), modules.end(), module); };
+  for (const std::string& module : modules)
+    for (const std::string& file : sources_of(module))
       for (const Include& i : includes_of(file)) {
-        const std::string from = room_of(i.of);
-        ASSERT_NE(place(from), rooms.end()) << file << " includes " << i.of << ", which is in no room";
-        EXPECT_LE(place(from), place(room)) << file << " includes " << i.of << ": " << room << " comes before " << from
-                                            << ", so it may not import it; move what both need into an earlier room";
+        const std::string from = module_of(i.of);
+        ASSERT_NE(place(from), modules.end()) << file << " includes " << i.of << ", which is in no module";
+        EXPECT_LE(place(from), place(module))
+            << file << " includes " << i.of << ": " << module << " comes before " << from
+            << ", so it may not import it; move what both need into an earlier module";
       }
 }
 
 // Linkages need no motors, and a page needs no study to be written.
-TEST(House, MechanismsKnowNoDrivetrainAndTheReportNoStudy) {
-  for (const std::string& room : rooms_in_order())
-    for (const std::string& file : sources_of(room))
+TEST(Architecture, MechanismsKnowNoDrivetrainAndTheReportNoStudy) {
+  for (const std::string& module : modules_in_order())
+    for (const std::string& file : sources_of(module))
       for (const Include& i : includes_of(file)) {
-        const std::string from = room_of(i.of);
-        const bool drive = room.starts_with("mechanisms/") && from.starts_with("drivetrain");
-        const bool study = room == "studies/report" && from.starts_with("studies/") && from != room &&
+        const std::string from = module_of(i.of);
+        const bool drive = module.starts_with("mechanisms/") && from.starts_with("drivetrain");
+        const bool study = module == "studies/report" && from.starts_with("studies/") && from != module &&
                            from != "studies/data" && from != "studies/files" && from != "studies/findings" &&
                            from != "studies/tables";
         EXPECT_FALSE(drive || study) << file << " includes " << i.of;
       }
 }
 
-// docs/rooms.svg shows every house and every room of the engine: "engine/run", or "periodic" beside another.
-TEST(House, ThePictureShowsEveryRoom) {
+// docs/modules.svg shows every area and every module of the engine: "engine/run", or "periodic" beside another.
+TEST(Architecture, ThePictureShowsEveryModule) {
   std::string picture;
-  for (const std::string& line : lines_of("docs/rooms.svg")) picture += line + "\n";
-  std::vector<std::string> shown(houses.begin(), houses.end());
+  for (const std::string& line : lines_of("docs/modules.svg")) picture += line + "\n";
+  std::vector<std::string> shown(areas.begin(), areas.end());
   shown.insert(shown.end(), {"python", "report"});
-  for (const std::string& room : rooms_in_order())
-    if (room.starts_with("engine/")) shown.push_back(room.substr(room.find('/') + 1));
+  for (const std::string& module : modules_in_order())
+    if (module.starts_with("engine/")) shown.push_back(module.substr(module.find('/') + 1));
   for (const std::string& name : shown)
     EXPECT_TRUE(std::regex_search(picture, std::regex("[> /]" + name + "[<,: /]"))) << name;
 }
 
-TEST(House, RoomsHoldAtMostTwentyFiles) {
-  for (const std::string& room : rooms_in_order()) {
-    const auto family = families.find(room);
-    EXPECT_LE(sources_of(room).size(), family == families.end() ? most_files : family->second)
-        << room << ": make a room of what belongs together";
+TEST(Architecture, ModulesHaveAtMostTwentyFiles) {
+  for (const std::string& module : modules_in_order()) {
+    const auto family = families.find(module);
+    EXPECT_LE(sources_of(module).size(), family == families.end() ? most_files : family->second)
+        << module << ": make a module of what belongs together";
   }
 }
 
-TEST(House, FilesAreAtMost450Lines) {
-  for (const std::string& room : rooms_in_order())
-    for (const std::string& file : sources_of(room))
+TEST(Architecture, FilesAreAtMost450Lines) {
+  for (const std::string& module : modules_in_order())
+    for (const std::string& file : sources_of(module))
       EXPECT_LE(static_cast<long>(lines_of(file).size()), most_lines) << file << ": split it";
 }
 
 // A header that describes physics knows what an element is, and nothing of networks and models: what an element becomes
 // under effects is a free function, declared beside it and defined where networks are built.
-TEST(House, PhysicsKnowsNoNetwork) {
+TEST(Architecture, PhysicsKnowsNoNetwork) {
   int headers = 0;
-  for (const std::string& room : rooms_in_order()) {
-    if (!room.starts_with("drivetrain")) continue;
-    for (const std::string& file : sources_of(room)) {
+  for (const std::string& module : modules_in_order()) {
+    if (!module.starts_with("drivetrain")) continue;
+    for (const std::string& file : sources_of(module)) {
       if (!file.ends_with(".h")) continue;
       ++headers;
       for (const Include& i : includes_of(file)) {
-        const std::string from = room_of(i.of);
+        const std::string from = module_of(i.of);
         EXPECT_TRUE(from.starts_with("drivetrain") || from == "engine/elements" || from == "engine/numerics" ||
                     from == "engine/scene")
             << file << " includes " << i.of;
@@ -216,12 +217,12 @@ TEST(House, PhysicsKnowsNoNetwork) {
   EXPECT_GT(headers, 25);
 }
 
-// What happens is told in one place: elsewhere nothing gives an event its words.
-TEST(House, EventsAreGivenWordsInOnePlace) {
+// What happens is worded in one place: elsewhere nothing gives an event its words.
+TEST(Architecture, EventsAreGivenWordsInOnePlace) {
   int files = 0;
-  for (const std::string& room : rooms_in_order()) {
-    if (!room.starts_with("engine/")) continue;
-    for (const std::string& file : sources_of(room)) {
+  for (const std::string& module : modules_in_order()) {
+    if (!module.starts_with("engine/")) continue;
+    for (const std::string& file : sources_of(module)) {
       if (file.ends_with("event_words.cpp")) continue;
       ++files;
       const std::string text = text_of(file);
@@ -234,11 +235,11 @@ TEST(House, EventsAreGivenWordsInOnePlace) {
 }
 
 // Its headers do not compile as C++20.
-TEST(House, OnlyBodiesSpeakSimbody) {
+TEST(Architecture, OnlyBodiesSpeakSimbody) {
   int within = 0;
-  for (const std::string& room : rooms_in_order())
-    for (const std::string& file : sources_of(room)) {
-      if (room == "mechanisms/bodies") {
+  for (const std::string& module : modules_in_order())
+    for (const std::string& file : sources_of(module)) {
+      if (module == "mechanisms/bodies") {
         within += speaks_simbody(file);
       } else {
         EXPECT_FALSE(shows_simbody(file)) << file << " includes Simbody, itself or through another header";
@@ -247,57 +248,57 @@ TEST(House, OnlyBodiesSpeakSimbody) {
   EXPECT_GT(within, 0);
 }
 
-// Every source is built, and by its own room's list.
-TEST(House, EveryRoomListsItsSources) {
-  for (const std::string& room : rooms_in_order()) {
-    const std::string list = text_of(room + "/CMakeLists.txt");
-    for (const std::string& name : files_in(room))
+// Every source is built, and by its own module's list.
+TEST(Architecture, EveryModuleListsItsSources) {
+  for (const std::string& module : modules_in_order()) {
+    const std::string list = text_of(module + "/CMakeLists.txt");
+    for (const std::string& name : files_in(module))
       EXPECT_TRUE(!name.ends_with(".cpp") || list.find(" " + name) != std::string::npos)
-          << room << "/CMakeLists.txt does not list " << name;
+          << module << "/CMakeLists.txt does not list " << name;
   }
 }
 
-// The README of a room is its table of contents: all that is there, nothing that is not.
-TEST(House, EveryReadmeIsItsRoomsTableOfContents) {
-  for (const std::string& room : rooms_in_order()) {
-    const std::string readme = room + "/README.md";
-    ASSERT_TRUE(fs::exists(path_of(readme))) << room << " has no README.md";
-    const std::set<std::string> told = names_told(readme);
-    for (const std::string& name : files_in(room))
-      EXPECT_TRUE(told.contains(name) || name == "README.md" || name == "CMakeLists.txt")
+// The README of a module is its table of contents: all that is there, nothing that is not.
+TEST(Architecture, EveryReadmeIsItsModulesTableOfContents) {
+  for (const std::string& module : modules_in_order()) {
+    const std::string readme = module + "/README.md";
+    ASSERT_TRUE(fs::exists(path_of(readme))) << module << " has no README.md";
+    const std::set<std::string> listed = names_listed(readme);
+    for (const std::string& name : files_in(module))
+      EXPECT_TRUE(listed.contains(name) || name == "README.md" || name == "CMakeLists.txt")
           << readme << " does not name " << name << ": add a line that says what it is";
-    for (const std::string& name : told)
-      EXPECT_TRUE(fs::exists(path_of(room + "/" + name))) << readme << " names " << name << ", which is not there";
+    for (const std::string& name : listed)
+      EXPECT_TRUE(fs::exists(path_of(module + "/" + name))) << readme << " names " << name << ", which is not there";
   }
 }
 
-// "Imports: `engine/numerics`, `engine/scene`." in the README are the rooms that the sources include, or "nothing".
-TEST(House, EveryReadmeTellsWhatItsRoomImports) {
-  for (const std::string& room : rooms_in_order()) {
-    if (std::find(houses.begin(), houses.end(), room) != houses.end()) continue;
+// "Imports: `engine/numerics`, `engine/scene`." in the README are the modules that the sources include, or "nothing".
+TEST(Architecture, EveryReadmeStatesWhatItsModuleImports) {
+  for (const std::string& module : modules_in_order()) {
+    if (std::find(areas.begin(), areas.end(), module) != areas.end()) continue;
     std::set<std::string> imported;
-    for (const std::string& file : sources_of(room))
+    for (const std::string& file : sources_of(module))
       for (const Include& i : includes_of(file))
-        if (room_of(i.of) != room) imported.insert("`" + room_of(i.of) + "`");
-    std::string told = "Imports: ";
-    for (const std::string& name : imported) told += (name == *imported.begin() ? "" : ", ") + name;
-    if (imported.empty()) told += "nothing";
-    const std::vector<std::string> lines = lines_of(room + "/README.md");
-    EXPECT_NE(std::find(lines.begin(), lines.end(), told + "."), lines.end())
-        << room << "/README.md must have the line\n"
-        << told << ".";
+        if (module_of(i.of) != module) imported.insert("`" + module_of(i.of) + "`");
+    std::string listed = "Imports: ";
+    for (const std::string& name : imported) listed += (name == *imported.begin() ? "" : ", ") + name;
+    if (imported.empty()) listed += "nothing";
+    const std::vector<std::string> lines = lines_of(module + "/README.md");
+    EXPECT_NE(std::find(lines.begin(), lines.end(), listed + "."), lines.end())
+        << module << "/README.md must have the line\n"
+        << listed << ".";
   }
 }
 
 // A name of the namespace is one thing: two types of one name in two sources are linked into one without a word, with the
 // members of either (ODR).
-TEST(House, NoTwoHeadersDefineTypesOfOneName) {
+TEST(Architecture, NoTwoHeadersDefineTypesOfOneName) {
   const std::regex type("(?:struct|class) ([A-Za-z]+)(?: final)?(?: :[^:].*)? \\{.*");
   std::map<std::string, std::string> defined_in;
-  std::vector<std::string> rooms = rooms_in_order();
-  rooms.push_back("library/kurbel");
-  for (const std::string& room : rooms)
-    for (const std::string& file : sources_of(room)) {
+  std::vector<std::string> modules = modules_in_order();
+  modules.push_back("library/kurbel");
+  for (const std::string& module : modules)
+    for (const std::string& file : sources_of(module)) {
       if (!file.ends_with(".h")) continue;
       for (const std::string& line : lines_of(file))
         if (std::smatch found; std::regex_match(line, found, type)) {
@@ -309,9 +310,9 @@ TEST(House, NoTwoHeadersDefineTypesOfOneName) {
 }
 
 // Links within the project lead somewhere.
-TEST(House, LinksBetweenDocumentsResolve) {
+TEST(Architecture, LinksBetweenDocumentsResolve) {
   std::vector<std::string> folders = {"", "tests", "bench", "docs", "docs/theory", "docs/tasks", "scenes"};
-  for (const std::string& room : rooms_in_order()) folders.push_back(room);
+  for (const std::string& module : modules_in_order()) folders.push_back(module);
   int links = 0;
   for (const std::string& folder : folders)
     for (const auto& entry : fs::directory_iterator(path_of(folder))) {
@@ -328,4 +329,4 @@ TEST(House, LinksBetweenDocumentsResolve) {
   EXPECT_GT(links, 30);
 }
 
-}  // namespace kurbel::rooms_test
+}  // namespace kurbel::modules_test

@@ -1,5 +1,5 @@
 // energy_mass_sheet.cpp — the projection of three diagrams, tangents and what follows from their angles.
-#include "studies/handout/energy_mass_sheet.h"
+#include "studies/worksheet/energy_mass_sheet.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // forces_question.cpp — kurbel forces: kinetostatics of a scene's mechanism.
 #include "studies/forces/forces_findings.h"
-#include "studies/handout/forces_sheet.h"
-#include "studies/handout/sheet_options.h"
+#include "studies/worksheet/forces_sheet.h"
+#include "studies/worksheet/sheet_options.h"
 
 namespace kurbel {
 namespace {

@@ -1,5 +1,5 @@
 // reduce_sheet.cpp — positions and edges of the load, works and flywheel; tables and diagrams of torques and works.
-#include "studies/handout/reduce_sheet.h"
+#include "studies/worksheet/reduce_sheet.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include "engine/numerics/angles.h"
 #include "engine/rigid/rigid_machine.h"
 #include "studies/cycle/classical.h"
-#include "studies/handout/energy_mass_sheet.h"
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/table.h"
+#include "studies/worksheet/energy_mass_sheet.h"
 
 namespace kurbel {
 namespace {
@@ -120,9 +120,8 @@ void find_works(ReduceSheet& sheet, const Scene& scene, const ReduceOptions& opt
 // --- sheets ---
 
 std::string speed_words(const MachineReduction& r) {
-  return fmt::format(
-      "{} of {}{}", r.speed_unit.text(r.speed, 5), r.link,
-      r.basis == ReduceBasis::classical ? ", constant" : " on the mean, as it swings in the steady cycle");
+  return fmt::format("{} of {}{}", r.speed_unit.text(r.speed, 5), r.link,
+                     r.basis == ReduceBasis::classical ? ", constant" : " on the mean of the steady cycle");
 }
 
 using ReducedRow = SheetRow<ReducedPosition>;
@@ -271,7 +270,7 @@ std::string ReduceSheet::html() const {
 ReduceSheet sheet_of(const Scene& given, const ReduceOptions& options, const ReduceSheetRequest& request) {
   if (!options.to.empty())
     throw std::invalid_argument(fmt::format(
-        "--sheet with --to {}: a sheet is of the machine on its reduction link; leave out one of the two", options.to));
+        "--sheet with --to {}: a sheet is of the machine on its reduction link; omit one of the two", options.to));
   if (options.positions < 4 || options.positions > 72)
     throw std::invalid_argument(fmt::format("--positions {}: a sheet has 4 … 72", options.positions));
   const Scene scene = as_of(given, given.effects, options.at);

@@ -1,5 +1,5 @@
 // sheet_options.cpp — whether a sheet is asked for, and on which paper.
-#include "studies/handout/sheet_options.h"
+#include "studies/worksheet/sheet_options.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 // Wittenbauer's diagram is drawn on paper.
 #pragma once
 
-#include "studies/handout/reduce_sheet.h"
 #include "studies/sheet/scales.h"
+#include "studies/worksheet/reduce_sheet.h"
 
 namespace kurbel {
 

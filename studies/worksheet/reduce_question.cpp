@@ -1,8 +1,8 @@
 // reduce_question.cpp — kurbel reduce: inertia and torques reduced to one link.
 #include <stdexcept>
 
-#include "studies/handout/reduce_sheet.h"
-#include "studies/handout/sheet_options.h"
+#include "studies/worksheet/reduce_sheet.h"
+#include "studies/worksheet/sheet_options.h"
 
 namespace kurbel {
 namespace {
@@ -17,7 +17,7 @@ StudyOutput reduced(const Inquiry& inquiry, ReduceAsked asked) {
   if (!paper && (asked.request.delta || !asked.request.flywheel.empty()))
     throw std::invalid_argument(
         inquiry.dashes ? "--delta and --flywheel are of the sheet's flywheel; add --sheet, or ask kurbel size"
-                       : "delta and flywheel are of the sheet's flywheel; ask for sheet, too, or for size");
+                       : "delta and flywheel belong to the worksheet's flywheel; use --sheet as well, or kurbel size");
   if (!paper) return output_of(reduce(inquiry.scene, asked));
   asked.request.paper = *paper;
   asked.request.author = inquiry.author;

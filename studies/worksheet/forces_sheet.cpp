@@ -1,5 +1,5 @@
 // forces_sheet.cpp — forces of both kinds of study in one form; tables and diagrams of reactions and balancing torque.
-#include "studies/handout/forces_sheet.h"
+#include "studies/worksheet/forces_sheet.h"
 
 #include <fmt/format.h>
 

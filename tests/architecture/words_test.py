@@ -1,0 +1,87 @@
+"""words_test.py: none of the words of words.txt is used in READMEs, docs, help or messages.
+
+    python3 tests/architecture/words_test.py [PROGRAM]
+
+Reads the pages as people see them (no code, no links), every text of more than one word in the sources of C++ and of the page,
+the docstrings of Python's module, and, given the program, the help of each of its commands.
+"""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+FOLDERS = ("engine", "drivetrain", "mechanisms", "studies", "library", "app", "python")
+LITERAL = re.compile(r'//[^\n]*|/\*.*?\*/|#include[^\n]*|R"(\w*)\((.*?)\)\1"|"((?:[^"\\\n]|\\.)*)"|\'(?:[^\'\\\n]|\\.)+\'|\S', re.S)
+
+
+def patterns():
+    for line in (ROOT / "tests/architecture/words.txt").read_text().splitlines():
+        if line and not line.startswith("#"):
+            # The first two bars with blanks around part the columns; bars of the patterns have none.
+            what, instead, passes = (part.strip() for part in re.split(r" +\|(?: +|$)", line, maxsplit=2))
+            yield re.compile(rf"(?<![\w-])(?:{what})(?![\w-])", re.I), instead, re.compile(passes, re.I) if passes else None
+
+
+def page(text):
+    """A page of Markdown without code, targets of links and marks."""
+    text = re.sub(r"```.*?```|`[^`]*`|<[^>]*>|(?<=\])\([^)]*\)", " ", text, flags=re.S)
+    return re.sub(r"[*_]{1,2}", "", text)
+
+
+def literals(text):
+    """Texts of a C++ source, those that stand in a row joined; of a single word only those that are no name."""
+    texts, joined = [], None
+    for found in LITERAL.finditer(text):
+        raw, plain = found.group(2), found.group(3)
+        if raw is not None or plain is not None:
+            piece = raw if raw is not None else plain.replace("\\n", " ").replace('\\"', '"')
+            joined = piece if joined is None else joined + piece
+        elif not found.group().startswith(("//", "/*")):
+            texts += [joined] if joined else []
+            joined = None
+    return [t for t in texts + ([joined] if joined else []) if " " in t.strip()]
+
+
+def texts(program):
+    for path in sorted(ROOT.rglob("*.md")):
+        name = path.relative_to(ROOT).as_posix()
+        if name.startswith(("build", "results", ".")) or "vendor" in name or name == "tests/architecture/reading.md":
+            continue  # reading.md quotes what was before, and so does the sheet of conclusions
+        yield name, [page(re.sub(r"^> before: .*$", "", path.read_text(), flags=re.M))]
+    yield "docs/kurbel.1", [(ROOT / "docs/kurbel.1").read_text()]
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*")):
+            name = path.relative_to(ROOT).as_posix()
+            if "vendor" in name:
+                continue
+            if path.suffix in (".cpp", ".h", ".js"):
+                yield name, literals(path.read_text())
+            elif path.suffix == ".py":
+                yield name, re.findall(r'""".*?"""|"[^"\n]* [^"\n]*"', path.read_text(), re.S)
+    if program:
+        def said(*arguments):
+            return subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout
+        yield "kurbel --help", [said("--help")]
+        for command in said("commands").split():
+            yield f"kurbel {command} --help", [said(command, "--help")]
+
+
+def main(program):
+    rules, found, read = list(patterns()), 0, 0
+    for name, parts in texts(program):
+        for part in parts:
+            read += 1
+            part = re.sub(r"\s+", " ", part)
+            for rule, instead, passes in rules:
+                fine = [m.span() for m in passes.finditer(part)] if passes else []
+                for m in rule.finditer(part):
+                    if not any(begin <= m.start() and m.end() <= end for begin, end in fine):
+                        found += 1
+                        print(f"{name}: …{part[max(0, m.start() - 50):m.end() + 40]}… ({m.group()}: {instead})")
+    print(f"{read} texts, {found} to be mended")
+    return 1 if found or read < 3000 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1] if len(sys.argv) > 1 else None))
