@@ -153,8 +153,9 @@ void Progress::operator()(const std::string& what, double fraction) {
   const auto now = std::chrono::steady_clock::now();
   if (now - begin_ < std::chrono::seconds(1)) return;
   if (now - last_ < (terminal_ ? std::chrono::milliseconds(100) : std::chrono::seconds(10))) return;
-  last_ = now;
   const std::string line = fmt::format("{}: {:.0f} %", what, 100 * fraction);
+  if (!terminal_ && line == line_) return;
+  last_ = now, line_ = line;
   if (!terminal_) return complain(line + "\n");
   written_ = true;
   show_progress(line);

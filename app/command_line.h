@@ -51,6 +51,7 @@ class Progress {
 
  private:
   bool shown_, terminal_, written_ = false;
+  std::string line_;
   std::chrono::steady_clock::time_point begin_, last_{};
 };
 
