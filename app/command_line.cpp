@@ -135,12 +135,14 @@ void add_study_options(OptionList& command, StudyOptions& options) {
                    "write the plots for gnuplot too, and as SVG and PNG where it is installed");
   command.add_option("--brand", options.brand, "logo above the report, an SVG file").check(svg_fault);
   command.add_option("--author", options.author, "name above the report");
+  command.add_flag("--all", options.all, "print all figures with all digits, works, notes: the long form");
   command.add_flag("--json", options.json, "print the summary as JSON");
   command.add_flag("--quiet", options.quiet, "print only the conclusion in one line, and no progress");
   command.add_flag("--verbose", options.verbose, "say on stderr what is read, compiled, chosen and run");
 }
 
-Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)), begin_(std::chrono::steady_clock::now()) {}
+Progress::Progress(bool quiet)
+    : shown_(!quiet), terminal_(isatty(STDERR_FILENO) != 0), begin_(std::chrono::steady_clock::now()), last_(begin_) {}
 
 Progress::~Progress() {
   if (written_) show_progress("");
@@ -149,10 +151,13 @@ Progress::~Progress() {
 void Progress::operator()(const std::string& what, double fraction) {
   if (!shown_) return;
   const auto now = std::chrono::steady_clock::now();
-  if (now - begin_ < std::chrono::seconds(1) || now - last_ < std::chrono::milliseconds(100)) return;
+  if (now - begin_ < std::chrono::seconds(1)) return;
+  if (now - last_ < (terminal_ ? std::chrono::milliseconds(100) : std::chrono::seconds(10))) return;
   last_ = now;
+  const std::string line = fmt::format("{}: {:.0f} %", what, 100 * fraction);
+  if (!terminal_) return complain(line + "\n");
   written_ = true;
-  show_progress(fmt::format("{}: {:.0f} %", what, 100 * fraction));
+  show_progress(line);
 }
 
 namespace {
@@ -222,7 +227,7 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
 
 }  // namespace
 
-int present(StudyOutput output, const StudyOptions& options, bool all) {
+int present(StudyOutput output, const StudyOptions& options) {
   // What was set beside the scene stands in every summary.
   if (!options.set.empty()) output.tell("set", options.set);
   // Asked once: what is decided here holds for the files as for the exit code.
@@ -231,8 +236,8 @@ int present(StudyOutput output, const StudyOptions& options, bool all) {
     say(output.json() + "\n");
   else if (options.quiet)
     say(printable(output.conclusion()) + "\n");
-  else if (all || !output.brief)
-    say_with_conclusion(output.text(), output.conclusion());
+  else if (options.all || !output.brief)
+    say_with_conclusion(output.text(options.all), output.conclusion());
   else
     say_with_conclusion(brief_text(output), headline_text(output));
   if (!options.no_files) write_files(output, options, stopped);

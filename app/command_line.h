@@ -34,7 +34,7 @@ struct StudyOptions {
   std::string scene, out;
   std::string brand, author;   // of the page: a logo as SVG, a name
   std::string format = "csv";  // of the tables: "csv,mat,xlsx"
-  bool json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
+  bool all = false, json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
   bool allow_files = false;
   std::vector<std::string> set;  // beside the scene: "main_coupling.stiffness=1 MN*m/rad"
 };
@@ -42,7 +42,7 @@ struct StudyOptions {
 std::filesystem::path results_of(const StudyOptions& options);
 void add_scene(OptionList& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
 void add_study_options(OptionList& command, StudyOptions& options);
-// A line on stderr that is written over, on a terminal only, and only for work longer than a second.
+// On stderr. On a terminal a line that is written over, for work longer than a second; else a line every ten seconds.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -50,7 +50,7 @@ class Progress {
   void operator()(const std::string& what, double fraction);
 
  private:
-  bool shown_, written_ = false;
+  bool shown_, terminal_, written_ = false;
   std::chrono::steady_clock::time_point begin_, last_{};
 };
 
@@ -70,7 +70,6 @@ Watch watch_of(const StudyOptions& options, Progress& progress);
 void add_former_name(OptionList& command, const std::string& name, std::string& value);
 
 // Prints, writes the files unless asked not to, and returns the exit code.
-// `all`: the long form where there is a short one, too.
-int present(StudyOutput output, const StudyOptions& options, bool all = false);
+int present(StudyOutput output, const StudyOptions& options);
 
 }  // namespace kurbel::app

@@ -31,7 +31,7 @@ struct RunArguments {
   StudyOptions study;
   DeclaredOptions run, measurement;
   std::string setting, from_state, save_state;
-  bool explain = false, all = false;
+  bool explain = false;
 };
 
 // Method and first tolerance by what an accuracy study of the same text measured, where the user names its file.
@@ -84,7 +84,7 @@ template <class Study>
 int present(const Study& study, const std::optional<Overlay>& overlay, const RunArguments& arguments) {
   Findings findings = findings_of(study);
   if (overlay) show(findings, *overlay);
-  return present({std::move(findings)}, arguments.study, arguments.all);
+  return present({std::move(findings)}, arguments.study);
 }
 
 int run(const RunArguments& arguments) {
@@ -131,8 +131,6 @@ void set_up_run(OptionList& command, int& code) {
   const auto arguments = std::make_shared<RunArguments>();
   add_study_options(command, arguments->study);
   arguments->run.add_to(command, run_options().declared());
-  command.add_flag("--all", arguments->all,
-                   "print all figures, works, notes and limits of steps, not only the conclusion and key figures");
   command.add_flag("--explain", arguments->explain,
                    "print what is merged, the coordinates and their inertias, and stop");
   command.add_option("--setting", arguments->setting,

@@ -23,6 +23,8 @@ Event shares_event(double t, const Contact& contact, const Shares& shares);
 Event jam_event(double t, const Contact& contact);
 // A command goes from one value to another, at once or over a time [s].
 Event command_event(double t, const std::string& component, double before, double to, double over);
+// A round of the operating sequence took longer than the time after which the next one begins [s].
+Event late_round_event(double t, double took, double every);
 Event window_event(double t, const std::string& component, bool on);
 // So many contacts changed at one instant; a set of modes that fits was found after so many changes, or none.
 Event modes_event(double t, std::size_t contacts, bool fits, int changes);

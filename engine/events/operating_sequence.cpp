@@ -44,7 +44,7 @@ bool OperatingSequence::begin(Modes& modes, double t, std::span<const double> y)
   std::fill(modes.command.begin(), modes.command.end(), Command{});
   modes.next_step = 0;
   modes.last_step_time = t;
-  modes.armed_time = never;
+  modes.armed_time = modes.round_began = never;
   if (!any()) return false;
   arm(modes, t, y);
   return modes.armed_time <= t;
@@ -54,6 +54,10 @@ void OperatingSequence::arm(Modes& modes, double t, std::span<const double> y) c
   const Sequence& sequence = model_->scene.sequence;
   modes.armed_time = never;
   if (modes.next_step >= sequence.steps.size()) return;
+  if (sequence.every > 0 && modes.next_step == 0 && modes.round_began < never) {  // the clock begins the next round
+    modes.armed_time = std::max(t, modes.round_began + sequence.every);
+    return;
+  }
   const SequenceStep& step = sequence.steps[modes.next_step];
   if (step.when == SequenceStep::When::at) modes.armed_time = std::max(t, step.value);
   if (step.when == SequenceStep::When::after) modes.armed_time = modes.last_step_time + step.value;
@@ -83,12 +87,21 @@ void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, 
       const double over = step.law.empty() ? step.over : step.law.x().back();
       if (log) log->push_back(command_event(t, component, value, to, over));
     }
+    if (modes.next_step == 0) begin_round(modes, t, log);
     modes.last_step_time = t;
     ++modes.next_step;
     if (modes.next_step == sequence.steps.size() && sequence.repeat) modes.next_step = 0;
     arm(modes, t, y);
     if (modes.armed_time > t) break;
   }
+}
+
+void OperatingSequence::begin_round(Modes& modes, double t, EventLog* log) const {
+  const double every = model_->scene.sequence.every;
+  if (every == 0) return;
+  const double took = t - modes.round_began;
+  if (log && modes.round_began < never && took > every * (1 + 1e-12)) log->push_back(late_round_event(t, took, every));
+  modes.round_began = t;
 }
 
 double OperatingSequence::guard(const Modes& modes, std::span<const double> y, const double* speed) const {

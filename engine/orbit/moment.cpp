@@ -41,7 +41,7 @@ Scene as_of(const Scene& scene, const Effects& effects, const Moment& moment) {
         "at a time: the operating sequence repeats, and the settings of its earlier repetitions would be omitted; give "
         "a step of its first repetition, e.g. \"step 2\"");
   const std::size_t last = moment.after_step ? *moment.after_step : steps_before(scene, effects, *moment.time);
-  then.sequence.repeat = false;
+  then.sequence.repeat = false, then.sequence.every = 0;
   if (last >= steps) return then;
   SequenceStep& next = then.sequence.steps[last];
   next.when = SequenceStep::When::speed_above;

@@ -135,14 +135,14 @@ class Search {
     if (has_own_period() && is_settled() && find_own_period()) return;
     if (!round) return wait(now, speeds);
     patience_factor_ = 1;
-    if (is_settled() && !aligning && !m_.scene.sequence.repeat) look(before, now);
+    if (is_settled() && !aligning && !m_.scene.sequence.repeats_freely()) look(before, now);
   }
 
   // The link did not come round.
   void wait(const Pace& now, const LinkSpeeds& speeds) {
     patience_factor_ = std::min(2 * patience_factor_, 64.0);
     if (!is_settled() && state_.t < switched_until(m_, period_, state_)) return;
-    if (is_settled() && !m_.scene.sequence.repeat && swings_.as_before(speeds)) return vibrate();
+    if (is_settled() && !m_.scene.sequence.repeats_freely() && swings_.as_before(speeds)) return vibrate();
     if (now.rate > still || period_.by_time) return;
     if (now.speed <= still) return end(Orbit::Kind::at_rest, at_rest());
     const double omega = std::abs(link_speed());

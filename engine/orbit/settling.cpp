@@ -42,7 +42,8 @@ bool has_own_period(const Model& m, const Periodicity& period) {
                                   [](const PrescribedSpeed& p) { return p.amplitude != 0; });
   const bool driven = std::any_of(m.network.elements.begin(), m.network.elements.end(),
                                   [](const Network::ShaftElement& e) { return e.element->time_period > 0; });
-  return m.scene.sequence.repeat || (!period.angle_matters && !swings && !driven);
+  const Sequence& sequence = m.scene.sequence;
+  return sequence.repeats_freely() || (!period.angle_matters && !swings && !driven && sequence.every == 0);
 }
 
 Pace pace_of(Equations& equations, const State& state) {

@@ -117,7 +117,57 @@ class StepReader {
   Messages& messages_;
 };
 
+void read_steps(const DocumentValue& list, StepReader& reader, Messages& messages, Sequence& sequence) {
+  if (list.type != Type::list)
+    return messages.add(list.at, fmt::format("[sequence]: steps = {}; must be a list of tables, e.g. [{{ at = \"1 s\", "
+                                             "set = \"clutch\", to = 0 }}]",
+                                             list.describe()));
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    const DocumentValue& item = list.items[i];
+    const std::string what = fmt::format("[sequence]: steps[{}]", i + 1);
+    if (item.type == Type::table)
+      sequence.steps.push_back(reader.read(item, what));
+    else
+      messages.add(item.at, fmt::format("{} = {}; must be a table", what, item.describe()));
+  }
+}
+
+// What begins the next round: its first step, or the clock.
+void read_rounds(const Section& section, Location table, Messages& messages, Sequence& sequence) {
+  using When = SequenceStep::When;
+  const SequenceStep& first = sequence.steps.front();
+  const bool by_rate = section.has("rate"), clocked = by_rate || section.has("every");
+  const char* key = by_rate ? "rate" : "every";
+  const auto refuse = [&](const char* at, const std::string& text) {
+    messages.add(section.where(at), fmt::format("[sequence]: {}: {}", at, text));
+  };
+  if (by_rate && section.has("every")) return refuse("rate", "both \"every\" and \"rate\" given; keep one");
+  if (clocked && section.given("repeat") && !sequence.repeat)
+    return refuse("repeat", fmt::format("repeat = false, but \"{}\" says when the next round begins; keep one", key));
+  if (clocked && first.when != When::at && !(first.when == When::after && first.value == 0))
+    return refuse(key,
+                  "the clock begins each round, but its first step waits for something else; give that step "
+                  "\"at\", for the first round, or nothing, and what it waits for to a step behind it");
+  if (clocked) sequence.repeat = true, sequence.every = by_rate ? 1 / section.number("rate") : section.number("every");
+  const auto waits = [](const SequenceStep& step) {
+    return step.when != When::at && !(step.when == When::after && step.value == 0);
+  };
+  if (sequence.repeats_freely() && std::none_of(sequence.steps.begin(), sequence.steps.end(), waits))
+    messages.add(table,
+                 "[sequence]: repeat = true, but no step waits for anything when its turn comes again; give "
+                 "one an \"after\" > 0 s, an angle or a speed, or the sequence \"every\"");
+}
+
 }  // namespace
+
+const std::vector<Key>& sequence_keys() {
+  static const std::vector<Key> keys = {
+      flag("repeat", "false", "after the last step the first one's turn comes again"),
+      quantity("every", "s", positive, "a round begins so long after the one before it began; repeats"),
+      quantity("rate", "1/s", positive, "the same as rounds in a time: strokes per minute as \"30 1/min\""),
+  };
+  return keys;
+}
 
 const std::vector<Key>& sequence_step_keys() {
   static const std::vector<Key> keys = {
@@ -146,45 +196,15 @@ Sequence read_sequence(const DocumentValue& table, const std::vector<std::string
     messages.add(table.at, fmt::format("sequence = {}; must be a table with \"steps\"", table.describe()));
     return sequence;
   }
+  static const Kind kind{.name = "sequence", .keys = sequence_keys()};
+  const Section section = read_section(table, kind, "", "[sequence]", messages, {"steps"});
+  sequence.repeat = section.has("repeat") && section["repeat"].flag;
   StepReader reader(components, is_component, messages);
-  bool any = false;
-  for (const DocumentEntry& entry : table.entries) {
-    if (entry.key == "repeat") {
-      if (entry.value.type == Type::flag)
-        sequence.repeat = entry.value.flag;
-      else
-        messages.add(entry.value.at,
-                     fmt::format("[sequence]: repeat = {}; must be true or false", entry.value.describe()));
-    } else if (entry.key == "steps") {
-      any = true;
-      if (entry.value.type != Type::list) {
-        messages.add(entry.value.at,
-                     fmt::format("[sequence]: steps = {}; must be a list of tables, e.g. [{{ at = \"1 s\", "
-                                 "set = \"clutch\", to = 0 }}]",
-                                 entry.value.describe()));
-        continue;
-      }
-      for (std::size_t i = 0; i < entry.value.items.size(); ++i) {
-        const DocumentValue& item = entry.value.items[i];
-        const std::string what = fmt::format("[sequence]: steps[{}]", i + 1);
-        if (item.type == Type::table)
-          sequence.steps.push_back(reader.read(item, what));
-        else
-          messages.add(item.at, fmt::format("{} = {}; must be a table", what, item.describe()));
-      }
-    } else {
-      messages.add(entry.at, fmt::format("[sequence]: unknown key {}{}; allowed: \"steps\" and \"repeat\"",
-                                         in_quotes(entry.key), suggestion(entry.key, {"steps", "repeat"})));
-    }
-  }
-  const auto waits = [](const SequenceStep& step) {
-    return step.when != SequenceStep::When::at && !(step.when == SequenceStep::When::after && step.value == 0);
-  };
-  if (sequence.repeat && !sequence.steps.empty() && std::none_of(sequence.steps.begin(), sequence.steps.end(), waits))
-    messages.add(table.at,
-                 "[sequence]: repeat = true, but no step waits for anything when its turn comes again; give "
-                 "one an \"after\" > 0 s, an angle or a speed");
-  if (!any) messages.add(table.at, "[sequence]: \"steps\" is missing");
+  if (const DocumentEntry* steps = table.find("steps"))
+    read_steps(steps->value, reader, messages, sequence);
+  else
+    messages.add(table.at, "[sequence]: \"steps\" is missing");
+  if (section.sound && !sequence.steps.empty()) read_rounds(section, table.at, messages, sequence);
   return sequence;
 }
 

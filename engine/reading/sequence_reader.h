@@ -14,7 +14,8 @@ namespace kurbel {
 Sequence read_sequence(const DocumentValue& table, const std::vector<std::string>& components,
                        const std::function<bool(const std::string&)>& is_component, Messages& messages);
 
-// Keys of one step, for the docs.
+// Keys of [sequence] besides its steps, and of a step; for the docs.
+const std::vector<Key>& sequence_keys();
 const std::vector<Key>& sequence_step_keys();
 
 }  // namespace kurbel

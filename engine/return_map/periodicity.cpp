@@ -72,6 +72,7 @@ Periodicity periodicity_of(const Model& m) {
   for (const CommandTarget& target : m.commands)
     if (const double period = lasting_period(m.scene.sequence, target.component); period > 0)
       times.push_back({period, target.component});
+  if (m.scene.sequence.every > 0) times.push_back({m.scene.sequence.every, "sequence"});
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
     if (joint.element->is.uses_angle) angles.push_back({turn / m.scale_ratio[at(joint.a)], joint.component});

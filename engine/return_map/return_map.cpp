@@ -232,7 +232,7 @@ ReturnMap::Image ReturnMap::round_of(const Eigen::VectorXd& z, bool with_derivat
 // the motion the period is known only about; by as much as the round ended late the motion is followed back.
 void ReturnMap::in_step_with_sequence(const RunOutcome& outcome, Image& image) {
   const Modes &now = equations_.modes(), &then = section_->state().modes;
-  if (!own_period_ || !shared_->scene.sequence.repeat || now.next_step != then.next_step) return;
+  if (!own_period_ || !shared_->scene.sequence.repeats_freely() || now.next_step != then.next_step) return;
   const double late = (outcome.t - now.last_step_time) - (section_->state().t - then.last_step_time);
   std::vector<double> rate(equations_.size());
   equations_.flow(outcome.t, std::span(outcome.state).first(equations_.size()), rate);

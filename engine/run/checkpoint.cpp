@@ -12,7 +12,7 @@ namespace kurbel {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Command, value, rate, from, until, to, law, piece)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, on_since, direction, slip, loss_direction,
                                    loss_sign, regularised, carries, capacity, turns, first_two_turns, command,
-                                   next_step, armed_time, armed_angle, last_step_time)
+                                   next_step, armed_time, armed_angle, last_step_time, round_began)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory::Recent, time, fired)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory, implicit, last_event, last_jam, events_here, jams_here, shortened,
                                    last_step, recent, held_needed)
@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const char* const kind = "kurbel checkpoint 3";
+const char* const kind = "kurbel checkpoint 4";
 
 std::vector<std::string> names_of(const Equations& equations) {
   std::vector<std::string> names;

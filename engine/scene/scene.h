@@ -54,6 +54,10 @@ struct SequenceStep {
 struct Sequence {
   std::vector<SequenceStep> steps;  // each waits for the one before it
   bool repeat = false;
+  double every = 0;  // a round begins so long after the one before it began [s]; 0: as its first step says
+
+  // Its rounds take as long as their steps do.
+  bool repeats_freely() const { return repeat && every == 0; }
 };
 
 // [operation]: where the machine runs for long, and what excites it besides its own laws.

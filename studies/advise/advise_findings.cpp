@@ -48,7 +48,8 @@ Rows tried_table(const Advice& a) {
       .always()
       .only_for_people("effects on", &TriedSet::words)
       .only_for_people("deviation", [](const TriedSet* t) { return t->refused.empty() ? percent(t->deviation) : "—"; })
-      .only_for_people("error", [](const TriedSet* t) { return t->refused.empty() ? "± " + percent(t->error) : "—"; })
+      .only_for_people("numerical error",
+                       [](const TriedSet* t) { return t->refused.empty() ? "± " + percent(t->error) : "—"; })
       .only_for_people("in", [](const TriedSet* t) { return or_dash(t->figure); })
       .only_for_people("time [ms]", &TriedSet::cpu_seconds, {.factor = 1e3, .digits = 3})
       .only_for_people("states", [](const TriedSet* t) { return t->size.states; })
@@ -64,7 +65,8 @@ Rows held_out_table(const Advice& a) {
       .only_for_programs("deviation", &HeldOut::deviation)
       .only_for_programs("error", &HeldOut::error)
       .only_for_people("deviation", [](const HeldOut& h) { return h.refused.empty() ? percent(h.deviation) : "—"; })
-      .only_for_people("error", [](const HeldOut& h) { return h.refused.empty() ? "± " + percent(h.error) : "—"; })
+      .only_for_people("numerical error",
+                       [](const HeldOut& h) { return h.refused.empty() ? "± " + percent(h.error) : "—"; })
       .column("figure", "in", &HeldOut::figure, or_dash)
       .only_for_programs("within", &HeldOut::within)
       .only_for_people("within", [](const HeldOut& h) {

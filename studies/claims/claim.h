@@ -126,6 +126,7 @@ struct Claim {
   std::string of;    // component; empty: the machine
   Evidence evidence;
   std::string load_case = {};  // of a limit: "start", "steady", …
+  std::string variant = {};    // of the machine that it is of: a [[case]]; empty: the machine as it is
   std::optional<Remedy> remedy = {};
   bool in_conclusion = true;  // false: it stands in the list of claims alone
 

@@ -131,7 +131,7 @@ constexpr std::array kinds = {
     ClaimKind{limit_exceeded, bears, fault, above,
               "a limit of the scene is exceeded by more than the error of what it is held against",
               "value, limit: as the requirement has them",
-              "1 of 3 ratings EXCEEDED, worst \"belts\", reserve against slip (run): 120 % of what is allowed, 194.3 "
+              "1 of 3 ratings EXCEEDED, worst \"belts\", reserve against slip (run): 120 % of the limit, 194.3 "
               "N·m of 161.9 N·m",
               "run, compare, steady, modes"},
     ClaimKind{motor_overloaded, bears, fault, above,
@@ -167,13 +167,12 @@ constexpr std::array kinds = {
         "modes"},
     ClaimKind{limit_undecided, bears, note, anything, "the limit lies within the error of what is held against it",
               "value, limit, error: as the requirement has them",
-              "1 of 3 limits undecided, \"coupling\", vibratory torque (steady): 100 % of what is allowed",
+              "1 of 3 limits undecided, \"coupling\", vibratory torque (steady): 100 % of the limit",
               "run, compare, steady, modes"},
-    ClaimKind{
-        limit_held, bears, note, below, "the value with its error is at most the limit",
-        "value, limit: as the requirement has them",
-        "All 5 ratings assessed hold, the nearest \"clutch\", heat of an engagement (run): 69 % of what is allowed",
-        "run, compare, steady, modes"},
+    ClaimKind{limit_held, bears, note, below, "the value with its error is at most the limit",
+              "value, limit: as the requirement has them",
+              "All 5 ratings assessed hold, the nearest \"clutch\", heat of an engagement (run): 69 % of the limit",
+              "run, compare, steady, modes"},
     ClaimKind{not_assessed, bears, note, anything,
               "a limit that the scene states is of a load case that this command does not compute",
               "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",

@@ -24,15 +24,17 @@ std::vector<std::string> concluded(Claims claims) {
   std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
     const auto place = [](const Claim& c) {
       const bool bad = c.is_bad();
-      return std::tuple(!bad, c.topic(), bad ? -static_cast<int>(c.severity()) : 0,
+      // What is wrong with the machine, what else is said of it, its variants, figures.
+      const int part = !c.variant.empty() ? 2 : bad ? 0 : c.topic() < Topic::figures ? 1 : 3;
+      return std::tuple(part, c.topic(), bad ? -static_cast<int>(c.severity()) : 0,
                         bad && c.topic() == Topic::bears ? -c.share() : 0, bad ? c.predicate : Predicate{});
     };
     return place(a) < place(b);
   });
   std::vector<std::string> sentences;
-  std::map<Topic, int> told;
+  std::map<std::pair<bool, Topic>, int> told;
   for (const Claim& claim : claims) {
-    if (claim.is_bad() && ++told[claim.topic()] > most_bad_news) continue;
+    if (claim.is_bad() && ++told[{claim.variant.empty(), claim.topic()}] > most_bad_news) continue;
     if (std::string sentence = as_sentence(headline(claim.text)); !sentence.empty())
       sentences.push_back(std::move(sentence));
   }

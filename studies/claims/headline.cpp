@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 namespace kurbel {
 namespace {
@@ -48,7 +49,118 @@ std::string rounded(std::string_view number) {
   return significant_digits(number) > headline_digits ? headline_number(value_of(number)) : std::string(number);
 }
 
+// The same number with its point moved by so many places to the left: "35471600" by 6 is "35.4716". Its digits stay; noughts
+// at the end are dropped where the number had no point.
+std::string with_point_moved(std::string_view number, int places) {
+  std::string digits;
+  int before = 0, exponent = 0;  // digits before the point
+  bool point = false;
+  for (std::size_t i = 0; i < number.size() && exponent == 0; ++i) {
+    if (number[i] == 'e')
+      exponent = std::atoi(std::string(number.substr(i + 1)).c_str());
+    else if (number[i] == '.')
+      point = true;
+    else
+      digits += number[i], before += point ? 0 : 1;
+  }
+  before += exponent - places;
+  if (before <= 0) digits.insert(0, static_cast<std::size_t>(1 - before), '0'), before = 1;
+  if (static_cast<int>(digits.size()) < before) digits.append(static_cast<std::size_t>(before) - digits.size(), '0');
+  const auto whole = static_cast<std::size_t>(before);
+  std::string behind = digits.substr(whole);
+  if (!point || number.find('e') != std::string_view::npos)
+    while (behind.ends_with('0')) behind.pop_back();
+  std::string ahead = digits.substr(0, whole);
+  ahead.erase(0, std::min(ahead.find_first_not_of('0'), ahead.size() - 1));
+  return behind.empty() ? ahead : ahead + "." + behind;
+}
+
+// The unit that begins here, behind a blank, if it is one that people prefix: "N·m/rad"; else nothing.
+std::string_view prefixed_unit_at(std::string_view text) {
+  constexpr std::string_view units[] = {"N·m·s/rad", "N·m/rad", "N·m·s", "N·m", "N/m", "N", "J", "W", "Pa"};
+  if (!text.starts_with(' ')) return {};
+  text.remove_prefix(1);
+  for (const std::string_view unit : units) {
+    if (!text.starts_with(unit)) continue;
+    const std::string_view after = text.substr(unit.size());
+    const bool goes_on = !after.empty() && (is_of_word(after[0]) || after[0] == '/' || after[0] == '*' ||
+                                            after.starts_with("·") || after.starts_with("²"));
+    return goes_on ? std::string_view() : unit;
+  }
+  return {};
+}
+
+struct Prefix {
+  std::string_view name;
+  int places = 0;
+};
+Prefix prefix_of(double size) {
+  constexpr double least = 1e4, mega = 2e6, giga = 2e9;
+  return size >= giga ? Prefix{"G", 9} : size >= mega ? Prefix{"M", 6} : size >= least ? Prefix{"k", 3} : Prefix{};
+}
+
+std::string without_exponent(std::string_view number) {
+  const double size = value_of(number);
+  if (number.find('e') == std::string_view::npos || !(size == 0 || (size >= 1e-4 && size < 1e9)))
+    return std::string(number);
+  return with_point_moved(number, 0);
+}
+
+// A number that has its unit from the one behind it ends the text, and what joins them: "12000 … ".
+bool shares_the_unit(std::string_view text) {
+  constexpr std::string_view joints[] = {" … ", "…",   " to ", " and ", " or ", ", ", " / ",
+                                         "/",   " × ", " · ",  " + ",   " - ",  " − "};
+  for (const std::string_view minus : {std::string_view("-"), std::string_view("−")})
+    if (text.ends_with(minus) && !text.ends_with(" " + std::string(minus) + " ")) text.remove_suffix(minus.size());
+  return std::any_of(std::begin(joints), std::end(joints), [&](std::string_view joint) {
+    return text.size() > joint.size() && text.ends_with(joint) && is_digit(text[text.size() - joint.size() - 1]);
+  });
+}
+
+// A minus that ends the text, with nothing or a blank before it.
+void drop_minus(std::string& text) {
+  for (const std::string_view minus : {std::string_view("-"), std::string_view("−")}) {
+    if (!text.ends_with(minus)) continue;
+    const std::string_view before = std::string_view(text).substr(0, text.size() - minus.size());
+    if (before.empty() || before.ends_with(' ') || before.ends_with('(')) text.resize(before.size());
+    return;
+  }
+}
+
 }  // namespace
+
+std::string readable(std::string_view text) {
+  std::string said;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size();) {
+    quoted = quoted != (text[i] == '"');
+    const std::string_view rest = text.substr(i);
+    const std::size_t length = quoted ? 0 : number_at(rest), word = quoted ? 0 : word_at(rest);
+    if (length == 0 || word > length) {
+      said += rest.substr(0, std::max<std::size_t>(word, 1));
+      i += std::max<std::size_t>(word, 1);
+      continue;
+    }
+    const std::string_view number = rest.substr(0, length);
+    std::string_view error = rest.substr(length);
+    error = error.starts_with(plus_minus) ? error.substr(plus_minus.size()) : std::string_view();
+    error = error.substr(0, number_at(error));
+    const std::size_t whole = length + (error.empty() ? 0 : plus_minus.size() + error.size());
+    const std::string_view unit = prefixed_unit_at(rest.substr(whole));
+    const Prefix prefix = unit.empty() || shares_the_unit(said) ? Prefix{} : prefix_of(value_of(number));
+    const auto shown = [&](std::string_view n) {
+      return prefix.places > 0 ? with_point_moved(n, prefix.places) : without_exponent(n);
+    };
+    if (value_of(number) == 0) drop_minus(said);
+    said += shown(number);
+    if (!error.empty()) said += std::string(plus_minus) + shown(error);
+    i += whole;
+    if (prefix.places == 0) continue;
+    said += " " + std::string(prefix.name) + std::string(unit);
+    i += 1 + unit.size();
+  }
+  return said;
+}
 
 int significant_digits(std::string_view number) {
   std::string digits;
@@ -94,7 +206,7 @@ std::string headline(std::string_view text) {
       said += std::string(plus_minus) + rounded(error.substr(0, length));
     i += plus_minus.size() + length;
   }
-  return said;
+  return readable(said);
 }
 
 std::string capitalised(std::string sentence) {

@@ -13,6 +13,11 @@ inline constexpr int headline_digits = 4;
 //     "724.8855 ± 1e-06 N·m in \"shaft_10001\""  →  "724.9 N·m in \"shaft_10001\""
 std::string headline(std::string_view text);
 
+// Numbers in a text as people read them, no digit lost: between 1e-4 and 1e9 without an exponent, from 1e4 on with the prefix of
+// their unit where it takes one, and no minus before a zero. Names in quotes stay.
+//     "1.155e+05 N·m, 35471600 N·m/rad, 1.3e+02 %, -0.0 J"  →  "115.5 kN·m, 35.4716 MN·m/rad, 130 %, 0.0 J"
+std::string readable(std::string_view text);
+
 // Rounded to so many significant digits; from 1e4 to 1e9 without an exponent: 410470, not 4.1047e+05.
 std::string rounded_number(double value, int digits);
 

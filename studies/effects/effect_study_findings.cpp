@@ -40,7 +40,8 @@ Rows ranking(const EffectStudy& s) {
   }
   Rows table = words_table(
       "The full model without one effect at a time",
-      {"omitted", "greatest change", "error", "in", "states", "nonzeros", "guards", "events", "time ×", ""}, lines);
+      {"omitted", "greatest change", "numerical error", "in", "states", "nonzeros", "guards", "events", "time ×", ""},
+      lines);
   table.apart = false;
   return table;
 }

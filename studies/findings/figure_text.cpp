@@ -1,4 +1,4 @@
-// figure_text.cpp — digits end where the error begins.
+// figure_text.cpp — digits end where the error begins, or where a table has enough of them.
 #include "studies/findings/figure_text.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-constexpr int most_digits = 9, digits_without_error = 6, digits_if_exact = 12;
+constexpr int digits_without_error = 6, digits_if_exact = 12;
 
 // Decimal exponent of the first significant digit. By printing it: a logarithm is off by one next to powers of ten.
 int exponent_of(double x) {
@@ -46,40 +46,68 @@ double rounded_to(double value, int place) {
 // Count of units 10^place that the error fills, rounded up; a whole number but for round-off stays.
 double units_of(double error, int place) { return std::ceil(error / power_of_ten(place) * (1 - 1e-12)); }
 
+std::string error_text(double units, int place) {
+  const double upper = units * power_of_ten(place);
+  const bool fixed = upper >= 1e-5 && upper < 1e9;
+  return "± " + (fixed ? fmt::format("{:.{}f}", upper, std::max(0, -place))
+                       : fmt::format("{:.{}e}", upper, units >= 10 ? 1 : 0));
+}
+
+// Decimal exponent of the last digit of an error of one significant digit, of two where the first is a 1.
+int last_place_of_error(double size) {
+  const int place = exponent_of(size);
+  return size < 2 * power_of_ten(place) ? place - 1 : place;
+}
+
+// More than half a unit of the value's last digit: what is printed of the value does not say so itself.
+bool shows(const Estimate& estimate, const FigureText& text) {
+  if (text.error.empty() || text.error == "± 0") return false;
+  const std::size_t point = text.value.find('.'), exponent = text.value.find('e');
+  const std::size_t end = std::min(exponent, text.value.size());
+  int place = point == std::string::npos ? 0 : -static_cast<int>(end - point - 1);
+  if (exponent != std::string::npos) place += std::atoi(text.value.c_str() + exponent + 1);
+  return *estimate.error > 0.5 * power_of_ten(place);
+}
+
 }  // namespace
 
-FigureText figure_text(const Estimate& estimate) {
+FigureText figure_text(const Estimate& estimate, int most_digits) {
   if (!std::isfinite(estimate.value)) return {"—", ""};
   const double value = estimate.value + 0.0;  // no −0
   const std::optional<double>& error = estimate.error;
   if (!error || !std::isfinite(*error)) return {rounded_number(value, digits_without_error), ""};
   if (*error == 0) return {rounded_number(value, digits_if_exact), "± 0"};
-  // The place of the error's last digit, then of the value's.
   const double size = std::abs(*error);
-  int place = exponent_of(size);
-  if (size < 2 * power_of_ten(place)) --place;
-  if (value != 0) place = std::max(place, exponent_of(value) - (most_digits - 1));
+  int place = last_place_of_error(size);
+  const int least_place = value != 0 ? exponent_of(value) - (most_digits - 1) : place;
+  if (place < least_place) {
+    double units = units_of(size, place);
+    if (units >= 20) units = units_of(size, ++place);
+    return {written(rounded_to(value, least_place) + 0.0, least_place), error_text(units, place)};
+  }
+  // The place of the error's last digit is the value's, too.
   double shown = rounded_to(value, place), units = units_of(size + std::abs(value - shown), place);
   while (units >= 20) {  // 19.8 units and half a one for the value's rounding are 2 of the next place
     shown = rounded_to(value, ++place);
     units = units_of(size + std::abs(value - shown), place);
   }
-  const double upper = units * power_of_ten(place);
-  const bool fixed = upper >= 1e-5 && upper < 1e9;
-  return {written(shown + 0.0, place), "± " + (fixed ? fmt::format("{:.{}f}", upper, std::max(0, -place))
-                                                     : fmt::format("{:.{}e}", upper, units >= 10 ? 1 : 0))};
+  return {written(shown + 0.0, place), error_text(units, place)};
 }
 
 TileText tile_text(const Estimate& estimate, int digits) {
   const FigureText text = figure_text(estimate);
   std::string known = digits > 0 ? rounded_number(estimate.value, digits) : text.value;
-  if (significant_digits(known) <= headline_digits) return {std::move(known), "", text.error};
-  return {headline_number(estimate.value), std::move(known), text.error};
+  std::string error = shows(estimate, text) ? text.error : "";
+  if (significant_digits(known) <= headline_digits) return {std::move(known), "", std::move(error)};
+  return {headline_number(estimate.value), std::move(known), std::move(error)};
 }
 
 std::string with_error(const Estimate& estimate, std::string_view unit) {
   const FigureText text = figure_text(estimate);
-  return text.value + (text.error.empty() ? "" : " " + text.error) + (unit.empty() ? "" : " " + pretty_unit(unit));
+  const std::string its = unit.empty() ? "" : " " + pretty_unit(unit);
+  if (!shows(estimate, text)) return text.value + its;
+  if (*estimate.error < std::abs(estimate.value)) return text.value + " " + text.error + its;
+  return "less than " + rounded_number(std::abs(estimate.value) + *estimate.error, 2) + its;
 }
 
 std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed) {
@@ -88,10 +116,11 @@ std::string told_shortly(double value, const std::string& si_unit, const SpeedUn
   return unit.unit.empty() ? number : number + " " + pretty_unit(unit.unit);
 }
 
-FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed) {
+FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed,
+                         int most_digits) {
   const bool turns = si_unit == "rad/s";
   const Estimate shown = turns ? estimate / speed.size : estimate;
-  return {figure_text(shown).value, error_cell(shown), pretty_unit(turns ? speed.name : si_unit)};
+  return {figure_text(shown, most_digits).value, error_cell(shown), pretty_unit(turns ? speed.name : si_unit)};
 }
 
 std::string error_cell(const Estimate& estimate) {

@@ -1,12 +1,11 @@
-// figure_text.h — a figure and its error as people read them: the one form of terminal, report and README.
+// figure_text.h — a figure and its numerical error as people read them: the one form of terminal, report and README.
 //
-//   6257.169983 ± 5.3e-5   →  "6257.16998" "± 0.00006"
-//   0.104382 ± 0.0112      →  "0.104"      "± 0.012"
+//   6257.169983 ± 5.3e-5   →  "6257.17"  "± 0.00006"
+//   0.104382 ± 0.0112      →  "0.104"    "± 0.012"
 //
-// The error is rounded up to one significant digit, to two where the first is a 1; what the rounding of the value does
-// counts as error. The value ends at the same place. At most nine significant digits of a value are shown: the error
-// shown is never less than what that leaves open. No error is known: six digits. An error of 0 stands for what is exact
-// by construction.
+// The error is rounded up to one significant digit, to two where the first is a 1. The value ends at the same place, so that what
+// its rounding does counts as error; or it ends before, after six digits (nine in long forms), and the error is that of the
+// computation alone. No error is known: six digits. An error of 0 stands for what is exact by construction.
 #pragma once
 
 #include <string>
@@ -18,20 +17,23 @@
 
 namespace kurbel {
 
+inline constexpr int digits_in_tables = 6, digits_in_long_forms = 9;
+
 struct FigureText {
-  std::string value;  // "6257.16998"; "—" if it is not finite
+  std::string value;  // "6257.17"; "—" if it is not finite
   std::string error;  // "± 0.00006"; "± 0": exact; empty: not known
 };
 
-FigureText figure_text(const Estimate& estimate);
+FigureText figure_text(const Estimate& estimate, int most_digits = digits_in_tables);
 
 // A figure on a tile: rounded as a headline rounds, and below it what is known where that is more.
 struct TileText {
-  std::string value, known, error;  // "6257", "6257.16998", "± 0.00006"
+  std::string value, known, error;  // "6257", "6257.17", ""
 };
 TileText tile_text(const Estimate& estimate, int digits = 0);  // digits: 0: by the error
 
-// "6257.16998 ± 0.00006 N·m"; without an error "6257.17 N·m".
+// "6082.2 ± 0.6 N·m"; where the error is less than half of the value's last place, or none is known, "6257.17 N·m"; where it is
+// more than the value, what that is less than: "less than 15 s".
 std::string with_error(const Estimate& estimate, std::string_view unit);
 
 // As a sentence has it, four digits in a unit that is read easily: 19092.63 N·m → "19.09 kN·m"; a speed in its unit.
@@ -39,9 +41,10 @@ std::string told_shortly(double value, const std::string& si_unit, const SpeedUn
 
 // A figure in a row of a table: a speed in the scene's unit, all else in SI.
 struct FigureCells {
-  std::string value, error, unit;  // "6257.16998", "± 0.00006", "N·m"
+  std::string value, error, unit;  // "6257.17", "± 0.00006", "N·m"
 };
-FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed);
+FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed,
+                         int most_digits = digits_in_tables);
 
 // What a column of errors says where none was measured.
 std::string error_cell(const Estimate& estimate);

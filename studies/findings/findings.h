@@ -118,7 +118,10 @@ struct Findings {
     return found == chapters.end() ? chapter(title) : static_cast<Chapter>(found - chapters.begin());
   }
   void say(Chapter in, Rows rows) { statements.push_back({in, std::move(rows)}); }
-  void say(Chapter in, Sentences words) { statements.push_back({in, std::move(words)}); }
+  void say(Chapter in, Sentences words) {
+    for (std::string& line : words.lines) line = readable(line);
+    statements.push_back({in, std::move(words)});
+  }
   // On the page alone.
   void show(Chapter in, Card card) {
     statements.push_back({in, Drawn{[cards = Cards{std::move(card)}] { return cards; }}});

@@ -14,7 +14,8 @@
 namespace kurbel {
 
 // The renderings of findings, each in its own file: render_terminal.cpp, render_json.cpp, render_page.cpp.
-std::string terminal_text(const Findings& findings);
+// `all_digits`: of figures nine instead of six.
+std::string terminal_text(const Findings& findings, bool all_digits = false);
 // In short: at most Brief::most_lines lines of Brief::width columns; empty where there is no short form.
 std::string brief_text(const Findings& findings);
 // Sentence by sentence on lines of at most Brief::width columns.
@@ -29,7 +30,7 @@ struct StudyOutput : Findings {
   std::string next = {};  // what to do with it, where files are written: {scene}, {summary} stand for their names
   std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
 
-  std::string text() const { return terminal_text(*this); }
+  std::string text(bool all_digits = false) const { return terminal_text(*this, all_digits); }
   std::string json() const { return json_text(summary_of(*this)); }
   Report report() const { return page_of(*this); }
 };

@@ -51,9 +51,24 @@ bool shows_nothing(const Card& card) {
   return plot && !plot->map &&
          std::all_of(plot->series.begin(), plot->series.end(), [](const Series& s) { return s.x.empty(); });
 }
+// Numbers in what is drawn, as people read them.
+void make_readable(Plot& plot) {
+  for (std::string* text : {&plot.title, &plot.note}) *text = readable(*text);
+  for (Series& series : plot.series) series.name = readable(series.name);
+  for (Band& band : plot.bands) band.text = readable(band.text);
+}
+void make_readable(FormulaCard& formula) {
+  for (std::string* text : {&formula.title, &formula.numbers, &formula.note}) *text = readable(*text);
+}
+template <class Other>
+void make_readable(Other&) {}
+
 void show(Cards& cards, const Drawn& drawn) {
-  for (Card& card : drawn.cards())
-    if (!shows_nothing(card)) cards.push_back(std::move(card));
+  for (Card& card : drawn.cards()) {
+    if (shows_nothing(card)) continue;
+    std::visit([](auto& what) { make_readable(what); }, card);
+    cards.push_back(std::move(card));
+  }
 }
 void show(Cards&, const Field&) {}
 
@@ -86,12 +101,12 @@ std::vector<std::string> Rows::headings() const {
   return all;
 }
 
-std::vector<std::vector<std::string>> Rows::texts() const {
+std::vector<std::vector<std::string>> Rows::texts(bool all_digits) const {
   std::vector<std::vector<std::string>> all;
   for (const std::size_t i : for_people ? *for_people : numbers_below(count)) {
     std::vector<std::string>& row = all.emplace_back();
     for (const Column& c : columns)
-      if (c.for_people) row.push_back(c.texts[i]);
+      if (c.for_people) row.push_back(readable(all_digits && !c.long_texts.empty() ? c.long_texts[i] : c.texts[i]));
   }
   return all;
 }
@@ -134,7 +149,7 @@ void in_readable_unit(KeyFigure& figure) {
 Report page_of(const Findings& f) {
   Report page{.title = f.page_title.empty() ? f.title : f.page_title,
               .subtitle = f.subtitle,
-              .conclusion = f.conclusion(),
+              .conclusion = concluded(f.claims),
               .complete = f.complete,
               .figures = f.figures,
               .sections = {},

@@ -35,14 +35,14 @@ void say(std::string& text, const std::string& heading, bool apart) {
   if (!heading.empty()) text += heading + "\n";
 }
 
-void say(std::string& text, const Sentences& words) {
+void say(std::string& text, const Sentences& words, bool) {
   if (!words.terminal || words.lines.empty()) return;
   say(text, words.heading, words.apart);
   for (const std::string& line : words.lines) text += words.indent + line + "\n";
 }
 
-void say(std::string&, const Field&) {}
-void say(std::string&, const Drawn&) {}
+void say(std::string&, const Field&, bool) {}
+void say(std::string&, const Drawn&, bool) {}
 
 // At most so many columns; what is cut off stands in the report.
 std::string shortened(const std::string& text, std::size_t columns) {
@@ -93,8 +93,8 @@ std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string
 }
 
 // With its headings.
-std::vector<std::string> lines_of(const Rows& rows) {
-  std::vector<std::vector<std::string>> lines = rows.texts();
+std::vector<std::string> lines_of(const Rows& rows, bool all_digits = false) {
+  std::vector<std::vector<std::string>> lines = rows.texts(all_digits);
   lines.insert(lines.begin(), rows.headings());
   return aligned_lines(lines, rows.text_columns_on_terminal);
 }
@@ -114,10 +114,10 @@ std::vector<std::string> headline_of(const Findings& findings) {
   return lines;
 }
 
-void say(std::string& text, const Rows& rows) {
+void say(std::string& text, const Rows& rows, bool all_digits) {
   if (!rows.terminal || !rows.shown_to_people()) return;
   say(text, rows.heading, rows.apart);
-  text += in_lines(lines_of(rows));
+  text += in_lines(lines_of(rows, all_digits));
 }
 
 }  // namespace
@@ -126,9 +126,10 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
   return in_lines(aligned_lines(rows, text_columns));
 }
 
-std::string terminal_text(const Findings& findings) {
+std::string terminal_text(const Findings& findings, bool all_digits) {
   std::string text = opening_of(findings);
-  for (const Statement& s : findings.statements) std::visit([&](const auto& what) { say(text, what); }, s.what);
+  for (const Statement& s : findings.statements)
+    std::visit([&](const auto& what) { say(text, what, all_digits); }, s.what);
   return text;
 }
 
@@ -143,13 +144,13 @@ std::string brief_text(const Findings& f) {
   for (std::string& line : headline_of(f)) lines.push_back(std::move(line));
   if (b.figures.count > 0)
     for (const std::string& line : lines_of(b.figures)) lines.push_back(shortened(line, Brief::width));
-  for (const std::string& line : b.words) lines.push_back(shortened("  " + line, Brief::width));
+  for (const std::string& line : b.words) lines.push_back(shortened("  " + readable(line), Brief::width));
   const std::size_t own = lines.size() + (b.more.empty() ? 0 : 1),
                     room = Brief::most_lines - std::min(own, Brief::most_lines);
   for (std::size_t i = 0; i < b.notes.size() && i < room; ++i)
     lines.push_back(i + 1 == room && i + 1 < b.notes.size()
                         ? fmt::format("  {} more notes (report)", b.notes.size() - i)
-                        : shortened("  note: " + b.notes[i], Brief::width));
+                        : shortened("  note: " + readable(b.notes[i]), Brief::width));
   if (!b.more.empty()) lines.push_back(shortened("  " + b.more, Brief::width));
   return in_lines(lines);
 }

@@ -214,7 +214,8 @@ struct Meaning {
 };
 
 struct Report {
-  std::string title, subtitle = {}, conclusion = {};
+  std::string title, subtitle = {};
+  std::vector<std::string> conclusion = {};  // sentence by sentence
   bool complete = true;
   std::vector<KeyFigure> figures = {};
   std::deque<ReportSection> sections = {};

@@ -63,11 +63,12 @@ std::string read_as(const T& v, const InWords& in_words) {
 // --- tables ---
 
 struct Column {
-  std::string key, heading;                // empty: not for programs; not for people
-  bool for_people = true;                  // even under an empty heading
-  std::vector<Value> values = {};          // a row each, where there is a key, or a file's column
-  std::vector<std::string> texts = {};     // a row each, where it is for people
-  std::optional<DataColumn> in_file = {};  // none: it stands in no file
+  std::string key, heading;                  // empty: not for programs; not for people
+  bool for_people = true;                    // even under an empty heading
+  std::vector<Value> values = {};            // a row each, where there is a key, or a file's column
+  std::vector<std::string> texts = {};       // a row each, where it is for people
+  std::vector<std::string> long_texts = {};  // the same with all digits; empty: no others
+  std::optional<DataColumn> in_file = {};    // none: it stands in no file
 };
 
 struct Rows {
@@ -85,10 +86,10 @@ struct Rows {
   std::vector<std::vector<Tone>> tones = {};  // report.h
   std::vector<std::string> means = {};        // per row, the name of its figure in the dictionary; none, or one each
 
-  List list() const;                                    // as programs get it
-  DataTable data() const;                               // its columns for files
-  std::vector<std::string> headings() const;            // as people read it
-  std::vector<std::vector<std::string>> texts() const;  // without the headings
+  List list() const;                                                           // as programs get it
+  DataTable data() const;                                                      // its columns for files
+  std::vector<std::string> headings() const;                                   // as people read it
+  std::vector<std::vector<std::string>> texts(bool all_digits = false) const;  // without the headings
   bool shown_to_people() const { return (count > 0 && (!for_people || !for_people->empty())) || even_if_empty; }
 };
 
@@ -132,18 +133,22 @@ class RowsOf : public Rows {
     return *this;
   }
 
-  // `get` gives an Estimate: KEY and KEY_error for programs, "6257.16998 ± 0.00006" for people.
+  // `get` gives an Estimate: KEY and KEY_error for programs, "6082.2 ± 0.6" for people.
   template <class Get>
   RowsOf& estimate(std::string its_key, std::string its_heading, Get get) {
     return column(std::move(its_key), std::move(its_heading), std::move(get),
                   [](const Estimate& e) { return with_error(e, ""); });
   }
 
-  // For people: `get` gives FigureText or FigureCells; a column of values, and one of their errors.
+  // For people: `get` gives FigureText or FigureCells of a row and a number of digits; a column of values, and one of their
+  // errors.
   template <class Get>
   RowsOf& value_and_error(std::string its_heading, const Get& get) {
-    only_for_people(std::move(its_heading), [&](const T& row) { return std::invoke(get, row).value; });
-    return only_for_people("error", [&](const T& row) { return std::invoke(get, row).error; });
+    const auto value = [&](const T& row, int digits) { return std::invoke(get, row, digits).value; };
+    only_for_people(std::move(its_heading), [&](const T& row) { return value(row, digits_in_tables); });
+    for (const T& row : rows_) columns.back().long_texts.push_back(value(row, digits_in_long_forms));
+    return only_for_people("numerical error",
+                           [&](const T& row) { return std::invoke(get, row, digits_in_tables).error; });
   }
 
   // The last column stands in a file, too, under its key. Digits: significant ones of numbers.

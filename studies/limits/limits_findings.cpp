@@ -27,7 +27,7 @@ Tone tone_of(Compliance state) {
 }
 
 // The load without its factors, with its error where that shows.
-std::string readable(const Verdict& v) {
+std::string load_text(const Verdict& v) {
   if (!v.assessed) return "—";
   const ReadableUnit unit = readable_unit(v.limit, v.unit);
   const std::string value = read_as(unit.factor * v.load(), {.digits = 5, .otherwise = "unbounded"});
@@ -89,7 +89,7 @@ Rows verdict_table(const std::vector<Verdict>& verdicts) {
           .only_for_programs("unit", &Verdict::unit)
           .only_for_programs("holds", &Verdict::holds)
           .only_for_programs("verdict", [](const Verdict& v) { return std::string(name_of(v.state())); })
-          .only_for_people("load", readable)
+          .only_for_people("load", load_text)
           .column("factor", "factors", &Verdict::factor,
                   [](double factor) { return factor == 1 ? std::string() : fmt::format("{:.4g}", factor); })
           .only_for_people("of the standard", [](const Verdict& v) { return v.factors; })

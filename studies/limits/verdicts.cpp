@@ -216,10 +216,10 @@ std::string name_of(const Verdict& v) {
   return fmt::format("\"{}\", {} ({})", v.component, v.requirement.substr(0, v.requirement.find(':')), v.load_case);
 }
 
-// "clutch", heat of an engagement (run): 132 % of what is allowed
+// "clutch", heat of an engagement (run): 132 % of the limit
 std::string use_in_words(const Verdict& v) {
   if (v.gives_way) return name_of(v) + ": more than its capacity";
-  return fmt::format("{}: {:.0f} % of what is allowed", name_of(v), 100 * v.share());
+  return fmt::format("{}: {:.0f} % of the limit", name_of(v), 100 * v.share());
 }
 
 // "9.16 kN·m · 1.2 of 10 kN·m", "; it holds from …"
@@ -273,7 +273,7 @@ std::string sum_up(const std::vector<Verdict>& all, const Verdict& worst, const 
       return fmt::format("{} of {} {}s undecided, {}", count(Compliance::undecided), number, what, use_in_words(worst));
     case Compliance::holds:
       return fmt::format("{}{} hold{}, {}{}",
-                         one           ? "its " + what
+                         one           ? (open > 0 ? "the one " : "its ") + what
                          : number == 2 ? "both " + what + "s"
                                        : fmt::format("all {} {}s", number, what),
                          open > 0 ? (one ? " that is assessed" : " that are assessed") : "", one ? "s" : "",

@@ -83,7 +83,7 @@ Fatigue fatigue_of(const ShaftRating& shaft, const Estimate& amplitude, const Es
 Verdict not_assessed(std::string component, std::string requirement, double limit, std::string unit,
                      const char* load_case, std::string why);
 
-// "1 of 3 ratings EXCEEDED, worst "clutch", heat of an engagement: 132 % of what is allowed, 1320 J of 1000 J; …", with the
+// "1 of 3 ratings EXCEEDED, worst "clutch", heat of an engagement: 132 % of the limit, 1320 J of 1000 J; …", with the
 // value that would mend it; "all 3 ratings hold, the nearest "belt", …", and what is not assessed; empty: nothing is judged.
 // `what`: "rating".
 std::string sentence_of(const std::vector<Verdict>& verdicts, const std::string& what);

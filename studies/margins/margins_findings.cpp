@@ -43,7 +43,7 @@ double share_of_joint(const Margin& row) {
   return row.response && row.not_assessed.empty() ? row.response->share : std::nan("");
 }
 
-// "60.75 N·m in coupling, 5.91 % of what it may bear"
+// "60.75 N·m in coupling, 5.91 % of its limit"
 std::string severity_text(const Margin& row) {
   if (!row.not_assessed.empty()) return "not assessed: " + row.not_assessed;
   if (!std::isfinite(row.response->amplitude)) return "unbounded in " + row.response->joint + ": nothing damps it";

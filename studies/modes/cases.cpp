@@ -262,6 +262,7 @@ void claim_case(Findings& f, const ModesCase& one) {
     });
     if (known || !claim.is_bad() || !claim.in_conclusion) continue;
     claim.text = fmt::format("In the case {}: {}", in_quotes(one.name), claim.text);
+    claim.variant = one.name;
     f.claim(std::move(claim));
   }
 }

@@ -43,7 +43,7 @@ std::string largest_shares(const std::vector<double>& share, const std::vector<s
 }
 
 std::string damped_text(const Mode& m) {
-  return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(8)) : "does not oscillate";
+  return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(6)) : "does not oscillate";
 }
 
 // Of the periodic system: damped frequency and damping ratio.
@@ -79,7 +79,7 @@ Rows mode_table(const ModesStudy& m) {
       .column("name", "swings", [&](const Mode& mode) { return name_of(m, mode); })
       .only_for_programs("omega", &Mode::omega)
       .column(
-          "frequency", "f [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(8))
+          "frequency", "f [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(6))
       .only_for_programs("damped",
                          [](const Mode& mode) {
                            return Record{{"real", mode.lambda.real()}, {"imaginary", mode.lambda.imag()}};
@@ -102,7 +102,7 @@ Rows mode_table(const ModesStudy& m) {
   if (std::any_of(m.modes.begin(), m.modes.end(),
                   [](const Mode& mode) { return std::abs(mode.magnitude() - mode.omega) > 1e-6 * mode.omega; }))
     table.only_for_people("|λ| [Hz]", [](const Mode& mode) { return read_as(hertz(mode.magnitude()), digits(6)); });
-  table.only_for_people("error [Hz]", [](const Mode& mode) { return read_as(hertz(mode.error), digits(2)); });
+  table.only_for_people("numerical error [Hz]", [](const Mode& mode) { return read_as(hertz(mode.error), digits(2)); });
   if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.least < mode.greatest; }))
     table.only_for_people("held at angles [Hz]", [](const Mode& mode) {
       return fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
@@ -145,7 +145,7 @@ Rows internal_table(const ModesStudy& m) {
       .only_for_people(
           "|λ| [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(6))
       .only_for_people(
-          "error [Hz]", [](const Mode& mode) { return hertz(mode.error); }, digits(2));
+          "numerical error [Hz]", [](const Mode& mode) { return hertz(mode.error); }, digits(2));
 }
 
 Rows response_table(const ModesStudy& m) {

@@ -94,7 +94,7 @@ Rows harmonics_table(const MachineReduction& r) {
       return is_dust(s.harmonics[n], s) ? 0.0 : s.harmonics[n].amplitude.value;
     };
     table.only_for_people(fmt::format("{} [{}]", s.name, pretty_unit(s.unit)), amplitude);
-    table.only_for_people("error", [&s](std::size_t n) {
+    table.only_for_people("numerical error", [&s](std::size_t n) {
       const std::optional<double>& error = s.harmonics[n].amplitude.error;
       return error ? fmt::format("± {:.1g}", *error) : std::string();
     });

@@ -635,6 +635,18 @@
 
   // Shaft line and mechanism beside each other, equally high, where that leaves the line's words readable; else below.
   // Words come out at some 13 pixels however much the drawing is enlarged, and end within it.
+  // Names above their parts, each in the lowest of three rows in which it keeps clear of its neighbour.
+  function placeNames(line, size) {
+    const box = line.svg.viewBox.baseVal, rows = [38, 18, -2], ends = {};
+    for (const {text, middle, top, high} of line.names) {
+      const half = 0.31 * size * text.textContent.length + 2, x = Math.min(Math.max(middle, half), box.width - half);
+      const end = y => ends[top + y] ?? -Infinity, open = rows.slice(high ? 1 : 0);
+      const y = open.find(y => end(y) + 4 < x - half) ?? open.reduce((a, b) => end(b) < end(a) ? b : a);
+      ends[top + y] = x + half;
+      place(text, {x, y: top + y});
+    }
+    if (ends[rows[2]] !== undefined) line.svg.setAttribute('viewBox', `0 -22 ${box.width} ${box.height + 22}`);
+  }
   function arrange(stage, line, linkages) {
     const box = line.svg.viewBox.baseVal, ratio = svg => svg.viewBox.baseVal.width / svg.viewBox.baseVal.height;
     const room = Math.min(1400, window.innerWidth) - (narrow() ? 44 : 110), high = linkages.length === 1 ? room / (ratio(line.svg) + ratio(linkages[0])) : 0;
@@ -651,10 +663,7 @@
     }
     const words = Math.min(13 / Math.min(beside ? high / box.height : room / box.width, parseFloat(line.svg.style.maxHeight) / box.height), 24);
     line.svg.style.setProperty('--words', `${words.toFixed(1)}px`);
-    for (const [text, middle] of line.names) {
-      const half = 0.31 * words * text.textContent.length + 2;
-      place(text, {x: Math.min(Math.max(middle, half), box.width - half)});
-    }
+    placeNames(line, 1.4 * words);  // as large as they are printed
   }
 
   // What stands on a shaft, seen from the side: each draws itself about (x, y) and says how thick it is along the shaft.
@@ -878,8 +887,8 @@
         }
         if (n < list.length - 1 || goesTo) line.push({x: x + w + gap / 2, y: out, k, side: 'twistOut'});
         // Name, and the dial.
-        const name = p.name.length > 16 ? p.name.slice(0, 15) + '…' : p.name;
-        names.push([draw('text', {x: middle, y: rowHeight * level + 18 + (n % 2 && !stepsDown(kind) ? 20 : 0), 'text-anchor': 'middle'}, svg, name), middle]);
+        const name = p.name.length > 20 ? p.name.slice(0, 19) + '…' : p.name;
+        names.push({text: draw('text', {x: middle, 'text-anchor': 'middle'}, svg, name), middle, top: rowHeight * level, high: stepsDown(kind)});
         updates.push(drawDial(m, front, ghost, k, middle, rowHeight * level + dials, svg));
         x += w + gap;
         y = out;
@@ -1226,7 +1235,11 @@
   }
   make('h1', '', report.title, root);
   if (report.subtitle) make('p', 'subtitle', report.subtitle, root);
-  if (report.conclusion) make('p', 'conclusion' + (report.complete ? '' : ' incomplete'), report.conclusion, root);
+  if (report.conclusion.length) {
+    const several = report.conclusion.length > 2;  // a list; else a paragraph
+    const box = make(several ? 'ul' : 'p', 'conclusion' + (report.complete ? '' : ' incomplete'), several ? null : report.conclusion.join(' '), root);
+    if (several) for (const sentence of report.conclusion) make('li', '', sentence, box);
+  }
   const row = make('div', 'figures', null, root);
   for (const figure of report.figures) {
     const box = make('div', 'figure', null, row);

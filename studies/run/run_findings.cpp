@@ -34,7 +34,7 @@ Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_termi
   using F = const Figure&;
   std::erase_if(figures, [&](F f) { return !is_told(f, r); });
   const SpeedUnit speed = speed_unit_of(r);
-  const auto cells = [&](F f) { return figure_cells(f, f.unit, speed); };
+  const auto cells = [&](F f, int digits) { return figure_cells(f, f.unit, speed, digits); };
   auto table = table_of("", fmt::format("All figures, {} model, with their measured errors (theory 15.1)", r.label),
                         std::move(figures))
                    .always()
@@ -42,7 +42,7 @@ Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_termi
                    .explained_by(&Figure::name)
                    .only_for_people("figure", &Figure::name)
                    .value_and_error("value", cells)
-                   .only_for_people("unit", [&](F f) { return cells(f).unit; });
+                   .only_for_people("unit", [&](F f) { return cells(f, digits_in_tables).unit; });
   // The page's heading names the unit of the time.
   if (on_terminal) return table.not_on_page().only_for_people("at", at_time);
   return table.not_on_terminal().only_for_people("at [s]", [](F f) {
@@ -55,25 +55,64 @@ Rows figures_table(const Result& r, bool on_terminal) { return rows_of_figures(r
 // --- two models ---
 
 // A row's figure of one model, as people read it.
-FigureCells cells_of(const std::optional<Estimate>& figure, const std::string& unit, const SpeedUnit& speed) {
-  if (figure) return figure_cells(*figure, unit, speed);
+FigureCells cells_of(const std::optional<Estimate>& figure, const std::string& unit, const SpeedUnit& speed,
+                     int digits = digits_in_tables) {
+  if (figure) return figure_cells(*figure, unit, speed, digits);
   return {"—", "", unit == "rad/s" ? speed.name : pretty_unit(unit)};
 }
 
-Rows comparison_table(const Comparison& c) {
+Rows comparison_table(const Comparison& c, const std::vector<ComparisonRow>& rows) {
   using R = const ComparisonRow&;
   const SpeedUnit speed = speed_unit_of(c.b);
-  auto table = table_of("comparison", "Every figure of both models", c.rows).always().not_on_terminal();
+  auto table = table_of("comparison", "Every figure of both models", rows).always().not_on_terminal();
   table.explained_by(&ComparisonRow::name);
   table.column("name", "figure", &ComparisonRow::name);
   table.only_for_programs(c.a.label, &ComparisonRow::a).only_for_programs(c.b.label, &ComparisonRow::b);
-  table.value_and_error(c.a.label, [&](R row) { return cells_of(row.a, row.unit, speed); })
-      .value_and_error(c.b.label, [&](R row) { return cells_of(row.b, row.unit, speed); })
+  table.value_and_error(c.a.label, [&](R row, int digits) { return cells_of(row.a, row.unit, speed, digits); })
+      .value_and_error(c.b.label, [&](R row, int digits) { return cells_of(row.b, row.unit, speed, digits); })
       .column("unit", "unit", &ComparisonRow::unit,
               [&](const std::string& unit) { return cells_of({}, unit, speed).unit; })
       .only_for_programs("difference", &ComparisonRow::difference);
   return table.column("ratio", c.b.label + "/" + c.a.label, &ComparisonRow::ratio,
                       ReadAs{.digits = 4, .otherwise = ""});
+}
+
+// The same figure of both models differs by more than its errors and a thousandth.
+bool differs(const ComparisonRow& row) {
+  constexpr double least = 1e-3;
+  if (!row.a || !row.b) return false;
+  const double open = row.a->error.value_or(0) + row.b->error.value_or(0);
+  return std::abs(row.difference) > open + least * std::max(std::abs(row.a->value), std::abs(row.b->value));
+}
+
+// Of the figures that a person is told first those that differ, as many as a screen has room for; no angles, which are of the
+// length of the run.
+std::vector<ComparisonRow> rows_that_differ(const Comparison& c) {
+  std::vector<ComparisonRow> rows;
+  for (std::size_t among = Brief::most_figures; rows.size() < Brief::most_figures; ++among) {
+    const std::vector<std::size_t> chosen = chosen_figures(c.b, among);
+    rows.clear();
+    for (const std::size_t i : chosen)
+      for (const ComparisonRow& row : c.rows)
+        if (row.name == c.b.figures[i].name && row.unit != "rad" && differs(row)) rows.push_back(row);
+    if (chosen.size() < among) break;
+  }
+  return rows;
+}
+
+Brief brief_of(const Comparison& c) {
+  const std::vector<ComparisonRow> rows = rows_that_differ(c);
+  Brief brief{
+      .about = fmt::format("{}: {} ({}) against {} ({})", c.title, c.a.label, c.a.effects, c.b.label, c.b.effects),
+      .figures = comparison_table(c, rows),
+      .notes = c.notes};
+  for (const Result* r : {&c.a, &c.b})
+    brief.words.push_back(r->errors_measured ? fmt::format("{}: accuracy {:.1e} asked for, {:.1e} measured; {}",
+                                                           r->label, r->accuracy, r->measured_accuracy, told(r->energy))
+                                             : r->label + ": errors were not measured");
+  brief.more = fmt::format("{} more figures of both models, works, periods, cost, notes: --all, or the report",
+                           c.rows.size() - rows.size());
+  return brief;
 }
 
 // On the terminal the amplification of torques stands below the figures.
@@ -265,7 +304,8 @@ Findings findings_of(const Comparison& c) {
   }
   f.tell("in_both", c.in_both);
   f.tell("models", Record{{c.a.label, model_record(c.a)}, {c.b.label, model_record(c.b)}});
-  const Rows table = comparison_table(c);
+  if (c.a.complete && c.b.complete) f.brief = brief_of(c);
+  const Rows table = comparison_table(c, c.rows);
   f.say(figures, table);
   f.say(figures, with_amplification(c, table));
   f.tell("amplification", each(c.amplification, [](const ComparisonRow& row) {

@@ -274,7 +274,9 @@ std::string keys_in_markdown() {
       "| `[effects]` | `elasticity = true`, `false` or a list of components; the effects below, `true` or `false` |\n"
       "| `[constants]` | names with their values, which formulas may use: `p0 = \"1 bar\"` |\n"
       "| `[table.NAME]` | a table that others take by `use = \"table.NAME\"` |\n"
-      "| `[sequence]` | `steps = [...]`, each waiting for the one before it; `repeat = true` or `false` |\n"
+      "| `[sequence]` | `steps = [...]`, each waiting for the one before it; `repeat = true`, or by the clock: "
+      "`every`, "
+      "`rate` |\n"
       "| `[operation]` | where the machine runs for long; separation margins of `kurbel modes` |\n"
       "| `[[case]]` | a named variant, as a damper out of order: `name = \"…\"`, `set = "
       "[\"damper.damping=0 N*m*s/rad\"]` as `--set` takes them; `kurbel modes` and `kurbel report` give each its own "
@@ -297,6 +299,10 @@ std::string keys_in_markdown() {
       "command 0. With `law` in place of `to` and `over` a command follows a table or a formula of the time since its "
       "step.\n\n";
   text += rows(sequence_step_keys());
+  text +=
+      "\n## `[sequence]`\n\nThe steps, and when they begin anew: a round by the clock that takes longer than `every` "
+      "delays the next one, which the events say.\n\n" +
+      rows(sequence_keys());
   text += "\n## `[run]`\n\n" + rows(run_keys());
   text +=
       "| `output` | list of names | all | | components in trajectory.csv |\n"

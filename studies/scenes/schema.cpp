@@ -246,7 +246,9 @@ Json sequence_schema() {
   step["set"] = {
       {"anyOf", {text(), list_of(text())}},
       {"description", "the components that the step sets; of a mechanism one load of several: \"press.load2\""}};
-  return table_of({{"steps", list_of(table_of(step, {"set"}))}, {"repeat", {{"type", "boolean"}}}}, {"steps"});
+  Json properties = properties_of(sequence_keys());
+  properties["steps"] = list_of(table_of(step, {"set"}));
+  return table_of(properties, {"steps"});
 }
 
 }  // namespace

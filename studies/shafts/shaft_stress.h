@@ -56,7 +56,7 @@ double allowed_amplitude(const LimitedJoint& joint, double speed);
 // Per shaft the sum of all orders, then those orders that come to 1 % of it somewhere, the strongest first.
 std::vector<StressPeak> stress_peaks(const std::vector<LimitedJoint>& joints, const Firing& firing);
 
-// Of one shaft, among the sums of all orders of several firings: the one that uses most of what is allowed.
+// Of one shaft, among the sums of all orders of several firings: the one that uses most of the limit.
 const StressPeak* worst_sum(const std::vector<StressPeak>& peaks, std::size_t joint);
 
 // What UR M68 asks of the whole range of speeds: nothing barred above λ = 0.8, and τ_T where what is barred is passed.

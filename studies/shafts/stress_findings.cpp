@@ -16,11 +16,10 @@ constexpr std::size_t orders_drawn = 2, orders_told = 6, shafts_drawn = 12;
 
 std::string stress_text(double stress) { return fmt::format("{:.4g} MPa", stress / megapascal); }
 
-// "38.2 MPa at 92 rpm, 87 % of what is allowed there in continuous running"
+// "38.2 MPa at 92 rpm, 87 % of the limit for continuous running"
 std::string peak_text(const StressPeak& p, const SpeedUnit& unit) {
   std::string text = fmt::format("{} at {}", stress_text(p.stress), unit.text(p.speed, 4));
-  if (std::isfinite(p.allowed))
-    text += fmt::format(", {:.0f} % of what is allowed there in continuous running", 100 * p.use());
+  if (std::isfinite(p.allowed)) text += fmt::format(", {:.0f} % of the limit for continuous running", 100 * p.use());
   return text;
 }
 
@@ -44,8 +43,7 @@ std::string use_text(const ShaftStresses& s, const StressPeak& p) {
 std::string passed_text(const ShaftStresses& s, const StressPeak& p) {
   const std::optional<double> use = use_in_passing(s, p);
   if (!use) return "";
-  return fmt::format("; that is within a barred range, and passing through it uses {:.0f} % of what is allowed then",
-                     100 * *use);
+  return fmt::format("; this speed lies in a barred range, whose passage uses {:.0f} % of its limit", 100 * *use);
 }
 
 // Of all cylinders in turn the sums of all orders.
@@ -146,11 +144,11 @@ std::optional<Claim> stress_claim(const ShaftStresses& s) {
   const std::vector<StressPeak> peaks = stress_peaks(s.joints, s.normal), other = misfire_peaks(s);
   const StressPeak* worst = worst_of_all(peaks, shafts);
   if (!worst || !(worst->stress > 0)) return {};
-  std::string text = fmt::format("vibratory stress of shafts: {}{}, {}", shafts.size() > 1 ? "the worst " : "",
+  std::string text = fmt::format("vibratory stress {}in \"{}\": {}", shafts.size() > 1 ? "is greatest " : "",
                                  worst->shaft, peak_text(*worst, s.unit) + passed_text(s, *worst));
   if (const StressPeak* m = worst_of_all(other, shafts))
-    text += fmt::format("; as {} misfires {}{}", m->misfires, m->shaft == worst->shaft ? "" : m->shaft + ", ",
-                        peak_text(*m, s.unit));
+    text += fmt::format("; with {} misfiring {}{}", m->misfires,
+                        m->shaft == worst->shaft ? "" : fmt::format("in \"{}\" ", m->shaft), peak_text(*m, s.unit));
   // What is used most: in the barred range that may be passed by what passing allows.
   const StressPeak* most = worst;
   double use = 0;
@@ -186,8 +184,8 @@ Rows stress_table(const ShaftStresses& s) {
 }
 
 Rows misfire_table(const ShaftStresses& s) {
-  return peak_table(s, "misfires", "Vibratory stress of shafts as one cylinder misfires",
-                    "the same as one cylinder misfires", misfire_peaks(s));
+  return peak_table(s, "misfires", "Vibratory stress of shafts with one cylinder misfiring",
+                    "the same with one cylinder misfiring", misfire_peaks(s));
 }
 
 std::vector<Plot> stress_plots(const ShaftStresses& s) {

@@ -12,7 +12,7 @@
 
 namespace kurbel {
 
-// "vibratory stress of shafts: the worst propeller_shaft, 38.2 MPa at 92 rpm, 87 % of what is allowed there; as cylinder3
+// "vibratory stress of shafts: the worst propeller_shaft, 38.2 MPa at 92 rpm, 87 % of the limit there; as cylinder3
 // misfires 44.1 MPa at 92 rpm, 101 %: it EXCEEDS that", judged by what is used most; none: there is nothing to say.
 std::optional<Claim> stress_claim(const ShaftStresses& s);
 

@@ -93,7 +93,7 @@ Rows methods_table(const Sizing& s) {
       .column("method", "method", &SizeMethod::name)
       .column("drive_inertia", "I_drive on link [kg·m²]", &SizeMethod::drive_inertia, {.digits = 7})
       .column("flywheel", "flywheel [kg·m²]", &SizeMethod::flywheel, {.digits = 7})
-      .column("flywheel_error", "error", &SizeMethod::error,
+      .column("flywheel_error", "numerical error", &SizeMethod::error,
               [](const std::optional<double>& e) { return e ? fmt::format("± {:.1g}", *e) : std::string(); })
       .column("flywheel_by_parts", "by theory 3.1 [kg·m²]", &SizeMethod::flywheel_by_parts, {.digits = 7})
       .only_for_people(
@@ -109,11 +109,11 @@ Rows reached_table(const Sizing& s) {
       .column("sized_by", "flywheel sized by", &DeltaReached::sized_by)
       .column("flywheel", "flywheel [kg·m²]", &DeltaReached::flywheel)
       .only_for_programs("delta_crank", &DeltaReached::crank)
-      .value_and_error("δ at the crank", [](const DeltaReached& r) { return figure_text(r.crank); })
+      .value_and_error("δ at the crank", [](const DeltaReached& r, int digits) { return figure_text(r.crank, digits); })
       .only_for_programs("delta_motor", &DeltaReached::motor)
       .value_and_error("δ at the motor",
-                       [&](const DeltaReached& r) {
-                         return s.motor.empty() ? FigureText{"—", ""} : figure_text(r.motor);
+                       [&](const DeltaReached& r, int digits) {
+                         return s.motor.empty() ? FigureText{"—", ""} : figure_text(r.motor, digits);
                        })
       .column("mid_speed", fmt::format("mid speed [{}]", s.speed_unit.name), &DeltaReached::mid_speed,
               {.factor = s.speed_unit.of(1)})
@@ -360,7 +360,7 @@ void judge_dimensions(Findings& f, const Sizing& s) {
     const bool holds = value <= limit;
     std::optional<Claim> claim =
         claimed(holds ? Predicate::limit_held : Predicate::limit_exceeded,
-                fmt::format("the flywheel of {} has a {} of {}, {:.0f} % of what is allowed{}", d.material.name, what,
+                fmt::format("the flywheel of {} has a {} of {}, {:.0f} % of the limit{}", d.material.name, what,
                             told_shortly(value, unit), 100 * value / limit, holds ? "" : ": EXCEEDED"),
                 s.flywheel, {.value = value, .limit = limit, .unit = unit});
     if (!claim) return;

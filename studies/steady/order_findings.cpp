@@ -53,13 +53,14 @@ Rows orders_table(const SteadyStudy& s, const SteadyCycle& c) {
       .only_for_people("quantity", [](const ToldOrder& row) { return row.of->channel.text; })
       .only_for_people("order", [](const ToldOrder& row) { return row.order.order; })
       .only_for_people("amplitude", [&](const ToldOrder& row) { return cells(row).value; })
-      .only_for_people("error", [&](const ToldOrder& row) { return cells(row).error; })
+      .only_for_people("numerical error", [&](const ToldOrder& row) { return cells(row).error; })
       .only_for_people("unit", [&](const ToldOrder& row) { return cells(row).unit; })
       .only_for_people(
           "phase [°]",
           [&](const ToldOrder& row) { return phase(row) ? figure_text(*phase(row)).value : std::string("—"); })
-      .only_for_people(
-          "error", [&](const ToldOrder& row) { return phase(row) ? figure_text(*phase(row)).error : std::string(); });
+      .only_for_people("numerical error", [&](const ToldOrder& row) {
+        return phase(row) ? figure_text(*phase(row)).error : std::string();
+      });
 }
 
 const OrdersOf* orders_named(const SteadyCycle& c, const std::string& name) {

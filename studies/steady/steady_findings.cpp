@@ -44,9 +44,9 @@ Rows figure_table(const SteadyStudy& s) {
   const SpeedUnit speed = speed_unit_of(s);
   table.explained_by(std::identity()).only_for_people("figure", std::identity());
   for (const SteadyCycle& c : s.cycles)
-    table.value_and_error(c.label, [&](const std::string& name) {
+    table.value_and_error(c.label, [&](const std::string& name, int digits) {
       const Figure* f = c.find(name);
-      return f ? figure_cells(*f, f->unit, speed) : FigureCells{"—", "", ""};
+      return f ? figure_cells(*f, f->unit, speed, digits) : FigureCells{"—", "", ""};
     });
   return table.only_for_people("unit", [&](const std::string& name) {
     std::string unit;
@@ -70,7 +70,7 @@ auto multiplier_table(const SteadyCycle& c) {
       .only_for_programs("real", [&](std::size_t i) { return all[i].real(); })
       .only_for_programs("imaginary", [&](std::size_t i) { return all[i].imag(); })
       .column("magnitude", "magnitude", [&](std::size_t i) { return std::abs(all[i]); })
-      .only_for_people("error",
+      .only_for_people("numerical error",
                        [&, error](std::size_t i) {
                          return error_cell({std::abs(all[i]), error(i)});
                        })

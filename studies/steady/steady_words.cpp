@@ -16,7 +16,7 @@
 namespace kurbel {
 namespace {
 
-std::string number(double value, int digits = 7) { return fmt::format("{:.{}g}", value, digits); }
+std::string number(double value, int digits = 6) { return fmt::format("{:.{}g}", value, digits); }
 
 std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
 

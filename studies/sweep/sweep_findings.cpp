@@ -139,7 +139,7 @@ Rows worst_table(const SweepStudyResult& s) {
   return table_of("worst", s.limits.empty() ? "Where each figure is greatest" : "The worst machines", worst_of(s))
       .column("figure", "figure", &Worst::figure)
       .column("value", "value", &Worst::value)
-      .column("error", "error", &Worst::error, {.digits = 1})
+      .column("error", "numerical error", &Worst::error, {.digits = 1})
       .column("unit", "unit", &Worst::unit, [](const std::string& unit) { return pretty_unit(unit); })
       .column("row", "row", [](const Worst& w) { return w.row->row; })
       .column("line", "computed alone", [&s](const Worst& w) { return line_of(s.identity, *w.row); });

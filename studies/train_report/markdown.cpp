@@ -73,7 +73,8 @@ Record record(const GearView& g) { return {{"title", g.title}, {"figure", g.note
 std::string markdown_of(const Report& report) {
   std::string text = fmt::format("# {}\n\n", report.title);
   if (!report.subtitle.empty()) text += report.subtitle + "\n\n";
-  text += fmt::format("> {}\n\n", report.conclusion);
+  for (const std::string& sentence : report.conclusion) text += fmt::format("> {}\n>\n", sentence);
+  text += "\n";
   if (!report.figures.empty()) {
     text += "| figure | value | |\n|---|---:|---|\n";
     for (const KeyFigure& f : report.figures) {

@@ -91,7 +91,7 @@ Rows bias_table(const UncertaintyStudy& s) {
       .column(
           "shift", "shift", [](const BiasRow& r) { return r.bias.shift; },
           [](double v) { return fmt::format("{:+.4g}", v); })
-      .column("error", "error", [](const BiasRow& r) { return r.bias.error; }, {.digits = 1})
+      .column("error", "numerical error", [](const BiasRow& r) { return r.bias.error; }, {.digits = 1})
       .column("unit", "unit", &BiasRow::unit, as_unit);
 }
 

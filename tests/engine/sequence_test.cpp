@@ -23,6 +23,14 @@ inertia = "2 kg*m2"
 )" + more +
          "[sequence]\nsteps = [" + steps + "]\n[run]\naccuracy = 1e-10\n" + settings;
 }
+std::string refusal_of(const std::string& text) {
+  try {
+    test::scene_from(text);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return {};
+}
 std::vector<std::string> said(const Result& r) {
   std::vector<std::string> lines;
   for (const Event& e : r.events) lines.push_back(fmt::format("{:.9g} {}: {} -> {}", e.t, e.component, e.from, e.what));
@@ -123,6 +131,37 @@ TEST(Sequence, ConditionThatHoldsIsMetAtOnce) {
 }
 
 // Repeated, the machine hunts between two speeds: the period is that of two exponentials.
+// By the clock a round begins every 5 s, and at 12 a minute, however long its steps take; what takes longer delays the next one.
+TEST(Sequence, RoundsByTheClock) {
+  const std::string once =
+      machine("{ set = \"motor\" }, { after = \"2 s\", set = \"motor\", to = 0.2 }", "until = \"21 s\"\n");
+  for (const char* clock : {"every = \"5 s\"", "rate = \"12 1/min\"", "repeat = true\nevery = \"5 s\""}) {
+    const Result r = run(test::with(once, "[sequence]\n", std::string("[sequence]\n") + clock + "\n"));
+    ASSERT_TRUE(r.complete) << r.diagnosis;
+    ASSERT_EQ(r.events.size(), 9u) << clock;
+    for (std::size_t k = 0; k < r.events.size(); ++k)
+      EXPECT_NEAR(r.events[k].t, 5 * static_cast<double>(k / 2) + (k % 2 == 0 ? 0 : 2), 1e-12) << clock;
+  }
+  const Result late = run(test::with(once, "[sequence]\n", "[sequence]\nevery = \"1.5 s\"\n"));
+  std::vector<std::string> words;
+  for (const Event& e : late.events)
+    if (e.component == "sequence") words.push_back(fmt::format("{:.9g} {}", e.t, e.what));
+  ASSERT_EQ(words.size(), 10u);
+  EXPECT_EQ(words.front(), "2 begins a round late: the one before took 2 s, every = 1.5 s");
+  for (const auto& [keys, message] : std::vector<std::pair<std::string, std::string>>{
+           {"every = \"5 s\"\nrate = \"12 1/min\"", "both \"every\" and \"rate\" given"},
+           {"repeat = false\nevery = \"5 s\"", "repeat = false, but"},
+           {"every = \"0 s\"", "every = \"0 s\""},
+           {"every = \"5 rpm\"", "every"}})
+    EXPECT_NE(refusal_of(test::with(once, "[sequence]\n", "[sequence]\n" + keys + "\n")).find(message),
+              std::string::npos)
+        << keys;
+  EXPECT_NE(refusal_of(test::with(test::with(once, "{ set =", "{ after = \"1 s\", set ="), "[sequence]\n",
+                                  "[sequence]\nevery = \"5 s\"\n"))
+                .find("its first step waits for something else"),
+            std::string::npos);
+}
+
 TEST(Sequence, RepeatsUntilTheEnd) {
   const std::string once = machine(
       "{ speed_above = \"60 rad/s\", of = \"motor\", set = \"motor\", to = 0.2 }, { speed_below = \"40 rad/s\", of = "

@@ -57,7 +57,7 @@ TEST(Sizes, TinyAnglesAreAngles) {
 
 class AtTheEdge : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
-// The ends of what is allowed make no good machine, but one that ends in time.
+// The ends of the limit make no good machine, but one that ends in time.
 TEST_P(AtTheEdge, RunsOrFailsWithinItsBudget) {
   const auto& [coupling, wheel] = GetParam();
   const double begin = processor_time();

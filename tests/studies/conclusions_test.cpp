@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 
 #include "studies/answers/key_figures.h"
@@ -18,12 +22,44 @@ namespace {
 
 TEST(Headline, RoundsToFourDigitsAndDropsErrorsThatNobodySees) {
   EXPECT_EQ(headline("reaches 724.8855 ± 1e-06 N·m"), "reaches 724.9 N·m");
-  EXPECT_EQ(headline("19092.6311 N·m at 0.700159981 s"), "19090 N·m at 0.7002 s");
+  EXPECT_EQ(headline("19092.6311 N·m at 0.700159981 s"), "19.09 kN·m at 0.7002 s");
   EXPECT_EQ(headline("δ = 0.104 ± 0.012, 100000 steps, 1.0e-06"), "δ = 0.104 ± 0.012, 100000 steps, 1.0e-06");
   EXPECT_EQ(headline("3.14159265e-07 m"), "3.142e-07 m");
   EXPECT_EQ(headline("\"shaft_1000123\" and shaft_1000123, version 1.2.34567"),
             "\"shaft_1000123\" and shaft_1000123, version 1.2.34567");
   EXPECT_EQ(headline("from 12345…67891 to −2.000012"), "from 12340…67890 to −2");
+}
+
+TEST(Headline, NumbersAreReadWithThePrefixOfTheirUnit) {
+  EXPECT_EQ(readable("1.155e+05 N·m, 35471600 N·m/rad, 1.3e+02 %, -0.0 J"),
+            "115.5 kN·m, 35.4716 MN·m/rad, 130 %, 0.0 J");
+  EXPECT_EQ(readable("630000.000 ± 0.001 N"), "630.000000 ± 0.000001 kN");
+  EXPECT_EQ(readable("-11390 W (-0)"), "-11.39 kW (0)");
+  EXPECT_EQ(readable("J1 = 3.45e+04 kg·m², 1.5e-05 s, 2.5e+11 Pa"), "J1 = 34500 kg·m², 1.5e-05 s, 250 GPa");
+  // Where several numbers have one unit it stays as it is.
+  EXPECT_EQ(readable("12000 … 15000 N·m; 800 to -15000 N; 3 and 2.1e+04 J"),
+            "12000 … 15000 N·m; 800 to -15000 N; 3 and 21000 J");
+  EXPECT_EQ(readable("\"shaft 1e+05 N\" of NACA_1e+05, 20000 N·m² and 20000 Nm"),
+            "\"shaft 1e+05 N\" of NACA_1e+05, 20000 N·m² and 20000 Nm");
+  EXPECT_EQ(readable("x - 0 and 5 -0.5"), "x - 0 and 5 -0.5");
+}
+
+// Of numbers of all sizes what is read is the same number.
+TEST(Headline, ReadableNumbersAreTheSameNumbers) {
+  const std::map<std::string, double> prefixes = {{"N·m", 1}, {"kN·m", 1e3}, {"MN·m", 1e6}, {"GN·m", 1e9}};
+  for (int exponent = -12; exponent < 12; ++exponent)
+    for (const double mantissa : {1.0, 1.05, -2.00064, 9.99999, -3.1415926535}) {
+      const double value = mantissa * std::pow(10, exponent);
+      for (const std::string& written : {fmt::format("{:.12g}", value), fmt::format("{:.9e}", value)}) {
+        const std::string shown = readable(written + " N·m");
+        const std::size_t blank = shown.find(' ');
+        ASSERT_TRUE(prefixes.contains(shown.substr(blank + 1))) << shown;
+        EXPECT_NEAR(std::stod(shown) * prefixes.at(shown.substr(blank + 1)), std::stod(written),
+                    1e-11 * std::abs(value))
+            << written << " " << shown;
+        EXPECT_EQ(shown.find('e') == std::string::npos, std::abs(value) >= 1e-4 && std::abs(value) < 1e12) << shown;
+      }
+    }
 }
 
 TEST(Headline, SentencesBeginWithACapitalButNamesOfFiguresStay) {

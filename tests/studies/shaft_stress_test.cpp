@@ -209,7 +209,7 @@ TEST(ShaftStress, VerdictsOfUrM68ByHand) {
   const ModesStudy strong = modes_of(two_masses(20, propeller), wide);
   EXPECT_EQ(verdict_on(strong.verdicts, "UR M68, passing").state(), Compliance::exceeded);
   const Claim strongest = stress_claim(strong.stresses).value();
-  EXPECT_NE(strongest.text.find("% of what is allowed there"), std::string::npos);
+  EXPECT_NE(strongest.text.find("% of the limit there"), std::string::npos);
   EXPECT_EQ(strongest.predicate, Predicate::limit_exceeded);
   EXPECT_NEAR(strongest.share(), stress_at(20, 80) / continuous_at(0.5), 0.01);
 }

@@ -271,6 +271,24 @@ TEST(Steady, SequenceThatRepeatsGivesThePeriod) {
     EXPECT_LT(f.error.value_or(HUGE_VAL), 1e-6 * std::max(f.scale, std::abs(f.value))) << f.name;
 }
 
+// By the clock: 2 s at full voltage, 3 s at a fifth; ω_high = 100 + (ω_low − 100) e^{−2/10}, ω_low = 20 + (ω_high − 20) e^{−3/10}.
+TEST(Steady, SequenceByTheClockHasItsPeriod) {
+  const Scene scene = scene_from(
+      "line = [\"motor\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"20 N*m\", no_load_speed = \"100 "
+      "rad/s\", inertia = "
+      "\"2 kg*m2\" }\n[sequence]\nevery = \"5 s\"\nsteps = [{ set = \"motor\" }, { after = \"2 s\", set = \"motor\", "
+      "to = 0.2 }]\n");
+  const SteadyStudy study = steady(scene, {Effects{}}, {.start_search = false});
+  ASSERT_TRUE(study.complete) << study.diagnosis;
+  const SteadyCycle& c = study.cycles[0];
+  EXPECT_NEAR(c.cycle_time, 5, 1e-12);
+  const double a = std::exp(-0.2), b = std::exp(-0.3);
+  const double high = (100 * (1 - a) + 20 * (1 - b) * a) / (1 - a * b), low = 20 + (high - 20) * b;
+  const double mean = (100 * 2 + 20 * 3) / 5.0;  // the change of speed over a cycle is zero
+  EXPECT_NEAR(value_of(c, "mid_speed.motor"), 0.5 * (high + low), 1e-7);
+  EXPECT_NEAR(value_of(c, "mean_speed.motor"), mean, 1e-7);
+}
+
 TEST(Steady, StepsOfASequenceAreCountedFromOne) {
   const Scene scene = scene_file("scenes/dc_hoist.toml");
   SteadyOptions options;

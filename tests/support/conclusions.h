@@ -47,7 +47,7 @@ inline void expect_sound_conclusion(const Findings& f, const std::string& whose)
   const std::vector<std::string> sentences = concluded(f.claims);
   ASSERT_FALSE(sentences.empty()) << whose;
   const std::string& first = sentences.front();
-  EXPECT_TRUE(page_of(f).conclusion.starts_with(first)) << whose;
+  EXPECT_TRUE(in_one_line(page_of(f).conclusion).starts_with(first)) << whose;
   EXPECT_TRUE(nlohmann::json::parse(json_text(summary_of(f))).at("conclusion").get<std::string>().starts_with(first))
       << whose;
   EXPECT_NE(terminal_text(f).find(first), std::string::npos) << whose << ": " << first;
