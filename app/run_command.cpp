@@ -135,12 +135,12 @@ void set_up_run(OptionList& command, int& code) {
                    "print what is merged, the coordinates and their inertias, and stop");
   command.add_option("--setting", arguments->setting,
                      "method and tolerance from this summary.json, which kurbel accuracy wrote for the same scene: the "
-                     "cheapest that was exact enough");
+                     "fastest that was accurate enough");
   command.add_option("--save-state", arguments->save_state,
                      "writes the state at the end into this file, for --from-state");
   arguments->measurement.add_to(command, measurement_options().declared());
   command.add_option("--from-state", arguments->from_state,
-                     "goes on from a state that --save-state wrote, of this machine; its parameters may be others");
+                     "continues from a state that --save-state wrote, of this machine; parameters may differ");
   command.action([&code, arguments] { code = run(*arguments); });
 }
 

@@ -186,7 +186,7 @@ const Verb sweep_verb{
     {{.place = 112,
       .name = "sweep",
       .arguments = "scene.toml --vary \"main_coupling.stiffness=500..1500 kN*m/rad\" --design sobol:512 --into r.db",
-      .help = "thousands of variants of a scene into a database; what moves the figures",
+      .help = "thousands of variants of a scene into a database, and which parameters matter",
       .does = "computes a design of variants (`--vary`, `--variants`, `--design`), each with measured errors, into an "
               "SQLite file that resumes by itself; response curves, maps with limits (`--limit`), influence by Sobol's "
               "indices, failures by reason, worst machines with the line that computes each alone"},

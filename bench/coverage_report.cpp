@@ -111,7 +111,7 @@ Table times(const Variants& all) {
   for (const std::string& name : names)
     groups.push_back({name, coverage::every_run,
                       [name, what](const JudgedFigure& f) { return coverage::every_time(f) && what(f) == name; }});
-  return shares("Times that are told with their errors", "time of", all, groups, true);
+  return shares("Times that are stated with their errors", "time of", all, groups, true);
 }
 
 std::vector<Group> scenes(const Variants& all) {
@@ -124,7 +124,7 @@ std::vector<Group> scenes(const Variants& all) {
 }
 
 Table matrix(const Variants& all) {
-  Table table{.title = "Covered, in percent: method by accuracy asked for", .columns = {"method"}, .rows = {}};
+  Table table{.title = "Covered, in percent: method by requested accuracy", .columns = {"method"}, .rows = {}};
   for (const double accuracy : coverage::accuracies()) table.columns.push_back(fmt::format("{:.0e}", accuracy));
   for (const std::string& method : coverage::methods()) {
     std::vector<std::string> row = {method};

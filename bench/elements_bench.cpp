@@ -174,7 +174,7 @@ void many_events(BenchBook& book) {
 }  // namespace
 
 void costs_of_elements(BenchBook& book) {
-  Table table{.title = "One element, per evaluation (ten of them against none, least of 15 rounds)",
+  Table table{.title = "One element, per evaluation (ten of them against none, least of 15 repetitions)",
               .columns = {"element", "right-hand side [ns]", "Jacobian [ns]", "states"},
               .rows = {}};
   for (const ElementCase& c : cases) {

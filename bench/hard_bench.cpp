@@ -257,10 +257,10 @@ Table legend(double budget) {
               "In a family's table a number says at how many accuracies the cell is green; its colour is that of the "
               "worst.",
           .columns = {"cell", "what it says"},
-          .rows = {{"green", fmt::format("the right answer, with an error of at most {:g} × (accuracy asked for + "
+          .rows = {{"green", fmt::format("the right answer, with an error of at most {:g} × (requested accuracy + "
                                          "condition × rounding); or the words that belong to a machine that cannot run",
                                          hard::allowed_ratio)},
-                   {"amber", fmt::format("the program says that it reached less than was asked for, and how much; or "
+                   {"amber", fmt::format("the program says that it reached less than requested, and how much; or "
                                          "that its budget was spent ({:g} s of processor time an integration, more for "
                                          "the heavy cases)",
                                          budget)},

@@ -115,8 +115,8 @@ double Run::measured_accuracy() const { return parts_->result->measured_accuracy
 double Run::processor_seconds() const { return parts_->result->cpu_total; }
 const Study& Run::study() const { return parts_->study; }
 
-std::vector<Happening> Run::happenings() const {
-  std::vector<Happening> all;
+std::vector<RunEvent> Run::events() const {
+  std::vector<RunEvent> all;
   for (const Event& e : parts_->result->events) all.push_back({e.t, e.component, e.what});
   return all;
 }

@@ -194,12 +194,12 @@ void bind_run(py::module_& m) {
         const std::string error = f.error ? fmt::format(" ± {:.2g}", *f.error) : "";
         return fmt::format("<Figure {} = {:.10g}{}{}{}>", f.name, f.value, error, f.unit.empty() ? "" : " ", f.unit);
       });
-  py::class_<Happening>(m, "Event", "Something that happened in a run.")
-      .def_readonly("t", &Happening::t, "[s]")
-      .def_readonly("component", &Happening::component, "where; empty: the machine as a whole")
-      .def_readonly("what", &Happening::what, "in words: \"sticks\"")
+  py::class_<RunEvent>(m, "Event", "Something that happened in a run.")
+      .def_readonly("t", &RunEvent::t, "[s]")
+      .def_readonly("component", &RunEvent::component, "where; empty: the machine as a whole")
+      .def_readonly("what", &RunEvent::what, "in words: \"sticks\"")
       .def("__repr__",
-           [](const Happening& h) { return fmt::format("<Event at {:.6g} s: {}: {}>", h.t, h.component, h.what); });
+           [](const RunEvent& h) { return fmt::format("<Event at {:.6g} s: {}: {}>", h.t, h.component, h.what); });
   py::class_<Run>(m, "RunOutput")
       .def_property_readonly("complete", &Run::complete)
       .def_property_readonly("diagnosis", &Run::diagnosis)
@@ -213,7 +213,7 @@ void bind_run(py::module_& m) {
       .def_property_readonly("units", [](const Run& run) { return run.trajectory().units(); })
       .def_property_readonly("time", [](const Run& run) { return array_of(run.trajectory().time()); })
       .def("series", [](const Run& run, const std::string& name) { return array_of(run.trajectory()[name]); })
-      .def_property_readonly("events", &Run::happenings)
+      .def_property_readonly("events", &Run::events)
       .def_property_readonly("measured_accuracy", &Run::measured_accuracy)
       .def_property_readonly("processor_seconds", &Run::processor_seconds)
       .def_property_readonly("study", [](const Run& run) { return run.study(); });

@@ -22,7 +22,7 @@ EventKind kind_of(const Contact& contact, int sense) {
   return contact.kind == Contact::Kind::frame ? EventKind::rest : EventKind::held;
 }
 
-std::string happening(const Contact& contact, int sense) {
+std::string change_of(const Contact& contact, int sense) {
   switch (contact.kind) {
     case Contact::Kind::connection:
       return sense == 0 ? "locks" : sense > 0 ? "slips forwards" : "slips backwards";
@@ -52,7 +52,7 @@ Event law_event(double t, const GuardLabel& before, const GuardLabel& now, bool 
 Event contact_event(double t, const Contact& contact, int before, int now) {
   return {.t = t,
           .component = contact.name,
-          .what = happening(contact, now),
+          .what = change_of(contact, now),
           .from = mode_name(contact, before),
           .kind = kind_of(contact, now),
           .value = now};

@@ -91,7 +91,7 @@ Question export_question() {
       {.place = 120,
        .name = "export",
        .arguments = "scene.toml --fmi 3 --input motor.command",
-       .help = "the machine as a component of FMI 2.0 or 3.0 for the tools of others",
+       .help = "the machine as a component of FMI 2.0 or 3.0 for other simulators",
        .does = "the machine as a component (FMU) for co-simulation and model exchange by FMI 2.0 or "
                "3.0, Linux on x86-64: inputs, parameters and outputs by their names; needs no compiler"},
       options(), exported);

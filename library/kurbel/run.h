@@ -34,8 +34,8 @@ struct RunChoices {
   Watcher watcher = {};                  // interrupts, and is told the progress
 };
 
-// Something that happened: a clutch stuck, a load's piece ended, the sequence went on.
-struct Happening {
+// An event of a run: a clutch stuck, a load's piece ended, the sequence went on.
+struct RunEvent {
   double t = 0;           // [s]
   std::string component;  // where: "clutch"; empty: the machine as a whole
   std::string what;       // in words: "sticks"
@@ -46,13 +46,13 @@ class Run {
  public:
   explicit Run(std::shared_ptr<const RunParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
   bool complete() const;                                                             // it came to its end …
-  std::string diagnosis() const;              // … or when, where and why not, and what to try
-  const FigureValues& figures() const;        // in SI, each with its measured error; of an incomplete run none is sure
-  const Trajectory& trajectory() const;       // empty of a multibody run
-  std::vector<Happening> happenings() const;  // in their order
-  double measured_accuracy() const;           // largest error of a figure over its scale, a plain number
-  double processor_seconds() const;           // of all runs, those for the errors included [s]
-  const Study& study() const;                 // conclusion, page, JSON, tables
+  std::string diagnosis() const;         // … or when, where and why not, and what to try
+  const FigureValues& figures() const;   // in SI, each with its measured error; of an incomplete run none is sure
+  const Trajectory& trajectory() const;  // empty of a multibody run
+  std::vector<RunEvent> events() const;  // in their order
+  double measured_accuracy() const;      // largest error of a figure over its scale, a plain number
+  double processor_seconds() const;      // of all runs, those for the errors included [s]
+  const Study& study() const;            // conclusion, page, JSON, tables
 
  private:
   std::shared_ptr<const RunParts> parts_;

@@ -70,7 +70,7 @@ class Sweep:
         return f"<Sweep of {', '.join(self.vary)}: {len(self)} rows, {len(self.failures)} failed>"
 
     def report(self, limit=()):
-        """What `kurbel sweep` says of the rows in its file: response curves, what moves the figures, failures, the worst
+        """What `kurbel sweep` says of the rows in its file: response curves, which parameters matter, failures, the worst
         machines. limit: "delta.press <= 0.05", or a list of such."""
         if self.file is None:
             raise ValueError("these rows are kept in no file, which a report is made of; give sweep() a file: into")

@@ -69,7 +69,7 @@ Question accuracy_question() {
       {.place = 110,
        .name = "accuracy",
        .arguments = "scene.toml",
-       .help = "what accuracy costs: error per time over methods, tolerances and models",
+       .help = "computing time and error over methods, tolerances and models",
        .does = "what accuracy costs: every integrator × tolerance × level of the model against references by "
                "two independent methods, work–precision diagrams, Pareto front, conclusion in words; "
                "`--within 0.1%` and `--budget 50ms` answer the inverse questions; `kurbel run scene.toml "

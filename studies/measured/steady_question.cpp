@@ -23,7 +23,8 @@ const OptionsOf<MeasurementRequest>& measurement_options() {
                 .doc = "added to the record's times, e.g. \"0.2 s\"; fit: found by least squares (default: none)"},
                &MeasurementRequest::shift)
           .add({.name = "offset",
-                .doc = "what a column reads too high, e.g. \"T1=5 N*m\"; \"T1=fit\", or fit for every column: found as "
+                .doc = "offset that is subtracted from a column, e.g. \"T1=5 N*m\"; \"T1=fit\", or fit for every "
+                       "column: found as "
                        "the mean (default: none); repeatable",
                 .each_time = true},
                &MeasurementRequest::offsets);
@@ -69,7 +70,7 @@ Question steady_question() {
                 .doc = "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)"},
                &SteadyAsked::effects)
           .add({.name = "at",
-                .doc = "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at "
+                .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at "
                        "a mid speed (default: where its own start leads to; of a machine that rests in the end, the "
                        "last motion that it keeps before)"},
                OptionForm::one,

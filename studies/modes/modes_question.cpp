@@ -68,14 +68,14 @@ OptionsOf<ModesAsked> options() {
             .what = "a plain number > 0",
             .domain = positive},
            &ModesOptions::barred_factor)
-      .add(
-          {.name = "spot_checks",
-           .doc = "speeds of the range, where most is borne, at which the nonlinear cycle is held against the response "
-                  "(default: 2; 0: none)",
-           .domain = {.low = 0, .high = 100}},
-          &ModesOptions::spot_checks)
+      .add({.name = "spot_checks",
+            .doc = "number of speeds, those of the largest loads, at which the nonlinear cycle is compared with the "
+                   "linear response "
+                   "(default: 2; 0: none)",
+            .domain = {.low = 0, .high = 100}},
+           &ModesOptions::spot_checks)
       .add({.name = "spot",
-            .doc = "another such speed, e.g. \"250 rpm\"; may be given again",
+            .doc = "a further such speed, e.g. \"250 rpm\"; may be given again",
             .example = "250 rpm",
             .what = "a speed > 0",
             .domain = positive,
@@ -86,7 +86,7 @@ OptionsOf<ModesAsked> options() {
                 "where stresses of shafts are judged: omits the response with one cylinder after the other misfiring"},
            &ModesOptions::misfires, false)
       .add({.name = "cases",
-            .doc = "of the scene's [[case]]s those of these names; none: no case (default: all)",
+            .doc = "names of the scene's [[case]]s to compute; none: no case (default: all)",
             .each_time = true},
            &ModesAsked::cases)
       .add({.name = "torque",

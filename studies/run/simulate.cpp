@@ -87,7 +87,7 @@ class Simulation {
       throw UnfitCheckpoint(fmt::format("is of {:.9g} s, and the run ends at {:.9g} s; let it run on with --until",
                                         checkpoint_->state.t, settings_.until));
     result_.notes.push_back(
-        fmt::format("goes on from a state at {:.9g} s: figures are of what follows it", checkpoint_->state.t));
+        fmt::format("continues from a state at {:.9g} s: figures are of the motion after it", checkpoint_->state.t));
   }
 
   void log(const std::string& text) const { options_.watch.say(text); }

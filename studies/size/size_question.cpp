@@ -20,11 +20,10 @@ OptionsOf<SizeOptions> options() {
            &Asked::delta)
       .add({.name = "machine", .doc = "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …"},
            &Asked::machine)
-      .add(
-          {.name = "at",
-           .doc = "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
-                  "speed such as \"60 rpm\""},
-          OptionForm::one, [](Asked& asked, const OptionValues& given) { asked.at = given.moment(asked.mid_speed); })
+      .add({.name = "at",
+            .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
+                   "speed such as \"60 rpm\""},
+           OptionForm::one, [](Asked& asked, const OptionValues& given) { asked.at = given.moment(asked.mid_speed); })
       .add({.name = "mid_speed",
             .doc = "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\" (default: where drive and mean load balance)",
             .example = "60 rpm",
@@ -35,7 +34,7 @@ OptionsOf<SizeOptions> options() {
       .add(
           {.name = "basis",
            .doc = "classical (constant drive torque, loads of the rigid machine at constant speed) or regime (loads of "
-                  "the steady cycle with the scene's effects; default where the classical one leaves something out)"},
+                  "the steady cycle with the scene's effects; default where the classical one omits an effect)"},
           &Asked::basis,
           std::vector{std::pair("classical", SizeBasis::classical), std::pair("regime", SizeBasis::regime)})
       .add({.name = "flywheel", .doc = "component to size (default: the scene's flywheel, else one on the crank)"},

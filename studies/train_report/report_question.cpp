@@ -296,7 +296,7 @@ Question report_question() {
            "`report.md` and `summary.json` are of the same document"},
       OptionsOf<ReportAsked>()
           .add({.name = "cases",
-                .doc = "of the scene's [[case]]s those of these names; none: no case (default: all)",
+                .doc = "names of the scene's [[case]]s to compute; none: no case (default: all)",
                 .each_time = true},
                &ReportAsked::cases)
           .add({.name = "sections",

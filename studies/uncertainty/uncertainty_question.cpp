@@ -26,15 +26,18 @@ OptionsOf<UncertaintyAsked> options() {
             .doc = "names joined by commas, or a quantity for all that have it: delta,peak_torque (default: all)",
             .words = true},
            &Asked::figures)
-      .add({.name = "limit", .doc = "\"delta.press <= 0.05\": how surely it holds; repeatable", .each_time = true},
+      .add({.name = "limit",
+            .doc = "\"delta.press <= 0.05\": the probability that it holds; repeatable",
+            .each_time = true},
            &Asked::limits)
       .add({.name = "of", .doc = "run (default), steady, modes or size"}, &UncertaintyAsked::of)
       .add({.name = "samples",
             .doc = "machines drawn from the tolerances (default: 500)",
             .domain = {.low = 10, .high = 1'000'000}},
            &Asked::samples)
-      .add({.name = "seed", .doc = "of what is drawn (default: 1)", .domain = {.low = 0, .high = 9007199254740992}},
-           &Asked::seed)
+      .add(
+          {.name = "seed", .doc = "of the random numbers (default: 1)", .domain = {.low = 0, .high = 9007199254740992}},
+          &Asked::seed)
       .add({.name = "jobs", .doc = "threads (default: one for each core)", .domain = {.low = 1, .high = 1024}},
            &Asked::jobs)
       .add({.name = "no_error", .doc = "skip the runs that measure errors: none is undecided then"},
@@ -50,7 +53,7 @@ Question uncertainty_question() {
       {.place = 116,
        .name = "uncertainty",
        .arguments = "scene.toml --limit \"delta.press <= 0.05\"",
-       .help = "what the tolerances of a scene make of its figures, and which of them matters",
+       .help = "spread of the figures by the tolerances of a scene, and which tolerance matters",
        .does = "what tolerances that the scene gives (`stiffness = { value = \"900 kN*m/rad\", tolerance = \"10 "
                "%\", distribution = \"normal\", k = 2 }`) make of the figures, by gradients and by samples; how "
                "surely limits hold; which tolerance matters; numerical errors and known biases apart"},

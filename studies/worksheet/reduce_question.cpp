@@ -32,7 +32,7 @@ OptionsOf<ReduceAsked> options() {
       .add({.name = "to", .doc = "shaft or slider, e.g. gearbox.in, flywheel, press.slider (default: the crank)"},
            &ReduceOptions::to)
       .add({.name = "at",
-            .doc = "the machine as it is at another moment: after \"step 2\" of the sequence, at \"1.5 s\", or at a "
+            .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a "
                    "speed such as \"60 rpm\""},
            OptionForm::one, [](ReduceAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.speed); })
       .add({.name = "speed",
@@ -43,7 +43,7 @@ OptionsOf<ReduceAsked> options() {
            &ReduceOptions::speed)
       .add({.name = "basis",
             .doc = "classical (rigid machine at constant speed) or regime (the steady cycle with the scene's effects; "
-                   "default where the classical one leaves something out)"},
+                   "default where the classical one omits an effect)"},
            &ReduceOptions::basis,
            std::vector{std::pair("classical", ReduceBasis::classical), std::pair("regime", ReduceBasis::regime)})
       .add({.name = "orders", .doc = "harmonics up to this order (default: 12)", .domain = {.low = 1, .high = 1000}},
