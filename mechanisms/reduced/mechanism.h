@@ -49,6 +49,8 @@ struct Mechanism {
   std::optional<RodFlexibility> flexibility = {};  // of its rod
 
   bool rocks() const { return data.rocks(); }  // the output is an angle
+  // What acts within a linkage: the travel of a spring, a force or a couple as the output, without inertia and weight.
+  bool is_force() const { return data.is_travel(); }
   bool has_weight() const;
   double stroke() const { return travel.greatest - travel.least; }
   // Of x′: half the stroke; what goes round does so like the crank; what stands still has none of its own.
@@ -106,7 +108,7 @@ class MechanismElement : public AnyShaftElement {
   Mechanism mechanism_;
 };
 
-// Null for elements of other kinds.
+// Null for elements of other kinds, and for what acts within a linkage.
 const MechanismElement* mechanism_of(const Network::ShaftElement& element);
 // Of a network as drawn, or of a model's, where it is as its effects have it. Null: no component of that name is one.
 const Mechanism* find_mechanism(const Network& network, const std::string& component);
@@ -151,6 +153,8 @@ class MechanismPool final : public ReactingPool {
     bool has_weight = false;
     double output_scale = 1;      // of x′
     bool watches_travel = false;  // some load depends on the direction of travel
+    // Of the first load: behind that of the weight, which what acts within a linkage does not have.
+    int load_account() const { return at.account + (mechanism.is_force() ? 0 : 1); }
   };
   struct GuardOwner {
     std::size_t placed;

@@ -35,7 +35,7 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   reacts_ = reacts_ || friction;
   if (friction) reacting_shafts_.push_back(placed.at.shaft);
   const std::size_t index = placed_.size();
-  if (placed.mechanism.arc())
+  if (placed.mechanism.arc() && !placed.mechanism.is_force())
     for (const int end : {-1, 1}) owners_.push_back({index, GuardOwner::limit, end});
   if (placed.watches_travel) owners_.push_back({index, GuardOwner::travel, 0});
   for (std::size_t k = 0; k < placed.mechanism.loads.size(); ++k)
@@ -110,7 +110,7 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
         s.mode = now.mode[p.at.mode + 1 + static_cast<int>(k)];
         const double force = p.mechanism.loads[k].value(s);
         torque += force * ratio;
-        if (sums.work_rate) sums.work_rate[p.at.account + 1 + static_cast<int>(k)] += force * s.v;
+        if (sums.work_rate) sums.work_rate[p.load_account() + static_cast<int>(k)] += force * s.v;
       }
     }
     sums.element_torque[p.at.id] = torque;
@@ -432,8 +432,10 @@ void MechanismPool::add_channels(std::vector<Channel>& channels) const {
     const auto alpha = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.alpha[placed_[i].at.shaft]; };
     const std::string& name = placed_[i].mechanism.name;
     const bool rocks = placed_[i].mechanism.rocks();
-    channels.push_back({Name::make(quantities::position, name), rocks ? "rad" : "m",
-                        [here](const Snapshot& s) { return here(s).output_position().value; }});
+    if (const auto* t = placed_[i].mechanism.data.as<LinkageTravelData>();
+        !t || t->travel.of != LinkageTravel::Of::path)
+      channels.push_back({Name::make(quantities::position, name), rocks ? "rad" : "m",
+                          [here](const Snapshot& s) { return here(s).output_position().value; }});
     channels.push_back({Name::make(quantities::velocity, name), rocks ? "rad/s" : "m/s",
                         [=](const Snapshot& s) { return here(s).output_position().slope * omega(s); }});
     channels.push_back({Name::make(quantities::acceleration, name), rocks ? "rad/s2" : "m/s2", [=](const Snapshot& s) {
