@@ -430,20 +430,20 @@ void MechanismPool::add_channels(std::vector<Channel>& channels) const {
     };
     const auto omega = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.now.speed[placed_[i].at.shaft]; };
     const auto alpha = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.alpha[placed_[i].at.shaft]; };
-    const std::string& name = placed_[i].mechanism.name;
-    const bool rocks = placed_[i].mechanism.rocks();
-    if (const auto* t = placed_[i].mechanism.data.as<LinkageTravelData>();
-        !t || t->travel.of != LinkageTravel::Of::path)
-      channels.push_back({Name::make(quantities::position, name), rocks ? "rad" : "m",
+    const Mechanism& m = placed_[i].mechanism;
+    const bool rocks = m.rocks();
+    if (const auto* t = m.data.as<LinkageTravelData>(); !t || t->travel.of != LinkageTravel::Of::path)
+      channels.push_back({Name::make(quantities::position, m.name), rocks ? "rad" : "m",
                           [here](const Snapshot& s) { return here(s).output_position().value; }});
-    channels.push_back({Name::make(quantities::velocity, name), rocks ? "rad/s" : "m/s",
+    channels.push_back({Name::make(quantities::velocity, m.name), rocks ? "rad/s" : "m/s",
                         [=](const Snapshot& s) { return here(s).output_position().slope * omega(s); }});
-    channels.push_back({Name::make(quantities::acceleration, name), rocks ? "rad/s2" : "m/s2", [=](const Snapshot& s) {
-                          const auto [ratio, second] = here(s).output_velocity();
-                          return second * omega(s) * omega(s) + ratio * alpha(s);
-                        }});
+    channels.push_back(
+        {Name::make(quantities::acceleration, m.name), rocks ? "rad/s2" : "m/s2", [=](const Snapshot& s) {
+           const auto [ratio, second] = here(s).output_velocity();
+           return second * omega(s) * omega(s) + ratio * alpha(s);
+         }});
     if (!placed_[i].mechanism.loads.empty())
-      channels.push_back({Name::make(rocks ? quantities::load_torque : quantities::force, name), rocks ? "N*m" : "N",
+      channels.push_back({Name::make(rocks ? quantities::load_torque : quantities::force, m.name), rocks ? "N*m" : "N",
                           [this, i](const Snapshot& s) { return load_force(placed_[i], s.now); }});
   }
 }

@@ -288,7 +288,7 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
 }
 
 std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std::span<const FrictionPlace> friction) {
-  const Equations equations(l);
+  const Equations equations(l, {});
   const RightSides unit = equations.solve(equations.with_friction(friction));
   std::vector<std::vector<long double>> columns(static_cast<std::size_t>(unit.cols()));
   for (Eigen::Index c = 0; c < unit.cols(); ++c)
