@@ -51,7 +51,9 @@ const Tables<Reading<PointForceKeys>>& force_tables() {
           .add({.name = "between",
                 .doc = "two points: the load's laws count their distance, a positive force pushes them apart"},
                &PointForceKeys::between)
-          .add({.name = "on", .doc = "a point of a link"}, &PointForceKeys::on)
+          .add({.name = "on",
+                .doc = "a point of a link; of a pin the link before it says on which it acts: \"rocker B\""},
+               &PointForceKeys::on)
           .add(quantity("along", "rad", any_number,
                         "of a force on a point: its direction in the sketch, which stands; the load's laws count the "
                         "point's way along it. Without: along the point's path, for the resistance of a medium"),
@@ -94,13 +96,10 @@ const Tables<Reading<CoupleKeys>>& couple_tables() {
 
 class LinkageForceBuilder {
  public:
-  LinkageForceBuilder(const Section& section, std::shared_ptr<const Linkage> linkage, double phase, Network& net)
-      : section_(section),
-        linkage_(std::move(linkage)),
-        s_(linkage_->sketch()),
-        phase_(phase),
-        node_(net.ports.at(section.name).in),
-        net_(net) {}
+  LinkageForceBuilder(const Section& section, std::shared_ptr<const Linkage> linkage, double phase)
+      : section_(section), linkage_(std::move(linkage)), s_(linkage_->sketch()), phase_(phase) {}
+
+  std::vector<Mechanism> made;
 
   void add(const Reading<SpringKeys>& k) {
     const auto travel = between(k, &SpringKeys::between, k.between);
@@ -119,13 +118,8 @@ class LinkageForceBuilder {
       if (!two) return;
       travel = *two;
     } else {
-      const std::vector<std::string> one = words(*k.on);
-      if (one.size() != 1) return void(k.refuse(&PointForceKeys::on, "must name one point"));
-      const auto place = place_of(k, &PointForceKeys::on, one[0]);
+      const auto place = place_on(k);
       if (!place) return;
-      if (place->body == LinkageSketch::frame)
-        return void(
-            k.refuse(&PointForceKeys::on, fmt::format("the point {} stands still; name one of a moving link", one[0])));
       travel = {k.along ? LinkageTravel::Of::way : LinkageTravel::Of::path, {}, *place, k.along.value_or(0)};
       const auto resists = [](const LoadReading& load) {
         return std::holds_alternative<Reading<LoadKeys<MediumResistance>>>(load);
@@ -194,6 +188,34 @@ class LinkageForceBuilder {
                                  shortened_list(names(s_.points), "and")));
     return {};
   }
+  // "B", or of a pin the link that it acts on, too: "rocker B". Along a path a link that guides the pin comes first: with it
+  // the sense of the motion is known.
+  std::optional<LinkageTravel::Place> place_on(const Reading<PointForceKeys>& k) const {
+    const auto& on = &PointForceKeys::on;
+    const std::vector<std::string> parts = words(*k.on);
+    if (parts.empty() || parts.size() > 2) {
+      k.refuse(on, "must name one point, of a pin with the link before it: \"B\" or \"rocker B\"");
+      return {};
+    }
+    auto place = place_of(k, on, parts.back());
+    if (!place) return {};
+    if (place->body == LinkageSketch::frame) {
+      k.refuse(on, fmt::format("the point {} stands still; name one of a moving link", parts.back()));
+      return {};
+    }
+    std::vector<std::string> links;
+    for (int link = static_cast<int>(s_.links.size()); link-- > 0;) {
+      if (!s_.has(link, place->point)) continue;
+      links.push_back(s_.name_of(link));
+      const PathGuide guide = path_guide(*linkage_, {LinkageTravel::Of::path, {}, {link, place->point}, 0});
+      if (parts.size() == 2 ? links.back() == parts[0] : !k.along && (guide.bearing || guide.direction))
+        place->body = link;
+    }
+    if (parts.size() == 1 || s_.name_of(place->body) == parts[0]) return place;
+    k.refuse(on, fmt::format("the point {} is not on \"{}\"; links through it are {}", parts[1], parts[0],
+                             shortened_list(links, "and")));
+    return {};
+  }
   template <class K, class M>
   std::optional<LinkageTravel> between(const K& k, M member, const std::string& text) const {
     const std::vector<std::string> two = words(text);
@@ -253,16 +275,13 @@ class LinkageForceBuilder {
     mechanism->phase = phase_;
     if (!laws(*mechanism)) return;
     if (mechanism->loads.empty()) return void(k.refuse("has no law; give it one, or leave it out"));
-    limit_loads(*mechanism, section_.name, node_, net_);
-    net_.put(node_, name, std::make_shared<MechanismElement>(std::move(*mechanism)), {}, phase_);
+    made.push_back(std::move(*mechanism));
   }
 
   const Section& section_;
   std::shared_ptr<const Linkage> linkage_;
   const LinkageSketch& s_;
   double phase_;
-  int node_;
-  Network& net_;
   std::set<std::string> taken_;
 };
 
@@ -280,12 +299,23 @@ const Fields<LinkageForceKeys>& linkage_force_fields() {
   return made;
 }
 
-void build_linkage_forces(const Section& section, const LinkageForceKeys& keys,
-                          const std::shared_ptr<const Linkage>& linkage, double phase, Network& net) {
-  LinkageForceBuilder builder(section, linkage, phase, net);
+std::vector<Mechanism> linkage_forces(const Section& section, const LinkageForceKeys& keys,
+                                      const std::shared_ptr<const Linkage>& linkage, double phase) {
+  LinkageForceBuilder builder(section, linkage, phase);
   for (const auto& spring : keys.springs) builder.add(spring);
   for (const auto& force : keys.forces) builder.add(force);
   for (const auto& couple : keys.couples) builder.add(couple);
+  return std::move(builder.made);
+}
+
+void put_linkage_forces(const Section& section, std::vector<Mechanism> forces, Network& net) {
+  const int node = net.ports.at(section.name).in;
+  for (Mechanism& force : forces) {
+    limit_loads(force, section.name, node, net);
+    const std::string name = force.name;
+    const double phase = force.phase;
+    net.put(node, name, std::make_shared<MechanismElement>(std::move(force)), {}, phase);
+  }
 }
 
 }  // namespace kurbel

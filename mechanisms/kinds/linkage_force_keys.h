@@ -10,6 +10,7 @@
 #include "engine/scene/fields.h"
 #include "mechanisms/kinds/load_kinds.h"
 #include "mechanisms/linkage/linkage.h"
+#include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 
@@ -45,8 +46,10 @@ struct LinkageForceKeys {
 };
 const Fields<LinkageForceKeys>& linkage_force_fields();
 
-// Adds an element for each on the node of the linkage, which the network has already. What is wrong goes into the messages.
-void build_linkage_forces(const Section& section, const LinkageForceKeys& keys,
-                          const std::shared_ptr<const Linkage>& linkage, double phase, Network& net);
+// Each as a mechanism without inertia. What is wrong goes into the messages.
+std::vector<Mechanism> linkage_forces(const Section& section, const LinkageForceKeys& keys,
+                                      const std::shared_ptr<const Linkage>& linkage, double phase);
+// Adds an element for each on the node of the linkage, which the network has already.
+void put_linkage_forces(const Section& section, std::vector<Mechanism> forces, Network& net);
 
 }  // namespace kurbel

@@ -383,15 +383,15 @@ void build_linkage(const Section& section, Network& net, Messages& messages) {
     net.ports[section.name] = {node, node};
     return;
   }
-  const LinkageForceKeys& within = keys.within;
-  if (!keys.mounting.joints.empty() && !(within.springs.empty() && within.forces.empty() && within.couples.empty()))
-    keys.refuse(
-        "has joints with friction beside springs, forces or couples, which would press on these joints and are not "
-        "counted "
-        "there yet; leave out joints or what acts within");
+  std::vector<Mechanism> forces = linkage_forces(section, keys.within, linkage, keys.mounting.phase);
+  for (const Mechanism& force : forces)
+    keys.mounting.within.push_back({force.name, *force.data.as<LinkageTravelData>()});
+  if (!keys.mounting.joints.empty() && forces.size() > JointFriction::most_applied)
+    keys.refuse(fmt::format("{} springs, forces and couples press on its joints with friction; at most {} may",
+                            forces.size(), JointFriction::most_applied));
   if (linkage->sketch().output.rocks()) keys.mounting.loads = keys.torques;
   build_mechanism(section, LinkageData{linkage, linkage->sketch().gravity}, keys.mounting, {}, net, messages);
-  if (messages.all().size() == before) build_linkage_forces(section, keys.within, linkage, keys.mounting.phase, net);
+  if (messages.all().size() == before) put_linkage_forces(section, std::move(forces), net);
 }
 
 }  // namespace

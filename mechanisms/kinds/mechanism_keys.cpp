@@ -134,7 +134,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
     return;
   }
   mechanism->phase = mounting.phase;
-  mechanism->joints = joints ? std::move(joints) : friction_of(data, mounting.joints);
+  mechanism->joints = joints ? std::move(joints) : friction_of(data, mounting.joints, mounting.within);
   mechanism->clearances = std::move(deformation.clearances);
   mechanism->flexibility = deformation.flexibility;
   put_loads(mounting.loads, *mechanism);

@@ -31,6 +31,7 @@ struct Mounting {
   double phase = 0;  // crank angle ahead of the shaft's [rad]
   std::vector<LoadReading> loads;
   std::vector<Reading<RubbingJoint>> joints;
+  std::vector<ActsWithin> within = {};  // of a linkage, which press on these joints
 };
 Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>& loads);
 // The same for a kind that names its joints' keys itself.

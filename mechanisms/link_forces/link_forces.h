@@ -9,11 +9,13 @@
 
 namespace kurbel {
 
+// What this element does within a linkage; null: it is something else.
+const Mechanism* link_force_of(const Network::ShaftElement& element);
 // Those that act within this linkage: their elements stand behind its own. "press" has "press.return".
 std::vector<const Mechanism*> link_forces_of(const Network& network, const std::string& component);
 
-// What this force or torque [N], [N·m] along the travel of `force` does to the linkage's bodies at φ.
-void add_actions(const Mechanism& force, double value, long double phi, const PlanarLinkage& linkage,
+// What a force or torque [N], [N·m] of this value along the travel does to the linkage's bodies, which stand in these poses.
+void add_actions(const LinkageTravelData& along, double value, const LinkPoses& poses, const PlanarLinkage& linkage,
                  std::vector<AppliedForce>& to);
 
 }  // namespace kurbel

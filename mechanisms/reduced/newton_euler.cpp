@@ -96,12 +96,7 @@ class Equations {
     for (int k = 0; k < l.joint_count; ++k) put(k);
     matrix_(2, n_ - 1) = 1;  // the balancing torque, on the crank
     for (int i = 0; i < l.body_count; ++i) load(i);
-    for (const AppliedForce& a : applied) {
-      const Vector com = at(l.bodies[a.body].com);
-      const Vector arm = {a.at.x - com.x, a.at.y - com.y}, force = {a.force.x, a.force.y};
-      right_(3 * a.body, applied_case) -= force.x, right_(3 * a.body + 1, applied_case) -= force.y;
-      right_(3 * a.body + 2, applied_case) -= (cross(arm, force) + a.moment) / length_;
-    }
+    put(applied, applied_case, right_);
   }
   // Forces [N] and moments over length() [N].
   Columns solve() const { return solve(right_); }
@@ -114,26 +109,21 @@ class Equations {
         if (matrix_(i, j) != 0) left.row(i) -= matrix_(i, j) * x.row(j);
     return x + factors.solve(left);
   }
-  // The four cases besides applied forces, and behind them a unit of each friction load.
-  RightSides with_friction(std::span<const FrictionPlace> friction) const {
-    constexpr Eigen::Index plain = applied_case;
-    RightSides right = RightSides::Zero(n_, plain + static_cast<Eigen::Index>(friction.size()));
-    right.leftCols(plain) = right_.leftCols(plain);
-    for (std::size_t k = 0; k < friction.size(); ++k) {
-      const PlanarLinkage::Joint& j = l_.joints[static_cast<std::size_t>(friction[k].joint)];
-      const Eigen::Index column = plain + static_cast<Eigen::Index>(k);
-      const Vector place = at(j.at), along{j.along.cos.value(), j.along.sin.value()};
-      for (const auto& [body, sense] : {std::pair{j.on, Real(1)}, std::pair{j.from, Real(-1)}}) {
-        if (body == PlanarLinkage::frame) continue;
-        const Vector com = at(l_.bodies[static_cast<std::size_t>(body)].com);
-        if (friction[k].couple) {
-          right(3 * body + 2, column) -= sense / length_;
-        } else {
-          right(3 * body, column) -= sense * along.x;
-          right(3 * body + 1, column) -= sense * along.y;
-          right(3 * body + 2, column) -= sense * cross({place.x - com.x, place.y - com.y}, along) / length_;
-        }
-      }
+  // The four cases, behind them each of what else is applied, and a unit of each friction load.
+  RightSides with_units(std::span<const FrictionPlace> friction,
+                        std::span<const std::vector<AppliedForce>> applied) const {
+    Eigen::Index column = applied_case;
+    RightSides right = RightSides::Zero(n_, column + static_cast<Eigen::Index>(applied.size() + friction.size()));
+    right.leftCols(column) = right_.leftCols(column);
+    for (const std::vector<AppliedForce>& unit : applied) put(unit, column++, right);
+    for (const FrictionPlace& unit : friction) {
+      const PlanarLinkage::Joint& j = l_.joints[static_cast<std::size_t>(unit.joint)];
+      const Vector along{j.along.cos.value(), j.along.sin.value()};
+      for (const auto& [body, sense] : {std::pair{j.on, Real(1)}, std::pair{j.from, Real(-1)}})
+        if (body != PlanarLinkage::frame)
+          put(body, at(j.at), unit.couple ? Vector{} : Vector{sense * along.x, sense * along.y},
+              unit.couple ? sense : 0, column, right);
+      ++column;
     }
     return right;
   }
@@ -152,6 +142,18 @@ class Equations {
   Real length() const { return length_; }  // the crank's: of moments' rows and unknowns
 
  private:
+  // What acts on a body, on the right side.
+  template <class Right>
+  void put(int body, Vector place, Vector force, Real moment, Eigen::Index column, Right& right) const {
+    const Vector com = at(l_.bodies[static_cast<std::size_t>(body)].com);
+    right(3 * body, column) -= force.x, right(3 * body + 1, column) -= force.y;
+    right(3 * body + 2, column) -= (cross({place.x - com.x, place.y - com.y}, force) + moment) / length_;
+  }
+  template <class Right>
+  void put(const std::vector<AppliedForce>& applied, Eigen::Index column, Right& right) const {
+    for (const AppliedForce& a : applied)
+      put(a.body, {a.at.x, a.at.y}, {a.force.x, a.force.y}, a.moment, column, right);
+  }
   void act(int body, int column, Vector place, Vector along, Real sense) {
     if (body == PlanarLinkage::frame) return;
     const Vector com = at(l_.bodies[body].com);
@@ -287,9 +289,10 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
   return f;
 }
 
-std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std::span<const FrictionPlace> friction) {
+std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std::span<const FrictionPlace> friction,
+                                                     std::span<const std::vector<AppliedForce>> applied) {
   const Equations equations(l, {});
-  const RightSides unit = equations.solve(equations.with_friction(friction));
+  const RightSides unit = equations.solve(equations.with_units(friction, applied));
   std::vector<std::vector<long double>> columns(static_cast<std::size_t>(unit.cols()));
   for (Eigen::Index c = 0; c < unit.cols(); ++c)
     for (int k = 0; k < l.joint_count; ++k) {

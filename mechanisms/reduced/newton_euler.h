@@ -83,9 +83,10 @@ struct FrictionPlace {
   bool couple = true;
 };
 // Of all joints in their order R_x, R_y [N], of a slide its normal force [N] and moment [N·m], by columns: for ω² = 1,
-// ε = 1, the weights, a unit load, each of the friction loads alone (theory 10.2).
+// ε = 1, the weights, a unit load, each of what else is applied, each of the friction loads alone (theory 10.2).
 std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& linkage,
-                                                     std::span<const FrictionPlace> friction);
+                                                     std::span<const FrictionPlace> friction,
+                                                     std::span<const std::vector<AppliedForce>> applied = {});
 
 // Of a mechanism that passes change points: φ itself, or if it lies nearer to one than a thousandth of what the sine there
 // changes by in a radian, the place at that distance on its side. Reactions go with the inverse of the distance.

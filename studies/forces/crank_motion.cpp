@@ -151,8 +151,10 @@ double OutputLoads::force(double phi, const CrankMotion& motion) const {
 
 LinkageState OutputLoads::state(double phi, const CrankMotion& motion, const PlanarLinkage& at) const {
   LinkageState state{phi, motion.omega, motion.alpha, force(phi, motion)};
+  if (within_.empty()) return state;
+  const LinkPoses poses = within_.front()->data.as<LinkageTravelData>()->linkage->poses(phi);
   for (const Mechanism* force : within_)
-    add_actions(*force, force->load(within(phi), motion.omega), phi, at, state.applied);
+    add_actions(*force->data.as<LinkageTravelData>(), force->load(within(phi), motion.omega), poses, at, state.applied);
   return state;
 }
 

@@ -93,7 +93,7 @@ TEST(HardLinkages, NearDeadCentres) {
   }
 }
 
-// All links but the driving one lighter and lighter: nothing hangs on them in the end, and energy is kept.
+// All links but the driving one lighter and lighter: nothing depends on them in the end, and energy is kept.
 TEST(HardLinkages, LightLinks) {
   for (const double mass : {1.0, 1e-3, 1e-6, 1e-9, 0.0}) {
     SCOPED_TRACE(mass);

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "mechanisms/link_forces/link_forces.h"
 #include "studies/forces/linkage_cycle.h"
@@ -34,9 +37,8 @@ std::vector<LinkageTravel> travels() {
           {Of::rotation, {0, -1}, {1, -1}, 0}};
 }
 
-TEST(LinkForces, TravelsOfBothExtractionsAgree) {
-  const auto linkage = test::stephenson().data().linkage;
-  for (const LinkageTravel& travel : travels()) {
+void expect_both_extractions(const std::shared_ptr<const Linkage>& linkage, const std::vector<LinkageTravel>& travels) {
+  for (const LinkageTravel& travel : travels) {
     ASSERT_EQ(fault_of(*linkage, travel), "");
     const MechanismData data(LinkageTravelData{linkage, travel});
     const auto bodies = data.make_bodies();
@@ -59,6 +61,18 @@ TEST(LinkForces, TravelsOfBothExtractionsAgree) {
   }
 }
 
+TEST(LinkForces, TravelsOfBothExtractionsAgree) {
+  expect_both_extractions(test::stephenson().data().linkage, travels());
+  // A ram that may ride on its rod, unless something acts beside its pin; links crank, rod, ram are 0, 1, 2, its points 2, 3.
+  const int frame = LinkageSketch::frame;
+  expect_both_extractions(test::ram_with_a_point_beside_its_pin().moves("ram", 'D', 0).data().linkage,
+                          {{Of::distance, {frame, 0}, {2, 3}, 0},
+                           {Of::distance, {frame, 0}, {2, 2}, 0},
+                           {Of::path, {}, {2, 3}, 0},
+                           {Of::rotation, {1, -1}, {2, -1}, 0},
+                           {Of::rotation, {frame, -1}, {2, -1}, 0}});
+}
+
 // A path's rate is the point's speed, with a sign where it turns about a bearing.
 TEST(LinkForces, APathsRateIsThePointsSpeed) {
   const auto linkage = test::stephenson().data().linkage;
@@ -78,12 +92,11 @@ TEST(LinkForces, APathsRateIsThePointsSpeed) {
 TEST(LinkForces, ReactionsTakeForcesWhereTheyAct) {
   const LinkageData data = test::stephenson().data();
   for (const LinkageTravel& travel : travels()) {
-    const Mechanism force("m.force", LinkageTravelData{data.linkage, travel});
     for (int i = 0; i < 10; ++i) {
       const double phi = 0.2 + 0.6 * i;
       const PlanarLinkage l = linkage_of(data, phi);
       LinkageState state{phi, 9, -20, 0}, with = state;
-      add_actions(force, 700, phi, l, with.applied);
+      add_actions({data.linkage, travel}, 700, data.linkage->poses(phi), l, with.applied);
       const LinkageForces a = forces_in(l, state), b = forces_in(l, with);
       const double ratio = double(travel_series(*data.linkage, data.linkage->poses(phi), travel).slope());
       EXPECT_NEAR(b.torque - a.torque, -700 * ratio, 1e-11);
@@ -185,6 +198,26 @@ TEST(LinkForces, CouplesActBetweenLinks) {
   EXPECT_NEAR(test::figure(r, "final_speed.m"), 2 * pi + 3 / 0.02 * 0.5, 1e-8);
 }
 
+// A pin's path is measured along the link that guides it, so that the point may turn round.
+TEST(LinkForces, APinsPathIsThatOfTheLinkThatGuidesIt) {
+  const auto model = compile(test::scene_from(R"(
+line = ["m"]
+[m]
+kind   = "linkage"
+unit   = "mm"
+points = { O = [0, 0], A = [50, 0], B = [190, 140], C = [240, 0] }
+frame  = "O C"
+links  = { crank = { points = "O A", inertia = "0.5 kg*m2" }, coupler = "A B", rocker = "C B" }
+forces = { drag = { on = "B", load = { kind = "medium", viscous = "30 N*s/m" } } }
+)"),
+                             Effects{});
+  const Mechanism& drag = *link_forces_of(model->network, "m").at(0);
+  EXPECT_EQ(drag.data.as<LinkageTravelData>()->travel.to.body, 2);
+  // B goes to and fro at |C B| ψ′, and a turn's mean of that is none.
+  EXPECT_NEAR(drag.reduced->mean(ReducedMechanism::output_velocity_ratio), 0, 1e-13);
+  EXPECT_NEAR(drag.load(1, 2), -30 * drag.reduced->output_position(1).slope * 2, 1e-12);
+}
+
 // A press force on a point counts the way along its direction as the same load on the output does.
 TEST(LinkForces, ALoadOnAPointIsTheLoadOnTheOutput) {
   const std::string load =
@@ -198,6 +231,71 @@ TEST(LinkForces, ALoadOnAPointIsTheLoadOnTheOutput) {
   EXPECT_NEAR(test::figure(b, "final_speed.m"), test::figure(a, "final_speed.m"), 1e-8);
   EXPECT_NEAR(b.energy.by_account.at("m.tool"), a.energy.by_account.at("m.load"), 1e-8);
   EXPECT_LT(b.energy.by_account.at("m.tool"), -1);
+}
+
+// Andrews' squeezing mechanism, seven links driven by a constant torque against a spring: data and solution at 30 ms of the
+// Test Set for IVP Solvers (Mazzia, Magherini; there as a differential-algebraic system of index 3).
+TEST(LinkForces, AndrewsSqueezerIsThatOfTheTestSet) {
+  using Place = std::complex<double>;
+  const double beta = -0.0617138900142764496, gamma = 0.455279819163070380, phi = 0.222668390165885885,
+               delta = 0.487364979543842550, omega = -0.222668390165885885, epsilon = 1.23054744454982119;
+  const auto along = [](double length, double angle) { return std::polar(length, angle); };
+  const auto across = [](double length, double angle) { return std::polar(length, angle) * Place(0, -1); };
+  const Place a{-0.06934, -0.00227}, b{-0.03635, 0.03273}, p = along(0.007, beta), e = p - along(0.028, beta),
+                                                           d = b + along(0.02, gamma) + across(0.018, gamma),
+                                                           g = a + along(0.04, delta), h = a + across(0.04, epsilon);
+  const Place e5 = g + across(0.02, phi + delta), e7 = h + along(0.02, omega + epsilon), e3 = b + across(0.035, gamma);
+  for (const Place& same : {e3, e5, e7}) ASSERT_LT(std::abs(same - e), 1e-16);
+  const auto at = [](Place x) { return fmt::format("[{:.17g}, {:.17g}]", x.real(), x.imag()); };
+  std::string links;
+  const auto link = [&](const char* name, const char* points, double mass, Place com, double inertia) {
+    links += fmt::format("{} = {{ points = \"{}\", mass = \"{} kg\", com = {}, inertia = \"{} kg*m2\" }}\n", name,
+                         points, mass, at(com), inertia);
+  };
+  link("k1", "O P", 0.04325, along(0.00092, beta), 2.194e-6);
+  link("k2", "P E", 0.00365, p - along(0.0115, beta), 4.41e-7);
+  link("k3", "B E D", 0.02373, b + along(0.01874, gamma) + across(0.01043, gamma), 5.255e-6);
+  link("k4", "G E", 0.00706, g + across(0.02 - 0.01421, phi + delta), 5.667e-7);
+  link("k5", "A G", 0.0705, a + along(0.02308, delta) + across(0.00916, delta), 1.169e-5);
+  link("k6", "H E", 0.00706, h + along(0.02 - 0.01421, omega + epsilon), 5.667e-7);
+  link("k7", "A H", 0.05498, a + along(0.01228, epsilon) + across(0.00449, epsilon), 1.912e-5);
+  const Scene scene = test::scene_from(fmt::format(
+      R"(
+line = ["m"]
+[m]
+kind    = "linkage"
+unit    = "m"
+points  = {{ O = [0, 0], P = {}, E = {}, B = {}, D = {}, G = {}, A = {}, H = {}, C = [0.014, 0.072] }}
+frame   = "O A B C"
+springs = {{ c = {{ between = "C D", stiffness = "4530 N/m", free_length = "77.85 mm" }} }}
+couples = {{ mom = {{ between = "frame k1", torque = {{ kind = "constant", torque = "0.033 N*m", work = "driving" }} }} }}
+[m.links]
+{}[run]
+start    = {{ speed = "0 rpm", angle = "{:.18g} rad" }}
+until    = "30 ms"
+accuracy = 1e-12
+)",
+      at(p), at(e), at(b), at(d), at(g), at(a), at(h), links, beta));
+  const Result r = test::run(scene);
+  EXPECT_TRUE(r.complete) << r.diagnosis;
+  EXPECT_LT(r.energy.relative, 1e-10);
+  const double angle = test::figure(r, "final_angle.m"), speed = test::figure(r, "final_speed.m");
+  EXPECT_NEAR(angle, 15.81077119629904, 1e-8);
+  EXPECT_NEAR(speed, 1139.920302151208, 1e-6);
+  const auto model = compile(scene, Effects{});
+  const Linkage& linkage = *find_mechanism(model->network, "m")->data.as<LinkageData>()->linkage;
+  const LinkPoses poses = linkage.poses(angle);
+  struct Published {
+    int link;
+    double start, angle, speed;
+  };
+  for (const Published& x : {Published{2, gamma, 0.04082224013073101, 11.03291221937134},
+                             {4, delta, 0.5244099658805304, 0.5735699284790808},
+                             {6, epsilon, 1.048080741042263, 0.3231791658026955}}) {
+    const Taylor turned = travel_series(linkage, poses, {Of::rotation, {LinkageSketch::frame, -1}, {x.link, -1}, 0});
+    EXPECT_NEAR(x.start + double(turned.value()), x.angle, 1e-9) << x.link;
+    EXPECT_NEAR(double(turned.slope()) * speed, x.speed, 2e-6) << x.link;
+  }
 }
 
 const char* const sieve = R"(
@@ -280,6 +378,8 @@ TEST(LinkForcesKeys, FaultsSayWhatAndWhere) {
   expect("[m.forces]\nf = { on = \"Y\", load = { kind = \"constant\", force = \"1 N\" } }", "without along");
   expect("[m.forces]\nf = { on = \"F\", along = \"0 deg\", load = { kind = \"constant\", force = \"1 N\" } }",
          "stands still");
+  expect("[m.forces]\nf = { on = \"crank Y\", along = \"0 deg\", load = { kind = \"constant\", force = \"1 N\" } }",
+         "not on \"crank\"; links through it are yoke");
   expect("[m.couples]\nc = { between = \"frame cranc\", damping = \"1 N*m*s/rad\" }", "unknown link \"cranc\"");
   expect("[m.couples]\nc = { between = \"frame crank\", stiffness = \"1 N*m/rad\" }", "wound up without end");
   expect("[m.couples]\nc = { between = \"frame crank\" }", "has no torque");

@@ -109,7 +109,7 @@ void expect_free_bodies(const LinkageData& data, const PlanarLinkage& l, const L
   }
 }
 
-// Simbody's mobilizers bear what the links' equilibrium says.
+// Simbody's mobilizers carry what the links' equilibrium says.
 void expect_reactions(const LinkageData& data, const LinkageState& state, double within) {
   const PlanarLinkage l = linkage_of(data, state.phi);
   const LinkageForces f = forces_in(l, state);
