@@ -81,7 +81,8 @@ class ChannelList {
     for (std::size_t k = 0; k < model_.own_states.size(); ++k)
       if (is_wanted(wanted_, model_.own_states[k].component)) channels_.push_back(own_state(model_, k));
     for (const Channel& channel : model_.pool_channels)
-      if (is_wanted(wanted_, channel.name.of)) channels_.push_back(channel);
+      if (is_wanted(wanted_, channel.name.of) || is_wanted(wanted_, component_of(channel.name.of)))
+        channels_.push_back(channel);
     return std::move(channels_);
   }
 

@@ -3,7 +3,7 @@
 set(rooms engine/base engine/scene engine/elements engine/model engine/equations engine/events engine/steppers engine/run engine/rigid
   engine/numerics engine/matrices engine/values engine/reading engine/tables "drivetrain(/[a-z_]+)?" mechanisms/linkage
   mechanisms/linkages mechanisms/bodies mechanisms/friction mechanisms/slider_crank mechanisms/loads mechanisms/reduced
-  mechanisms/joints mechanisms/kinds)
+  mechanisms/link_forces mechanisms/joints mechanisms/kinds)
 list(JOIN rooms "|" rooms)
 set(run_time ${KURBEL_SOURCES})
 list(FILTER run_time INCLUDE REGEX "/((${rooms})/[a-z_]+|library/fmi/(exported_machine|instance|instance_text|ports|variables))\\.cpp$")

@@ -113,4 +113,10 @@ LinkageDrawing drawing_of(const LinkageData& data) {
   return drawing;
 }
 
+LinkageDrawing drawing_of(const LinkageTravelData& data) {
+  LinkageDrawing drawing = drawing_of(LinkageData{data.linkage, 0});
+  drawing.rocks = data.travel.rocks();
+  return drawing;
+}
+
 }  // namespace kurbel

@@ -119,8 +119,8 @@ class LinkageTree {
     return {c * v.x + s * v.y, c * v.y - s * v.x};
   }
 
-  // What slides on the frame does not turn. With one pin beside, and its centre of mass and the output in it, it rides on what it is pinned
-  // to, and the slide keeps the pin on a line: one closure in place of two.
+  // What slides on the frame does not turn. With one pin beside, and its centre of mass and all that is read off it in it, it
+  // rides on what it is pinned to, and the slide keeps the pin on a line: one closure in place of two.
   void let_ride(int body) {
     int pin = -1, slide = -1, joints = 0;
     for (int k = 0; k < static_cast<int>(used_.size()); ++k) {
@@ -137,6 +137,8 @@ class LinkageTree {
     };
     if (is_off(drawn_.bodies[at(body)].com)) return;
     if (body == count() - 1 && !drawn_.rocks && is_off(drawn_.load_at)) return;
+    for (const BodiesOf::Place& tracked : of_.tracked)
+      if (tracked.body == body && is_off(tracked.at)) return;
     links_[at(body)].pin = pin, links_[at(body)].slide = slide;
     used_[at(pin)] = used_[at(slide)] = true;
   }
@@ -218,6 +220,11 @@ class LinkageSystem {
       if (b.mass > 0) m_->add_weight(b.mass, of(tree_->bearer(body)), tree_->station(tree_->bearer(body), b.com));
     }
     add_output();
+    for (const BodiesOf::Place& place : tree_->of().tracked) {
+      const int bearer = tree_->bearer(place.body);
+      m_->add_place(of(bearer), tree_->station(bearer, place.at),
+                    tree_->rides(place.body) ? std::vector<int>{} : pins_of(bearer));
+    }
     return std::move(m_);
   }
 
@@ -284,19 +291,21 @@ class LinkageSystem {
     const TreeLink& link = tree_->link(rider);
     keep_on_line(still, tree_->joint(link.slide).along, tree_->bearer(rider), tree_->joint(link.pin).at);
   }
-  // Angles add up along the tree.
+  // Coordinates of the pins between frame and body: angles add up along the tree.
+  std::vector<int> pins_of(int body) const {
+    std::vector<int> coordinates;
+    for (; body != still; body = tree_->link(body).parent)
+      if (!tree_->slides(body)) coordinates.push_back(int(index_[std::size_t(body)]) - 1);
+    return coordinates;
+  }
   void add_output() {
     const int last = l_.body_count - 1;
     if (!l_.rocks) return m_->set_output(of(tree_->bearer(last)), tree_->station(tree_->bearer(last), l_.load_at));
     long double from = l_.output[0];
-    std::vector<int> coordinates;
     for (int body = last; body != still; body = tree_->link(body).parent)
-      if (!tree_->slides(body)) {
-        coordinates.push_back(int(index_[std::size_t(body)]) - 1);
-        from -= body == 0 ? tree_->of().place : tree_->coordinate(l_, body, false).value();
-      }
+      if (!tree_->slides(body)) from -= body == 0 ? tree_->of().place : tree_->coordinate(l_, body, false).value();
     from = std::remainder(from, 2 * std::acos(-1.0L));
-    m_->set_output(of(last), std::move(coordinates), std::fabs(from) < 1e-17L ? 0 : double(from));
+    m_->set_output(of(last), pins_of(last), std::fabs(from) < 1e-17L ? 0 : double(from));
   }
 
   std::shared_ptr<const LinkageTree> tree_;
@@ -313,5 +322,12 @@ std::unique_ptr<PlanarSystem> planar_system(const BodiesOf& of, double shaft_ine
 }
 
 std::unique_ptr<MechanismBodies> make_bodies(const BodiesOf& of) { return sampled(planar_system(of)); }
+
+std::vector<BodyInTree> tree_of(const BodiesOf& of) {
+  const LinkageTree tree(of);
+  std::vector<BodyInTree> list;
+  for (const int body : tree.order()) list.push_back({body, tree.link(body).joint});
+  return list;
+}
 
 }  // namespace kurbel

@@ -100,6 +100,10 @@ void PlanarSystem::set_output(const MobilizedBody& body, std::vector<int> coordi
   output_coordinates = std::move(coordinates), output_from = from;
 }
 
+void PlanarSystem::add_place(const MobilizedBody& body, const Vec3& station, std::vector<int> pins) {
+  places.push_back({track(body, station), std::move(pins)});
+}
+
 double PlanarSystem::output_position(const State& state) const {
   const TrackedPoint& output = points[output_point];
   if (output_coordinates.empty())

@@ -52,6 +52,9 @@ struct PlanarSystem {
   void set_output(const SimTK::MobilizedBody& body, const SimTK::Vec3& station);
   void set_output(const SimTK::MobilizedBody& body, std::vector<int> coordinates, double from);
 
+  // A station whose motion is read off besides, with the coordinates of the pins between frame and its body.
+  void add_place(const SimTK::MobilizedBody& body, const SimTK::Vec3& station, std::vector<int> pins);
+
   // --- then ---
   // Ends the construction (forces may be added before) and returns the state that the system starts from.
   SimTK::State realize_topology();
@@ -73,9 +76,14 @@ struct PlanarSystem {
   };
   std::vector<TrackedPoint> points;
   std::vector<Weight> weights;
-  std::size_t output_point = 0;                 // of an output that rocks on its body, too
-  std::vector<int> output_coordinates;          // empty: the output slides
-  double output_from = 0;                       // [rad]
+  std::size_t output_point = 0;         // of an output that rocks on its body, too
+  std::vector<int> output_coordinates;  // empty: the output slides
+  double output_from = 0;               // [rad]
+  struct Place {
+    std::size_t point;
+    std::vector<int> pins;  // their coordinates add up to the body's rotation
+  };
+  std::vector<Place> places;                    // in the order of BodiesOf::tracked
   std::unique_ptr<SimbodyReduction> reduction;  // made by realize_topology()
 
  private:

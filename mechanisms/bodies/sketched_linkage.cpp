@@ -5,11 +5,12 @@
 
 namespace kurbel {
 
-PlanarLinkage linkage_of(const LinkageData& data, long double phi) {
+namespace {
+
+PlanarLinkage linkage_in(const LinkPoses& poses, const LinkageData& data) {
   const Linkage& linkage = *data.linkage;
   const LinkageSketch& s = linkage.sketch();
   const LinkageStructure& parts = linkage.structure();
-  const LinkPoses poses = linkage.poses(phi);
   std::vector<int> order = parts.order, place(s.links.size(), 0);
   std::stable_partition(order.begin(), order.end(), [&](int link) { return link != s.output.link; });
   PlanarLinkage l;
@@ -39,6 +40,29 @@ PlanarLinkage linkage_of(const LinkageData& data, long double phi) {
     l.output[0] = output.angle(), l.output[1] = rate.value(), l.output[2] = rate.slope();
   else
     l.output[0] = l.load_at.x.value(), l.output[1] = l.load_at.x.slope(), l.output[2] = l.load_at.x.curvature();
+  return l;
+}
+
+}  // namespace
+
+PlanarLinkage linkage_of(const LinkageData& data, long double phi) {
+  return linkage_in(data.linkage->poses(phi), data);
+}
+
+int body_of(const PlanarLinkage& bodies, const Linkage& linkage, int link) {
+  if (link == LinkageSketch::frame) return PlanarLinkage::frame;
+  int body = 0;
+  while (bodies.bodies[static_cast<std::size_t>(body)].name != linkage.link_name(link)) ++body;
+  return body;
+}
+
+PlanarLinkage linkage_of(const LinkageTravelData& data, long double phi) {
+  const LinkPoses poses = data.linkage->poses(phi);
+  PlanarLinkage l = linkage_in(poses, {data.linkage, 0});
+  for (PlanarLinkage::Body& body : l.bodies) body.mass = 0, body.inertia = 0;
+  const Taylor s = travel_series(*data.linkage, poses, data.travel);
+  l.rocks = data.travel.rocks();
+  l.output[0] = s.value(), l.output[1] = s.slope(), l.output[2] = s.curvature();
   return l;
 }
 

@@ -137,8 +137,12 @@ struct JointFriction::Work {
 };
 
 JointFriction::JointFriction(std::vector<Joint> joints, std::vector<Turning> turnings,
-                             std::shared_ptr<const ReactionTable> table)
-    : joints_(std::move(joints)), turnings_(std::move(turnings)), table_(std::move(table)), places_(table_->places()) {
+                             std::shared_ptr<const ReactionTable> table, std::vector<std::string> applied)
+    : joints_(std::move(joints)),
+      turnings_(std::move(turnings)),
+      table_(std::move(table)),
+      places_(table_->places()),
+      applied_(std::move(applied)) {
   for (Joint& j : joints_) {
     validate(j.data);
     if (!j.slides) continue;
@@ -153,19 +157,25 @@ ReactionTable::One JointFriction::turning(int which, double phi) const {
   return {value / t.scale, slope / t.scale};
 }
 
+// ω² a + ε b + w + F c + Σ F_i c_i, of one reaction's row.
+double JointFriction::without_friction(const State& s, const double* row) const {
+  double sum = s.omega * s.omega * row[0] + s.alpha * row[1] + (s.weightless ? 0 : 1) * row[2] + s.load * row[3];
+  for (std::size_t i = 0; s.applied && i < places_.applied; ++i) sum += s.applied[i] * row[ReactionPlaces::cases + i];
+  return sum;
+}
+
 // fold: couples of slides go into the influence of the other loads, as they are in proportion to N.
 void JointFriction::prepare(const State& s, double response, const double* values, bool fold, Work& w) const {
   const std::size_t n = places_.loads, stride = places_.stride();
   w.n = fold ? places_.joints : n, w.reactions = places_.reactions(), w.phi = s.phi;
   const double* ratio = values + places_.ratio(0);
   const int direction = s.direction != 0 ? s.direction : sign_of(s.omega);
-  const double square = s.omega * s.omega, weight = s.weightless ? 0 : 1;
   for (std::size_t i = 0; i < w.reactions; ++i) {
     const double* c = values + i * stride;
-    w.base[i] = square * c[0] + s.alpha * c[1] + weight * c[2] + s.load * c[3];
+    w.base[i] = without_friction(s, c);
     w.answer[i] = c[1];
     const double answer = response * c[1];
-    for (std::size_t k = 0; k < n; ++k) w.influence[i][k] = c[ReactionPlaces::cases + k] + answer * ratio[k];
+    for (std::size_t k = 0; k < n; ++k) w.influence[i][k] = c[places_.friction(k)] + answer * ratio[k];
   }
   const auto held = [&](int place) {
     const int mode = s.modes ? s.modes[place] : 0;
@@ -337,17 +347,20 @@ JointFriction::Slopes JointFriction::slopes(const State& s) const {
   find(s, w);
   const std::size_t stride = places_.stride();
   const double *ratio = values + places_.ratio(0), *ratio_along = along + places_.ratio(0);
-  double by_angle[most_loads], by_speed[most_loads], by_load[most_loads];
-  const double square = s.omega * s.omega, weight = s.weightless ? 0 : 1;
+  double by_angle[most_loads], by_speed[most_loads], by_load[most_loads], by_applied[most_applied][most_loads];
   for (std::size_t k = 0; k < w.n; ++k) {
     double angle = 0, speed = 0, load = 0;
     for (std::size_t i = 0; i < 2; ++i) {
       const double *c = values + (w.of[k] + i) * stride, *d = along + (w.of[k] + i) * stride;
-      double moved = square * d[0] + s.alpha * d[1] + weight * d[2] + s.load * d[3];
-      for (std::size_t m = 0; m < w.n; ++m) moved += d[ReactionPlaces::cases + m] * w.q[m];
+      double moved = without_friction(s, d);
+      for (std::size_t m = 0; m < w.n; ++m) moved += d[places_.friction(m)] * w.q[m];
       angle += w.by[k][i] * moved, speed += w.by[k][i] * 2 * s.omega * c[0], load += w.by[k][i] * c[3];
     }
     by_angle[k] = angle, by_speed[k] = speed, by_load[k] = load;
+    for (std::size_t a = 0; a < places_.applied; ++a) {
+      const double* c = values + w.of[k] * stride + ReactionPlaces::cases + a;
+      by_applied[a][k] = w.by[k][0] * c[0] + w.by[k][1] * c[stride];
+    }
   }
   // The coefficients change with the sliding speed.
   for (std::size_t j = 0; j < joints_.size() && !s.at_rest; ++j) {
@@ -367,6 +380,10 @@ JointFriction::Slopes JointFriction::slopes(const State& s) const {
   }
   for (double* by : {by_angle, by_speed, by_load}) w.solve<0>(by);
   Slopes out;
+  for (std::size_t a = 0; a < places_.applied; ++a) {
+    w.solve<0>(by_applied[a]);
+    for (std::size_t k = 0; k < w.n; ++k) out.by_applied[a] += ratio[k] * by_applied[a][k];
+  }
   for (std::size_t k = 0; k < w.n; ++k) {
     out.by_angle += ratio[k] * by_angle[k] + ratio_along[k] * w.q[k];
     out.by_speed += ratio[k] * by_speed[k];
@@ -388,6 +405,8 @@ void JointFriction::sides(const State& s, double* side) const {
     const double* c = values + i * places_.stride();
     double sum = std::abs(s.omega * s.omega * c[0]) + std::abs(s.alpha * c[1]) + std::abs(weight * c[2]) +
                  std::abs(s.load * c[3]);
+    for (std::size_t a = 0; s.applied && a < places_.applied; ++a)
+      sum += std::abs(s.applied[a] * c[ReactionPlaces::cases + a]);
     for (std::size_t k = 0; k < w.n; ++k) sum += std::abs(w.influence[i][k] * w.q[k]);
     return sum;
   };
@@ -418,9 +437,14 @@ JointFriction::Solved JointFriction::solve(const State& s) const {
   return out;
 }
 
-double JointFriction::resting(double phi, double load, int direction, bool weightless) const {
+double JointFriction::resting(double phi, double load, int direction, bool weightless, const double* applied) const {
   try {
-    return -torque({.phi = phi, .load = load, .direction = direction, .at_rest = true, .weightless = weightless})
+    return -torque({.phi = phi,
+                    .load = load,
+                    .applied = applied,
+                    .direction = direction,
+                    .at_rest = true,
+                    .weightless = weightless})
                 .torque;
   } catch (const Jam&) {  // locks itself
     return direction * HUGE_VAL;

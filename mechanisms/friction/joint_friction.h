@@ -2,7 +2,8 @@
 //
 // A pin has the reaction R_x, R_y of body `from` on body `on`; a slide has N across it and the moment M about its place.
 // Of all joints that rub these are linear, with coefficients that are functions of φ (theory 10.2):
-//     R = ω² a + ε b + w + F c + U q        w weights, F the load, q the friction loads, all on body `on`:
+//     R = ω² a + ε b + w + F c + Σ F_i c_i + U q
+// w weights, F the load on the output, F_i what acts within the linkage, q the friction loads, all on body `on`:
 //     pin    q = −sgn(v) ρ |R|              couple [N·m]; ρ = r f/√(1 + f²), radius of the friction circle
 //     slide  q = −sgn(v) (f + k_r/r_r) Σ|N| force along it [N]; Σ|N| = |N| within the guide's length L, else both edges
 //                                           bear: Σ|N| = (|L N − 2 M| + |L N + 2 M|)/2L, M about the guide's middle
@@ -45,11 +46,12 @@ struct RubbingJoint {
 void validate(const RubbingJoint& joint);
 
 // Coefficients of the reactions over φ. Values in rows, one of each reaction, two reactions a joint that rubs:
-//     a, b, w, c, then U by friction load;      behind all rows v by friction load.
+//     a, b, w, c, then c_i by what acts within, U by friction load;      behind all rows v by friction load.
 struct ReactionPlaces {
-  std::size_t joints = 0, loads = 0;
+  std::size_t joints = 0, loads = 0, applied = 0;
   enum Case : std::size_t { speed_case, acceleration_case, weight_case, load_case, cases };
-  std::size_t stride() const { return cases + loads; }
+  std::size_t friction(std::size_t load) const { return cases + applied + load; }  // in a row
+  std::size_t stride() const { return friction(loads); }
   std::size_t reactions() const { return 2 * joints; }
   std::size_t ratio(std::size_t load) const { return reactions() * stride() + load; }
   std::size_t size() const { return reactions() * stride() + loads; }
@@ -69,8 +71,9 @@ class ReactionTable {
 
 class JointFriction {
  public:
-  static constexpr std::size_t most_joints = 24, most_loads = 32;
-  static constexpr std::size_t most_values = 2 * most_joints * (ReactionPlaces::cases + most_loads) + most_loads;
+  static constexpr std::size_t most_joints = 24, most_loads = 32, most_applied = 8;
+  static constexpr std::size_t most_values =
+      2 * most_joints * (ReactionPlaces::cases + most_applied + most_loads) + most_loads;
 
   struct Joint {
     RubbingJoint data;
@@ -89,9 +92,12 @@ class JointFriction {
     double scale = 1;  // of its greatest value
   };
 
-  JointFriction(std::vector<Joint> joints, std::vector<Turning> turnings, std::shared_ptr<const ReactionTable> table);
+  // `applied`: names of what acts within the linkage, in the order of the table.
+  JointFriction(std::vector<Joint> joints, std::vector<Turning> turnings, std::shared_ptr<const ReactionTable> table,
+                std::vector<std::string> applied = {});
 
   const std::vector<Joint>& joints() const { return joints_; }
+  const std::vector<std::string>& applied() const { return applied_; }
   std::string describe() const { return table_->describe(); }
   // Modes: one a turning sign, then the sides of the slides: two edges of one with length, else one.
   int sign_count() const { return static_cast<int>(turnings_.size()); }
@@ -102,6 +108,7 @@ class JointFriction {
   struct State {
     double phi = 0, omega = 0, alpha = 0;  // [rad, rad/s, rad/s²]
     double load = 0;                       // F [N]; of an output that rocks [N·m]
+    const double* applied = nullptr;       // F_i [N], [N·m], in the order of applied(); null: none acts
     int direction = 0;                     // ±1: of the crank, whatever ω; 0: the sign of ω
     bool at_rest = false;                  // about to move that way: static coefficients
     bool weightless = false;
@@ -121,9 +128,10 @@ class JointFriction {
     double values[most_values];
   };
   Torque torque(const State& state, double response, Place& place) const;
-  // ∂M/∂(φ, ω, F) at that ε.
+  // ∂M/∂(φ, ω, F, F_i) at that ε.
   struct Slopes {
     double by_angle = 0, by_speed = 0, by_load = 0;  // [N·m], [N·m·s], [m] or [1]
+    double by_applied[most_applied] = {};            // [m] or [1]
   };
   Slopes slopes(const State& state) const;
   // How far all sides are from bearing nothing, with their signs; of order one.
@@ -135,12 +143,13 @@ class JointFriction {
   };
   Solved solve(const State& state) const;
   // What friction holds at rest the way the crank is about to move, direction ±1: −M, ∞ where it locks itself [N·m].
-  double resting(double phi, double load, int direction, bool weightless) const;
+  double resting(double phi, double load, int direction, bool weightless, const double* applied = nullptr) const;
 
  private:
   struct Work;
   void prepare(const State& state, double response, const double* values, bool fold, Work& work) const;
   void find(const State& state, Work& work) const;
+  double without_friction(const State& state, const double* row) const;
   template <std::size_t N>
   double apply_laws(Work& work) const;
   template <std::size_t N>
@@ -151,6 +160,7 @@ class JointFriction {
   std::vector<Turning> turnings_;
   std::shared_ptr<const ReactionTable> table_;
   ReactionPlaces places_;
+  std::vector<std::string> applied_;
   int sides_ = 0;
 };
 

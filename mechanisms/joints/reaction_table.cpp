@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "mechanisms/link_forces/link_forces.h"
 #include "mechanisms/reduced/newton_euler.h"
 #include "mechanisms/reduced/periodic_table.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
@@ -39,8 +40,9 @@ long double relative_rate(const PlanarLinkage& l, const PlanarLinkage::Joint& j)
 // What is sampled: the coefficients of all joints that rub, in the order of ReactionPlaces.
 class Sampler {
  public:
-  Sampler(const MechanismData& data, const std::vector<RubbingJoint>& rubbing, const OffThePin& off)
-      : data_(data), off_(off) {
+  Sampler(const MechanismData& data, const std::vector<RubbingJoint>& rubbing, const OffThePin& off,
+          const std::vector<ActsWithin>& within)
+      : data_(data), off_(off), within_(within) {
     const PlanarLinkage l = linkage(data.arc() ? data.arc()->middle : 0.5);
     for (const RubbingJoint& r : rubbing) {
       bool any = false;
@@ -56,16 +58,20 @@ class Sampler {
     for (std::size_t j = 0; j < joints.size(); ++j)
       if (joints[j].slides && joints[j].data.length > 0 && joints[j].data.width > 0)
         joints[j].couple = loads_.size(), loads_.push_back({joint_[j], true});
-    places_.joints = joints.size(), places_.loads = loads_.size();
+    places_.joints = joints.size(), places_.loads = loads_.size(), places_.applied = within.size();
     if (joints.size() > JointFriction::most_joints || loads_.size() > JointFriction::most_loads)
       throw std::invalid_argument(
           fmt::format("{} joints have friction; at most {} may", joints.size(), JointFriction::most_joints));
+    if (within.size() > JointFriction::most_applied)
+      throw std::invalid_argument(
+          fmt::format("{} springs, forces and couples press on joints with friction; at most {} may", within.size(),
+                      JointFriction::most_applied));
   }
   const ReactionPlaces& places() const { return places_; }
 
   void operator()(double phi, double* values) const {
     const PlanarLinkage l = linkage(phi);
-    const auto unit = unit_reactions(l, loads_);
+    const auto unit = units(phi, l);
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const auto joint = static_cast<std::size_t>(joint_[j]);
       for (std::size_t i = 0; i < 2; ++i)
@@ -85,7 +91,7 @@ class Sampler {
   };
   void widen(double phi, Greatest& to) const {
     const PlanarLinkage l = linkage(phi);
-    const auto unit = unit_reactions(l, loads_);
+    const auto unit = units(phi, l);
     const double length = static_cast<double>(std::hypot(l.joints[1].at.x.value(), l.joints[1].at.y.value()));
     to.force.resize(unit.size()), to.moment.resize(unit.size());
     for (std::size_t c = 0; c < unit.size(); ++c) {
@@ -96,7 +102,10 @@ class Sampler {
         second = std::max(second, std::abs(static_cast<double>(unit[c][2 * k + 1])));
       }
       if (c >= ReactionPlaces::load_case) {
-        const bool couple = c == ReactionPlaces::load_case ? l.rocks : loads_[c - ReactionPlaces::cases].couple;
+        const std::size_t k = c - ReactionPlaces::cases;  // of what acts within, then of the friction loads
+        const bool couple = c == ReactionPlaces::load_case ? l.rocks
+                            : k < within_.size()           ? within_[k].along.travel.rocks()
+                                                           : loads_[k - within_.size()].couple;
         force = std::max(force, couple ? 1 / length : 1);
       }
       force = std::max(force, moment / length), moment = std::max(moment, force * length);
@@ -120,8 +129,17 @@ class Sampler {
     return l;
   }
 
+  std::vector<std::vector<long double>> units(double phi, const PlanarLinkage& l) const {
+    std::vector<std::vector<AppliedForce>> applied(within_.size());
+    if (within_.empty()) return unit_reactions(l, loads_);
+    const LinkPoses poses = within_.front().along.linkage->poses(phi);
+    for (std::size_t k = 0; k < within_.size(); ++k) add_actions(within_[k].along, 1, poses, l, applied[k]);
+    return unit_reactions(l, loads_, applied);
+  }
+
   const MechanismData& data_;
   OffThePin off_;
+  const std::vector<ActsWithin>& within_;
   ReactionPlaces places_;
   std::vector<int> joint_;  // of the linkage, per joint that rubs
   std::vector<FrictionPlace> loads_;
@@ -299,16 +317,21 @@ std::string refusal_of_joint_friction(const MechanismData& data, const CrankCycl
 
 std::shared_ptr<const JointFriction> tabulate_joint_friction(const MechanismData& data,
                                                              const std::vector<RubbingJoint>& rubbing,
-                                                             const OffThePin& off, Extraction extraction) {
+                                                             const OffThePin& off,
+                                                             const std::vector<ActsWithin>& within,
+                                                             Extraction extraction) {
   CrankCycle cycle(data);
   if (const std::string why = refusal_of_joint_friction(data, cycle); !why.empty()) throw std::invalid_argument(why);
-  Sampler sampler(data, rubbing, off);
+  Sampler sampler(data, rubbing, off, within);
   std::vector<JointFriction::Turning> turnings;
   std::vector<Rub> joints = sampler.joints;
   if (joints.empty()) return nullptr;
   put_signs(sampler, cycle, joints, turnings);
+  std::vector<std::string> names;
+  for (const ActsWithin& acts : within) names.push_back(acts.name);
   return std::make_shared<JointFriction>(std::move(joints), std::move(turnings),
-                                         std::make_shared<TabulatedReactions>(sampler, std::move(cycle), extraction));
+                                         std::make_shared<TabulatedReactions>(sampler, std::move(cycle), extraction),
+                                         std::move(names));
 }
 
 }  // namespace kurbel

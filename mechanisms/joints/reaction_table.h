@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanisms/friction/joint_friction.h"
+#include "mechanisms/linkage/travel.h"
 #include "mechanisms/reduced/crank_cycle.h"
 #include "mechanisms/reduced/extraction.h"
 #include "mechanisms/reduced/mechanism_data.h"
@@ -18,13 +19,22 @@ struct OffThePin {
   double load = 0;  // of the load's line, 90° ahead of that direction [m]
 };
 
+// What acts within the linkage, besides loads on its output: "press.return", and along which travel.
+struct ActsWithin {
+  std::string name;
+  LinkageTravelData along;
+};
+
 // Reactions of the joints named in `rubbing`, by Newton–Euler in long double (newton_euler.h), in tables that are good to
 // table_tolerance of each coefficient's greatest value, on a crank's arc of its own value. Joints that do not rub are left
 // out; several joints of one name all rub. Throws std::invalid_argument for a name that no joint has, for values outside
-// their domain, for a linkage whose reactions are not determined or have no bound (change points), for too many joints.
+// their domain, for a linkage whose reactions are not determined or have no bound (change points), for too many joints or
+// too much that acts within.
 std::shared_ptr<const JointFriction> tabulate_joint_friction(const MechanismData& data,
                                                              const std::vector<RubbingJoint>& rubbing,
-                                                             const OffThePin& off, Extraction extraction);
+                                                             const OffThePin& off,
+                                                             const std::vector<ActsWithin>& within,
+                                                             Extraction extraction);
 
 // Why friction by reactions cannot be found, in words; empty: it can.
 std::string refusal_of_joint_friction(const MechanismData& data, const CrankCycle& cycle);

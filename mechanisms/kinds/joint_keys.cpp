@@ -89,9 +89,9 @@ std::string joint_named(const std::string& name, const std::set<std::string>& jo
 }
 
 std::shared_ptr<const JointFrictionSource> source_of(const MechanismData& data, std::vector<RubbingJoint> joints,
-                                                     OffThePin off) {
+                                                     OffThePin off, std::vector<ActsWithin> within) {
   return std::make_shared<const JointFrictionSource>([=](bool second) {
-    return tabulate_joint_friction(data, joints, off, second ? Extraction::second : Extraction::first);
+    return tabulate_joint_friction(data, joints, off, within, second ? Extraction::second : Extraction::first);
   });
 }
 
@@ -133,11 +133,12 @@ std::shared_ptr<const JointFrictionSource> friction_of(const SliderCrankData& da
                      .width = g.width,
                      .rolling_arm = g.rolling_arm,
                      .roller_radius = g.roller_radius});
-  return source_of(data, std::move(rubbing), {.com = g.com_x, .load = g.force_offset});
+  return source_of(data, std::move(rubbing), {.com = g.com_x, .load = g.force_offset}, {});
 }
 
 std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data,
-                                                       const std::vector<Reading<RubbingJoint>>& joints) {
+                                                       const std::vector<Reading<RubbingJoint>>& joints,
+                                                       std::vector<ActsWithin> within) {
   if (joints.empty()) return nullptr;
   const PlanarLinkage linkage = data.linkage(data.arc() ? data.arc()->middle : 0.5);
   std::set<std::string> names;
@@ -165,7 +166,7 @@ std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data
     rubbing.push_back(std::move(to));
   }
   if (!sound || !any) return nullptr;
-  return source_of(data, std::move(rubbing), {});
+  return source_of(data, std::move(rubbing), {}, std::move(within));
 }
 
 const Tables<Reading<RubbingJoint>>& rubbing_tables() {

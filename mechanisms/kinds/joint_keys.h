@@ -20,6 +20,7 @@ std::shared_ptr<const JointFrictionSource> friction_of(const SliderCrankData& da
 const Tables<Reading<RubbingJoint>>& rubbing_tables();
 // Null where none rubs, and with messages where a name is no joint's or a value belongs to another sort of joint.
 std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data,
-                                                       const std::vector<Reading<RubbingJoint>>& joints);
+                                                       const std::vector<Reading<RubbingJoint>>& joints,
+                                                       std::vector<ActsWithin> within = {});
 
 }  // namespace kurbel

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "mechanisms/kinds/kinds.h"
+#include "mechanisms/kinds/linkage_force_keys.h"
 #include "mechanisms/kinds/mechanism_keys.h"
 
 namespace kurbel {
@@ -42,15 +43,8 @@ struct LinkageKeys {
   double gravity = 0, sketch_angle = 0;
   Mounting mounting;
   std::vector<LoadReading> torques;  // in place of the mounting's loads, of an output that rocks
+  LinkageForceKeys within;
 };
-
-template <class K>
-Tables<Reading<K>> by_names(const char* name, const char* doc, const Fields<K>& fields) {
-  Tables<Reading<K>> tables;
-  tables.named = true;
-  tables.add(name, doc, fields);
-  return tables;
-}
 
 const Tables<Reading<PointKeys>>& point_tables() {
   static const auto made =
@@ -136,7 +130,8 @@ const Fields<LinkageKeys>& linkage_fields() {
           .add(mounting("force on an output that slides, along its way, or a list of them", slider_loads()),
                &LinkageKeys::mounting)
           .add({.name = "torque", .doc = "torque on an output that rocks, or a list of them"}, &LinkageKeys::torques,
-               rocker_loads());
+               rocker_loads())
+          .add(linkage_force_fields(), &LinkageKeys::within);
   return made;
 }
 
@@ -388,8 +383,15 @@ void build_linkage(const Section& section, Network& net, Messages& messages) {
     net.ports[section.name] = {node, node};
     return;
   }
+  std::vector<Mechanism> forces = linkage_forces(section, keys.within, linkage, keys.mounting.phase);
+  for (const Mechanism& force : forces)
+    keys.mounting.within.push_back({force.name, *force.data.as<LinkageTravelData>()});
+  if (!keys.mounting.joints.empty() && forces.size() > JointFriction::most_applied)
+    keys.refuse(fmt::format("{} springs, forces and couples press on its joints with friction; at most {} may",
+                            forces.size(), JointFriction::most_applied));
   if (linkage->sketch().output.rocks()) keys.mounting.loads = keys.torques;
   build_mechanism(section, LinkageData{linkage, linkage->sketch().gravity}, keys.mounting, {}, net, messages);
+  if (messages.all().size() == before) put_linkage_forces(section, std::move(forces), net);
 }
 
 }  // namespace

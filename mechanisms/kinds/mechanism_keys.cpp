@@ -87,20 +87,17 @@ Fields<Mounting> mounting_without_joints(const std::string& load_doc, const Tabl
       .add({.name = "load", .doc = load_doc}, &Mounting::loads, loads);
 }
 
-namespace {
-
-// Tables over the travel end somewhere.
-void limit_loads(const Mechanism& mechanism, int node, Network& net) {
+void limit_loads(const Mechanism& mechanism, const std::string& component, int node, Network& net) {
   for (std::size_t k = 0; k < mechanism.loads.size(); ++k)
     std::visit(
         [&]<class Law>(const Law& law) {
           if constexpr (std::is_base_of_v<TravelForce, Law>)
             for (const Curve* curve : {&law.approach, &law.retreat})
-              net.limit({.component = mechanism.name,
+              net.limit({.component = component,
                          .of = "load",
                          .over = Network::DataRange::Over::channel,
                          .node = node,
-                         .part = static_cast<int>(k),
+                         .part = component == mechanism.name ? static_cast<int>(k) : -1,
                          .channel = Name::make(quantities::position, mechanism.name).text,
                          .sign = -static_cast<double>(law.end.side),
                          .offset = law.end.side * law.end.position,
@@ -109,8 +106,6 @@ void limit_loads(const Mechanism& mechanism, int node, Network& net) {
         },
         mechanism.loads[k].law);
 }
-
-}  // namespace
 
 void build_mechanism(const Section& s, const MechanismData& data, const Mounting& mounting, const DataFaults& faults,
                      Network& net, Messages& messages, std::shared_ptr<const JointFrictionSource> joints,
@@ -139,11 +134,11 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
     return;
   }
   mechanism->phase = mounting.phase;
-  mechanism->joints = joints ? std::move(joints) : friction_of(data, mounting.joints);
+  mechanism->joints = joints ? std::move(joints) : friction_of(data, mounting.joints, mounting.within);
   mechanism->clearances = std::move(deformation.clearances);
   mechanism->flexibility = deformation.flexibility;
   put_loads(mounting.loads, *mechanism);
-  limit_loads(*mechanism, node, net);
+  limit_loads(*mechanism, s.name, node, net);
   net.put(node, s.name, std::make_shared<MechanismElement>(std::move(*mechanism)), {}, mounting.phase);
 }
 

@@ -31,6 +31,7 @@ struct Mounting {
   double phase = 0;  // crank angle ahead of the shaft's [rad]
   std::vector<LoadReading> loads;
   std::vector<Reading<RubbingJoint>> joints;
+  std::vector<ActsWithin> within = {};  // of a linkage, which press on these joints
 };
 Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>& loads);
 // The same for a kind that names its joints' keys itself.
@@ -52,6 +53,8 @@ Fields<Mounted<Linkage>> mounted(const Fields<Linkage>& linkage, const Fields<Mo
 void build_mechanism(const Section& section, const MechanismData& data, const Mounting& mounting,
                      const DataFaults& faults, Network& net, Messages& messages,
                      std::shared_ptr<const JointFrictionSource> joints = nullptr, Deformation deformation = {});
+// Tables of its loads over the travel end somewhere; `component`: as the scene names what they are of.
+void limit_loads(const Mechanism& mechanism, const std::string& component, int node, Network& net);
 // A kind of mechanism by its fields alone.
 template <const auto& fields>
 Kind mounted_kind(std::string name, std::string doc) {

@@ -22,6 +22,18 @@ struct ConstantForce {
   bool uses_speed() const { return false; }
 };
 
+// F = −(F₀ + k (x − x₀)): a spring, pulled at F₀ > 0 where x = x₀.
+struct SpringForce {
+  static constexpr LoadTraits is{};
+  double stiffness = 0, free = 0, preload = 0;  // k [N/m], x₀ [m], F₀ [N]
+  double greatest = 0;                          // |F| over the travel [N]
+  template <class T>
+  T value(const SliderState<T>& s) const {
+    return -(preload + stiffness * (s.x - free));
+  }
+  bool uses_speed() const { return false; }
+};
+
 // F = −F₀ sgn v; holds the slider at standstill with up to F₀.
 struct OpposingForce {
   static constexpr LoadTraits is{.opposes = true, .holds = true};

@@ -203,7 +203,8 @@ struct RoundedTableForce {
 
 struct SliderLoad {
   LoadLaws<ConstantForce, OpposingForce, MediumResistance, PressForce, TravelForce, AngleForce, CompressorForce,
-           RoundedPressForce, RoundedTableForce, ChamberOverTravel, ChamberOverAngle, LinearMotorForce>::Any law;
+           RoundedPressForce, RoundedTableForce, ChamberOverTravel, ChamberOverAngle, LinearMotorForce,
+           SpringForce>::Any law;
   std::string name;  // "press.load"
   Account account = Account::useful;
   bool mirrored = false;  // its diagram is a substitute for one that is not given (mirrored.h)
@@ -335,6 +336,7 @@ inline double SliderLoad::greatest_force() const {
     }
     double operator()(const ChamberOverAngle& l) const { return of_chamber(l.area, l.outside, l.curve.max_abs()); }
     double operator()(const LinearMotorForce& l) const { return l.force; }
+    double operator()(const SpringForce& l) const { return l.greatest; }
   };
   return std::visit(Greatest{}, law);
 }

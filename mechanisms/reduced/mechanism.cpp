@@ -121,7 +121,8 @@ Mechanism Mechanism::extracted_from(Extraction from) const {
 }
 
 const MechanismElement* mechanism_of(const Network::ShaftElement& element) {
-  return dynamic_cast<const MechanismElement*>(element.element.get());
+  const auto* const found = dynamic_cast<const MechanismElement*>(element.element.get());
+  return found && !found->mechanism().is_force() ? found : nullptr;
 }
 
 const Mechanism* find_mechanism(const Network& network, const std::string& component) {
@@ -133,7 +134,7 @@ const Mechanism* find_mechanism(const Network& network, const std::string& compo
 
 Network extracted_from(Network network, Extraction from) {
   for (Network::ShaftElement& e : network.elements)
-    if (const MechanismElement* element = mechanism_of(e))
+    if (const auto* const element = dynamic_cast<const MechanismElement*>(e.element.get()))
       e.element = std::make_shared<MechanismElement>(element->mechanism().extracted_from(from));
   return network;
 }
@@ -187,10 +188,12 @@ MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(m
     cycle = std::max(cycle, load.period());
     further_accounts.emplace_back(load.name, load.account);
   }
+  if (mechanism_.is_force()) account = loads.front().account, further_accounts.erase(further_accounts.begin());
   if (mechanism_.friction) further_accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
   angle_period = cycle;
   if (mechanism_.arc()) cycle = HUGE_VAL;          // it never comes round
   rated = {force * mechanism_.output_scale(), 0};  // greatest force times half the stroke
+  if (mechanism_.is_force()) cycle = 0;            // the linkage has it
   modes = 1 + static_cast<int>(loads.size()) +
           (mechanism_.friction ? mechanism_.friction->sign_count() + mechanism_.friction->side_count() : 0);
 }

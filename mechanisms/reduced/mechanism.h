@@ -49,6 +49,8 @@ struct Mechanism {
   std::optional<RodFlexibility> flexibility = {};  // of its rod
 
   bool rocks() const { return data.rocks(); }  // the output is an angle
+  // What acts within a linkage: the travel of a spring, a force or a couple as the output, without inertia and weight.
+  bool is_force() const { return data.is_travel(); }
   bool has_weight() const;
   double stroke() const { return travel.greatest - travel.least; }
   // Of x′: half the stroke; what goes round does so like the crank; what stands still has none of its own.
@@ -106,7 +108,7 @@ class MechanismElement : public AnyShaftElement {
   Mechanism mechanism_;
 };
 
-// Null for elements of other kinds.
+// Null for elements of other kinds, and for what acts within a linkage.
 const MechanismElement* mechanism_of(const Network::ShaftElement& element);
 // Of a network as drawn, or of a model's, where it is as its effects have it. Null: no component of that name is one.
 const Mechanism* find_mechanism(const Network& network, const std::string& component);
@@ -151,6 +153,10 @@ class MechanismPool final : public ReactingPool {
     bool has_weight = false;
     double output_scale = 1;      // of x′
     bool watches_travel = false;  // some load depends on the direction of travel
+    // Of one with joint friction: where what acts within it is placed, in the order of JointFriction::applied(); −1: not.
+    std::vector<int> within = {};
+    // Of the first load: behind that of the weight, which what acts within a linkage does not have.
+    int load_account() const { return at.account + (mechanism.is_force() ? 0 : 1); }
   };
   struct GuardOwner {
     std::size_t placed;
@@ -162,20 +168,27 @@ class MechanismPool final : public ReactingPool {
   struct Reduced {
     double inertia, inertia_slope, position, ratio, weight;
   };
+  static double angle_of(const ShaftPorts& at, const Instant& now) { return now.angle[at.angle] + at.phase; }
   static Reduced reduced_at(const Placed& p, double phi);
   SliderState<double> slider(const Placed& p, const Instant& now, std::size_t load) const;
   static bool is_loaded(const Placed& p, const Instant& now) {
     return !p.mechanism.loads.empty() && now.active[p.at.id];
   }
   double load_force(const Placed& p, const Instant& now) const;
+  Dual<2> load_slopes(const Placed& p, const Instant& now) const;  // by crank angle and crank speed
+  // What presses on joints: the loads on the output, what acts within.
+  struct Acting {
+    double load = 0, applied[JointFriction::most_applied] = {};
+  };
+  Acting acting(const Placed& p, const Instant& now) const;
   struct FrictionMemory;
   static JointFriction::Torque friction_torque(const Placed& p, const JointFriction::State& state, double response,
                                                JointFriction::Place& place);
-  JointFriction::State crank_state(const Placed& p, const Instant& now, double alpha, double load) const;
+  // Of forces that outlive it.
+  JointFriction::State crank_state(const Placed& p, const Instant& now, double alpha, const Acting& forces) const;
   void add_friction(const Placed& p, const JointFriction::State& state, const JointFriction::Torque& friction,
                     Reactions& sums) const;
-  void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, const Dual<2>& load,
-                             double* slots) const;
+  void add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, double* slots) const;
   static int turning_mode(const Placed& p, int which) {
     return p.at.mode + 1 + static_cast<int>(p.mechanism.loads.size()) + which;
   }

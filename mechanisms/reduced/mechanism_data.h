@@ -15,7 +15,7 @@
 //     double drawn_at(const D&);                                φ of a position in which its lengths are exact
 //     std::vector<std::string> words_about(const D&);           its structure, its transmission angles
 //     std::string undetermined_reactions(const D&);             why reactions have no values; empty: they have
-// and, where its joints are not known, in place of Simbody's bodies
+// and, where its joints are not known, or the output is none of its bodies', in place of Simbody's bodies
 //     std::unique_ptr<MechanismBodies> own_bodies(const D&);
 #pragma once
 
@@ -73,6 +73,8 @@ class MechanismData {
     return kind() == typeid(D) ? static_cast<const D*>(data_.get()) : nullptr;
   }
   std::type_index kind() const { return held_->kind; }
+  // What acts along a travel within a linkage, which is no mechanism of its own.
+  bool is_travel() const { return kind() == typeid(LinkageTravelData); }
   const std::vector<double>& values() const { return held_->values; }
   PlanarLinkage linkage(long double phi) const { return held_->linkage(phi); }
   ClosedForm closed_form(long double phi) const { return closed_form_of(linkage(phi)); }

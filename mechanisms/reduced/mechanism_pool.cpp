@@ -3,7 +3,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/equations/jam.h"
 #include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
@@ -21,8 +20,6 @@ bool acts(const ShaftPorts& at, const Instant& now, std::size_t load) {
   return at.command < 0 || now.command[at.command + 1 + static_cast<int>(load)] > 0.5;
 }
 
-double angle_of(const ShaftPorts& at, const Instant& now) { return now.angle[at.angle] + at.phase; }
-
 }  // namespace
 
 void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
@@ -35,7 +32,7 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   reacts_ = reacts_ || friction;
   if (friction) reacting_shafts_.push_back(placed.at.shaft);
   const std::size_t index = placed_.size();
-  if (placed.mechanism.arc())
+  if (placed.mechanism.arc() && !placed.mechanism.is_force())
     for (const int end : {-1, 1}) owners_.push_back({index, GuardOwner::limit, end});
   if (placed.watches_travel) owners_.push_back({index, GuardOwner::travel, 0});
   for (std::size_t k = 0; k < placed.mechanism.loads.size(); ++k)
@@ -48,7 +45,12 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
     owners_.push_back({index, GuardOwner::side, k});
   }
   guards_ = static_cast<int>(owners_.size());
+  if (friction) placed.within.assign(friction->applied().size(), -1);
   placed_.push_back(std::move(placed));
+  const Mechanism& last = placed_.back().mechanism;
+  for (Placed& p : placed_)
+    for (std::size_t k = 0; last.is_force() && k < p.within.size(); ++k)
+      if (p.mechanism.friction->applied()[k] == last.name) p.within[k] = static_cast<int>(index);
 }
 
 SliderState<double> MechanismPool::slider(const Placed& p, const Instant& now, std::size_t load) const {
@@ -90,6 +92,22 @@ double MechanismPool::load_force(const Placed& p, const Instant& now) const {
   return sum;
 }
 
+// With x, x′ as functions of φ.
+Dual<2> MechanismPool::load_slopes(const Placed& p, const Instant& now) const {
+  using D = Dual<2>;
+  const double omega = p.at.gain * now.speed[p.at.shaft], phi = angle_of(p.at, now);
+  const auto here = p.mechanism.reduced->at(phi);
+  const auto [x, ratio] = here.output_position();
+  const D angle = D::input(phi, 0), v = angle.chain(ratio, here.output_velocity().slope) * D::input(omega, 1);
+  D force(0.0);
+  for (std::size_t k = 0; is_loaded(p, now) && k < p.mechanism.loads.size(); ++k) {
+    if (!acts(p.at, now, k)) continue;
+    const SliderState<double> s = slider(p, now, k);
+    force = force + p.mechanism.loads[k].value(SliderState<D>{angle, angle.chain(x, ratio), v, s.travel, s.mode});
+  }
+  return force;
+}
+
 void MechanismPool::add(const Instant& now, Sums& sums) const {
   for (const Placed& p : placed_) {
     const double omega = p.at.gain * now.speed[p.at.shaft];
@@ -110,7 +128,7 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
         s.mode = now.mode[p.at.mode + 1 + static_cast<int>(k)];
         const double force = p.mechanism.loads[k].value(s);
         torque += force * ratio;
-        if (sums.work_rate) sums.work_rate[p.at.account + 1 + static_cast<int>(k)] += force * s.v;
+        if (sums.work_rate) sums.work_rate[p.load_account() + static_cast<int>(k)] += force * s.v;
       }
     }
     sums.element_torque[p.at.id] = torque;
@@ -118,104 +136,6 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
     sums.torque[p.at.shaft] += p.at.gain * torque;
     sums.inertia[p.at.shaft] += p.at.gain * p.at.gain * inertia;
   }
-}
-
-// --- joint friction: M(φ, ω, ε, F) on the crank, found together with ε (joint_friction.h) ---
-
-JointFriction::State MechanismPool::crank_state(const Placed& p, const Instant& now, double alpha, double load) const {
-  return {.phi = angle_of(p.at, now),
-          .omega = p.at.gain * now.speed[p.at.shaft],
-          .alpha = p.at.gain * alpha,
-          .load = load,
-          .direction = p.at.direction(now),
-          .weightless = p.mechanism.weightless,
-          .travel = now.mode[p.at.mode],
-          .modes = now.mode + turning_mode(p, 0)};
-}
-
-struct MechanismPool::FrictionMemory final : ElementPool::Memory {
-  struct Of {  // a mechanism
-    JointFriction::Place place;
-    std::optional<double> load;
-  };
-  std::vector<Of> of;
-  void begin() override {
-    for (Of& memory : of) memory.load.reset();
-  }
-};
-
-std::unique_ptr<ElementPool::Memory> MechanismPool::make_memory() const {
-  auto memory = std::make_unique<FrictionMemory>();
-  memory->of.resize(placed_.size());
-  return memory;
-}
-
-JointFriction::Torque MechanismPool::friction_torque(const Placed& p, const JointFriction::State& state,
-                                                     double response, JointFriction::Place& place) {
-  // A trial step so long that its speeds or accelerations are none: like one that jams, it is tried again, shorter.
-  if (!std::isfinite(state.omega * state.omega) || !std::isfinite(state.alpha) || !std::isfinite(state.load))
-    throw Jam("no finite motion to find the joints' friction by", p.at.shaft);
-  try {
-    return p.mechanism.friction->torque(state, response, place);
-  } catch (const Jam& jam) {
-    throw Jam("\"" + p.mechanism.name + "\": " + jam.what(), p.at.shaft);
-  }
-}
-
-void MechanismPool::add_friction(const Placed& p, const JointFriction::State& state,
-                                 const JointFriction::Torque& friction, Reactions& sums) const {
-  sums.torque[p.at.shaft] += p.at.gain * friction.torque;
-  sums.slope[p.at.shaft] -= p.at.gain * p.at.gain * friction.slope;
-  sums.element_torque[p.at.id] += friction.torque;
-  if (sums.work_rate)
-    sums.work_rate[p.at.account + 1 + static_cast<int>(p.mechanism.loads.size())] += friction.torque * state.omega;
-}
-
-void MechanismPool::add_reactions(const Instant& now, const double* alpha, Reactions& sums, Memory* memory) const {
-  auto& known = static_cast<FrictionMemory&>(*memory);
-  for (std::size_t k = 0; k < placed_.size(); ++k) {
-    const Placed& p = placed_[k];
-    if (!p.mechanism.friction || now.direction[p.at.shaft] == 0) continue;  // at standstill: friction_hold
-    FrictionMemory::Of& of = known.of[k];
-    if (!of.load) of.load = load_force(p, now);
-    const JointFriction::State state = crank_state(p, now, alpha[p.at.shaft], *of.load);
-    add_friction(p, state, friction_torque(p, state, 0, of.place), sums);
-  }
-}
-
-void MechanismPool::add_answered(const Instant& now, double alpha, double response, Reactions& sums) const {
-  for (const Placed& p : placed_) {
-    if (!p.mechanism.friction) continue;
-    JointFriction::Place place;
-    const JointFriction::State state = crank_state(p, now, alpha, load_force(p, now));
-    add_friction(p, state, friction_torque(p, state, p.at.gain * p.at.gain * response, place), sums);
-  }
-}
-
-// At the acceleration that was found, which answers in turn: ReactionBalance::slope.
-void MechanismPool::add_friction_jacobian(const Placed& p, const Instant& now, const double* alpha, const Dual<2>& load,
-                                          double* slots) const {
-  if (!p.mechanism.friction || now.direction[p.at.shaft] == 0) return;
-  const auto by = p.mechanism.friction->slopes(crank_state(p, now, alpha[p.at.shaft], load.value));
-  slots[p.slot_angle] += p.at.gain * (by.by_angle + by.by_load * load.d[0]);
-  slots[p.slot_rate] += p.at.gain * p.at.gain * (by.by_speed + by.by_load * load.d[1]);
-}
-
-// Static friction holds the crank between what it takes to move it either way, seen from the torque without friction. What
-// loads can hold against the output presses on the joints as well: each end of it widens what friction holds.
-Hold MechanismPool::friction_hold(const Placed& p, const Instant& now) const {
-  const double phi = angle_of(p.at, now), force = load_force(p, now);
-  const Hold held = load_hold(p, now);
-  const auto here = p.mechanism.reduced->at(phi);
-  const double ratio = here.output_position().slope, free = here.gravity_torque().value + force * ratio;
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  const auto needed = [&](double further, int direction) {
-    return p.mechanism.friction->resting(phi, force + further, direction, p.mechanism.weightless) - further * ratio;
-  };
-  for (const double further : {0.0, held.low, held.high})
-    low = std::min(low, needed(further, -1)), high = std::max(high, needed(further, 1));
-  const double most = 1e6 * (1 + std::abs(free) + std::abs(force) * p.output_scale);  // locks itself
-  return {-std::min(high, most), std::min(-low, most)};
 }
 
 void MechanismPool::register_jacobian(JacobianPattern& pattern) {
@@ -239,20 +159,11 @@ void MechanismPool::add_jacobian(const Instant& now, const double* alpha, double
       const auto weight = here.gravity_torque();
       torque = torque + angle.chain(weight.value, weight.slope);
     }
-    const auto [x, ratio] = here.output_position();
-    const D x_ratio = angle.chain(ratio, here.output_velocity().slope);
-    const D v = x_ratio * speed;
-    D force(0.0);
-    for (std::size_t k = 0; is_loaded(p, now) && k < p.mechanism.loads.size(); ++k) {
-      if (!acts(p.at, now, k)) continue;
-      const SliderState<double> s = slider(p, now, k);
-      const SliderState<D> dual{angle, angle.chain(x, ratio), v, s.travel, s.mode};
-      force = force + p.mechanism.loads[k].value(dual);
-    }
-    torque = torque + force * x_ratio;
+    const auto ratio = here.output_velocity();
+    torque = torque + load_slopes(p, now) * angle.chain(ratio.value, ratio.slope);
     slots[p.slot_angle] += p.at.gain * (torque.d[0] - slope * p.at.gain * alpha[p.at.shaft]);
     slots[p.slot_rate] += p.at.gain * torque.d[1] * p.at.gain;
-    add_friction_jacobian(p, now, alpha, force, slots);
+    add_friction_jacobian(p, now, alpha, slots);
   }
 }
 
@@ -340,29 +251,6 @@ void MechanismPool::first_modes(const Instant& now, int* mode) const {
   }
 }
 
-// Of the joints' velocities, where one is zero that of the motion to come; the sides of the slides as they come.
-void MechanismPool::take_first_signs(const Placed& p, const Instant& now, int* mode) const {
-  for (int k = 0; k < p.mechanism.friction->sign_count(); ++k) {
-    auto [ratio, slope] = p.mechanism.friction->turning(k, angle_of(p.at, now));
-    if (std::abs(ratio) < 1e-12) ratio = slope * (p.at.direction(now) >= 0 ? 1 : -1);
-    mode[turning_mode(p, k)] = ratio >= 0 ? 1 : -1;
-  }
-  for (int k = 0; k < p.mechanism.friction->side_count(); ++k)
-    if (mode[side_mode(p, k)] != without_events) mode[side_mode(p, k)] = 0;
-}
-
-// At standstill nothing slides.
-void MechanismPool::find_sides(const Instant& now, const double* alpha, double* side) const {
-  for (const Placed& p : placed_) {
-    if (!p.mechanism.friction) continue;
-    const int count = p.mechanism.friction->side_count();
-    std::fill_n(side, count, 1.0);
-    if (now.direction[p.at.shaft] != 0)
-      p.mechanism.friction->sides(crank_state(p, now, alpha[p.at.shaft], load_force(p, now)), side);
-    side += count;
-  }
-}
-
 // Edges that go to and fro bear as it comes: by the same law, so that there is nothing to tell.
 bool MechanismPool::regularise(int guard, int* mode) const {
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
@@ -430,19 +318,22 @@ void MechanismPool::add_channels(std::vector<Channel>& channels) const {
     };
     const auto omega = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.now.speed[placed_[i].at.shaft]; };
     const auto alpha = [this, i](const Snapshot& s) { return placed_[i].at.gain * s.alpha[placed_[i].at.shaft]; };
-    const std::string& name = placed_[i].mechanism.name;
-    const bool rocks = placed_[i].mechanism.rocks();
-    channels.push_back({Name::make(quantities::position, name), rocks ? "rad" : "m",
-                        [here](const Snapshot& s) { return here(s).output_position().value; }});
-    channels.push_back({Name::make(quantities::velocity, name), rocks ? "rad/s" : "m/s",
-                        [=](const Snapshot& s) { return here(s).output_position().slope * omega(s); }});
-    channels.push_back({Name::make(quantities::acceleration, name), rocks ? "rad/s2" : "m/s2", [=](const Snapshot& s) {
-                          const auto [ratio, second] = here(s).output_velocity();
-                          return second * omega(s) * omega(s) + ratio * alpha(s);
-                        }});
-    if (!placed_[i].mechanism.loads.empty())
-      channels.push_back({Name::make(rocks ? quantities::load_torque : quantities::force, name), rocks ? "N*m" : "N",
-                          [this, i](const Snapshot& s) { return load_force(placed_[i], s.now); }});
+    const Mechanism& m = placed_[i].mechanism;
+    const bool rocks = m.rocks();
+    const auto put = [&](const auto& quantity, const char* sliding, const char* rocking, auto value) {
+      channels.push_back({Name::make(quantity, m.name), rocks ? rocking : sliding, std::move(value)});
+    };
+    if (const auto* t = m.data.as<LinkageTravelData>(); !t || t->travel.of != LinkageTravel::Of::path)
+      put(quantities::position, "m", "rad", [here](const Snapshot& s) { return here(s).output_position().value; });
+    put(quantities::velocity, "m/s", "rad/s",
+        [=](const Snapshot& s) { return here(s).output_position().slope * omega(s); });
+    put(quantities::acceleration, "m/s2", "rad/s2", [=](const Snapshot& s) {
+      const auto [ratio, second] = here(s).output_velocity();
+      return second * omega(s) * omega(s) + ratio * alpha(s);
+    });
+    if (!m.loads.empty())
+      put(rocks ? quantities::load_torque : quantities::force, "N", "N*m",
+          [this, i](const Snapshot& s) { return load_force(placed_[i], s.now); });
   }
 }
 

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -17,10 +18,10 @@ namespace {
 
 using Real = long double;
 constexpr int most = 3 * PlanarLinkage::most_bodies;
-enum Case : int { speed_case, acceleration_case, weight_case, load_case, cases };
-using CaseMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
-using Columns = Eigen::Matrix<Real, Eigen::Dynamic, cases, 0, most, cases>;
-using RightSides = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+enum Case : int { speed_case, acceleration_case, weight_case, load_case, applied_case, cases };
+using CaseMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most, most>;
+using Columns = Eigen::Matrix<Real, Eigen::Dynamic, cases, Eigen::RowMajor, most, cases>;
+using RightSides = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using CaseColumn = Eigen::Matrix<Real, Eigen::Dynamic, 1, 0, most, 1>;
 
 struct Vector {
@@ -40,9 +41,53 @@ Vector first_direction(const PlanarLinkage::Joint& j) {
   return j.slides ? Vector{-j.along.sin.value(), j.along.cos.value()} : Vector{1, 0};
 }
 
+// Gauss' elimination with pivots by rows, which passes over zeros: a link's equations hold the unknowns of its own joints
+// alone.
+class Elimination {
+ public:
+  explicit Elimination(const CaseMatrix& matrix) : n_(static_cast<int>(matrix.rows())), lu_(matrix) {
+    for (int k = 0; k < n_; ++k) {
+      int pivot = k;
+      for (int i = k + 1; i < n_; ++i)
+        if (std::fabs(lu_(i, k)) > std::fabs(lu_(pivot, k))) pivot = i;
+      pivot_[at(k)] = pivot;
+      if (pivot != k) lu_.row(pivot).swap(lu_.row(k));
+      std::array<int, most> filled;
+      int count = 0;
+      for (int j = k + 1; j < n_; ++j)
+        if (lu_(k, j) != 0) filled[at(count++)] = j;
+      for (int i = k + 1; i < n_; ++i) {
+        if (lu_(i, k) == 0) continue;
+        const Real part = lu_(i, k) /= lu_(k, k);
+        for (int j = 0; j < count; ++j) lu_(i, filled[at(j)]) -= part * lu_(k, filled[at(j)]);
+      }
+    }
+  }
+  template <class Right>
+  Right solve(Right x) const {
+    for (int k = 0; k < n_; ++k)
+      if (pivot_[at(k)] != k) x.row(pivot_[at(k)]).swap(x.row(k));
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < i; ++j)
+        if (lu_(i, j) != 0) x.row(i) -= lu_(i, j) * x.row(j);
+    for (int i = n_; i-- > 0;) {
+      for (int j = i + 1; j < n_; ++j)
+        if (lu_(i, j) != 0) x.row(i) -= lu_(i, j) * x.row(j);
+      x.row(i) /= lu_(i, i);
+    }
+    return x;
+  }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  int n_;
+  CaseMatrix lu_;
+  std::array<int, most> pivot_{};
+};
+
 class Equations {
  public:
-  explicit Equations(const PlanarLinkage& l)
+  Equations(const PlanarLinkage& l, const std::vector<AppliedForce>& applied)
       : l_(l),
         n_(3 * l.body_count),
         length_(std::hypot(l.joints[1].at.x.value(), l.joints[1].at.y.value())),
@@ -51,35 +96,34 @@ class Equations {
     for (int k = 0; k < l.joint_count; ++k) put(k);
     matrix_(2, n_ - 1) = 1;  // the balancing torque, on the crank
     for (int i = 0; i < l.body_count; ++i) load(i);
+    put(applied, applied_case, right_);
   }
   // Forces [N] and moments over length() [N].
   Columns solve() const { return solve(right_); }
   template <class Right>
   Right solve(const Right& right) const {
-    const Eigen::PartialPivLU<CaseMatrix> factors(matrix_);
-    Right x = factors.solve(right);
-    x += factors.solve(right - matrix_ * x);
-    return x;
+    const Elimination factors(matrix_);
+    Right x = factors.solve(right), left = right;
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j)
+        if (matrix_(i, j) != 0) left.row(i) -= matrix_(i, j) * x.row(j);
+    return x + factors.solve(left);
   }
-  // The four cases, and behind them a unit of each friction load.
-  RightSides with_friction(std::span<const FrictionPlace> friction) const {
-    RightSides right = RightSides::Zero(n_, cases + static_cast<Eigen::Index>(friction.size()));
-    right.leftCols(static_cast<Eigen::Index>(cases)) = right_;
-    for (std::size_t k = 0; k < friction.size(); ++k) {
-      const PlanarLinkage::Joint& j = l_.joints[static_cast<std::size_t>(friction[k].joint)];
-      const Eigen::Index column = cases + static_cast<Eigen::Index>(k);
-      const Vector place = at(j.at), along{j.along.cos.value(), j.along.sin.value()};
-      for (const auto& [body, sense] : {std::pair{j.on, Real(1)}, std::pair{j.from, Real(-1)}}) {
-        if (body == PlanarLinkage::frame) continue;
-        const Vector com = at(l_.bodies[static_cast<std::size_t>(body)].com);
-        if (friction[k].couple) {
-          right(3 * body + 2, column) -= sense / length_;
-        } else {
-          right(3 * body, column) -= sense * along.x;
-          right(3 * body + 1, column) -= sense * along.y;
-          right(3 * body + 2, column) -= sense * cross({place.x - com.x, place.y - com.y}, along) / length_;
-        }
-      }
+  // The four cases, behind them each of what else is applied, and a unit of each friction load.
+  RightSides with_units(std::span<const FrictionPlace> friction,
+                        std::span<const std::vector<AppliedForce>> applied) const {
+    Eigen::Index column = applied_case;
+    RightSides right = RightSides::Zero(n_, column + static_cast<Eigen::Index>(applied.size() + friction.size()));
+    right.leftCols(column) = right_.leftCols(column);
+    for (const std::vector<AppliedForce>& unit : applied) put(unit, column++, right);
+    for (const FrictionPlace& unit : friction) {
+      const PlanarLinkage::Joint& j = l_.joints[static_cast<std::size_t>(unit.joint)];
+      const Vector along{j.along.cos.value(), j.along.sin.value()};
+      for (const auto& [body, sense] : {std::pair{j.on, Real(1)}, std::pair{j.from, Real(-1)}})
+        if (body != PlanarLinkage::frame)
+          put(body, at(j.at), unit.couple ? Vector{} : Vector{sense * along.x, sense * along.y},
+              unit.couple ? sense : 0, column, right);
+      ++column;
     }
     return right;
   }
@@ -98,6 +142,18 @@ class Equations {
   Real length() const { return length_; }  // the crank's: of moments' rows and unknowns
 
  private:
+  // What acts on a body, on the right side.
+  template <class Right>
+  void put(int body, Vector place, Vector force, Real moment, Eigen::Index column, Right& right) const {
+    const Vector com = at(l_.bodies[static_cast<std::size_t>(body)].com);
+    right(3 * body, column) -= force.x, right(3 * body + 1, column) -= force.y;
+    right(3 * body + 2, column) -= (cross({place.x - com.x, place.y - com.y}, force) + moment) / length_;
+  }
+  template <class Right>
+  void put(const std::vector<AppliedForce>& applied, Eigen::Index column, Right& right) const {
+    for (const AppliedForce& a : applied)
+      put(a.body, {a.at.x, a.at.y}, {a.force.x, a.force.y}, a.moment, column, right);
+  }
   void act(int body, int column, Vector place, Vector along, Real sense) {
     if (body == PlanarLinkage::frame) return;
     const Vector com = at(l_.bodies[body].com);
@@ -175,22 +231,28 @@ void add_link(const PlanarLinkage::Body& b, LinkageForces& f) {
 
 }  // namespace
 
-LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
-  if (2 * l.joint_count + 1 != 3 * l.body_count) throw std::logic_error("newton_euler: not one degree of freedom");
-  const Equations equations(l);
-  const Columns unit = equations.solve();
-  const Real w = state.omega;
-  const Eigen::Matrix<Real, cases, 1> mixture(w * w, Real(state.alpha), Real(1), Real(state.load));
-  const CaseColumn x = unit * mixture;
-  if (!x.allFinite())
-    throw std::runtime_error(
-        fmt::format("no finite reactions at phi = {:.17g} rad: the crank cannot move the mechanism there", state.phi));
+LinkageForces motion_in(const PlanarLinkage& l, const LinkageState& state) {
   LinkageForces f;
   f.state = state;
+  const Real w = state.omega;
   f.output = rounded(l.output[0]);
   f.output_velocity = rounded(l.output[1] * w);
   f.output_acceleration = rounded(l.output[2] * w * w + l.output[1] * state.alpha);
   for (int i = 0; i < l.body_count; ++i) add_link(l.bodies[i], f);
+  return f;
+}
+
+LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
+  if (2 * l.joint_count + 1 != 3 * l.body_count) throw std::logic_error("newton_euler: not one degree of freedom");
+  const Equations equations(l, state.applied);
+  const Columns unit = equations.solve();
+  const Real w = state.omega;
+  const Eigen::Matrix<Real, cases, 1> mixture(w * w, Real(state.alpha), Real(1), Real(state.load), Real(1));
+  const CaseColumn x = unit * mixture;
+  if (!x.allFinite())
+    throw std::runtime_error(
+        fmt::format("no finite reactions at phi = {:.17g} rad: the crank cannot move the mechanism there", state.phi));
+  LinkageForces f = motion_in(l, state);
   for (int k = 0; k < l.joint_count; ++k) {
     const PlanarLinkage::Joint& j = l.joints[k];
     JointForces out;
@@ -216,13 +278,21 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
     f.weight_power -= rounded(b.mass * l.gravity * w * (up_x * b.com.x.slope() + up_y * b.com.y.slope()));
   }
   f.load_power = state.load * f.output_velocity;
+  for (const AppliedForce& a : state.applied) {
+    const PlanarLinkage::Body& b = l.bodies[a.body];
+    const Real turning = b.direction.rate().value();
+    const Vector com = at(b.com);
+    const Real vx = b.com.x.slope() - turning * (a.at.y - com.y), vy = b.com.y.slope() + turning * (a.at.x - com.x);
+    f.load_power += rounded(w * (a.force.x * vx + a.force.y * vy + a.moment * turning));
+  }
   f.residual = equations.residual(x, mixture);
   return f;
 }
 
-std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std::span<const FrictionPlace> friction) {
-  const Equations equations(l);
-  const RightSides unit = equations.solve(equations.with_friction(friction));
+std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std::span<const FrictionPlace> friction,
+                                                     std::span<const std::vector<AppliedForce>> applied) {
+  const Equations equations(l, {});
+  const RightSides unit = equations.solve(equations.with_units(friction, applied));
   std::vector<std::vector<long double>> columns(static_cast<std::size_t>(unit.cols()));
   for (Eigen::Index c = 0; c < unit.cols(); ++c)
     for (int k = 0; k < l.joint_count; ++k) {
@@ -235,17 +305,22 @@ std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std
 }
 
 double beside_change_point(const MechanismData& data, double phi) {
+  linkage_beside(data, phi);
+  return phi;
+}
+
+PlanarLinkage linkage_beside(const MechanismData& data, double& phi) {
   constexpr double least = 1e-3;  // of the sine
-  const long double here = data.linkage(phi).sine;
-  if (std::abs(here) >= least) return phi;
+  PlanarLinkage there = data.linkage(phi);
+  const long double here = there.sine;
+  if (std::abs(here) >= least) return there;
   // The sine has a simple zero: two secants lead to the place.
-  double at = phi;
   const long double wanted = std::copysign(least, here);
   for (int i = 0; i < 3; ++i) {
-    const long double sine = data.linkage(at).sine, slope = (data.linkage(at + 1e-5).sine - sine) / 1e-5L;
-    at += static_cast<double>((wanted - sine) / slope);
+    const long double sine = data.linkage(phi).sine, slope = (data.linkage(phi + 1e-5).sine - sine) / 1e-5L;
+    phi += static_cast<double>((wanted - sine) / slope);
   }
-  return at;
+  return data.linkage(phi);
 }
 
 UnboundedReactions unbounded_reactions(const MechanismData& data,

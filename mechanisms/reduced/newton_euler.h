@@ -6,8 +6,8 @@
 // about its centre of mass S:
 //     Σ R + W + F = m a_S,     Σ (P − S) × R + Σ M = I ε_i
 // 3 equations a link in as many unknowns: two of each joint (a pin's R_x, R_y; a slide's N across it and its moment)
-// and the balancing torque on the crank. Solved at once, in long double, for four unit cases: ω² = 1, ε = 1, weights,
-// unit load; every reaction is linear in these.
+// and the balancing torque on the crank. Solved at once, in long double, for five cases: ω² = 1, ε = 1, weights, unit
+// load, what acts on links besides; every reaction is linear in these.
 #pragma once
 
 #include <functional>
@@ -20,9 +20,18 @@
 
 namespace kurbel {
 
-// The crank's angle and motion, and the load on the output: a force along +x at its pin [N], or a torque [N·m].
+// On a body, besides its weight and the load on the output.
+struct AppliedForce {
+  int body = 0;       // of the linkage's
+  Force2 at, force;   // [m], [N]
+  double moment = 0;  // [N·m]
+};
+
+// The crank's angle and motion, the load on the output (a force along +x at its pin [N], or a torque [N·m]), and what
+// acts on links besides.
 struct LinkageState {
   double phi = 0, omega = 0, alpha = 0, load = 0;
+  std::vector<AppliedForce> applied = {};
 };
 
 struct LinkForces {
@@ -57,13 +66,16 @@ struct LinkageForces {
   Force2 shaking_force;       // of all inertia forces, on the frame [N]
   double shaking_moment = 0;  // of all inertia forces and couples about the crank's axis, on the frame [N·m]
   double reduced_inertia = 0, kinetic_energy = 0;             // I_r [kg·m²]; T [J]
-  double kinetic_rate = 0, weight_power = 0, load_power = 0;  // dT/dt and powers on the mechanism [W]
+  double kinetic_rate = 0, weight_power = 0, load_power = 0;  // dT/dt and powers on the mechanism [W]; the
+                                                              // load's with what acts on links
   double residual = 0;                                        // of the equations, relative to their largest terms
 };
 
 // Throws std::runtime_error with the numbers where the equations are singular: in a position where the mechanism
 // cannot be moved by its crank.
 LinkageForces forces_in(const PlanarLinkage& linkage, const LinkageState& state);
+// The links alone, with what is summed over them: no reactions, no torque, no powers of loads and weights.
+LinkageForces motion_in(const PlanarLinkage& linkage, const LinkageState& state);
 
 // What friction does in a joint, on its body `on`, and the opposite on `from`: a couple of 1 N·m, or along a slide 1 N.
 struct FrictionPlace {
@@ -71,13 +83,16 @@ struct FrictionPlace {
   bool couple = true;
 };
 // Of all joints in their order R_x, R_y [N], of a slide its normal force [N] and moment [N·m], by columns: for ω² = 1,
-// ε = 1, the weights, a unit load, each of the friction loads alone (theory 10.2).
+// ε = 1, the weights, a unit load, each of what else is applied, each of the friction loads alone (theory 10.2).
 std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& linkage,
-                                                     std::span<const FrictionPlace> friction);
+                                                     std::span<const FrictionPlace> friction,
+                                                     std::span<const std::vector<AppliedForce>> applied = {});
 
 // Of a mechanism that passes change points: φ itself, or if it lies nearer to one than a thousandth of what the sine there
 // changes by in a radian, the place at that distance on its side. Reactions go with the inverse of the distance.
 double beside_change_point(const MechanismData& data, double phi);
+// The linkage there.
+PlanarLinkage linkage_beside(const MechanismData& data, double& phi);
 
 // Reactions that have no bound at change points, found by positions at two distances from each.
 struct UnboundedReactions {

@@ -51,8 +51,9 @@ void interpolate(const std::vector<long double>& x, std::vector<long double>& va
 class TableBuilder {
  public:
   TableBuilder(const PeriodicTable::Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
-               std::size_t max_pieces, const PeriodicTable::Cut& cut)
+               std::size_t max_pieces, const PeriodicTable::Cut& cut, const PeriodicTable::Sampler& other)
       : sampler_(sampler),
+        other_(other),
         channels_(std::move(channels)),
         tolerance_(tolerance),
         cut_(cut),
@@ -136,14 +137,22 @@ class TableBuilder {
     piece.error.assign(channels_.size(), 0);
     for (const double check : check_points_) {
       const double phi = within(middle + half * check), x_there = static_cast<double>(place(phi));
-      const std::vector<double> truth = sample(phi);
-      for (std::size_t c = 0; c < channels_.size(); ++c) {
-        double error = std::fabs(PeriodicTable::value({piece.coefficients.data(), x_there}, c) - truth[c]);
-        if (channels_[c].scale == ErrorScale::own_value)
-          error /= std::max({std::fabs(truth[c]), channels_[c].least_scale, std::numeric_limits<double>::min()});
-        piece.error[c] = std::max(piece.error[c], error);
-      }
+      count_error(piece, x_there, sample(phi));
     }
+  }
+  void count_error(Piece& piece, double x, const std::vector<double>& truth) const {
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+      double error = std::fabs(PeriodicTable::value({piece.coefficients.data(), x}, c) - truth[c]);
+      if (channels_[c].scale == ErrorScale::own_value)
+        error /= std::max({std::fabs(truth[c]), channels_[c].least_scale, std::numeric_limits<double>::min()});
+      piece.error[c] = std::max(piece.error[c], error);
+    }
+  }
+  void hold_against_other(Piece& piece) const {
+    const double half = width(piece) / 2, phi = within(middle(piece) + half / 2);
+    std::vector<double> values(channels_.size());
+    other_(phi, values);
+    count_error(piece, (phi - middle(piece)) / half, values);
   }
 
   double relative_error(const Piece& piece, std::size_t c) const {
@@ -214,6 +223,8 @@ class TableBuilder {
       table.pieces_.insert(table.pieces_.end(), piece.coefficients.begin(), piece.coefficients.end());
       table.report_.converged = table.report_.converged && good(piece);
     }
+    if (other_)
+      for (Piece& piece : kept_) hold_against_other(piece);
     for (std::size_t c = 0; c < channels_.size(); ++c) {
       table.report_.channels.push_back({channels_[c].name, maximum_[c], 0});
       for (const Piece& piece : kept_)
@@ -222,7 +233,7 @@ class TableBuilder {
     return table;
   }
 
-  const PeriodicTable::Sampler& sampler_;
+  const PeriodicTable::Sampler &sampler_, &other_;
   std::vector<ChannelSpec> channels_;
   double tolerance_;
   PeriodicTable::Cut cut_;
@@ -234,8 +245,8 @@ class TableBuilder {
 };
 
 PeriodicTable PeriodicTable::build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
-                                   std::size_t max_pieces, const Cut& cut) {
-  return TableBuilder(sampler, std::move(channels), tolerance, max_pieces, cut).run();
+                                   std::size_t max_pieces, const Cut& cut, const Sampler& other) {
+  return TableBuilder(sampler, std::move(channels), tolerance, max_pieces, cut, other).run();
 }
 
 // Cells per radian, the first cell, how many cells there are; each cell's place among the pieces; the pieces.

@@ -31,7 +31,7 @@ struct ChannelSpec {
   double least_scale = 0;  // in the channel's unit, ≥ 0: a channel that is mere rounding noise is compared with this
 };
 
-// How well the pieces met fresh samples at check points between the nodes.
+// How well the pieces met fresh samples at check points between the nodes, and, where there is one, a second source.
 struct TableReport {
   struct Channel {
     std::string name;
@@ -40,7 +40,7 @@ struct TableReport {
   };
   std::size_t pieces = 0;   // in the finished table
   std::size_t samples = 0;  // taken in all
-  bool converged = false;   // every error within the tolerance
+  bool converged = false;   // every error at the check points within the tolerance
   std::vector<Channel> channels;
 };
 
@@ -66,10 +66,11 @@ class PeriodicTable {
   };
 
   // Bisects pieces until each agrees with fresh samples to `tolerance` of every channel's scale, or there are
-  // max_pieces; report().converged and the errors say which. Throws std::invalid_argument on an empty or senseless
-  // request.
+  // max_pieces; report().converged and the errors say which. Samples of `other` show what all of the sampler's have in
+  // common, as lengths that are rounded: once a piece, the difference counts as error. Throws std::invalid_argument on an
+  // empty or senseless request.
   static PeriodicTable build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
-                             std::size_t max_pieces, const Cut& cut);
+                             std::size_t max_pieces, const Cut& cut, const Sampler& other = {});
   static PeriodicTable build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
                              std::size_t max_pieces) {
     return build(sampler, std::move(channels), tolerance, max_pieces, Cut());

@@ -164,22 +164,25 @@ TableBook::Open::~Open() { open_book = before_; }
 
 void take_rough_tables(bool rough) { rough_tables = rough; }
 
-ReducedMechanism::ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise,
-                                   double tolerance, std::size_t max_pieces, const PeriodicTable::Cut& cut,
-                                   CrankCycle cycle)
+ReducedMechanism::ReducedMechanism(const Sampler& sampler, NoiseScales noise, double tolerance, std::size_t max_pieces,
+                                   const PeriodicTable::Cut& cut, CrankCycle cycle, const Sampler& other)
     : cycle_(std::move(cycle)),
       rocks_(cycle_.arc().has_value()),
       part_(1.0 / cycle_.turns()),
       winding_(cycle_.winding()),
       table_(PeriodicTable::build(
-          [&](double part, std::span<double> values) {
-            const double phi = place_of(cycle_, part);
-            write_channels(sampler(phi), values);
-            double& output = values[output_position_channel];
-            output = cycle_.periodic_part(phi, output);
-          },
+          in_table(sampler),
           rocks_ ? arc_specs(sampler(cycle_.arc()->middle), *cycle_.arc(), noise.reach) : channel_specs(noise),
-          tolerance, max_pieces, cut)) {}
+          tolerance, max_pieces, cut, other ? in_table(other) : PeriodicTable::Sampler())) {}
+
+PeriodicTable::Sampler ReducedMechanism::in_table(const Sampler& sampler) const {
+  return [this, &sampler](double part, std::span<double> values) {
+    const double phi = place_of(cycle_, part);
+    write_channels(sampler(phi), values);
+    double& output = values[output_position_channel];
+    output = cycle_.periodic_part(phi, output);
+  };
+}
 
 ReducedMechanism::ReducedMechanism(PeriodicTable table, CrankCycle cycle)
     : cycle_(std::move(cycle)),
@@ -197,11 +200,23 @@ ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, 
                                    Extraction extraction) {
   const std::unique_ptr<MechanismBodies> bodies = data.make_bodies();  // finds the data's faults in either case
   const bool first = extraction == Extraction::first && has_bodies;
-  const auto sampler = [&](double phi) { return first ? bodies->sample(phi) : closed_sample(data, phi); };
+  double turns = 0;  // an output that rocks may count whole turns from another place [rad]
+  const ReducedMechanism::Sampler second = [&](double phi) {
+    ReducedSample sample = closed_sample(data, phi);
+    sample.output_position += turns;
+    return sample;
+  };
+  const ReducedMechanism::Sampler sampler =
+      first ? ReducedMechanism::Sampler([&](double phi) { return bodies->sample(phi); }) : second;
   CrankCycle cycle(data);
+  if (const double phi = place_of(cycle, 1); first && data.rocks()) {
+    const double apart = sampler(phi).output_position - second(phi).output_position;
+    turns = apart - std::remainder(apart, 2 * std::numbers::pi);
+  }
   const auto noise = noise_scales(sampler, cycle, !data.rocks());
   return ReducedMechanism(sampler, noise, first ? tolerance : second_tolerance * tolerance, max_pieces,
-                          first ? PeriodicTable::Cut() : second_cut, std::move(cycle));
+                          first ? PeriodicTable::Cut() : second_cut, std::move(cycle),
+                          first ? second : ReducedMechanism::Sampler());
 }
 
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance,

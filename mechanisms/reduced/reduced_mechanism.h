@@ -67,9 +67,11 @@ class ReducedMechanism {
     double wound_;
   };
 
-  // Tabulates any mechanism. Whether the tolerance was reached within max_pieces: report().
-  ReducedMechanism(const std::function<ReducedSample(double phi)>& sampler, NoiseScales noise, double tolerance,
-                   std::size_t max_pieces, const PeriodicTable::Cut& cut = {}, CrankCycle cycle = {});
+  using Sampler = std::function<ReducedSample(double phi)>;
+  // Tabulates any mechanism. Whether the tolerance was reached within max_pieces: report(). `other`: a second source, whose
+  // differences count as errors.
+  ReducedMechanism(const Sampler& sampler, NoiseScales noise, double tolerance, std::size_t max_pieces,
+                   const PeriodicTable::Cut& cut = {}, CrankCycle cycle = {}, const Sampler& other = {});
 
   // Of a table that was made of it once.
   ReducedMechanism(PeriodicTable table, CrankCycle cycle);
@@ -86,11 +88,12 @@ class ReducedMechanism {
   // Over a cycle; of a crank that rocks the value in the middle of its arc.
   double mean(Channel channel) const { return rocks_ ? at(cycle_.arc()->middle).value(channel) : table_.mean(channel); }
 
-  // Pieces, samples and the measured error of every channel.
+  // Pieces, samples and the measured error of every channel; of the first extraction what the second differs by is in it.
   const TableReport& report() const { return table_.report(); }
 
  private:
-  double on_arc(double phi) const;  // σ
+  double on_arc(double phi) const;                                // σ
+  PeriodicTable::Sampler in_table(const Sampler& sampler) const;  // of one that outlives it
 
   CrankCycle cycle_;
   bool rocks_;

@@ -17,6 +17,7 @@
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "mechanisms/kinds/kinds.h"
+#include "mechanisms/link_forces/link_forces.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/validity/outside_data.h"
 
@@ -62,6 +63,8 @@ std::shared_ptr<const Model> alone(const AskedMechanism& asked, const Effects& e
   network.ports[asked.name] = {node, node};
   network.components = {asked.name};
   network.put(node, asked.name, mechanism_element(asked.network, asked.name).element, {}, 0);
+  for (const Network::ShaftElement& e : asked.network.elements)
+    if (e.component.starts_with(asked.name + ".")) network.put(node, e.component, e.element, {}, 0);
   const ActingLoads left = left_by(asked.scene.sequence, asked.name, asked.mechanism().loads);
   for (Network::DataRange range : asked.network.ranges) {
     if (range.component != asked.name || (range.part >= 0 && !left.empty() && !left[index(range.part)])) continue;
@@ -92,7 +95,9 @@ AskedMechanism::AskedMechanism(const Scene& of, const std::string& wanted)
 const Mechanism& AskedMechanism::mechanism() const { return *find_mechanism(network, name); }
 
 OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects)
-    : machine_(alone(asked, effects)), mechanism_(*find_mechanism(model().network, asked.name)) {
+    : machine_(alone(asked, effects)),
+      mechanism_(*find_mechanism(model().network, asked.name)),
+      within_(link_forces_of(model().network, asked.name)) {
   const std::vector<SliderLoad>& loads = mechanism_.loads;
   const Sequence& sequence = asked.scene.sequence;
   const auto touched = [&](const SliderLoad& load) {
@@ -142,6 +147,15 @@ double OutputLoads::force(double phi, const CrankMotion& motion) const {
   std::array<double, 1> angle = {within(phi)};
   wrap(modes, angle);
   return mechanism_.load(angle[0], motion.omega, motion.loads);
+}
+
+LinkageState OutputLoads::state(double phi, const CrankMotion& motion, const PlanarLinkage& at) const {
+  LinkageState state{phi, motion.omega, motion.alpha, force(phi, motion)};
+  if (within_.empty()) return state;
+  const LinkPoses poses = within_.front()->data.as<LinkageTravelData>()->linkage->poses(phi);
+  for (const Mechanism* force : within_)
+    add_actions(*force->data.as<LinkageTravelData>(), force->load(within(phi), motion.omega), poses, at, state.applied);
+  return state;
 }
 
 std::vector<std::string> OutputLoads::outside_data(double speed) { return kurbel::outside_data(machine_, speed); }

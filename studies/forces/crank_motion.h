@@ -19,6 +19,7 @@ namespace kurbel {
 // At an instant of a machine whose element that is.
 ActingLoads acting_loads(const Model& model, std::size_t element, const Instant& now);
 
+struct LinkageState;
 struct Mechanism;
 
 // A mechanism of a scene, and the network that it stands in, as drawn: before any effect, its tables as they are given.
@@ -54,6 +55,8 @@ class OutputLoads {
   std::string words_of_sequence() const;
   // Sum of all forces along +x [N], or of all torques on an output that rocks [N·m].
   double force(double phi, const CrankMotion& motion) const;
+  // With that sum and what acts within a linkage, for its bodies at φ.
+  LinkageState state(double phi, const CrankMotion& motion, const PlanarLinkage& at) const;
   // What those that act take from beyond the ends of their tables while the crank turns round at this speed [rad/s]. A
   // sentence each.
   std::vector<std::string> outside_data(double speed);
@@ -67,7 +70,8 @@ class OutputLoads {
     return phi <= cycle() * (1 + 1e-12) ? phi : phi - cycle() * std::ceil(phi / cycle() * (1 - 1e-12) - 1);
   }
 
-  const Mechanism& mechanism_;  // of that machine
+  const Mechanism& mechanism_;            // of that machine
+  std::vector<const Mechanism*> within_;  // what acts within it, where it is a linkage
   ActingLoads left_;
   bool goes_round_ = false;      // the sequence, and sets loads on its way
   std::vector<int> of_account_;  // the load that an account is of; −1: of none

@@ -16,6 +16,8 @@ DeformedMechanism::DeformedMechanism(std::shared_ptr<const Model> model, const s
   const Network::ShaftElement& element = mechanism_element(m.network, component);
   element_ = static_cast<std::size_t>(&element - m.network.elements.data());
   dynamics_ = mechanism_of(element)->dynamics();
+  for (std::size_t e = 0; e < m.network.elements.size(); ++e)
+    if (m.network.elements[e].component.starts_with(component + ".")) within_.push_back(e);
   for (std::size_t k = 0; k < m.pool_channels.size(); ++k)
     if (m.pool_channels[k].name.what == quantities::force && m.pool_channels[k].name.of == component)
       force_channel_ = static_cast<int>(k);
@@ -28,6 +30,7 @@ MachineForces DeformedMechanism::at(const Snapshot& s) const {
   const double gain = m.gain_of_node[kurbel::at(node)], alpha = gain * s.alpha[shaft];
   MachineForces out;
   out.torque = s.sums.element_inertia[element_] * alpha - s.sums.element_torque[element_];
+  for (const std::size_t e : within_) out.torque -= s.sums.element_torque[e];
   if (dynamics_) find_reactions(s, gain * s.now.speed[shaft], alpha, out);
   return out;
 }

@@ -60,11 +60,21 @@ class Builder {
   void balance();
   void collect_curve();
 
-  Peak peak(const LinkageQuantity& value, double scale) {
+  // Of a link's motion: without the reactions, which cost the most.
+  PositionForces moving_at(double phi, CrankMotion motion) {
+    PositionForces p;
+    const PlanarLinkage linkage = linkage_beside(data_, phi);
+    p.forces = motion_in(linkage, {phi, motion.omega, motion.alpha});
+    return p;
+  }
+  Peak peak(const LinkageQuantity& value, double scale, bool of_motion = false) {
     std::vector<double> values;
     for (const PositionForces& p : samples_) values.push_back(value(p));
-    Peak found = measured_peak_of(
-        phi_, values, [&](double x) { return value(at(x, motion_between(motion_, x))); }, scale);
+    const auto value_at = [&](double x) {
+      const CrankMotion motion = motion_between(motion_, x);
+      return value(of_motion ? moving_at(x, motion) : at(x, motion));
+    };
+    Peak found = measured_peak_of(phi_, values, value_at, scale);
     if (std::abs(found.value) <= rounding_of_forces * scale) found = {{0, rounding_of_forces * scale}};
     found.scale = scale;
     return found;
@@ -176,7 +186,9 @@ void Builder::find_links() {
       for (P p : cycle_.positions) most = std::max(most, std::abs(of(link(p))));
       return most;
     };
-    const auto peak_of_link = [&](auto&& of, double scale) { return peak([&](P p) { return of(link(p)); }, scale); };
+    const auto peak_of_link = [&](auto&& of, double scale) {
+      return peak([&](P p) { return of(link(p)); }, scale, true);
+    };
     LinkOfCycle out;
     out.name = link(samples_.front()).name;
     const auto omega = [](const LinkForces& l) { return l.omega; };
@@ -268,10 +280,10 @@ void Builder::collect_curve() {
 }  // namespace
 
 PositionForces linkage_position(const MechanismData& data, OutputLoads& loads, double phi, CrankMotion motion) {
-  phi = beside_change_point(data, phi);
+  const PlanarLinkage linkage = linkage_beside(data, phi);
   PositionForces p;
   p.loads = motion.loads;
-  p.forces = forces_in(data.linkage(phi), {phi, motion.omega, motion.alpha, loads.force(phi, motion)});
+  p.forces = forces_in(linkage, loads.state(phi, motion, linkage));
   p.power = {.crank = p.forces.torque * motion.omega,
              .load = p.forces.load_power,
              .weight = p.forces.weight_power,
@@ -343,8 +355,10 @@ void hold_against_machine(const Scene& scene, const MechanismData& data, OutputL
   for (std::size_t i = 0; i < simulated.machine.size(); ++i) {
     const CrankMotion& m = simulated.along.motion[i];
     const double phi = simulated.along.where[i].place(), own = simulated.machine[i].torque;
-    if (beside_change_point(data, phi) != phi) continue;  // what the links need there is that of a place beside it
-    const LinkageForces f = forces_in(data.linkage(phi), {phi, m.omega, m.alpha, loads.force(phi, m)});
+    double beside = phi;
+    const PlanarLinkage linkage = linkage_beside(data, beside);
+    if (beside != phi) continue;  // what the links need there is that of a place beside it
+    const LinkageForces f = forces_in(linkage, loads.state(phi, m, linkage));
     missed = std::max(missed, std::abs(own - f.torque));
     greatest = std::max(greatest, std::abs(own));
     for (const JointForces& j : f.joints) greatest = std::max(greatest, least * j.force.magnitude() * j.at.magnitude());

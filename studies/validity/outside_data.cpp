@@ -13,7 +13,7 @@
 #include "engine/orbit/follow_period.h"
 #include "engine/run/recorders.h"
 #include "engine/scene/units.h"
-#include "mechanisms/reduced/mechanism.h"
+#include "mechanisms/link_forces/link_forces.h"
 
 namespace kurbel {
 namespace {
@@ -41,10 +41,11 @@ std::vector<double> angles_of(const RigidMachine& machine) {
   for (int i = 0; i <= cells; ++i) angles.push_back(cycle * i / cells);
   for (const Network::ShaftElement& e : machine.model().network.elements) {
     const MechanismElement* const element = mechanism_of(e);
+    const Mechanism* const mechanism = element ? &element->mechanism() : link_force_of(e);
     const double ratio = machine.model().node_ratio[at(e.node)];
-    if (!element || ratio == 0) continue;
-    const double own = element->mechanism().cycle();
-    for (const double reversal : element->mechanism().travel.reversals)
+    if (!mechanism || ratio == 0) continue;
+    const double own = mechanism->cycle();
+    for (const double reversal : mechanism->travel.reversals)
       for (int k = 0; k < std::max(1.0, std::round(std::abs(ratio) * cycle / own)); ++k)
         angles.push_back(place_within((reversal + k * own - e.phase) / ratio, cycle));
   }

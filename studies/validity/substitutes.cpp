@@ -7,7 +7,7 @@
 
 #include "engine/reading/mirrored.h"
 #include "engine/values/dense_tables.h"
-#include "mechanisms/reduced/mechanism.h"
+#include "mechanisms/link_forces/link_forces.h"
 
 namespace kurbel {
 
@@ -15,8 +15,9 @@ std::vector<std::string> substitutes(const Model& model) {
   std::vector<std::string> notes;
   if (std::string words = words_of_dense_tables(model.scene); !words.empty()) notes.push_back(std::move(words));
   for (const Network::ShaftElement& e : model.network.elements) {
-    if (const MechanismElement* element = mechanism_of(e)) {
-      for (const SliderLoad& load : element->mechanism().loads)
+    const MechanismElement* element = mechanism_of(e);
+    if (const Mechanism* mechanism = element ? &element->mechanism() : link_force_of(e)) {
+      for (const SliderLoad& load : mechanism->loads)
         if (load.mirrored) notes.push_back(words_of_mirrored(load.name, "motored"));
       continue;
     }

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "engine/equations/jam.h"
+#include "engine/model/model.h"
 #include "mechanisms/joints/reaction_table.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "tests/mechanisms/linkage_examples.h"
 #include "tests/support/scenes.h"
 
@@ -18,7 +20,7 @@ namespace {
 const double pi = std::acos(-1.0);
 
 std::shared_ptr<const JointFriction> law_of(const MechanismData& data, const std::vector<RubbingJoint>& joints) {
-  return tabulate_joint_friction(data, joints, {}, Extraction::first);
+  return tabulate_joint_friction(data, joints, {}, {}, Extraction::first);
 }
 
 RubbingJoint pin(const std::string& name, double radius, double f) {
@@ -265,6 +267,79 @@ TEST(LinkageFriction, SketchOfASliderCrankRunsAsTheNamedKind) {
   EXPECT_NEAR(-sketch.energy.by_account.at("crank.joints"), lost, 1e-6 * lost);
   EXPECT_NEAR(named.energy.kinetic_start - named.energy.kinetic_end + named.energy.by_line.at("weight"), lost,
               1e-5 * lost);
+}
+
+// What acts within presses on the joints as a load on the output does: on the ram's pin, but on the ram.
+TEST(LinkageFriction, AForceOnThePinOfTheOutputIsALoadOnIt) {
+  const std::string joints =
+      "joints = { O = { radius = \"40 mm\", friction = 0.05 }, B = { radius = \"15 mm\", friction = 0.08 }, ram = { "
+      "friction = 0.1, length = \"60 mm\", width = \"80 mm\" } }\n";
+  const std::string law = "{ kind = \"medium\", viscous = \"90 N*s/m\" }";
+  const auto within = [&](const std::string& on) {
+    return test::run(same_by_sketch(joints, "[crank.forces]\npush = { on = \"" + on +
+                                                "\", along = \"0 deg\", load = " + law + " }\n" + run_down),
+                     false);
+  };
+  const Result load = test::run(same_by_sketch(joints + "load = " + law + "\n", run_down), false);
+  const double speed = test::figure(load, "final_speed.wheel"), lost = load.energy.by_account.at("crank.joints");
+  const Result ram = within("ram B"), rod = within("rod B");
+  EXPECT_NEAR(test::figure(ram, "final_speed.wheel"), speed, 1e-6 * speed);
+  EXPECT_NEAR(ram.energy.by_account.at("crank.joints"), lost, 1e-6 * -lost);
+  EXPECT_NEAR(ram.energy.by_account.at("crank.push"), load.energy.by_account.at("crank.load"), 1e-6 * speed * speed);
+  // On the rod it does not go through the ram's pin.
+  EXPECT_LT(lost, 1.001 * rod.energy.by_account.at("crank.joints"));
+}
+
+// A massless yoke x = r cos φ, whose spring F(φ) presses on crank, block and yoke; friction f in the yoke's slot makes it
+// F √(1 + f²) in the pins O and A, of friction circles ρ: M = −(ρ_O + ρ_A) F √(1 + f²) − f F r |cos φ|.
+TEST(LinkageFriction, ASpringOnAYokePressesOnItsJoints) {
+  const double f = 0.12, rho = (0.02 + 0.012) * 0.09 / std::sqrt(1 + 0.09 * 0.09), r = 0.06;
+  const Scene scene = test::scene_from(R"(
+line = ["m"]
+[m]
+kind   = "linkage"
+unit   = "mm"
+points = { O = [0, 0], A = [60, 0], Y = [300, 0], F = [500, 0] }
+frame  = "O F"
+slides = { block = { on = "yoke", along = "90 deg" }, yoke = "0 deg" }
+joints = { O = { radius = "20 mm", friction = 0.09 }, A = { radius = "12 mm", friction = 0.09 }, block = { friction = 0.12 } }
+[m.links]
+crank  = { points = "O A", mass = "1 kg", com = [0, 0], inertia = "0.5 kg*m2" }
+block  = "A"
+yoke   = "Y"
+[m.springs]
+return = { between = "Y F", stiffness = "900 N/m", free_length = "180 mm" }
+[effects]
+joint_friction = true
+[run]
+start    = { speed = "60 rpm" }
+until    = "0.8 s"
+accuracy = 1e-9
+)");
+  const auto force = [&](double phi) { return 900 * (0.02 + r * (1 - std::cos(phi))); };  // always pulled
+  const auto friction = [&](double phi) {
+    return -force(phi) * (rho * std::sqrt(1 + f * f) + f * r * std::abs(std::cos(phi)));
+  };
+  const auto model = compile(scene, scene.effects);
+  const Mechanism* m = find_mechanism(model->network, "m");
+  ASSERT_TRUE(m && m->friction);
+  ASSERT_EQ(m->friction->applied(), std::vector<std::string>{"m.return"});
+  for (int i = 0; i < 12; ++i) {
+    const double phi = 0.2 + 0.5 * i, applied = -force(phi);
+    const auto found = m->friction->torque({.phi = phi, .omega = 6, .applied = &applied});
+    EXPECT_NEAR(found.torque, friction(phi), 1e-11) << phi;
+  }
+  const Result run = test::run(scene);
+  EXPECT_TRUE(run.complete) << run.diagnosis;
+  EXPECT_LT(run.energy.relative, 1e-7);
+  const double end = test::figure(run, "final_angle.m"), speed = test::figure(run, "final_speed.m");
+  ASSERT_GT(speed, 1);
+  double lost = 0;
+  constexpr int steps = 20000;
+  for (int i = 0; i < steps; ++i) lost += friction(end * (i + 0.5) / steps) * end / steps;
+  EXPECT_NEAR(run.energy.by_account.at("m.joints"), lost, 1e-6 * -lost);
+  EXPECT_NEAR(0.25 * speed * speed, 0.25 * 4 * pi * pi + lost + 450 * (0.0004 - std::pow(force(end) / 900, 2)),
+              1e-6 * -lost);
 }
 
 TEST(LinkageFriction, OffLeavesNoTrace) {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 
 #include "mechanisms/reduced/mechanism_data.h"
 #include "mechanisms/reduced/newton_euler.h"
+#include "tests/mechanisms/linkage_checks.h"
 #include "tests/mechanisms/linkage_examples.h"
 #include "tests/mechanisms/mechanism_examples.h"
 
@@ -17,84 +17,11 @@ namespace kurbel::linkage_test {
 namespace {
 
 using std::numbers::pi;
+using test::expect_both_extractions;
+using test::expect_rigid;
+using test::sample_channels;
 using test::SketchOf;
-
-constexpr int sample_channels = 8;
-
-std::vector<double> values_in(const ReducedSample& s) {
-  return {s.inertia,         s.inertia_slope,         s.inertia_curvature,
-          s.output_position, s.output_velocity_ratio, s.output_acceleration_ratio,
-          s.gravity_torque,  s.gravity_torque_slope};
-}
-
-void expect_sound(const LinkageData& data) {
-  for (const LinkageFault& fault : data.linkage->faults()) ADD_FAILURE() << fault.at << ": " << fault.text;
-}
-
-// Simbody's bodies and the series agree within this part of each channel's largest value.
-void expect_both_extractions(const LinkageData& data, double within, int samples = 60) {
-  expect_sound(data);
-  if (!data.linkage->faults().empty()) return;
-  const auto bodies = make_bodies(data);
-  const MechanismData as_data(data);
-  double scale[sample_channels] = {};
-  std::vector<ReducedSample> first, second;
-  const auto arc = data.linkage->arc();
-  for (int i = 0; i < samples; ++i) {
-    const double part = (i + 0.37) / samples;
-    const double phi = arc ? arc->middle + 0.9 * arc->half * (2 * part - 1) : 2 * pi * data.linkage->turns() * part;
-    first.push_back(bodies->sample(phi)), second.push_back(closed_sample(as_data, phi));
-    const std::vector<double> values = values_in(second.back());
-    for (int c = 0; c < sample_channels; ++c)
-      scale[c] = std::max(scale[c], std::abs(values[static_cast<std::size_t>(c)]));
-    scale[6] = std::max(scale[6], second.back().gravity_torque_scale);
-  }
-  scale[1] = std::max(scale[1], 0.1 * scale[0]), scale[2] = std::max(scale[2], scale[0]);
-  scale[5] = std::max(scale[5], 0.1 * scale[4]);
-  scale[7] = std::max(scale[7], scale[6]);
-  if (data.linkage->sketch().output.rocks()) scale[3] = std::max(scale[3], 1.0);
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const std::vector<double> a = values_in(first[i]), b = values_in(second[i]);
-    for (std::size_t c = 0; c < sample_channels; ++c) {
-      double off = a[c] - b[c];
-      if (c == 3 && data.linkage->sketch().output.rocks()) off = std::remainder(off, 2 * pi);
-      EXPECT_LE(std::abs(off), within * scale[c]) << "channel " << c << ", sample " << i;
-    }
-  }
-}
-
-// All distances of points on one link are those of the sketch.
-void expect_rigid(const LinkageData& data) {
-  expect_sound(data);
-  if (!data.linkage->faults().empty()) return;
-  const Linkage& l = *data.linkage;
-  long double longest = 0, off = 0;
-  for (int i = 0; i < 50; ++i) {
-    const auto arc = l.arc();
-    const long double part = (i + 0.37L) / 50;
-    const LinkPoses poses = l.poses(arc ? arc->middle + 0.9L * arc->half * (2 * part - 1) : 2 * pi * l.turns() * part);
-    // Every joint holds, seen from both of its links.
-    for (const LinkageJoint& j : l.structure().joints) {
-      const LinkPose &a = poses[j.a], &b = poses[j.b];
-      longest = std::max(longest, length(j.at));
-      const Path apart = b(j.at) - a(j.at);
-      if (!j.slides) {
-        for (int k = 0; k <= Taylor::order; ++k)
-          off =
-              std::max({off, std::fabs(apart.x.c[k]) * std::pow(0.1L, k), std::fabs(apart.y.c[k]) * std::pow(0.1L, k)});
-      } else {
-        off = std::max(off, std::fabs(cross(poses[j.other(j.carrier)].turned(j.along), apart).value()));
-        off =
-            std::max(off, std::fabs(a.turn.cos.value() * b.turn.sin.value() - a.turn.sin.value() * b.turn.cos.value()));
-      }
-    }
-    for (std::size_t k = 0; k < poses.size(); ++k) {
-      const Direction& turn = poses[static_cast<int>(k)].turn;
-      off = std::max(off, std::fabs(std::hypot(turn.cos.value(), turn.sin.value()) - 1));
-    }
-  }
-  EXPECT_LE(off, 1e-13L * longest);
-}
+using test::values_in;
 
 // --- closed forms ---
 
@@ -393,79 +320,6 @@ TEST(Linkage, ARedundantRodOfAnotherLengthIsRefused) {
   ASSERT_EQ(data.linkage->faults().size(), 1u);
   EXPECT_NE(data.linkage->faults()[0].text.find("1 closure more than they need"), std::string::npos)
       << data.linkage->faults()[0].text;
-}
-
-// --- random linkages ---
-
-// Up to three dyads behind a crank, each on points of links that stand already; masses anywhere.
-SketchOf random_linkage(std::mt19937& random) {
-  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
-  SketchOf of;
-  const double phi = uniform(0, 2 * pi), r = uniform(0.05, 0.12);
-  of.point('O', 0, 0).point('A', r * std::cos(phi), r * std::sin(phi)).frame("O");
-  of.link("crank", "OA", uniform(0, 3), 0.01);
-  std::string free = "A";  // points of moving links that a dyad may begin at
-  char next = 'B';
-  const int dyads = 1 + static_cast<int>(uniform(0, 2.999));
-  for (int i = 0; i < dyads; ++i) {
-    const char from = free[static_cast<std::size_t>(uniform(0, static_cast<double>(free.size()) - 1e-9))];
-    const auto& p =
-        *std::find_if(of.s.points.begin(), of.s.points.end(), [&](const auto& q) { return q.name[0] == from; });
-    const double x = p.x, y = p.y;
-    const char inner = next++, outer = next++, extra = next++;
-    const std::string a = "a" + std::to_string(i), b = "b" + std::to_string(i);
-    of.point(inner, x + uniform(0.25, 0.5), y + uniform(-0.3, 0.3));
-    const double ix = of.s.points.back().x, iy = of.s.points.back().y;
-    of.point(extra, x + uniform(0.1, 0.4), y + uniform(-0.4, 0.4));
-    of.link(a, std::string(1, from) + inner + extra, uniform(0.2, 5), uniform(0.001, 0.1));
-    const int form = static_cast<int>(uniform(0, 2.999));
-    if (form == 0) {  // RRR
-      of.point(outer, ix + uniform(-0.1, 0.2), iy - uniform(0.25, 0.5));
-      of.s.frame_points.push_back(static_cast<int>(of.s.points.size()) - 1);
-      of.link(b, std::string(1, outer) + inner, uniform(0.2, 5), uniform(0.001, 0.1));
-      of.rocks(b);
-    } else if (form == 1) {  // RRP
-      of.link(b, std::string(1, inner), uniform(0.2, 5));
-      const double angle = uniform(-0.5, 0.5);
-      of.slide(b, angle).moves(b, inner, angle);
-    } else {  // RPR: the link from the inner point slides in one that turns on the frame
-      of.s.links.pop_back();
-      of.point(outer, ix + uniform(0.1, 0.3), iy + uniform(-0.2, 0.2));
-      of.s.frame_points.push_back(static_cast<int>(of.s.points.size()) - 1);
-      of.link(a, std::string(1, from) + inner + extra, uniform(0.2, 5), uniform(0.001, 0.1));
-      of.link(b, std::string(1, outer) + next, 1);
-      of.s.links.pop_back();
-      of.point(next, ix, iy + 0.3);
-      of.link(b, std::string(1, outer) + next++, uniform(0.2, 5), uniform(0.001, 0.1));
-      of.slide(a, std::atan2(of.s.points[of.s.points.size() - 2].y - y, of.s.points[of.s.points.size() - 2].x - x), b);
-      of.rocks(b);
-    }
-    free += inner, free += extra;
-  }
-  of.s.gravity = 9.81, of.s.elevation = uniform(-3, 3);
-  return of;
-}
-
-TEST(Linkage, OfRandomDyadsBothExtractionsAgree) {
-  std::mt19937 random(46);
-  int good = 0, refused = 0;
-  for (int tried = 0; good < 60 && tried < 3000; ++tried) {
-    const LinkageData data = random_linkage(random).data();
-    const Linkage& l = *data.linkage;
-    if (!l.faults().empty()) {
-      ++refused;
-      continue;
-    }
-    if (l.arc()) continue;
-    const double sine = std::sin(10 * pi / 180);
-    const auto clear = [&](const LeastMargin& m) { return m.margin > sine * sine; };
-    if (!std::all_of(l.least_margins().begin(), l.least_margins().end(), clear)) continue;
-    SCOPED_TRACE(l.structure_in_words());
-    ++good;
-    expect_rigid(data);
-    expect_both_extractions(data, 1e-12, 24);
-  }
-  EXPECT_EQ(good, 60) << refused << " refused";
 }
 
 // --- lengths ---

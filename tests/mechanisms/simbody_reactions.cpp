@@ -119,7 +119,7 @@ MechanismReactions reactions_in(std::unique_ptr<PlanarSystem> planar, double phi
   const Vec3 down = -planar->gravity * planar->up();
   const SimTK::Force::UniformGravity weight(planar->forces, planar->matter, down);
   if (!planar->output_coordinates.empty()) {
-    const int q = planar->output_coordinates.front();
+    const int q = planar->output_coordinates.front();  // of the output's own pin
     SimTK::Force::ConstantTorque(planar->forces, planar->matter.updMobilizedBody(SimTK::MobilizedBodyIndex(q + 1)),
                                  Vec3(0, 0, load));
   } else {
@@ -128,7 +128,7 @@ MechanismReactions reactions_in(std::unique_ptr<PlanarSystem> planar, double phi
                                 Vec3(load, 0, 0));
   }
   SimTK::State state = planar->realize_topology();
-  state.updU() = omega * planar->reduce_at(state, within_a_turn(phi)).q1;
+  state.updU() = omega * planar->reduce_at(state, planar->within_a_cycle(phi)).q1;
   planar->matter.getMobilizedBody(SimTK::MobilizedBodyIndex(1)).lockAt(state, alpha, SimTK::Motion::Acceleration);
   planar->system.realize(state, SimTK::Stage::Acceleration);
   Vector_<SpatialVec> joint;
