@@ -151,7 +151,7 @@ class LinkageForceBuilder {
     const auto laws = [&](Mechanism& m) {
       if (m.travel.winding != 0 && k.stiffness > 0)
         return k.refuse(&CoupleKeys::stiffness,
-                        fmt::format("{} goes round against {}, and a spring between them would be "
+                        fmt::format("{} makes full turns relative to {}, and a spring between them would be "
                                     "wound up without end",
                                     two[1], two[0]));
       // Of the sketch 0; the table may count whole turns more.

@@ -107,7 +107,7 @@ Brief brief_of(const Comparison& c) {
       .figures = comparison_table(c, rows),
       .notes = c.notes};
   for (const Result* r : {&c.a, &c.b})
-    brief.words.push_back(r->errors_measured ? fmt::format("{}: accuracy {:.1e} asked for, {:.1e} measured; {}",
+    brief.words.push_back(r->errors_measured ? fmt::format("{}: accuracy {:.1e} requested, {:.1e} measured; {}",
                                                            r->label, r->accuracy, r->measured_accuracy, told(r->energy))
                                              : r->label + ": errors were not measured");
   brief.more = fmt::format("{} more figures of both models, works, periods, cost, notes: --all, or the report",

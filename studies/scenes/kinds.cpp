@@ -300,8 +300,8 @@ std::string keys_in_markdown() {
       "step.\n\n";
   text += rows(sequence_step_keys());
   text +=
-      "\n## `[sequence]`\n\nThe steps, and when they begin anew: a round by the clock that takes longer than `every` "
-      "delays the next one, which the events say.\n\n" +
+      "\n## `[sequence]`\n\nThe steps, and when they begin again: with `every`, a repetition that takes longer delays "
+      "the next one, and the events say so.\n\n" +
       rows(sequence_keys());
   text += "\n## `[run]`\n\n" + rows(run_keys());
   text +=
