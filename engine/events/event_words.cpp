@@ -88,7 +88,7 @@ Event command_event(double t, const std::string& component, double before, doubl
 Event late_round_event(double t, double took, double every) {
   return {.t = t,
           .component = "sequence",
-          .what = fmt::format("begins a round late: the one before took {:.5g} s, every = {:.5g} s", took, every),
+          .what = fmt::format("begins a repetition late: the one before took {:.5g} s, every = {:.5g} s", took, every),
           .kind = EventKind::note,
           .value = took};
 }

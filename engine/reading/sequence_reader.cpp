@@ -143,11 +143,12 @@ void read_rounds(const Section& section, Location table, Messages& messages, Seq
   };
   if (by_rate && section.has("every")) return refuse("rate", "both \"every\" and \"rate\" given; keep one");
   if (clocked && section.given("repeat") && !sequence.repeat)
-    return refuse("repeat", fmt::format("repeat = false, but \"{}\" says when the next round begins; keep one", key));
+    return refuse("repeat",
+                  fmt::format("repeat = false, but \"{}\" says when the next repetition begins; keep one", key));
   if (clocked && first.when != When::at && !(first.when == When::after && first.value == 0))
     return refuse(key,
-                  "the clock begins each round, but its first step waits for something else; give that step "
-                  "\"at\", for the first round, or nothing, and what it waits for to a step behind it");
+                  "the clock begins each repetition, but the first step waits for something else; give that step "
+                  "\"at\", for the first repetition, or nothing, and move the condition to a later step");
   if (clocked) sequence.repeat = true, sequence.every = by_rate ? 1 / section.number("rate") : section.number("every");
   const auto waits = [](const SequenceStep& step) {
     return step.when != When::at && !(step.when == When::after && step.value == 0);
@@ -163,8 +164,9 @@ void read_rounds(const Section& section, Location table, Messages& messages, Seq
 const std::vector<Key>& sequence_keys() {
   static const std::vector<Key> keys = {
       flag("repeat", "false", "after the last step the first one's turn comes again"),
-      quantity("every", "s", positive, "a round begins so long after the one before it began; repeats"),
-      quantity("rate", "1/s", positive, "the same as rounds in a time: strokes per minute as \"30 1/min\""),
+      quantity("every", "s", positive,
+               "time from the begin of a repetition to the begin of the next one; the sequence repeats"),
+      quantity("rate", "1/s", positive, "the same as repetitions per time: strokes per minute as \"30 1/min\""),
   };
   return keys;
 }

@@ -147,7 +147,7 @@ TEST(Sequence, RoundsByTheClock) {
   for (const Event& e : late.events)
     if (e.component == "sequence") words.push_back(fmt::format("{:.9g} {}", e.t, e.what));
   ASSERT_EQ(words.size(), 10u);
-  EXPECT_EQ(words.front(), "2 begins a round late: the one before took 2 s, every = 1.5 s");
+  EXPECT_EQ(words.front(), "2 begins a repetition late: the one before took 2 s, every = 1.5 s");
   for (const auto& [keys, message] : std::vector<std::pair<std::string, std::string>>{
            {"every = \"5 s\"\nrate = \"12 1/min\"", "both \"every\" and \"rate\" given"},
            {"repeat = false\nevery = \"5 s\"", "repeat = false, but"},
