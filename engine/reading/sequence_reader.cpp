@@ -147,7 +147,7 @@ void read_rounds(const Section& section, Location table, Messages& messages, Seq
                   fmt::format("repeat = false, but \"{}\" says when the next repetition begins; keep one", key));
   if (clocked && first.when != When::at && !(first.when == When::after && first.value == 0))
     return refuse(key,
-                  "the clock begins each repetition, but the first step waits for something else; give that step "
+                  "the clock begins each repetition, but its first step waits for something else; give that step "
                   "\"at\", for the first repetition, or nothing, and move the condition to a later step");
   if (clocked) sequence.repeat = true, sequence.every = by_rate ? 1 / section.number("rate") : section.number("every");
   const auto waits = [](const SequenceStep& step) {
