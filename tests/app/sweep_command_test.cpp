@@ -90,7 +90,7 @@ TEST_F(SweepCommand, WrongOptionsAreToldBeforeAnythingIsWritten) {
       {varied + "--design lhs:4 --shard 0/3", "I/N"},
       {varied + "--design lhs:4 --errors some", "every:N"},
       {varied + "--design lhs:4 --of modesty", "run, steady, modes or size"},
-      {varied + "--variants v.csv", "leave out"},
+      {varied + "--variants v.csv", "omit"},
       {"--vary 'mass.inertia=1,2 kg*m2' --vary 'mass.inertia=1,2 kg*m2'", "twice"},
   };
   for (const auto& c : cases) {

@@ -83,8 +83,8 @@ TEST(LimitsFromRest, PeakOfAStartAtSpeedIsThatOfTheRunUpFromRest) {
   const ModesStudy rest = modes_of(fan(60, 2, limits)),
                    speed = modes_of(fan(60, 2, limits, "", "start = { speed = \"90 rad/s\", equilibrium = true }"));
   EXPECT_NEAR(verdict_on(speed, "maximum").value, verdict_on(rest, "maximum").value, 1e-5);
-  EXPECT_NE(verdict_on(speed, "maximum").note.find("made for it"), std::string::npos);
-  EXPECT_EQ(verdict_on(rest, "maximum").note.find("made for it"), std::string::npos);
+  EXPECT_NE(verdict_on(speed, "maximum").note.find("made for this purpose"), std::string::npos);
+  EXPECT_EQ(verdict_on(rest, "maximum").note.find("made for this purpose"), std::string::npos);
 }
 
 // A blow of the operating sequence, long after the start: the load is thrown on at 3 s.

@@ -119,7 +119,14 @@ TEST(OrbitCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
     EXPECT_NEAR(c.delta(), 0.012, 2e-5 * 0.012) << name;
     EXPECT_NEAR(c.delta(), *s.meeting->delta, *s.reached.back().crank.error + 1e-8 * 0.012) << name;
     // What the work equation leaves out is said with its size.
-    EXPECT_NE(s.notes.back().find("leaves out"), std::string::npos) << name << s.notes.back();
+    EXPECT_NE(s.notes.back().find("omits"), std::string::npos) << name << s.notes.back();
+    // A simulation is said with the flywheel that it had, not with the one that meets the demand.
+    const DeltaReached& first = s.reached.front();
+    EXPECT_NE(first.flywheel, s.meeting->flywheel) << name;
+    const std::string said = output_of(s).conclusion();
+    const std::size_t at = said.find("Simulated ");
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_NEAR(std::stod(said.substr(said.find(" with ", at) + 6)), first.flywheel, 1e-3 * first.flywheel) << said;
   }
 }
 

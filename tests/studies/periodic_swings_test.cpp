@@ -62,7 +62,7 @@ TEST(PeriodicSwings, WhatSticksOnceARoundDoesNotSwingOn) {
   EXPECT_TRUE(study.modes.front().only_of_mean);
   EXPECT_TRUE(study.modes.front().periodic.empty());
   EXPECT_TRUE(std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
-    return note.find("is left after a round") != std::string::npos;
+    return note.find("remains after a cycle") != std::string::npos;
   }));
 }
 

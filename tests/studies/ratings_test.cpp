@@ -265,6 +265,10 @@ TEST(Ratings, OfAComparisonAreThoseOfItsSecondModel) {
   const Comparison c = compare(scene, models_to_compare(scene), quick);
   EXPECT_TRUE(findings_of(c).conclusion().find("1 of 3 ratings EXCEEDED, worst \"belts\"") != std::string::npos)
       << findings_of(c).conclusion();
+  // A belt that slips limits its torque: no pretension follows from it, and how long it slips is said.
+  const std::vector<Verdict> verdicts = judge_ratings(c.b);
+  EXPECT_FALSE(verdict_of(verdicts, "reserve").remedy);
+  EXPECT_NE(findings_of(c).conclusion().find(" s in all, and grips again"), std::string::npos);
 }
 
 // Continuous duty is judged by the steady cycle, which a start with more than the rated torque does not change.

@@ -81,6 +81,15 @@ TEST(Steady, WorkOfALoadEdgeIsForceTimesTravel) {
   EXPECT_NEAR(value_of(study.cycles[0], "driving_work_per_cycle"), 200, 1e-7);
 }
 
+// J dω/dt = −(M_s/ω₀)(ω − ω_steady): a deviation halves in J ω₀/M_s ln 2.
+TEST(Steady, StabilityOfAnEquilibriumIsStatedInSeconds) {
+  const SteadyStudy study =
+      steady(scene_from(dc_against("load = { kind = \"load\", torque = \"15 N*m\" }\n")), {Effects{}}, {});
+  const SteadyCycle& c = study.cycles[0];
+  ASSERT_EQ(c.kind, Orbit::Kind::equilibrium);
+  EXPECT_TRUE(has(c.stability, "halves in 0.231 s")) << c.stability;  // 0.5 kg·m² · 40 rad/s / 60 N·m · ln 2
+}
+
 // The mean of M = M_s (1 − ω/ω₀) over time is that of ω: 2π/T.
 TEST(Steady, MeanTorqueOfAShuntMotorFollowsFromTheMeanSpeed) {
   const SteadyStudy study = steady(scene_file("scenes/driven_slider_crank.toml"), {Effects{}}, {.start_search = false});
