@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numbers>
-#include <stdexcept>
 
 #include "engine/equations/jam.h"
 #include "engine/numerics/dual.h"
@@ -37,10 +35,6 @@ T strength(const RubbingJoint& j, bool slides, const T& sliding, bool at_rest) {
   return j.radius * f / sqrt(1.0 + f * f);
 }
 
-void require(bool holds, const RubbingJoint& j, const char* what, double got, const char* domain) {
-  if (!holds) throw std::invalid_argument(fmt::format("{}: {} = {:g}; must be {}", j.name, what, got, domain));
-}
-
 // u = L N − 2 M and w = L N + 2 M about the guide's middle; without length N, and nothing.
 struct Edges {
   Edges(const RubbingJoint& j, double normal, double moment) {
@@ -55,20 +49,6 @@ struct Edges {
 };
 
 }  // namespace
-
-void validate(const RubbingJoint& j) {
-  const FrictionCoefficient& f = j.friction;
-  for (const double value : {f.kinetic, f.resting, f.stribeck_speed, f.viscous})
-    require(std::isfinite(value) && value >= 0, j, "a friction value", value, "finite and >= 0");
-  require(f.resting >= f.kinetic, j, "static friction coefficient", f.resting,
-          fmt::format(">= the kinetic one, {:g}", f.kinetic).c_str());
-  for (const auto& [what, value] : {std::pair("radius", j.radius), std::pair("length", j.length),
-                                    std::pair("width", j.width), std::pair("rolling_arm", j.rolling_arm)})
-    require(std::isfinite(value) && value >= 0, j, what, value, ">= 0 m");
-  require(std::isfinite(j.middle), j, "middle", j.middle, "finite");
-  require(std::isfinite(j.roller_radius) && (j.rolling_arm == 0 || j.roller_radius > 0), j, "roller_radius",
-          j.roller_radius, "> 0 m where there is a rolling_arm");
-}
 
 // One state: the laws' coefficients, (1) of the header, its solution.
 struct JointFriction::Work {
@@ -449,17 +429,6 @@ double JointFriction::resting(double phi, double load, int direction, bool weigh
   } catch (const Jam&) {  // locks itself
     return direction * HUGE_VAL;
   }
-}
-
-struct JointFrictionSource::Kept {
-  std::once_flag once[2];
-  std::shared_ptr<const JointFriction> made[2];
-};
-JointFrictionSource::JointFrictionSource(Make make) : make_(std::move(make)), kept_(std::make_unique<Kept>()) {}
-JointFrictionSource::~JointFrictionSource() = default;
-std::shared_ptr<const JointFriction> JointFrictionSource::get(bool second) const {
-  std::call_once(kept_->once[second], [&] { kept_->made[second] = make_(second); });
-  return kept_->made[second];
 }
 
 }  // namespace kurbel

@@ -379,7 +379,7 @@ TEST(LinkForcesKeys, FaultsSayWhatAndWhere) {
   expect("[m.forces]\nf = { on = \"F\", along = \"0 deg\", load = { kind = \"constant\", force = \"1 N\" } }",
          "stands still");
   expect("[m.forces]\nf = { on = \"crank Y\", along = \"0 deg\", load = { kind = \"constant\", force = \"1 N\" } }",
-         "not on \"crank\"; links through it are yoke");
+         "not on \"crank\"; links through it are \"yoke\"");
   expect("[m.couples]\nc = { between = \"frame cranc\", damping = \"1 N*m*s/rad\" }", "unknown link \"cranc\"");
   expect("[m.couples]\nc = { between = \"frame crank\", stiffness = \"1 N*m/rad\" }", "wound up without end");
   expect("[m.couples]\nc = { between = \"frame crank\" }", "has no torque");

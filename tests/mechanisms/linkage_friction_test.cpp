@@ -312,7 +312,7 @@ return = { between = "Y F", stiffness = "900 N/m", free_length = "180 mm" }
 [effects]
 joint_friction = true
 [run]
-start    = { speed = "60 rpm" }
+start    = { speed = "120 rpm" }
 until    = "0.8 s"
 accuracy = 1e-9
 )");
@@ -338,7 +338,7 @@ accuracy = 1e-9
   constexpr int steps = 20000;
   for (int i = 0; i < steps; ++i) lost += friction(end * (i + 0.5) / steps) * end / steps;
   EXPECT_NEAR(run.energy.by_account.at("m.joints"), lost, 1e-6 * -lost);
-  EXPECT_NEAR(0.25 * speed * speed, 0.25 * 4 * pi * pi + lost + 450 * (0.0004 - std::pow(force(end) / 900, 2)),
+  EXPECT_NEAR(0.25 * speed * speed, 0.25 * 16 * pi * pi + lost + 450 * (0.0004 - std::pow(force(end) / 900, 2)),
               1e-6 * -lost);
 }
 

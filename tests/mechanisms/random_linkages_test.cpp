@@ -131,7 +131,7 @@ void expect_reactions(const LinkageData& data, const LinkageState& state, double
 TEST(RandomLinkages, BothExtractionsAgreeInMotionAndReactions) {
   const int wanted = test::thorough() ? 500 : 40;
   std::mt19937 random(46);
-  int good = 0, near_dead = 0, refused = 0;
+  int good = 0, refused = 0;
   for (int tried = 0; good < wanted && tried < 60 * wanted; ++tried) {
     const LinkageData data = random_linkage(random).data();
     const Linkage& l = *data.linkage;
@@ -142,10 +142,7 @@ TEST(RandomLinkages, BothExtractionsAgreeInMotionAndReactions) {
     if (l.arc()) continue;
     SCOPED_TRACE(l.structure_in_words());
     test::expect_rigid(data);
-    if (!is_clear(l)) {
-      ++near_dead;
-      continue;
-    }
+    if (!is_clear(l)) continue;
     ++good;
     test::expect_both_extractions(data, 1e-12, 24);
     const auto bodies = make_bodies(data);
@@ -156,7 +153,6 @@ TEST(RandomLinkages, BothExtractionsAgreeInMotionAndReactions) {
     }
   }
   EXPECT_EQ(good, wanted) << refused << " refused";
-  EXPECT_GT(near_dead, 0);
 }
 
 // Nearer to dead positions the tables of the two differ by no more than what the first states as its error.
