@@ -46,11 +46,15 @@ std::vector<ShaftGain> minus(std::vector<ShaftGain> row);
 // Speed and acceleration of a shaft whose motion is given over time.
 inline double prescribed_speed(const Model& model, const Modes& modes, std::size_t shaft, double t) {
   const auto p = static_cast<std::size_t>(model.shafts[shaft].prescribed);
-  return model.network.prescribed[p].value(t, modes.prescribed_piece[p]);
+  const PrescribedSpeed& given = model.network.prescribed[p];
+  if (given.command >= 0) return modes.command[static_cast<std::size_t>(given.command)].at(t, model.scene.sequence);
+  return given.value(t, modes.prescribed_piece[p]);
 }
 inline double prescribed_acceleration(const Model& model, const Modes& modes, std::size_t shaft, double t) {
   const auto p = static_cast<std::size_t>(model.shafts[shaft].prescribed);
-  return model.network.prescribed[p].slope(t, modes.prescribed_piece[p]);
+  const PrescribedSpeed& given = model.network.prescribed[p];
+  if (given.command >= 0) return modes.command[static_cast<std::size_t>(given.command)].rate;
+  return given.slope(t, modes.prescribed_piece[p]);
 }
 
 }  // namespace kurbel

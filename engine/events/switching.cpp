@@ -63,7 +63,8 @@ void Switching::pass_edge(double t, std::span<double> y, EventLog& log) {
 double Switching::next_edge(double t) const {
   double next = std::numeric_limits<double>::infinity();
   for (const auto& pool : flow_.model().pools) next = std::min(next, pool->next_edge(t));
-  for (const PrescribedSpeed& given : flow_.model().network.prescribed) next = std::min(next, given.next_edge(t));
+  for (const PrescribedSpeed& given : flow_.model().network.prescribed)
+    if (given.command < 0) next = std::min(next, given.next_edge(t));
   return std::min(next, sequence_.next_edge(flow_.modes()));
 }
 

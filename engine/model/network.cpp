@@ -70,7 +70,7 @@ double PrescribedSpeed::slope(double t, int piece) const {
   return base + amplitude * 2 * M_PI * frequency * std::cos(2 * M_PI * frequency * t + phase);
 }
 
-bool PrescribedSpeed::is_nothing() const { return amplitude == 0 && greatest() == 0; }
+bool PrescribedSpeed::is_nothing() const { return follows.empty() && amplitude == 0 && greatest() == 0; }
 
 double PrescribedSpeed::greatest() const {
   double most = law.empty() ? 0 : law.max_abs();

@@ -21,6 +21,9 @@ struct PrescribedSpeed {
   std::vector<double> time, speed;                 // straight between the points; constant before and after [s, rad/s]
   Curve law = {};                                  // in their place: smooth, a formula, what repeats [s] → [rad/s]
   double amplitude = 0, frequency = 0, phase = 0;  // + amplitude sin(2π f t + phase) [rad/s, Hz, rad]
+  // In place of all that: the command [rad/s] of this component, and its place among the commands once compiled.
+  std::string follows = {};
+  int command = -1;
   // The piece in force is a mode: within a step the law goes on smoothly beyond its end.
   int piece(double t) const;
   double value(double t, int piece) const;

@@ -214,6 +214,8 @@ void place_elements(Compilation& c) {
   Model& m = c.model;
   set_whole_loads(m);
   list_commands(m);
+  for (PrescribedSpeed& given : m.network.prescribed)
+    if (!given.follows.empty()) given.command = command_of(m, given.follows);
   PoolSet pools;
   place_connections(m, pools);
   account_for_relations(m);

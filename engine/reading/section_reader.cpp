@@ -238,8 +238,8 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
     if (!key.fallback.empty()) {
       section.settings.push_back(fallback_setting(key, section.at, messages));
     } else if (key.required && std::find(meant.begin(), meant.end(), key.name) == meant.end()) {
-      messages.add(section.at, fmt::format("{}: \"{}\" is missing ({}); write e.g. {} = {}", what, key.name, key.doc,
-                                           key.name, example_of(key)));
+      messages.add(section.at, fmt::format("{}: \"{}\" is missing ({}); write e.g. {} = {}", what, key.name,
+                                           std::string_view(key.doc), key.name, example_of(key)));
     }
   }
   section.sound = all_read && messages.all().size() == errors_before;

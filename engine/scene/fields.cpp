@@ -20,22 +20,95 @@ std::vector<int> wholes(const std::vector<double>& numbers) {
   return all;
 }
 
-const Setting* found(const Key& key, const Section& section) {
+// Its value in the section, or null; throws std::logic_error where a required one is missing.
+static const Setting* found(const Key& key, const Section& section) {
   return key.required ? &section[key.name] : section.find(key.name);
 }
 
-void check_new(const std::vector<Key>& keys, const Key& key) {
-  if (std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key.name; }))
-    throw std::logic_error(fmt::format("key \"{}\" is declared twice in one table", key.name));
+void FieldTable::enter(Key key, Member member, Setter set) {
+  enter(std::vector<Key>{key}, member,
+        [key, at = member.at, set = std::move(set)](std::byte* data, const Place& place) {
+          if (const Setting* setting = found(key, *place.section)) set(data + at, *setting);
+        });
 }
 
-void filled_twice(const std::string& key) {
-  throw std::logic_error(fmt::format("the member that key \"{}\" fills is filled by another key, too", key));
+void FieldTable::enter(const std::vector<Key>& added, Member member, Reader read) {
+  if (entry_of(member))
+    throw std::logic_error(
+        fmt::format("the member that key \"{}\" fills is filled by another key, too", added.front().name));
+  Entry entry{{}, member, std::move(read)};
+  for (const Key& key : added) {
+    if (std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key.name; }))
+      throw std::logic_error(fmt::format("key \"{}\" is declared twice in one table", key.name));
+    keys.push_back(key);
+    entry.names.push_back(key.name);
+  }
+  entries_.push_back(std::move(entry));
+}
+
+void FieldTable::enter(Reader rule) { entries_.push_back({{}, {-1, &typeid(void)}, std::move(rule)}); }
+
+void FieldTable::read(std::byte* data, const Place& place) const {
+  for (const Entry& entry : entries_) entry.read(data, place);
+}
+
+const FieldTable::Entry* FieldTable::entry_of(Member member) const {
+  const auto is = [&](const Entry& entry) { return !entry.names.empty() && entry.member == member; };
+  const auto entry = std::find_if(entries_.begin(), entries_.end(), is);
+  return entry == entries_.end() ? nullptr : &*entry;
+}
+
+const std::vector<std::string>& FieldTable::names_of(Member member) const {
+  if (const Entry* entry = entry_of(member)) return entry->names;
+  not_filled();
+}
+
+const std::string& FieldTable::key_of(Member member, const Section& section) const {
+  const std::vector<std::string>& names = names_of(member);
+  for (const std::string& name : names)
+    if (section.given(name)) return name;
+  return names.front();
+}
+
+const Key* one_given(const std::vector<Key>& keys, const Place& place) {
+  const Key* given = nullptr;
+  for (const Key& key : keys) {
+    if (!place.section->given(key.name)) continue;
+    if (given) both_given(place, given->name, key.name, key.name);
+    given = &key;
+  }
+  return given;
+}
+
+// False, with a message, where a list stands in place of one table.
+static bool is_one_table(const Place& place, const std::string& key, std::size_t tables) {
+  if (tables != 1)
+    place.messages->add(place.section->where(key),
+                        fmt::format("{}: {} = a list of {} tables; must be one table", place.what, key, tables));
+  return tables == 1;
+}
+
+Reader nested(Key key, bool list, bool numbered, bool named, Reader put) {
+  return [=](std::byte* data, const Place& place) {
+    const Setting* setting = found(key, *place.section);
+    if (!setting || (!list && !is_one_table(place, key.name, setting->sections.size()))) return;
+    for (std::size_t i = 0; i < setting->sections.size(); ++i) {
+      std::string what = place.what + ": " + key.name;
+      if (numbered) what += fmt::format("[{}]", i + 1);
+      if (named) what += "." + setting->sections[i].name;
+      put(data, {&setting->sections[i], place.messages, std::move(what)});
+    }
+  };
 }
 
 void not_filled() { throw std::logic_error("a member was requested that no key fills"); }
 
 std::string who(const Section& section) { return fmt::format("{} \"{}\"", section.kind->name, section.name); }
+
+bool refuse(const Place& place, Location at, const std::string& text) {
+  place.messages->add(at, place.what + ": " + text);
+  return false;
+}
 
 void both_given(const Place& place, const std::string& first, const std::string& second, const std::string& at) {
   place.messages->add(place.section->where(at),
@@ -45,13 +118,6 @@ void both_given(const Place& place, const std::string& first, const std::string&
 void belongs_to(const Place& place, const std::string& key, const std::string& owner) {
   place.messages->add(place.section->where(key),
                       fmt::format("{}: \"{}\" belongs to \"{}\", which is not given; drop it", place.what, key, owner));
-}
-
-bool is_one_table(const Place& place, const std::string& key, std::size_t tables) {
-  if (tables != 1)
-    place.messages->add(place.section->where(key),
-                        fmt::format("{}: {} = a list of {} tables; must be one table", place.what, key, tables));
-  return tables == 1;
 }
 
 }  // namespace kurbel::fields_detail

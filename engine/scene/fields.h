@@ -25,12 +25,14 @@
 // filled twice, is a std::logic_error when the table is made, which is when the program starts.
 #pragma once
 
-#include <any>
+#include <bit>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -119,18 +121,91 @@ void set(M& member, const Setting& setting) {
     member = setting.sections;
 }
 
-// Its value in the section, or null; throws std::logic_error where a required one is missing.
-const Setting* found(const Key& key, const Section& section);
-// Throws std::logic_error if the table has a key of this name.
-void check_new(const std::vector<Key>& keys, const Key& key);
-[[noreturn]] void filled_twice(const std::string& key);
-[[noreturn]] void not_filled();
+// A member of a struct whose type is not known here: where it stands, and as what.
+struct Member {
+  std::ptrdiff_t at;
+  const std::type_info* type;
+
+  // Compilers for Linux (Itanium C++ ABI) represent a pointer to a member by its distance from the struct's begin.
+  template <class D, class M>
+  static Member of(M D::*member) {
+    static_assert(sizeof member == sizeof(std::ptrdiff_t));
+    return {std::bit_cast<std::ptrdiff_t>(member), &typeid(M)};
+  }
+  bool operator==(const Member& other) const { return at == other.at && *type == *other.type; }
+};
+template <class M>
+M& as(std::byte* place) {
+  return *reinterpret_cast<M*>(place);
+}
+using Setter = std::function<void(std::byte* member, const Setting&)>;
+using Reader = std::function<void(std::byte* data, const Place&)>;
+
+template <class M>
+void set_member(std::byte* member, const Setting& setting) {
+  set(as<M>(member), setting);
+}
+
+// The table itself, without the type of its struct: its code exists once, not once for each of some hundred structs.
+class FieldTable {
+ public:
+  // Throw std::logic_error if a key or a member is there already.
+  void enter(Key key, Member member, Setter set);
+  void enter(const std::vector<Key>& keys, Member member, Reader read);
+  // A rule of the table's order: what a member starts as, or what follows from others.
+  void enter(Reader rule);
+  void check(void (*rule)()) { rules.push_back(rule); }
+
+  void read(std::byte* data, const Place& place) const;
+  // Of the keys that fill a member; throws std::logic_error if none does.
+  const std::vector<std::string>& names_of(Member member) const;
+  // The member's key; of a group the first given one.
+  const std::string& key_of(Member member, const Section& section) const;
+
+  std::vector<Key> keys;
+  std::vector<void (*)()> rules;  // void (*)(const Reading<D>&)
+
+ private:
+  struct Entry {
+    std::vector<std::string> names;  // of its keys; none: a rule
+    Member member;
+    Reader read;
+  };
+  const Entry* entry_of(Member member) const;
+  std::vector<Entry> entries_;
+};
+
+// Sets the member to the value that its word stands for.
+template <class V>
+Setter by_words(const Words<V>& words) {
+  return [words](std::byte* member, const Setting& s) {
+    for (const auto& [word, value] : words)
+      if (s.text == word) as<V>(member) = value;
+  };
+}
+// The one key of several that is given; null: none is. A message where several are.
+const Key* one_given(const std::vector<Key>& keys, const Place& place);
+template <class Form>
+Reader by_forms(std::ptrdiff_t member, std::ptrdiff_t form, std::vector<Key> keys, std::vector<Form> forms) {
+  return [=](std::byte* data, const Place& place) {
+    const Key* const given = one_given(keys, place);
+    if (!given) return;
+    as<Form>(data + form) = forms[static_cast<std::size_t>(given - keys.data())];
+    as<double>(data + member) = place.section->number(given->name);
+  };
+}
+// Reads nested tables, each through `put`.
+Reader nested(Key key, bool list, bool numbered, bool named, Reader put);
+
+template <class M, class T>
+concept holds = std::is_same_v<M, T> || std::is_same_v<M, std::vector<T>> || std::is_same_v<M, std::optional<T>>;
+
 // `kind "name"`
 std::string who(const Section& section);
+bool refuse(const Place& place, Location at, const std::string& text);
 void both_given(const Place& place, const std::string& first, const std::string& second, const std::string& at);
 void belongs_to(const Place& place, const std::string& key, const std::string& owner);
-// False, with a message, where a list stands in place of one table.
-bool is_one_table(const Place& place, const std::string& key, std::size_t tables);
+[[noreturn]] void not_filled();
 
 }  // namespace fields_detail
 
@@ -147,7 +222,9 @@ class Reading : public D {
 
   // The name of the member's key; of a group the first given one's.
   template <class M, class B>
-  std::string key(M B::*member) const;
+  const std::string& key(M B::*member) const {
+    return fields_->key_of(member, *place_.section);
+  }
   // Stands in the file; of a group: any of its keys.
   template <class M, class B>
   bool given(M B::*member) const {
@@ -155,7 +232,12 @@ class Reading : public D {
   }
   // The keys of a group that stand in the file.
   template <class M, class B>
-  std::vector<std::string> given_keys(M B::*group) const;
+  std::vector<std::string> given_keys(M B::*group) const {
+    std::vector<std::string> names;
+    for (const std::string& name : fields_->names_of(group))
+      if (place_.section->given(name)) names.push_back(name);
+    return names;
+  }
   template <class M, class B>
   Location where(M B::*member) const {
     return place_.section->where(key(member));
@@ -164,17 +246,12 @@ class Reading : public D {
   // A fault, at the member's place or at the table's; false, for `return refuse(…)`.
   template <class M, class B>
   bool refuse(M B::*member, const std::string& text) const {
-    place_.messages->add(where(member), place_.what + ": " + text);
-    return false;
+    return fields_detail::refuse(place_, where(member), text);
   }
   bool refuse(const std::string& key, const std::string& text) const {  // one of given_keys
-    place_.messages->add(place_.section->where(key), place_.what + ": " + text);
-    return false;
+    return fields_detail::refuse(place_, place_.section->where(key), text);
   }
-  bool refuse(const std::string& text) const {
-    place_.messages->add(place_.section->at, place_.what + ": " + text);
-    return false;
-  }
+  bool refuse(const std::string& text) const { return fields_detail::refuse(place_, place_.section->at, text); }
   // Of two that say the same at most one may be given; the fault stands at the second.
   template <class M, class N, class B, class C>
   bool keep_one(M B::*first, N C::*second) const {
@@ -208,7 +285,7 @@ class Fields {
   template <class M, class B>
   Fields& add(Key key, M B::*member) {
     key.type = fields_detail::type_of<M>();
-    return enter(std::move(key), member, [member](D& data, const Setting& s) { fields_detail::set(data.*member, s); });
+    return enter(std::move(key), member, fields_detail::set_member<M>);
   }
   // The same with a default by what was read above: another member, or a function of the data.
   template <class M, class B, class Default>
@@ -219,26 +296,19 @@ class Fields {
   template <class B>
   Fields& add(Key key, double B::*member, Scaled scale) {
     return enter(std::move(key), member,
-                 [member, scale](D& data, const Setting& s) { data.*member = scale.factor * s.number; });
+                 [scale](std::byte* to, const Setting& s) { fields_detail::as<double>(to) = scale.factor * s.number; });
   }
   // Words that stand for values.
   template <class V, class B>
   Fields& add(Key key, V B::*member, const Words<std::type_identity_t<V>>& words) {
     key.type = KeyType::text;
     for (const auto& word : words) key.choices.emplace_back(word.first);
-    return enter(std::move(key), member, [member, words](D& data, const Setting& s) {
-      for (const auto& [word, value] : words)
-        if (s.text == word) data.*member = value;
-    });
+    return enter(std::move(key), member, fields_detail::by_words(words));
   }
   // Keys that fill a member struct, which starts as `otherwise` says where that is given.
   template <class G, class M, class B>
   requires std::is_base_of_v<M, G> Fields& add(const Fields<G>& group, M B::*member) {
-    return enter(group.keys(), member, [group, member](D& data, const Place& place) {
-      G start;
-      static_cast<M&>(start) = std::move(data.*member);
-      data.*member = group.read_at(place, std::move(start));
-    });
+    return enter(group.keys(), member, group.template filling<M>(place_of(member).at));
   }
   template <class G, class M, class B, class Default>
   requires std::is_base_of_v<M, G> && std::is_invocable_v<Default, const D&> Fields& add(const Fields<G>& group,
@@ -248,127 +318,83 @@ class Fields {
     return add(group, member);
   }
   // Tables nested in this one: a list of them, one that may be missing, or one.
-  template <class T, class B>
-  Fields& add(Key key, std::vector<T> B::*member, const Tables<T>& tables) {
-    return nest(std::move(key), member, tables, true,
-                [member](D& data, T table) { (data.*member).push_back(std::move(table)); });
-  }
-  template <class T, class B>
-  Fields& add(Key key, std::optional<T> B::*member, const Tables<T>& tables) {
-    return nest(std::move(key), member, tables, false,
-                [member](D& data, T table) { (data.*member).emplace(std::move(table)); });
-  }
-  template <class T, class B>
-  Fields& add(Key key, T B::*member, const Tables<T>& tables) {
-    return nest(std::move(key), member, tables, false, [member](D& data, T table) { data.*member = std::move(table); });
+  template <class M, class T, class B>
+  requires fields_detail::holds<M, T> Fields& add(Key key, M B::*member, const Tables<T>& tables) {
+    return enter(tables.owned(key), member, tables.template into<M>(key, place_of(member).at));
   }
   // One number that may be given in several forms, of which at most one is; `as` says which.
   template <class Form>
   Fields& add_forms(double D::*member, Form D::*as,
                     const std::vector<std::pair<Key, std::type_identity_t<Form>>>& forms) {
     std::vector<Key> keys;
-    for (const auto& form : forms) keys.push_back(form.first);
-    return enter(keys, member, [=](D& data, const Place& place) {
-      const Key* first = nullptr;
-      for (const auto& [key, form] : forms) {
-        if (!place.section->given(key.name)) continue;
-        if (first) fields_detail::both_given(place, first->name, key.name, key.name);
-        first = &key;
-        data.*as = form;
-        data.*member = place.section->number(key.name);
-      }
-    });
+    std::vector<Form> stands_for;
+    for (const auto& [key, form] : forms) keys.push_back(key), stands_for.push_back(form);
+    return enter(keys, member, fields_detail::by_forms(place_of(member).at, place_of(as).at, keys, stands_for));
   }
   // What follows from the members read above.
   Fields& derive(void (*rule)(D&)) {
-    entries_.push_back({{}, {}, [rule](D& data, const Place&) { rule(data); }});
+    table_.enter([rule](std::byte* data, const Place&) { rule(fields_detail::as<D>(data)); });
     return *this;
   }
   // What must hold of all together; faults go to Reading::refuse.
   Fields& check(void (*rule)(const Reading<D>&)) {
-    rules_.push_back(rule);
+    table_.check(reinterpret_cast<void (*)()>(rule));
     return *this;
   }
 
-  const std::vector<Key>& keys() const& { return keys_; }
-  std::vector<Key> keys() && { return std::move(keys_); }  // of one that does not last
+  const std::vector<Key>& keys() const& { return table_.keys; }
+  std::vector<Key> keys() && { return std::move(table_.keys); }  // of one that does not last
 
   // Of a sound section; faults go into the messages, under the section's kind and name unless `what` is given.
   Reading<D> read(const Section& section, Messages& messages, std::string what = "") const {
     return read_at({&section, &messages, what.empty() ? fields_detail::who(section) : std::move(what)});
   }
   Reading<D> read_at(const Place& place, D data = {}) const {
-    for (const Entry& entry : entries_) entry.read(data, place);
+    table_.read(reinterpret_cast<std::byte*>(&data), place);
     const Reading<D> reading(std::move(data), *this, place);
-    for (const auto rule : rules_) rule(reading);
+    for (void (*const rule)() : table_.rules) reinterpret_cast<void (*)(const Reading<D>&)>(rule)(reading);
     return reading;
   }
 
   // Of its keys; throws std::logic_error if none fills it.
   template <class M, class B>
   const std::vector<std::string>& names_of(M B::*member) const {
-    if (const Entry* entry = entry_of(member)) return entry->names;
-    fields_detail::not_filled();
+    return table_.names_of(place_of(member));
+  }
+  template <class M, class B>
+  const std::string& key_of(M B::*member, const Section& section) const {
+    return table_.key_of(place_of(member), section);
+  }
+  // Fills a member M of another struct, M a base of D.
+  template <class M>
+  fields_detail::Reader filling(std::ptrdiff_t at) const {
+    return [group = *this, at](std::byte* data, const Place& place) {
+      M& member = fields_detail::as<M>(data + at);
+      D start;
+      static_cast<M&>(start) = std::move(member);
+      member = group.read_at(place, std::move(start));
+    };
   }
 
  private:
-  struct Entry {
-    std::vector<std::string> names;  // of its keys; none: what a member starts as, or what follows from others
-    std::any member;                 // M D::*
-    std::function<void(D&, const Place&)> read;
-  };
-
   template <class M, class B>
-  const Entry* entry_of(M B::*member) const {
-    M D::*const wanted = member;
-    for (const Entry& entry : entries_)
-      if (const auto* has = std::any_cast<M D::*>(&entry.member); has && *has == wanted && !entry.names.empty())
-        return &entry;
-    return nullptr;
+  static fields_detail::Member place_of(M B::*member) {
+    return fields_detail::Member::of<D, M>(member);
   }
-  template <class M, class B>
-  Fields& enter(const std::vector<Key>& keys, M B::*member, std::function<void(D&, const Place&)> read) {
-    if (entry_of(member)) fields_detail::filled_twice(keys.front().name);
-    M D::*const own = member;
-    Entry entry{{}, own, std::move(read)};
-    for (const Key& key : keys) {
-      fields_detail::check_new(keys_, key);
-      keys_.push_back(key);
-      entry.names.push_back(key.name);
-    }
-    entries_.push_back(std::move(entry));
+  template <class KeyOrKeys, class M, class B, class Act>
+  Fields& enter(KeyOrKeys keys, M B::*member, Act act) {
+    table_.enter(std::move(keys), place_of(member), std::move(act));
     return *this;
-  }
-  template <class M, class B, class Set>
-  requires std::is_invocable_v<Set, D&, const Setting&> Fields& enter(const Key& key, M B::*member, Set set) {
-    return enter(std::vector<Key>{key}, member, [key, set](D& data, const Place& place) {
-      if (const Setting* setting = fields_detail::found(key, *place.section)) set(data, *setting);
-    });
   }
   template <class M, class B, class Default>
   void start(M B::*member, Default otherwise) {
-    entries_.push_back(
-        {{}, {}, [=](D& data, const Place&) { data.*member = std::invoke(otherwise, std::as_const(data)); }});
-  }
-  template <class M, class B, class T, class Put>
-  Fields& nest(Key key, M B::*member, const Tables<T>& tables, bool list, Put put) {
-    key.type = tables.named ? KeyType::named : KeyType::sections;
-    key.nested = &tables.kinds();
-    return enter(std::vector<Key>{key}, member, [=, &tables](D& data, const Place& place) {
-      const Setting* setting = fields_detail::found(key, *place.section);
-      if (!setting || (!list && !fields_detail::is_one_table(place, key.name, setting->sections.size()))) return;
-      for (std::size_t i = 0; i < setting->sections.size(); ++i) {
-        std::string what = place.what + ": " + key.name;
-        if (tables.numbered) what += "[" + std::to_string(i + 1) + "]";
-        if (tables.named) what += "." + setting->sections[i].name;
-        put(data, tables.read_at({&setting->sections[i], place.messages, std::move(what)}));
-      }
+    table_.enter([=](std::byte* data, const Place&) {
+      D& all = fields_detail::as<D>(data);
+      all.*member = std::invoke(otherwise, std::as_const(all));
     });
   }
 
-  std::vector<Key> keys_;
-  std::vector<Entry> entries_;
-  std::vector<void (*)(const Reading<D>&)> rules_;
+  fields_detail::FieldTable table_;
 };
 
 // What may stand within another table, as tables of one kind or of several. T is what each of them is read as: the
@@ -380,8 +406,8 @@ class Tables {
   bool named = false;     // the user names each: points.A; a table of one kind whose first key may stand for it
 
   template <class G>
-  requires std::is_constructible_v<T, Reading<G>> Tables& add(std::string name, std::string doc,
-                                                              const Fields<G>& fields, G start = {}) {
+  requires std::is_constructible_v<T, Reading<G>> Tables& add(std::string name, KeyDoc doc, const Fields<G>& fields,
+                                                              G start = {}) {
     kinds_.push_back(
         {.name = std::move(name), .doc = std::move(doc), .placement = Placement::nested, .keys = fields.keys()});
     readers_.push_back([fields, start](const Place& place) { return T(fields.read_at(place, start)); });
@@ -389,6 +415,24 @@ class Tables {
   }
 
   const std::vector<Kind>& kinds() const { return kinds_; }
+  // The key that they stand under.
+  std::vector<Key> owned(Key& key) const {
+    key.type = named ? KeyType::named : KeyType::sections;
+    key.nested = &kinds_;
+    return {key};
+  }
+  // Into a member of another struct. The tables must outlive what is returned.
+  template <class M>
+  fields_detail::Reader into(const Key& key, std::ptrdiff_t at) const {
+    constexpr bool list = std::is_same_v<M, std::vector<T>>;
+    return fields_detail::nested(key, list, numbered, named, [this, at](std::byte* data, const Place& place) {
+      M& member = fields_detail::as<M>(data + at);
+      if constexpr (list)
+        member.push_back(read_at(place));
+      else
+        member = read_at(place);
+    });
+  }
   T read_at(const Place& place) const {
     for (std::size_t i = 0; i < kinds_.size(); ++i)
       if (kinds_[i].name == place.section->kind->name) return readers_[i](place);
@@ -399,23 +443,5 @@ class Tables {
   std::vector<Kind> kinds_;
   std::vector<std::function<T(const Place&)>> readers_;
 };
-
-template <class D>
-template <class M, class B>
-std::vector<std::string> Reading<D>::given_keys(M B::*group) const {
-  std::vector<std::string> names;
-  for (const std::string& name : fields_->names_of(group))
-    if (place_.section->given(name)) names.push_back(name);
-  return names;
-}
-
-template <class D>
-template <class M, class B>
-std::string Reading<D>::key(M B::*member) const {
-  const std::vector<std::string>& names = fields_->names_of(member);
-  for (const std::string& name : names)
-    if (place_.section->given(name)) return name;
-  return names.front();
-}
 
 }  // namespace kurbel

@@ -35,67 +35,69 @@ std::string Domain::describe(const std::string& unit) const {
   return "finite";
 }
 
-Key quantity(std::string name, std::string unit, Domain domain, std::string doc, std::string effect) {
-  return {.name = std::move(name),
-          .unit = std::move(unit),
+Key quantity(std::string_view name, std::string_view unit, Domain domain, KeyDocText doc, std::string_view effect) {
+  return {.name = std::string(name),
+          .unit = std::string(unit),
           .domain = domain,
-          .doc = std::move(doc),
-          .effect = std::move(effect)};
+          .doc = KeyDoc(doc),
+          .effect = std::string(effect)};
 }
 
-Key required(std::string name, std::string unit, Domain domain, std::string doc, std::string effect) {
-  Key key = quantity(std::move(name), std::move(unit), domain, std::move(doc), std::move(effect));
+Key required(std::string_view name, std::string_view unit, Domain domain, KeyDocText doc, std::string_view effect) {
+  Key key = quantity(name, unit, domain, doc, effect);
   key.required = true;
   return key;
 }
 
-Key defaulted(std::string name, std::string unit, const std::string& fallback, Domain domain, std::string doc,
-              std::string effect) {
-  Key key = quantity(std::move(name), std::move(unit), domain, std::move(doc), std::move(effect));
-  key.fallback = key.unit.empty() ? fallback : '"' + fallback + '"';
+static std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
+
+Key defaulted(std::string_view name, std::string_view unit, std::string_view fallback, Domain domain, KeyDocText doc,
+              std::string_view effect) {
+  Key key = quantity(name, unit, domain, doc, effect);
+  key.fallback = key.unit.empty() ? std::string(fallback) : quoted(fallback);
   return key;
 }
 
-Key flag(std::string name, std::string fallback, std::string doc, std::string effect) {
-  return {.name = std::move(name),
-          .type = KeyType::flag,
-          .fallback = std::move(fallback),
-          .doc = std::move(doc),
-          .effect = std::move(effect)};
+static Key other_key(KeyType type, std::string_view name, std::string fallback, KeyDocText doc,
+                     std::string_view effect) {
+  Key key = quantity(name, "", any_number, doc, effect);
+  key.type = type;
+  key.fallback = std::move(fallback);
+  return key;
 }
 
-Key choice(std::string name, const std::string& fallback, std::string doc, std::string effect) {
-  return {.name = std::move(name),
-          .type = KeyType::text,
-          .fallback = '"' + fallback + '"',
-          .doc = std::move(doc),
-          .effect = std::move(effect)};
+Key flag(std::string_view name, std::string_view fallback, KeyDocText doc, std::string_view effect) {
+  return other_key(KeyType::flag, name, std::string(fallback), doc, effect);
 }
 
-Key curve(std::string name, std::vector<std::string> over, std::string unit, std::string doc) {
-  Key key = quantity(std::move(name), std::move(unit), any_number, std::move(doc));
+Key choice(std::string_view name, std::string_view fallback, KeyDocText doc, std::string_view effect) {
+  return other_key(KeyType::text, name, quoted(fallback), doc, effect);
+}
+
+Key curve(std::string_view name, std::vector<std::string> over, std::string_view unit, KeyDocText doc) {
+  Key key = quantity(name, unit, any_number, doc);
   key.type = KeyType::curve;
   key.choices = std::move(over);
   return key;
 }
 
-Key required_curve(std::string name, std::vector<std::string> over, std::string unit, std::string doc) {
-  Key key = curve(std::move(name), std::move(over), std::move(unit), std::move(doc));
+Key required_curve(std::string_view name, std::vector<std::string> over, std::string_view unit, KeyDocText doc) {
+  Key key = curve(name, std::move(over), unit, doc);
   key.required = true;
   return key;
 }
 
-Kind on_a_shaft(std::string name, std::string doc, std::vector<Key> keys, Build build) {
+Kind on_a_shaft(std::string name, KeyDoc doc, std::vector<Key> keys, Build build) {
   return {.name = std::move(name), .doc = std::move(doc), .keys = std::move(keys), .build = build};
 }
 
-Kind between_shafts(std::string name, std::string doc, std::vector<Key> keys, Build build) {
+Kind between_shafts(std::string name, KeyDoc doc, std::vector<Key> keys, Build build) {
   Kind kind = on_a_shaft(std::move(name), std::move(doc), std::move(keys), build);
   kind.placement = Placement::inline_two;
   return kind;
 }
 
-Kind elastic_between_shafts(std::string name, std::string doc, std::vector<Key> keys, Build build) {
+Kind elastic_between_shafts(std::string name, KeyDoc doc, std::vector<Key> keys, Build build) {
   Kind kind = between_shafts(std::move(name), std::move(doc), std::move(keys), build);
   kind.elastic = true;
   return kind;

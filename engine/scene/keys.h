@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/numerics/curve.h"
@@ -41,17 +42,31 @@ enum class KeyType {
   named,  // a table of names that the user chooses, each with a table of the `nested` kind or the value of its first key
 };
 
+// What people read about a key or a kind. The run-time of exported components shows it to nobody, and holds none of it.
+#ifdef KURBEL_FMI_RUNTIME
+struct KeyDoc {
+  KeyDoc() = default;
+  template <class Text>
+  constexpr KeyDoc(const Text&) {}
+  constexpr operator std::string_view() const { return {}; }
+};
+using KeyDocText = KeyDoc;
+#else
+using KeyDoc = std::string;
+using KeyDocText = std::string_view;
+#endif
+
 struct Key {
   std::string name;
   KeyType type = KeyType::quantity;
-  std::string unit = "";      // SI unit of the value (of a curve: of its second column)
-  std::string fallback = "";  // as it would stand in the file; empty: none
+  std::string unit = {};      // SI unit of the value (of a curve: of its second column)
+  std::string fallback = {};  // as it would stand in the file; empty: none
   Domain domain = any_number;
-  std::string doc = "";
+  KeyDoc doc = {};
   bool required = false;
   std::vector<std::string> choices = {};      // of a text; of a curve: what it may be given over
   const std::vector<Kind>* nested = nullptr;  // of sections, of named ones
-  std::string effect = "";                    // giving it gives the scene parameters for these effects, by spaces
+  std::string effect = {};                    // giving it gives the scene parameters for these effects, by spaces
 
   bool gives(const std::string& asked) const {
     return (" " + effect + " ").find(" " + asked + " ") != std::string::npos;
@@ -59,17 +74,17 @@ struct Key {
 };
 
 // Keys of numbers; an empty unit for a bare number, `effect` as in Key.
-Key quantity(std::string name, std::string unit, Domain domain, std::string doc, std::string effect = "");
-Key required(std::string name, std::string unit, Domain domain, std::string doc, std::string effect = "");
+Key quantity(std::string_view name, std::string_view unit, Domain domain, KeyDocText doc, std::string_view effect = "");
+Key required(std::string_view name, std::string_view unit, Domain domain, KeyDocText doc, std::string_view effect = "");
 // Where it is not given, as if `fallback` stood in the file: "0 deg"; quotes are put around it where it has a unit.
-Key defaulted(std::string name, std::string unit, const std::string& fallback, Domain domain, std::string doc,
-              std::string effect = "");
+Key defaulted(std::string_view name, std::string_view unit, std::string_view fallback, Domain domain, KeyDocText doc,
+              std::string_view effect = "");
 
 // Keys of what is no number: true or false, a word, a characteristic over one of `over`.
-Key flag(std::string name, std::string fallback, std::string doc, std::string effect = "");
-Key choice(std::string name, const std::string& fallback, std::string doc, std::string effect = "");
-Key curve(std::string name, std::vector<std::string> over, std::string unit, std::string doc);
-Key required_curve(std::string name, std::vector<std::string> over, std::string unit, std::string doc);
+Key flag(std::string_view name, std::string_view fallback, KeyDocText doc, std::string_view effect = "");
+Key choice(std::string_view name, std::string_view fallback, KeyDocText doc, std::string_view effect = "");
+Key curve(std::string_view name, std::vector<std::string> over, std::string_view unit, KeyDocText doc);
+Key required_curve(std::string_view name, std::vector<std::string> over, std::string_view unit, KeyDocText doc);
 
 // How a kind of component stands in a machine.
 enum class Placement {
@@ -80,7 +95,7 @@ enum class Placement {
 
 struct Kind {
   std::string name;
-  std::string doc = "";
+  KeyDoc doc = {};
   Placement placement = Placement::inline_one;
   std::vector<Key> keys;
   // Adds the component to the network, and says what is wrong with its parameters together. Null for nested kinds.
@@ -93,9 +108,9 @@ struct Kind {
 
 // Kinds of components, by what every one of them says.
 using Build = void (*)(const Section&, Network&, Messages&);
-Kind on_a_shaft(std::string name, std::string doc, std::vector<Key> keys, Build build);
-Kind between_shafts(std::string name, std::string doc, std::vector<Key> keys, Build build);
-Kind elastic_between_shafts(std::string name, std::string doc, std::vector<Key> keys, Build build);
+Kind on_a_shaft(std::string name, KeyDoc doc, std::vector<Key> keys, Build build);
+Kind between_shafts(std::string name, KeyDoc doc, std::vector<Key> keys, Build build);
+Kind elastic_between_shafts(std::string name, KeyDoc doc, std::vector<Key> keys, Build build);
 
 // A characteristic as read, in SI; made into a Curve by the component that owns it. Of a formula the points are those
 // between its pieces.

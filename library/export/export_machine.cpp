@@ -86,14 +86,13 @@ void add_inputs(ExportedMachine& machine, const Scene& scene, const std::vector<
     const std::string of = name.substr(0, dot), what = dot == std::string::npos ? "" : name.substr(dot + 1);
     const std::string component = of.substr(0, of.find('.'));
     ExportedInput input{.of = of, .name = name};
-    if (what == "speed")
+    if (what != "command" && what != "torque" && what != "speed")
       refuse(
-          fmt::format("input {}: the speed of a shaft that is given cannot come from outside yet; a torque can, as {}"
-                      ".torque",
-                      name, of));
-    if (what != "command" && what != "torque")
-      refuse(fmt::format("input {}: must end in .command (of a motor, clutch or brake) or .torque (on a shaft)", name));
-    if (!scene.find(component)) {
+          fmt::format("input {}: must end in .command (of a motor, clutch or brake), .torque (on a shaft) or .speed "
+                      "(of a prescribed speed)",
+                      name));
+    const Section* const section = scene.find(component);
+    if (!section) {
       std::vector<std::string> names;
       for (const Section& section : scene.components) names.push_back(section.name);
       refuse(fmt::format("input {}: the scene has no component {}{}", name, in_quotes(component),
@@ -103,6 +102,22 @@ void add_inputs(ExportedMachine& machine, const Scene& scene, const std::vector<
       refuse(fmt::format("input {} is given twice", name));
     if (what == "torque") {
       input.what = ExportedInput::What::torque;
+    } else if (what == "speed") {
+      if (section->kind->name != "prescribed speed")
+        refuse(
+            fmt::format("input {}: \"{}\" turns at whatever speed its torques take it to; the speed of a component of "
+                        "kind \"prescribed speed\" can come from outside, and {}.torque",
+                        name, component, of));
+      if (machine.model_exchange)
+        refuse(
+            fmt::format("input {}: the acceleration of a speed that comes from outside is known in co-simulation "
+                        "alone; give --kind cs",
+                        name));
+      const Network network = build_network(scene);
+      const int given = network.nodes[static_cast<std::size_t>(node_of(network, of))].prescribed;
+      const PrescribedSpeed& law = network.prescribed[static_cast<std::size_t>(given)];
+      input.what = ExportedInput::What::speed;
+      input.start = law.value(0, law.piece(0));
     } else {
       for (const SequenceStep& step : scene.sequence.steps)
         if (std::find(step.set.begin(), step.set.end(), of) != step.set.end())
@@ -115,7 +130,7 @@ void add_inputs(ExportedMachine& machine, const Scene& scene, const std::vector<
     refuse("an operating sequence that repeats would set the inputs again; take the repetition out, or the inputs");
   for (std::size_t k = 0; k < machine.inputs.size(); ++k) {
     ExportedInput& input = machine.inputs[k];
-    if (input.what == ExportedInput::What::torque) continue;
+    if (input.what != ExportedInput::What::command) continue;
     if (!takes(machine, scene, k, -1)) input.low = 0;
     input.whole = !takes(machine, scene, k, 0.5);
     if (input.whole) input.high = 1;
@@ -198,7 +213,7 @@ ExportedComponent component_of(const Scene& given, const ExportAsked& asked) {
   if (asked.outputs.empty())
     for (const Channel& channel : channels) machine.outputs.push_back(channel.name.text);
   ExportedView view(machine, equations);
-  ExportedDependencies dependencies = dependencies_of(machine, equations);
+  ExportedDependencies dependencies = dependencies_of(machine, view, equations);
   return {std::move(machine), scene.run.until, scene.run.accuracy, std::move(view), std::move(dependencies)};
 }
 

@@ -45,8 +45,9 @@ StudyOutput exported(const Inquiry& inquiry, ExportAsked asked) {
   std::vector<std::string> inputs, parameters, outputs = machine.outputs;
   for (const ExportedInput& in : machine.inputs)
     inputs.push_back(
-        in.what == ExportedInput::What::torque
-            ? fmt::format("{} [N·m]", in.name)
+        in.what == ExportedInput::What::torque ? fmt::format("{} [N·m]", in.name)
+        : in.what == ExportedInput::What::speed
+            ? fmt::format("{} [rad/s]", in.name)
             : fmt::format("{}, {}", in.name, in.whole ? "0 or 1" : fmt::format("{:g} … {:g}", in.low, in.high)));
   for (const ExportedParameter& p : machine.parameters)
     parameters.push_back(fmt::format("{} = {:g} {} ({})", p.path, p.start, p.unit, p.tunable ? "tunable" : "fixed"));
@@ -67,7 +68,8 @@ OptionsOf<ExportAsked> options() {
            std::vector{std::pair("cs", ExportKind::co_simulation), std::pair("me", ExportKind::model_exchange),
                        std::pair("both", ExportKind::both)})
       .add({.name = "input",
-            .doc = "what others set while it runs: NAME.command of a motor, clutch or brake, NAME.torque on a shaft",
+            .doc = "what others set while it runs: NAME.command of a motor, clutch or brake, NAME.torque on a shaft, "
+                   "NAME.speed of a prescribed speed",
             .each_time = true},
            &Asked::inputs)
       .add({.name = "parameter",

@@ -77,7 +77,7 @@ class Description {
     root_.append_attribute("modelName") = (m_.title.empty() ? m_.name : m_.title).c_str();
     root_.append_attribute(three_ ? "instantiationToken" : "guid") = m_.token.c_str();
     root_.append_attribute("description") = fmt::format("kurbel: {}", m_.title.empty() ? m_.name : m_.title).c_str();
-    root_.append_attribute("generationTool") = fmt::format("kurbel {}", m_.version).c_str();
+    root_.append_attribute("generationTool") = m_.version.c_str();
     root_.append_attribute("variableNamingConvention") = "flat";
     if (three_) return;
     std::size_t indicators = 0;
@@ -163,6 +163,7 @@ class Description {
         break;
       case Role::output:
         put("causality", "output"), put("variability", "continuous"), put("initial", "calculated");
+        if (three_ && m_.co_simulation) put("intermediateUpdate", "true");
         break;
       case Role::peak:
         put("causality", "output"), put("variability", "discrete"), put("initial", "calculated");
@@ -201,15 +202,22 @@ class Description {
       one.append_attribute("index") = index_of(reference);
     return one;
   }
-  std::string listed(Role role, const std::vector<std::size_t>& places, std::string before = {}) const {
-    for (const std::size_t place : places) {
-      const std::uint32_t reference = c_.view.reference(role, place);
-      before += (before.empty() ? "" : " ") + std::to_string(three_ ? reference : index_of(reference));
-    }
-    return before;
+  // In the order of the variables: time, inputs, in version 3.0 parameters that change while it runs, states. Where nothing
+  // is said, all that is known counts.
+  void write_dependencies(pugi::xml_node one, const ExportedDependency& on) {
+    if (!on.known) return;
+    std::vector<std::uint32_t> references;
+    if (on.time) references.push_back(c_.view.reference(Role::time, 0));
+    for (const std::size_t k : on.inputs) references.push_back(c_.view.reference(Role::input, k));
+    for (std::size_t k = 0; three_ && k < m_.parameters.size(); ++k)
+      if (m_.parameters[k].tunable) references.push_back(c_.view.reference(Role::parameter, k));
+    for (const std::size_t k : on.states) references.push_back(c_.view.reference(Role::state, k));
+    std::string text;
+    for (const std::uint32_t reference : references)
+      text += (text.empty() ? "" : " ") + std::to_string(three_ ? reference : index_of(reference));
+    one.append_attribute("dependencies") = text.c_str();
   }
 
-  // Of outputs no dependencies are said: they depend on all that is known.
   void write_structure() {
     pugi::xml_node structure = root_.append_child("ModelStructure");
     const auto list = [&](const char* name) { return three_ ? structure : structure.append_child(name); };
@@ -221,15 +229,16 @@ class Description {
     const auto is_derivative = [](Role role) { return role == Role::derivative; };
     if (three_ || !m_.outputs.empty() || !m_.peaks.empty()) {
       const pugi::xml_node outputs = list("Outputs");
-      each(is_output,
-           [&](std::uint32_t k, const ExportedVariable&) { unknown(outputs, three_ ? "Output" : "Unknown", k); });
+      each(is_output, [&](std::uint32_t k, const ExportedVariable& v) {
+        pugi::xml_node one = unknown(outputs, three_ ? "Output" : "Unknown", k);
+        if (v.role == Role::output) write_dependencies(one, c_.dependencies.outputs[v.place]);
+      });
     }
-    if (three_ || !c_.dependencies.states.empty()) {
+    if (three_ || !c_.dependencies.derivatives.empty()) {
       const pugi::xml_node derivatives = list("Derivatives");
       each(is_derivative, [&](std::uint32_t k, const ExportedVariable& v) {
         pugi::xml_node one = unknown(derivatives, three_ ? "ContinuousStateDerivative" : "Unknown", k);
-        const std::string inputs = listed(Role::input, c_.dependencies.inputs[v.place]);
-        one.append_attribute("dependencies") = listed(Role::state, c_.dependencies.states[v.place], inputs).c_str();
+        write_dependencies(one, c_.dependencies.derivatives[v.place]);
       });
     }
     const pugi::xml_node initial = list("InitialUnknowns");

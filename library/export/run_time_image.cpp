@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "kurbel_fmi_image.h"  // its checksum: a cache of objects sees no other change
+
 // clang-format off
 asm(".section .rodata\n"
     ".balign 16\n"

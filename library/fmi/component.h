@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -12,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "library/fmi/instance.h"
 
@@ -62,15 +64,25 @@ struct Component {
   std::string name;
   bool co_simulation = false;
   unsigned phase = instantiated;
-  bool logging = false;
+  bool logging = false;                      // errors are logged all the same
+  std::vector<std::string> categories = {};  // that are wanted; none: all
   std::unique_ptr<Instance> instance;
   std::function<void(Status, const char* category, const std::string&)> tell;
   std::function<bool(double t)> look;  // at the end of a step of the integrator; false: the importer has seen enough
   double last_time = 0;                // that a step of the importer's ended at
 
-  // Errors always; all else where logging is on. With the time.
+  // With the time. Throws std::invalid_argument for a category that there is not.
+  void log_only(bool on, std::vector<std::string> wanted) {
+    for (const std::string& category : wanted)
+      if (category != "logEvents" && category != "logStatusError")
+        throw std::invalid_argument("there is no category " + category + " of messages");
+    logging = on;
+    categories = std::move(wanted);
+  }
   void log(Status status, const char* category, const std::string& text) const {
-    if (!tell || (!logging && status < Status::error)) return;
+    const bool always = status >= Status::error;
+    const bool wanted = categories.empty() || std::count(categories.begin(), categories.end(), category) > 0;
+    if (!tell || (!always && !(logging && wanted))) return;
     tell(status, category, instance ? fmt::format("t = {:.9g} s: {}", instance->time(), text) : text);
   }
   void log_events() const {

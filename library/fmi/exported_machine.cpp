@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 
 // Limits that there are none of have no number in JSON.
 static void to_json(Json& json, const ExportedInput& input) {
-  json = {{"command", input.what == ExportedInput::What::command},
+  json = {{"what", static_cast<int>(input.what)},
           {"of", input.of},
           {"name", input.name},
           {"start", input.start},
@@ -20,7 +20,10 @@ static void to_json(Json& json, const ExportedInput& input) {
   if (input.high < std::numeric_limits<double>::infinity()) json["high"] = input.high;
 }
 static void from_json(const Json& json, ExportedInput& input) {
-  input.what = json.at("command").get<bool>() ? ExportedInput::What::command : ExportedInput::What::torque;
+  const int what = json.at("what").get<int>();
+  if (what < 0 || what > static_cast<int>(ExportedInput::What::speed))
+    throw std::invalid_argument("an input of no kind");
+  input.what = static_cast<ExportedInput::What>(what);
   json.at("of").get_to(input.of);
   json.at("name").get_to(input.name);
   json.at("start").get_to(input.start);
@@ -82,7 +85,7 @@ const char* const kind = "kurbel exported machine 1";
 
 std::string ExportedInput::target() const {
   if (what == What::command) return of;
-  std::string name = "torque on " + of;
+  std::string name = (what == What::torque ? "torque on " : "speed of ") + of;
   std::replace(name.begin(), name.end(), '.', ' ');  // behind a point stands a part of a component
   return name;
 }

@@ -14,7 +14,8 @@ namespace kurbel {
 struct ExportedInput {
   enum class What {
     command,  // of a motor, clutch or brake: in the place of the operating sequence [1]
-    torque    // on a shaft, positive in its positive sense [N·m]
+    torque,   // on a shaft, positive in its positive sense [N·m]
+    speed     // of a shaft whose speed is prescribed, in the place of the scene's [rad/s]
   };
   What what = What::command;
   std::string of = {};    // component, or shaft: "gearbox.out"
@@ -23,7 +24,7 @@ struct ExportedInput {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool whole = false;  // 0 or 1, nothing between
 
-  // The element that exerts a torque has a component of its own.
+  // What is commanded: the element that exerts a torque, or follows a speed, has a component of its own.
   std::string target() const;
 };
 

@@ -80,25 +80,24 @@ KURBEL_FMI_EXPORT const char* fmi2GetVersion() { return "2.0"; }
 KURBEL_FMI2 fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, std::size_t count,
                                 const fmi2String categories[]) {
   return call2(component, "fmi2SetDebugLogging", anywhere, [&](Component& c) {
-    for (std::size_t k = 0; k < count; ++k)
-      if (const std::string category = categories[k] ? categories[k] : "";
-          category != "logEvents" && category != "logStatusError")
-        throw std::invalid_argument("there is no category " + category + " of messages");
-    c.logging = on != 0;
+    std::vector<std::string> wanted;
+    for (std::size_t k = 0; k < count; ++k) wanted.emplace_back(categories[k] ? categories[k] : "");
+    c.log_only(on != 0, std::move(wanted));
   });
 }
 
 KURBEL_FMI_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String token, fmi2String location,
                                                 const fmi2CallbackFunctions* functions, fmi2Boolean,
                                                 fmi2Boolean logging) {
-  if (!functions || !functions->logger) return nullptr;
+  if (!functions) return nullptr;
   auto c = std::make_unique<Component>();
   c->name = name ? name : "";
   c->logging = logging != 0;
-  c->tell = [whose = functions->componentEnvironment, logger = functions->logger, name = c->name](
-                Status status, const char* category, const std::string& text) {
-    logger(whose, name.c_str(), as2(status), category, "%s", text.c_str());
-  };
+  if (functions->logger)
+    c->tell = [whose = functions->componentEnvironment, logger = functions->logger, name = c->name](
+                  Status status, const char* category, const std::string& text) {
+      logger(whose, name.c_str(), as2(status), category, "%s", text.c_str());
+    };
   if (c->name.empty() || !location) {
     c->log(Status::error, "logStatusError", c->name.empty() ? "an instance needs a name" : "no place of resources");
     return nullptr;

@@ -50,11 +50,9 @@ KURBEL_FMI_EXPORT const char* fmi3GetVersion() { return "3.0"; }
 KURBEL_FMI3 fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, std::size_t count,
                                 const fmi3String categories[]) {
   return call3(instance, "fmi3SetDebugLogging", anywhere, [&](Component& c) {
-    for (std::size_t k = 0; k < count; ++k)
-      if (const std::string category = categories[k] ? categories[k] : "";
-          category != "logEvents" && category != "logStatusError")
-        throw std::invalid_argument("there is no category " + category + " of messages");
-    c.logging = on;
+    std::vector<std::string> wanted;
+    for (std::size_t k = 0; k < count; ++k) wanted.emplace_back(categories[k] ? categories[k] : "");
+    c.log_only(on, std::move(wanted));
   });
 }
 
@@ -139,7 +137,7 @@ KURBEL_FMI3 fmi3Reset(fmi3Instance instance) {
 
 KURBEL_FMI3 fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference references[], std::size_t count,
                            fmi3Float64 values[], std::size_t value_count) {
-  const unsigned allowed = initialisation | running | within_step | terminated;
+  const unsigned allowed = set_up | running | within_step | terminated;
   return call3(instance, "fmi3GetFloat64", allowed, [&](Component& c) {
     same_count(count, value_count);
     for (std::size_t k = 0; k < count; ++k) values[k] = c.instance->value(references[k]);

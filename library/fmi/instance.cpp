@@ -20,6 +20,11 @@ constexpr double tolerance_of_accuracy = 1e-3;
 constexpr double below_root = 2e-11, fired_below = -1e-11;
 constexpr int most_events = 100, events_of_a_jam = 20, events_without_rest = 60;
 
+// A step goes over the time, and begins anew at every communication point, which multistep methods are made for least.
+std::string method_of(const RunSettings& run) {
+  return run.method == "work" || run.method == "bdf" || run.method == "adams" ? "auto" : run.method;
+}
+
 // Passes steps of the integrator on.
 class Onlooker final : public Observer {
  public:
@@ -181,7 +186,14 @@ void Instance::put_commands(double until) {
   const double t = s_.here.state.t;
   for (std::size_t k = 0; k < s_.inputs.size(); ++k) {
     Command& command = equations_->changing_modes().command[commands_[k]];
-    if (s_.slopes[k] != 0 && until > t) {
+    if (machine_.inputs[k].what == ExportedInput::What::speed) {
+      // A speed cannot jump: it goes from where it is to what was set, within the step; at its end it is still on the way.
+      const double now = command.at(t, equations_->model().scene.sequence);
+      const double end = s_.inputs[k] + s_.slopes[k] * (until - t);
+      command = {.value = now, .to = now};
+      if (until > t && end != now)
+        command = {.value = now, .rate = (end - now) / (until - t), .from = t, .until = 1e300};
+    } else if (s_.slopes[k] != 0 && until > t) {
       const double end = s_.inputs[k] + s_.slopes[k] * (until - t);
       check_input(k, end);
       command = {.value = s_.inputs[k], .rate = s_.slopes[k], .from = t, .until = until, .to = end};
@@ -207,7 +219,7 @@ double Instance::go(double step, const std::function<bool(double t)>& look) {
   RunOptions options;
   options.tolerance = std::max(
       1e-13, tolerance_of_accuracy * std::min(equations_->model().scene.run.accuracy, tolerance_.value_or(1.0)));
-  options.method = equations_->model().scene.run.method == "work" ? "auto" : equations_->model().scene.run.method;
+  options.method = method_of(equations_->model().scene.run);
   options.budget = HUGE_VAL;
   options.to_go_on = true;
   std::atomic<bool> interrupted{false};
@@ -360,8 +372,11 @@ std::vector<double> Instance::directional(std::span<const std::uint32_t> unknown
       size_states = std::max(size_states, std::abs(seed[k]) / scale[v.place]);
     } else if (v.role == input) {
       inputs[v.place] += seed[k];
-      const double usual =
-          machine_.inputs[v.place].what == ExportedInput::What::torque ? equations_->model().torque_scale : 1.0;
+      using enum ExportedInput::What;
+      const auto what = machine_.inputs[v.place].what;
+      const double usual = what == torque  ? equations_->model().torque_scale
+                           : what == speed ? equations_->model().speed_scale
+                                           : 1.0;
       size_inputs = std::max(size_inputs, std::abs(seed[k]) / (usual > 0 ? usual : 1));
     } else if (v.role != parameter) {
       throw std::invalid_argument(fmt::format("{} is no state and no input", v.name));
@@ -372,7 +387,6 @@ std::vector<double> Instance::directional(std::span<const std::uint32_t> unknown
   // Of all unknowns by the differences along a direction.
   std::vector<double> result(unknowns.size(), 0);
   const State kept = s_.here.state;
-  const std::vector<double> kept_inputs = s_.inputs;
   const auto differences = [&](double size, const auto& move) {
     if (size == 0) return;
     const double h = 1e-4 / size;
@@ -406,8 +420,9 @@ std::vector<double> Instance::directional(std::span<const std::uint32_t> unknown
   differences(size_inputs, [&](double by) {
     for (std::size_t k = 0; k < inputs.size(); ++k)
       if (inputs[k] != 0) {
-        const double to = kept_inputs[k] + by * inputs[k];
-        equations_->changing_modes().command[commands_[k]] = {.value = to, .to = to};
+        Command moved = kept.modes.command[commands_[k]];
+        moved.value += by * inputs[k], moved.to += by * inputs[k];
+        equations_->changing_modes().command[commands_[k]] = moved;
       }
   });
   equations_->changing_modes().command = kept.modes.command;

@@ -15,12 +15,13 @@
 namespace kurbel {
 namespace {
 
-// M = c · 1 N·m, c its command: a torque that comes from outside.
+// M = c · unit, c its command: a torque that comes from outside. None: what a prescribed speed follows.
 struct TorqueFromOutside {
+  double unit = 1;  // [N·m]
   static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true};
   template <class T>
   T torque(const ShaftState<T>& x) const {
-    return T(x.command);
+    return T(unit * x.command);
   }
   bool opens_at_zero() const { return false; }
   bool uses_time() const { return true; }
@@ -110,6 +111,15 @@ Scene scene_of(const ExportedMachine& machine, const std::string& folder, std::s
   return scene;
 }
 
+int node_of(const Network& network, const std::string& shaft) {
+  const std::size_t dot = shaft.find('.');
+  const Network::Ports& ports = network.ports.at(shaft.substr(0, dot));
+  if (dot == std::string::npos) return ports.in;
+  const std::string port = shaft.substr(dot + 1);
+  const auto other = ports.others.find(port);
+  return other != ports.others.end() ? other->second : port == "in" ? ports.in : ports.out;
+}
+
 std::shared_ptr<const Model> model_of(ExportedMachine& machine, const Scene& given, std::span<const double> inputs) {
   const TableBook::Open book(machine.tables);
   Scene scene = given;
@@ -118,16 +128,14 @@ std::shared_ptr<const Model> model_of(ExportedMachine& machine, const Scene& giv
   for (std::size_t k = 0; k < machine.inputs.size(); ++k) {
     const ExportedInput& input = machine.inputs[k];
     first.push_back({.when = SequenceStep::When::at, .value = 0, .set = {input.target()}, .to = inputs[k]});
-    if (input.what != ExportedInput::What::torque) continue;
-    const std::size_t dot = input.of.find('.');
-    const Network::Ports& ports = network.ports.at(input.of.substr(0, dot));
-    int node = ports.in;
-    if (dot != std::string::npos) {
-      const std::string port = input.of.substr(dot + 1);
-      const auto other = ports.others.find(port);
-      node = other != ports.others.end() ? other->second : port == "in" ? ports.in : ports.out;
-    }
-    network.put(node, input.target(), TorqueFromOutside{});
+    if (input.what == ExportedInput::What::command) continue;
+    const int node = node_of(network, input.of);
+    const bool torque = input.what == ExportedInput::What::torque;
+    network.put(node, input.target(), TorqueFromOutside{torque ? 1.0 : 0.0});
+    if (torque) continue;
+    const int given = network.nodes[static_cast<std::size_t>(node)].prescribed;
+    if (given < 0) throw std::invalid_argument(fmt::format("the speed of \"{}\" is not prescribed", input.of));
+    network.prescribed[static_cast<std::size_t>(given)].follows = input.target();
   }
   scene.sequence.steps.insert(scene.sequence.steps.begin(), first.begin(), first.end());
   return compile_network(std::move(network), scene, scene.effects);

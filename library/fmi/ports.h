@@ -22,6 +22,9 @@ Scene scene_of(const ExportedMachine& machine, const std::string& folder, std::s
 // SceneError where no machine is made.
 std::shared_ptr<const Model> model_of(ExportedMachine& machine, const Scene& scene, std::span<const double> inputs);
 
+// Of a shaft by its name: "flywheel", "gearbox.out".
+int node_of(const Network& network, const std::string& shaft);
+
 // Of each input, its place among the model's commands.
 std::vector<std::size_t> commands_of(const ExportedMachine& machine, const Model& model);
 

@@ -30,11 +30,16 @@ struct ExportedView {
   std::uint32_t reference(ExportedVariable::Role role, std::size_t place) const;
 };
 
-// States and inputs that a state's derivative depends on: by the pattern of the exact Jacobian, which holds what is
-// coupled while constraints hold, too.
-struct ExportedDependencies {
-  std::vector<std::vector<std::size_t>> states, inputs;  // per state's derivative
+// What a variable may depend on: by the pattern of the exact Jacobian, which holds what is coupled while constraints hold,
+// too, and by where inputs and laws over time act.
+struct ExportedDependency {
+  bool known = true;  // false: on anything
+  bool time = false;
+  std::vector<std::size_t> states = {}, inputs = {};  // ascending
 };
-ExportedDependencies dependencies_of(const ExportedMachine& machine, Flow& flow);
+struct ExportedDependencies {
+  std::vector<ExportedDependency> derivatives, outputs;
+};
+ExportedDependencies dependencies_of(const ExportedMachine& machine, const ExportedView& view, Flow& flow);
 
 }  // namespace kurbel

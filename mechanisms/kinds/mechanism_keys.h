@@ -57,7 +57,7 @@ void build_mechanism(const Section& section, const MechanismData& data, const Mo
 void limit_loads(const Mechanism& mechanism, const std::string& component, int node, Network& net);
 // A kind of mechanism by its fields alone.
 template <const auto& fields>
-Kind mounted_kind(std::string name, std::string doc) {
+Kind mounted_kind(std::string name, KeyDoc doc) {
   return on_a_shaft(
       std::move(name), std::move(doc), fields().keys(), [](const Section& section, Network& net, Messages& messages) {
         const auto mechanism = fields().read(section, messages);

@@ -31,8 +31,10 @@ class Unpacked {
   std::string token, identifier, folder;
   bool model_exchange = false, co_simulation = false;
   std::vector<Variable> variables;
-  std::vector<unsigned> states, derivatives, outputs;      // value references; states in the order of their derivatives
-  std::map<unsigned, std::vector<unsigned>> dependencies;  // of derivatives
+  std::vector<unsigned> states, derivatives, outputs;  // value references; states in the order of their derivatives
+  std::map<unsigned, std::vector<unsigned>>
+      dependencies;  // of derivatives and outputs; of what is missing none are said
+  std::map<std::string, std::map<std::string, int>> units;  // by their exponents of base units
   std::size_t indicators = 0;
   std::vector<std::string> complaints;  // rules that are broken, with their clauses
   std::string library() const;
@@ -70,7 +72,8 @@ class Slave {
   void set(unsigned reference, double value);
   double operator[](const std::string& name) { return get(unpacked_[name].reference); }
   void set(const std::string& name, double value) { set(unpacked_[name].reference, value); }
-  double step(double t, double h);  // the time that was reached
+  void slope(const std::string& name, double value);  // FMI 2: of an input over the next step
+  double step(double t, double h);                    // the time that was reached
   // FMI 3: what the callback sees; FMI 2 has none.
   std::function<bool(double t)> onlooker;
 

@@ -117,6 +117,14 @@ void Slave::set(unsigned reference, double value) {
       "set");
 }
 
+void Slave::slope(const std::string& name, double value) {
+  const unsigned reference = unpacked_[name].reference;
+  const int order = 1;
+  expect(function<int (*)(void*, Ref, Size, const int*, const double*)>("SetRealInputDerivatives")(
+             instance_, &reference, 1, &order, &value),
+         "slope");
+}
+
 double Slave::step(double t, double h) {
   if (unpacked_.fmi == 2) {
     expect(function<int (*)(void*, double, double, int)>("DoStep")(instance_, t, h, 0), "step");

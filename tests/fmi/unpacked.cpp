@@ -128,6 +128,8 @@ void Unpacked::read_description() {
   for (const pugi::xml_node unit : root.child("UnitDefinitions").children("Unit")) {
     complain_unless(units.insert(unit.attribute("name").value()).second, "2.2.2: units have unique names");
     complain_unless(bool(unit.child("BaseUnit")), "2.2.2: a unit without definition");
+    for (const pugi::xml_attribute exponent : unit.child("BaseUnit").attributes())
+      this->units[unit.attribute("name").value()][exponent.name()] = exponent.as_int();
     for (const pugi::xml_node display : unit.children("DisplayUnit")) {
       displays.insert(display.attribute("name").value());
       complain_unless(display.attribute("factor").as_double() > 0, "2.2.2: a display unit without factor");
@@ -170,6 +172,14 @@ void Unpacked::read_description() {
   complain_unless(std::count_if(variables.begin(), variables.end(),
                                 [](const Variable& v) { return v.causality == "independent"; }) <= 1,
                   "2.2.7: one time");
+  complain_unless(!three || std::any_of(variables.begin(), variables.end(),
+                                        [](const Variable& v) { return v.causality == "independent"; }),
+                  "2.4.7: a time");
+  if (three && co_simulation)
+    for (std::size_t k = 0; k < variables.size(); ++k)
+      complain_unless(variables[k].causality != "output" || variables[k].variability != "continuous" ||
+                          typed[k].attribute("intermediateUpdate").as_bool(),
+                      "2.4.7: an output that no onlooker may get: " + variables[k].name);
   const auto reference_by = [&](unsigned said) -> unsigned {
     if (three) {
       complain_unless(references.count(said) > 0, "2.2.8: no such value reference");
@@ -190,7 +200,24 @@ void Unpacked::read_description() {
     for (const pugi::xml_node node : three ? structure.children(name) : structure.child(two).children("Unknown"))
       act(reference_by(node.attribute(three ? "valueReference" : "index").as_uint()), node);
   };
-  each("Outputs", "Output", [&](unsigned reference, pugi::xml_node) {
+  const auto read_dependencies = [&](unsigned reference, pugi::xml_node node) {
+    if (!node.attribute("dependencies")) return;
+    dependencies[reference] = {};
+    std::size_t before = 0;
+    for (const unsigned on : numbers(node.attribute("dependencies").value())) {
+      const Variable known = find(reference_by(on));
+      const bool is_state = std::any_of(variables.begin(), variables.end(),
+                                        [&](const Variable& d) { return d.derivative_of == known.reference; });
+      const bool tunable = three && known.causality == "parameter" && known.variability == "tunable";
+      complain_unless(known.causality == "input" || known.causality == "independent" || tunable || is_state,
+                      "2.2.8: a dependency that is not known: " + known.name);
+      complain_unless(dependencies[reference].empty() || on > before, "2.2.8: dependencies in the order of variables");
+      before = on;
+      dependencies[reference].push_back(known.reference);
+    }
+  };
+  each("Outputs", "Output", [&](unsigned reference, pugi::xml_node node) {
+    read_dependencies(reference, node);
     complain_unless(find(reference).causality == "output", "2.2.8: what is no output");
     complain_unless(listed_outputs.insert(reference).second, "2.2.8: an output twice");
     outputs.push_back(reference);
@@ -200,14 +227,7 @@ void Unpacked::read_description() {
     complain_unless(v.derivative_of.has_value(), "2.2.8: what is no derivative: " + v.name);
     derivatives.push_back(reference);
     states.push_back(v.derivative_of.value_or(0));
-    dependencies[reference] = {};
-    for (const unsigned on : numbers(node.attribute("dependencies").value())) {
-      const Variable known = find(reference_by(on));
-      const bool is_state = std::any_of(variables.begin(), variables.end(),
-                                        [&](const Variable& d) { return d.derivative_of == known.reference; });
-      complain_unless(known.causality == "input" || is_state, "2.2.8: a dependency that is not known: " + known.name);
-      dependencies[reference].push_back(known.reference);
-    }
+    read_dependencies(reference, node);
   });
   each("InitialUnknowns", "InitialUnknown", [&](unsigned reference, pugi::xml_node) {
     complain_unless(initial_unknowns.insert(reference).second, "2.2.8: an initial unknown twice");
