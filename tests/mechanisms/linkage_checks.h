@@ -44,6 +44,7 @@ inline void expect_both_extractions(const LinkageData& data, double within, int 
     scale[6] = std::max(scale[6], second.back().gravity_torque_scale);
   }
   scale[1] = std::max(scale[1], 0.1 * scale[0]), scale[2] = std::max(scale[2], scale[0]);
+  scale[4] = std::max(scale[4], 1e-3 * scale[3]);  // what hardly moves has the rounding of its place
   scale[5] = std::max(scale[5], 0.1 * scale[4]);
   scale[7] = std::max(scale[7], scale[6]);
   if (data.linkage->sketch().output.rocks()) scale[3] = std::max(scale[3], 1.0);
