@@ -54,6 +54,7 @@ struct Edges {
 struct JointFriction::Work {
   std::size_t n = 0, reactions = 0;
   double phi = 0;
+  bool given = false;                                   // the acceleration is: none else is sought
   double strength[most_joints], edge[2 * most_joints];  // −sgn(v) times ρ or f + k_r/r_r; shares of u and w in Σ|N|
   double base[most_reactions], influence[most_reactions][most_loads];  // R₀, U + m b vᵀ
   double q[most_loads], r[most_reactions], wanted[most_loads];
@@ -271,7 +272,7 @@ void JointFriction::find(const State& s, Work& w) const {
   double share = 0, step = 1;
   constexpr double least_step = 1.0 / 4096;
   // Reactions grow without bound as the determinant vanishes; steps over time never get there.
-  const double least_determinant = s.at_rest ? 0 : 1e-4;
+  const double least_determinant = s.at_rest || w.given ? 0 : 1e-4;
   while (share < 1) {
     const double next = std::min(1.0, share + step);
     double before[most_loads];
@@ -289,7 +290,9 @@ void JointFriction::find(const State& s, Work& w) const {
                       "the friction laws; lower the coefficients, or lengthen guides and the links that push "
                       "against them",
                       s.phi * 180 / std::numbers::pi, 100 * share,
-                      s.at_rest ? "finite reactions at rest" : "reactions and no acceleration"));
+                      s.at_rest ? "finite reactions at rest"
+                      : w.given ? "finite reactions"
+                                : "reactions and no acceleration"));
   }
 }
 
@@ -408,6 +411,7 @@ JointFriction::Solved JointFriction::solve(const State& s) const {
   double values[most_values];
   table_->read(s.phi, values);
   Work w;
+  w.given = true;
   prepare(s, 0, values, false, w);
   find(s, w);
   const double largest = apply_laws<0>(w);

@@ -1,4 +1,4 @@
-// reaction_table.cpp — samples the reactions to unit loads, and tabulates those that vary.
+// reaction_table.cpp — tabulates those of the sampled reactions that vary; the signs that turn.
 #include "mechanisms/joints/reaction_table.h"
 
 #include <fmt/format.h>
@@ -8,8 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "mechanisms/link_forces/link_forces.h"
-#include "mechanisms/reduced/newton_euler.h"
+#include "mechanisms/joints/reaction_sampler.h"
 #include "mechanisms/reduced/periodic_table.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
 
@@ -17,133 +16,12 @@ namespace kurbel {
 namespace {
 
 using Rub = JointFriction::Joint;
+using Sampler = ReactionSampler;
 
 // A coefficient that never leaves this part of what those of its case are is none; one that varies by less is constant.
 constexpr double nothing = 1e-13;
 // Coefficients far below others of their case count by this part of these.
 constexpr double least_part = 1e-3;
-
-// Velocity of body `on` against `from` by ω: of a pin the angle's, of a slide along it.
-long double relative_rate(const PlanarLinkage& l, const PlanarLinkage::Joint& j) {
-  const auto body = [&](int b) -> const PlanarLinkage::Body& { return l.bodies[static_cast<std::size_t>(b)]; };
-  const auto turning = [&](int b) { return b == PlanarLinkage::frame ? 0 : body(b).direction.rate().value(); };
-  if (!j.slides) return turning(j.on) - turning(j.from);
-  const auto along = [&](int b) -> long double {
-    if (b == PlanarLinkage::frame) return 0;
-    const long double x = j.at.x.value() - body(b).com.x.value(), y = j.at.y.value() - body(b).com.y.value();
-    const long double vx = body(b).com.x.slope() - turning(b) * y, vy = body(b).com.y.slope() + turning(b) * x;
-    return vx * j.along.cos.value() + vy * j.along.sin.value();
-  };
-  return along(j.on) - along(j.from);
-}
-
-// What is sampled: the coefficients of all joints that rub, in the order of ReactionPlaces.
-class Sampler {
- public:
-  Sampler(const MechanismData& data, const std::vector<RubbingJoint>& rubbing, const OffThePin& off,
-          const std::vector<ActsWithin>& within)
-      : data_(data), off_(off), within_(within) {
-    const PlanarLinkage l = linkage(data.arc() ? data.arc()->middle : 0.5);
-    for (const RubbingJoint& r : rubbing) {
-      bool any = false;
-      for (int k = 0; k < l.joint_count; ++k) {
-        const PlanarLinkage::Joint& j = l.joints[static_cast<std::size_t>(k)];
-        if (r.name != j.name) continue;
-        any = true;
-        validate(r);
-        if (r.rubs(j.slides)) add(k, r, j.slides);
-      }
-      if (!any) throw std::invalid_argument(fmt::format("no joint \"{}\" in the linkage", r.name));
-    }
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      if (joints[j].slides && joints[j].data.length > 0 && joints[j].data.width > 0)
-        joints[j].couple = loads_.size(), loads_.push_back({joint_[j], true});
-    places_.joints = joints.size(), places_.loads = loads_.size(), places_.applied = within.size();
-    if (joints.size() > JointFriction::most_joints || loads_.size() > JointFriction::most_loads)
-      throw std::invalid_argument(
-          fmt::format("{} joints have friction; at most {} may", joints.size(), JointFriction::most_joints));
-    if (within.size() > JointFriction::most_applied)
-      throw std::invalid_argument(
-          fmt::format("{} springs, forces and couples press on joints with friction; at most {} may", within.size(),
-                      JointFriction::most_applied));
-  }
-  const ReactionPlaces& places() const { return places_; }
-
-  void operator()(double phi, double* values) const {
-    const PlanarLinkage l = linkage(phi);
-    const auto unit = units(phi, l);
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const auto joint = static_cast<std::size_t>(joint_[j]);
-      for (std::size_t i = 0; i < 2; ++i)
-        for (std::size_t c = 0; c < unit.size(); ++c)
-          values[(2 * j + i) * places_.stride() + c] = static_cast<double>(unit[c][2 * joint + i]);
-    }
-    for (std::size_t k = 0; k < loads_.size(); ++k) values[places_.ratio(k)] = 0;
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      values[places_.ratio(joints[j].load)] =
-          static_cast<double>(relative_rate(l, l.joints[static_cast<std::size_t>(joint_[j])]));
-  }
-  // By columns the greatest force in any joint, whether it rubs or not, and the greatest moment, in any case what that
-  // force has at the crank's length: beside these a coefficient may be rounding. A unit of load or of friction has at
-  // least what it would do at that length.
-  struct Greatest {
-    std::vector<double> force, moment;
-  };
-  void widen(double phi, Greatest& to) const {
-    const PlanarLinkage l = linkage(phi);
-    const auto unit = units(phi, l);
-    const double length = static_cast<double>(std::hypot(l.joints[1].at.x.value(), l.joints[1].at.y.value()));
-    to.force.resize(unit.size()), to.moment.resize(unit.size());
-    for (std::size_t c = 0; c < unit.size(); ++c) {
-      double &force = to.force[c], &moment = to.moment[c];
-      for (std::size_t k = 0; k < l.joints.size(); ++k) {
-        double& second = l.joints[k].slides ? moment : force;
-        force = std::max(force, std::abs(static_cast<double>(unit[c][2 * k])));
-        second = std::max(second, std::abs(static_cast<double>(unit[c][2 * k + 1])));
-      }
-      if (c >= ReactionPlaces::load_case) {
-        const std::size_t k = c - ReactionPlaces::cases;  // of what acts within, then of the friction loads
-        const bool couple = c == ReactionPlaces::load_case ? l.rocks
-                            : k < within_.size()           ? within_[k].along.travel.rocks()
-                                                           : loads_[k - within_.size()].couple;
-        force = std::max(force, couple ? 1 / length : 1);
-      }
-      force = std::max(force, moment / length), moment = std::max(moment, force * length);
-    }
-  }
-  double output_ratio(double phi) const { return static_cast<double>(linkage(phi).output[1]); }
-
-  std::vector<Rub> joints;
-
- private:
-  void add(int number, const RubbingJoint& r, bool slides) {
-    joints.push_back({.data = r, .slides = slides, .load = loads_.size()});
-    loads_.push_back({number, !slides});
-    joint_.push_back(number);
-  }
-  PlanarLinkage linkage(double phi) const {
-    PlanarLinkage l = data_.linkage(phi);
-    if (l.rocks || (off_.com == 0 && off_.load == 0)) return l;
-    l.bodies.back().com.x = l.bodies.back().com.x + Taylor(off_.com);
-    l.load_at.y = l.load_at.y + Taylor(off_.load);
-    return l;
-  }
-
-  std::vector<std::vector<long double>> units(double phi, const PlanarLinkage& l) const {
-    std::vector<std::vector<AppliedForce>> applied(within_.size());
-    if (within_.empty()) return unit_reactions(l, loads_);
-    const LinkPoses poses = within_.front().along.linkage->poses(phi);
-    for (std::size_t k = 0; k < within_.size(); ++k) add_actions(within_[k].along, 1, poses, l, applied[k]);
-    return unit_reactions(l, loads_, applied);
-  }
-
-  const MechanismData& data_;
-  OffThePin off_;
-  const std::vector<ActsWithin>& within_;
-  ReactionPlaces places_;
-  std::vector<int> joint_;  // of the linkage, per joint that rubs
-  std::vector<FrictionPlace> loads_;
-};
 
 // What is constant over φ as a constant, the rest in a periodic table over part · φ, of a crank that rocks over σ.
 class TabulatedReactions final : public ReactionTable {

@@ -19,6 +19,12 @@ struct OffThePin {
   double load = 0;  // of the load's line, 90° ahead of that direction [m]
 };
 
+// A mechanism's joints as its scene gives them, by the names of its linkage's; of those that are not named nothing is known.
+struct MechanismJoints {
+  std::vector<RubbingJoint> joints;
+  OffThePin off;
+};
+
 // What acts within the linkage, besides loads on its output: "press.return", and along which travel.
 struct ActsWithin {
   std::string name;

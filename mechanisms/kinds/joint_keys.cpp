@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 namespace kurbel {
@@ -38,44 +39,48 @@ Fields<Friction> friction() {
       .check(check_friction);
 }
 
-const Tables<RevoluteJoint>& journals() {
-  static const auto made = Tables<RevoluteJoint>().add(
+const Tables<RubbingJoint>& journals() {
+  static const auto made = Tables<RubbingJoint>().add(
       "journal",
       "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r sin(atan f) the radius of the "
       "friction circle",
-      Fields<RevoluteJoint>()
+      Fields<RubbingJoint>()
           .add(required("radius", "m", positive, "of the journal; of a rolling bearing half its bore"),
-               &RevoluteJoint::radius)
-          .add(friction(), &RevoluteJoint::friction));
+               &RubbingJoint::radius)
+          .add(friction(), &RubbingJoint::friction));
   return made;
 }
 
-void check_guide(const Reading<SliderGuide>& guide) {
+using Guide = SliderCrankJointKeys::Guide;
+
+void check_guide(const Reading<Guide>& guide) {
   if (guide.rolling_arm > 0 && guide.roller_radius == 0)
-    guide.refuse(&SliderGuide::rolling_arm, "rolling_arm without roller_radius; give the rollers' radius");
+    guide.refuse(&RubbingJoint::rolling_arm, "rolling_arm without roller_radius; give the rollers' radius");
 }
 
-Fields<SliderGuide> guide() {
-  return Fields<SliderGuide>()
-      .add(friction(), &SliderGuide::friction)
+Fields<Guide> guide() {
+  return Fields<Guide>()
+      .add(friction(), &RubbingJoint::friction)
       .add(defaulted("length", "m", "0 m", not_negative,
                      "bearing length of the slider; 0: its tilting is not considered"),
-           &SliderGuide::length)
+           &RubbingJoint::length)
       .add(defaulted("middle", "m", "0 m", any_number, "of that length, from the slider pin towards the extended end"),
-           &SliderGuide::middle)
+           &RubbingJoint::middle)
       .add(defaulted("width", "m", "0 m", not_negative,
                      "between the two guiding surfaces (bore of a cylinder): lever of their friction"),
-           &SliderGuide::width)
+           &RubbingJoint::width)
       .add(defaulted("rolling_arm", "m", "0 m", not_negative,
                      "lever arm k_r of rolling friction, for a slider on rollers"),
-           &SliderGuide::rolling_arm)
-      .add(quantity("roller_radius", "m", positive, "of these rollers"), &SliderGuide::roller_radius)
-      .add(defaulted("slider_com", "m", "0 m", any_number,
-                     "slider's centre of mass from its pin towards the extended end"),
-           &SliderGuide::com_x)
-      .add(defaulted("force_offset", "m", "0 m", any_number,
-                     "of the load's line from the slider pin, positive 90° ahead of the stroke"),
-           &SliderGuide::force_offset)
+           &RubbingJoint::rolling_arm)
+      .add(quantity("roller_radius", "m", positive, "of these rollers"), &RubbingJoint::roller_radius)
+      .add(Fields<OffThePin>()
+               .add(defaulted("slider_com", "m", "0 m", any_number,
+                              "slider's centre of mass from its pin towards the extended end"),
+                    &OffThePin::com)
+               .add(defaulted("force_offset", "m", "0 m", any_number,
+                              "of the load's line from the slider pin, positive 90° ahead of the stroke"),
+                    &OffThePin::load),
+           &Guide::off)
       .check(check_guide);
 }
 
@@ -88,15 +93,8 @@ std::string joint_named(const std::string& name, const std::set<std::string>& jo
   return {};
 }
 
-std::shared_ptr<const JointFrictionSource> source_of(const MechanismData& data, std::vector<RubbingJoint> joints,
-                                                     OffThePin off, std::vector<ActsWithin> within) {
-  return std::make_shared<const JointFrictionSource>([=](bool second) {
-    return tabulate_joint_friction(data, joints, off, within, second ? Extraction::second : Extraction::first);
-  });
-}
-
-const Tables<SliderGuide>& guides() {
-  static const auto made = Tables<SliderGuide>().add(
+const Tables<Guide>& guides() {
+  static const auto made = Tables<Guide>().add(
       "guide", "of the slider: friction f N, from both edges where the reaction leaves the guide's length", guide());
   return made;
 }
@@ -119,27 +117,30 @@ bool fits(const Reading<RubbingJoint>& joint, bool slides) {
 
 }  // namespace
 
-std::shared_ptr<const JointFrictionSource> friction_of(const SliderCrankData& data, const SliderCrankJoints& joints) {
-  if (joints.frictionless()) return nullptr;
-  const SliderGuide& g = joints.guide;
-  std::vector<RubbingJoint> rubbing;
-  for (const auto& [name, j] : {std::pair("main bearing", &joints.main_bearing),
-                                std::pair("crank pin", &joints.crank_pin), std::pair("slider pin", &joints.slider_pin)})
-    rubbing.push_back({.name = name, .friction = j->friction, .radius = j->radius});
-  rubbing.push_back({.name = "guide",
-                     .friction = g.friction,
-                     .length = g.length,
-                     .middle = g.middle,
-                     .width = g.width,
-                     .rolling_arm = g.rolling_arm,
-                     .roller_radius = g.roller_radius});
-  return source_of(data, std::move(rubbing), {.com = g.com_x, .load = g.force_offset}, {});
+std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data, const MechanismJoints& joints,
+                                                       const std::vector<ActsWithin>& within) {
+  if (joints.joints.empty()) return nullptr;
+  const PlanarLinkage linkage = data.linkage(data.arc() ? data.arc()->middle : 0.5);
+  const bool any = std::any_of(joints.joints.begin(), joints.joints.end(), [&](const RubbingJoint& r) {
+    return std::any_of(linkage.joints.begin(), linkage.joints.end(),
+                       [&](const PlanarLinkage::Joint& j) { return r.name == j.name && r.rubs(j.slides); });
+  });
+  if (!any) return nullptr;
+  return std::make_shared<const JointFrictionSource>([=](bool second) {
+    return tabulate_joint_friction(data, joints.joints, joints.off, within,
+                                   second ? Extraction::second : Extraction::first);
+  });
 }
 
-std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data,
-                                                       const std::vector<Reading<RubbingJoint>>& joints,
-                                                       std::vector<ActsWithin> within) {
-  if (joints.empty()) return nullptr;
+MechanismJoints joints_of(const SliderCrankJointKeys& keys) {
+  MechanismJoints joints{{keys.main_bearing, keys.crank_pin, keys.slider_pin, keys.guide}, keys.guide.off};
+  const char* const names[] = {"main bearing", "crank pin", "slider pin", "guide"};
+  for (std::size_t k = 0; k < std::size(names); ++k) joints.joints[k].name = names[k];
+  return joints;
+}
+
+MechanismJoints joints_of(const MechanismData& data, const std::vector<Reading<RubbingJoint>>& joints) {
+  if (joints.empty()) return {};
   const PlanarLinkage linkage = data.linkage(data.arc() ? data.arc()->middle : 0.5);
   std::set<std::string> names;
   std::vector<std::string> list;
@@ -147,7 +148,7 @@ std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data
     if (names.insert(j.name).second) list.emplace_back(j.name);
   const std::string why = refusal_of_joint_friction(data, CrankCycle(data));
   std::vector<RubbingJoint> rubbing;
-  bool sound = true, any = false;
+  bool sound = true;
   for (const Reading<RubbingJoint>& joint : joints) {
     RubbingJoint to = joint;
     to.name = joint_named(joint.section().name, names);
@@ -157,7 +158,7 @@ std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data
       continue;
     }
     for (const PlanarLinkage::Joint& j : linkage.joints)
-      if (to.name == j.name) sound = fits(joint, j.slides) && sound, any = any || to.rubs(j.slides);
+      if (to.name == j.name) sound = fits(joint, j.slides) && sound;
     if (!why.empty())
       sound =
           joint.refuse(fmt::format("friction of its joints cannot be found: {}; leave the joints out, or change the "
@@ -165,8 +166,8 @@ std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data
                                    why));
     rubbing.push_back(std::move(to));
   }
-  if (!sound || !any) return nullptr;
-  return source_of(data, std::move(rubbing), {}, std::move(within));
+  if (!sound) return {};
+  return {std::move(rubbing), {}};
 }
 
 const Tables<Reading<RubbingJoint>>& rubbing_tables() {
@@ -202,8 +203,8 @@ const Tables<Reading<RubbingJoint>>& rubbing_tables() {
   return made;
 }
 
-Fields<SliderCrankJoints> joint_fields() {
-  using Joints = SliderCrankJoints;
+Fields<SliderCrankJointKeys> joint_fields() {
+  using Joints = SliderCrankJointKeys;
   return Fields<Joints>()
       .add({.name = "main_bearing", .doc = "bearing of the crank"}, &Joints::main_bearing, journals())
       .add({.name = "crank_pin", .doc = "pin between crank and rod"}, &Joints::crank_pin, journals())

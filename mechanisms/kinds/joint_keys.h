@@ -6,21 +6,31 @@
 
 #include "engine/scene/fields.h"
 #include "mechanisms/joints/reaction_table.h"
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 namespace kurbel {
 
 // Of a slider-crank: main_bearing, crank_pin, slider_pin, guide: a table each, all without friction by default.
-Fields<SliderCrankJoints> joint_fields();
+struct SliderCrankJointKeys {
+  struct Guide : RubbingJoint {
+    OffThePin off;
+  };
+  RubbingJoint main_bearing, crank_pin, slider_pin;
+  Guide guide;
+
+  bool rub() const {
+    return main_bearing.rubs(false) || crank_pin.rubs(false) || slider_pin.rubs(false) || guide.rubs(true);
+  }
+};
+Fields<SliderCrankJointKeys> joint_fields();
+MechanismJoints joints_of(const SliderCrankJointKeys& joints);
 // Null where none rubs.
-std::shared_ptr<const JointFrictionSource> friction_of(const SliderCrankData& data, const SliderCrankJoints& joints);
+std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data, const MechanismJoints& joints,
+                                                       const std::vector<ActsWithin>& within = {});
 
 // Of any other mechanism: tables by the joints' names, "crank_pin" or "crank pin"; of a linkage by the point of a pin and
 // the link that slides.
 const Tables<Reading<RubbingJoint>>& rubbing_tables();
-// Null where none rubs, and with messages where a name is no joint's or a value belongs to another sort of joint.
-std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data,
-                                                       const std::vector<Reading<RubbingJoint>>& joints,
-                                                       std::vector<ActsWithin> within = {});
+// None, with messages, where a name is no joint's or a value belongs to another sort of joint.
+MechanismJoints joints_of(const MechanismData& data, const std::vector<Reading<RubbingJoint>>& joints);
 
 }  // namespace kurbel

@@ -108,8 +108,7 @@ void limit_loads(const Mechanism& mechanism, const std::string& component, int n
 }
 
 void build_mechanism(const Section& s, const MechanismData& data, const Mounting& mounting, const DataFaults& faults,
-                     Network& net, Messages& messages, std::shared_ptr<const JointFrictionSource> joints,
-                     Deformation deformation) {
+                     Network& net, Messages& messages, std::optional<MechanismJoints> joints, Deformation deformation) {
   const int node = net.add_node(s.name, "", 0);
   net.ports[s.name] = {node, node};
   for (const DataFault& fault : faults)
@@ -134,7 +133,9 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
     return;
   }
   mechanism->phase = mounting.phase;
-  mechanism->joints = joints ? std::move(joints) : friction_of(data, mounting.joints, mounting.within);
+  if (!joints) joints = joints_of(data, mounting.joints);
+  mechanism->joints = friction_of(data, *joints, mounting.within);
+  net.data.add(s.name, std::move(*joints));
   mechanism->clearances = std::move(deformation.clearances);
   mechanism->flexibility = deformation.flexibility;
   put_loads(mounting.loads, *mechanism);

@@ -1,6 +1,7 @@
 // mechanism_keys.h — fields that mechanisms share, and from a mechanism's data to the element.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,7 +53,7 @@ Fields<Mounted<Linkage>> mounted(const Fields<Linkage>& linkage, const Fields<Mo
 // slider-crank.
 void build_mechanism(const Section& section, const MechanismData& data, const Mounting& mounting,
                      const DataFaults& faults, Network& net, Messages& messages,
-                     std::shared_ptr<const JointFrictionSource> joints = nullptr, Deformation deformation = {});
+                     std::optional<MechanismJoints> joints = {}, Deformation deformation = {});
 // Tables of its loads over the travel end somewhere; `component`: as the scene names what they are of.
 void limit_loads(const Mechanism& mechanism, const std::string& component, int node, Network& net);
 // A kind of mechanism by its fields alone.

@@ -114,7 +114,7 @@ Fields<FiringKeys> firing() {
 
 struct SliderCrankKeys : Mounted<SliderCrankData> {
   FiringKeys firing;
-  SliderCrankJoints joints;
+  SliderCrankJointKeys joints;
   DeformationKeys deformation;
 };
 
@@ -194,11 +194,10 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
   const std::size_t before = messages.all().size();
   auto mechanism = slider_crank_fields().read(s, messages);
   put_phase(s, mechanism.firing, mechanism.mounting, messages);
-  net.data.add(s.name, mechanism.joints);
   const bool sound = messages.all().size() == before;
   const SliderCrankData& d = mechanism.linkage;
   DataFaults faults = faults_of(d);
-  const bool friction = !mechanism.joints.frictionless();
+  const bool friction = mechanism.joints.rub();
   const bool deforms = !mechanism.deformation.clearances.empty() || mechanism.deformation.flexibility;
   if (sound && faults.empty() && d.changes() && (friction || deforms))
     faults.push_back(
@@ -215,9 +214,7 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
              "rod = {} is shorter than radius + |offset|, so that the crank rocks; gaps and bending then decide how "
              "far it goes, beyond any arc that is known: lengthen the rod, or omit clearance and rod_flexibility",
              in_mm(d.rod_length))});
-  std::shared_ptr<const JointFrictionSource> joints;
-  if (sound && faults.empty()) joints = friction_of(d, mechanism.joints);
-  build_mechanism(s, d, mechanism.mounting, faults, net, messages, std::move(joints),
+  build_mechanism(s, d, mechanism.mounting, faults, net, messages, joints_of(mechanism.joints),
                   deformation_of(mechanism.deformation, d, s, messages));
 }
 

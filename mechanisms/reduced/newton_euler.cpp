@@ -213,6 +213,7 @@ void add_link(const PlanarLinkage::Body& b, LinkageForces& f) {
   const Real slope =
       2 * (m * (vx * b.com.x.curvature() + vy * b.com.y.curvature()) + b.inertia * rate.value() * rate.slope());
   f.links.push_back({.name = b.name,
+                     .direction = rounded(b.direction.angle()),
                      .com = rounded(at(b.com)),
                      .acceleration = rounded(acceleration),
                      .omega = rounded(rate.value() * w),
@@ -230,6 +231,19 @@ void add_link(const PlanarLinkage::Body& b, LinkageForces& f) {
 }
 
 }  // namespace
+
+double LinkageForces::friction_loss() const {
+  double loss = 0;
+  for (const JointForces& j : joints) loss += j.friction_power;
+  return loss;
+}
+
+double LinkageForces::friction_loss(std::string_view joint) const {
+  double loss = 0;
+  for (const JointForces& j : joints)
+    if (j.name == joint) loss += j.friction_power;
+  return loss;
+}
 
 LinkageForces motion_in(const PlanarLinkage& l, const LinkageState& state) {
   LinkageForces f;
@@ -294,13 +308,15 @@ std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std
   const Equations equations(l, {});
   const RightSides unit = equations.solve(equations.with_units(friction, applied));
   std::vector<std::vector<long double>> columns(static_cast<std::size_t>(unit.cols()));
-  for (Eigen::Index c = 0; c < unit.cols(); ++c)
+  for (Eigen::Index c = 0; c < unit.cols(); ++c) {
+    std::vector<long double>& column = columns[static_cast<std::size_t>(c)];
     for (int k = 0; k < l.joint_count; ++k) {
-      columns[static_cast<std::size_t>(c)].push_back(unit(2 * k, c));
+      column.push_back(unit(2 * k, c));
       const Real second = unit(2 * k + 1, c);
-      columns[static_cast<std::size_t>(c)].push_back(
-          l.joints[static_cast<std::size_t>(k)].slides ? second * equations.length() : second);
+      column.push_back(l.joints[static_cast<std::size_t>(k)].slides ? second * equations.length() : second);
     }
+    column.push_back(unit(unit.rows() - 1, c) * equations.length());
+  }
   return columns;
 }
 

@@ -1,5 +1,6 @@
 // newton_euler.h — reactions, balancing torque and inertia forces of any mechanism with ideal joints: every link in
-// equilibrium under its inertia force −m a and couple −I ε (d'Alembert; theory 9.6).
+// equilibrium under its inertia force −m a and couple −I ε (d'Alembert; theory 9.6). Friction of the joints is added by
+// mechanisms/joints/mechanism_statics.h.
 //
 // Axes of the mechanism: origin on the crank's axis, +x along stroke or ground, +y 90° ahead of it; moments and angles
 // counter-clockwise. A reaction is what the body `from` does to the body `on`. For each link i, forces and moments
@@ -10,15 +11,30 @@
 // load, what acts on links besides; every reaction is linear in these.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mechanisms/reduced/mechanism_data.h"
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 namespace kurbel {
+
+struct Force2 {
+  double x = 0, y = 0;  // [N]
+  double magnitude() const { return std::hypot(x, y); }
+  double direction() const { return std::atan2(y, x); }  // [rad]
+  // Seen from axes turned by `angle` against the frame.
+  Force2 seen_from(double angle) const {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c * x + s * y, c * y - s * x};
+  }
+};
+inline Force2 operator+(Force2 a, Force2 b) { return {a.x + b.x, a.y + b.y}; }
+inline Force2 operator-(Force2 a, Force2 b) { return {a.x - b.x, a.y - b.y}; }
+inline Force2 operator*(double s, Force2 a) { return {s * a.x, s * a.y}; }
 
 // On a body, besides its weight and the load on the output.
 struct AppliedForce {
@@ -36,6 +52,7 @@ struct LinkageState {
 
 struct LinkForces {
   const char* name = "";
+  double direction = 0;             // of the link; a slider's that of its guide [rad]
   Force2 com;                       // centre of mass [m]
   Force2 acceleration;              // of it [m/s²]
   double omega = 0, alpha = 0;      // of the link [rad/s], [rad/s²]
@@ -55,6 +72,14 @@ struct JointForces {
   Force2 force;       // of `from` on `on` [N]
   double normal = 0;  // of a slide: positive 90° ahead of its direction [N]
   double moment = 0;  // of a slide on `on`, about `at` [N·m]
+  // On `on`: of a pin a couple [N·m], of a slide a force along it [N], which is not in `force`; what it takes [W], ≥ 0.
+  double friction = 0, friction_power = 0;
+  // Of a slide whose length is known, where N acts beyond it: both ends bear, with these forces ahead and behind [N].
+  bool both_edges = false;
+  double edge_front = 0, edge_back = 0;
+
+  // Of a slide: where N acts, along it from `at` [m]; beyond every guide if N = 0.
+  double point() const { return moment == 0 ? 0 : moment / normal; }
 };
 
 struct LinkageForces {
@@ -68,7 +93,11 @@ struct LinkageForces {
   double reduced_inertia = 0, kinetic_energy = 0;             // I_r [kg·m²]; T [J]
   double kinetic_rate = 0, weight_power = 0, load_power = 0;  // dT/dt and powers on the mechanism [W]; the
                                                               // load's with what acts on links
-  double residual = 0;                                        // of the equations, relative to their largest terms
+  double residual = 0;           // of the equations of ideal joints, relative to their largest terms
+  double friction_residual = 0;  // of the friction laws, relative to the largest load that they ask for
+
+  double friction_loss() const;                        // of all joints [W]
+  double friction_loss(std::string_view joint) const;  // of those of this name [W]
 };
 
 // Throws std::runtime_error with the numbers where the equations are singular: in a position where the mechanism
@@ -83,7 +112,7 @@ struct FrictionPlace {
   bool couple = true;
 };
 // Of all joints in their order R_x, R_y [N], of a slide its normal force [N] and moment [N·m], by columns: for ω² = 1,
-// ε = 1, the weights, a unit load, each of what else is applied, each of the friction loads alone (theory 10.2).
+// ε = 1, the weights, a unit load, each of what else is applied, each of the friction loads alone (theory 10.2). Last in each the balancing torque [N·m].
 std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& linkage,
                                                      std::span<const FrictionPlace> friction,
                                                      std::span<const std::vector<AppliedForce>> applied = {});

@@ -6,7 +6,7 @@
 
 #include "engine/numerics/angles.h"
 #include "engine/numerics/roots.h"
-#include "studies/forces/force_cycle.h"
+#include "studies/forces/linkage_cycle.h"
 
 namespace kurbel {
 namespace {
@@ -14,9 +14,9 @@ namespace {
 Force2 direction_of(double phi) { return {std::cos(phi), std::sin(phi)}; }
 
 // What a counterweight opposite to the pin adds to the shaking force at constant speed: −U ω² r̂.
-Force2 added(double moment, const CyclePosition& p) {
-  const double w = p.state.omega;
-  return -moment * w * w * direction_of(p.state.phi);
+Force2 added(double moment, const PositionForces& p) {
+  const double w = p.forces.state.omega;
+  return -moment * w * w * direction_of(p.forces.state.phi);
 }
 
 }  // namespace
@@ -49,59 +49,64 @@ std::vector<ForceHarmonic> measured_harmonics(const std::vector<double>& values,
 
 // None; rotating masses; half of the reciprocating first order besides; and what makes the largest shaking force least
 // (convex in the counterweight, as the largest of norms of affine functions is; by the golden section).
-std::vector<Counterweight> propose_counterweights(const SliderCrankStatics& statics, const CycleBuilder& turn_of_crank,
-                                                  const std::vector<CyclePosition>& positions) {
-  const SliderCrankData& d = statics.data();
+std::optional<Balancing> balancing_of(const MechanismData& data, const ForceCycle& turn_of_crank,
+                                      const std::vector<PositionForces>& samples,
+                                      const std::function<PositionForces(double phi)>& at) {
+  const auto* const crank = data.as<SliderCrankData>();
+  if (!crank) return {};
+  const SliderCrankData& d = *crank;
   const double share = d.rod_com / d.rod_length;  // of the rod's mass that goes with the slider
-  const double rotating = d.crank_mass * d.crank_com + d.rod_mass * (1 - share) * d.radius;
-  const double reciprocating = (d.slider_mass + d.rod_mass * share) * d.radius;
-  const auto shaking = [](double moment, const CyclePosition& p) {
+  Balancing out{.data = d,
+                .rotating_moment = d.crank_mass * d.crank_com + d.rod_mass * (1 - share) * d.radius,
+                .reciprocating_mass = d.slider_mass + d.rod_mass * share,
+                .counterweights = {}};
+  const double rotating = out.rotating_moment, reciprocating = out.reciprocating_mass * d.radius;
+  const auto shaking = [](double moment, const PositionForces& p) {
     return (p.forces.shaking_force + added(moment, p)).magnitude();
   };
   const auto on_grid = [&](double moment) {
     double largest = 0;
-    for (const CyclePosition& p : positions) largest = std::max(largest, shaking(moment, p));
+    for (const PositionForces& p : turn_of_crank.positions) largest = std::max(largest, shaking(moment, p));
     return largest;
   };
   const double best = find_maximum([&](double moment) { return -on_grid(moment); }, rotating - 2 * reciprocating,
                                    rotating + 2 * reciprocating, 100)
                           .at;
   std::vector<double> phi;
-  for (const CyclePosition& p : turn_of_crank.samples()) phi.push_back(p.state.phi);
+  for (const PositionForces& p : samples) phi.push_back(p.forces.state.phi);
   const auto peak = [&](auto&& value) -> Estimate {
     std::vector<double> values;
-    for (const CyclePosition& p : turn_of_crank.samples()) values.push_back(value(p));
+    for (const PositionForces& p : samples) values.push_back(value(p));
     double largest = 0;
     for (const double v : values) largest = std::max(largest, v);
     return measured_peak_of(
-        phi, values, [&](double x) { return value(turn_of_crank.at(x)); }, largest);
+        phi, values, [&](double x) { return value(at(x)); }, largest);
   };
-  std::vector<Counterweight> proposals;
+  const int turns = static_cast<int>(std::lround(turn_of_crank.cycle / turn));
   const auto propose = [&](const std::string& name, double moment) {
     Counterweight c;
     c.name = name;
     c.moment = moment;
     c.reciprocating_share = reciprocating > 0 ? (moment - rotating) / reciprocating : 0;
     std::vector<double> x, y;
-    for (const CyclePosition& p : positions) {
+    for (const PositionForces& p : turn_of_crank.positions) {
       c.shaking.push_back(p.forces.shaking_force + added(moment, p));
       x.push_back(c.shaking.back().x);
       y.push_back(c.shaking.back().y);
     }
-    c.peak_force = peak([&](const CyclePosition& p) { return shaking(moment, p); });
+    c.peak_force = peak([&](const PositionForces& p) { return shaking(moment, p); });
     // The bearing carries it: the frame's force on the crank is less by the counterweight's inertia force.
     c.peak_bearing =
-        peak([&](const CyclePosition& p) { return (p.forces.main_bearing - added(moment, p)).magnitude(); });
-    const int turns = static_cast<int>(std::lround((positions.back().state.phi - positions.front().state.phi) / turn));
+        peak([&](const PositionForces& p) { return (p.forces.joints[0].force - added(moment, p)).magnitude(); });
     c.first_x = measured_harmonics(x, turns, c.peak_force.value).front().amplitude;
     c.first_y = measured_harmonics(y, turns, c.peak_force.value).front().amplitude;
-    proposals.push_back(std::move(c));
+    out.counterweights.push_back(std::move(c));
   };
   propose("as it is", 0);
   propose("rotating masses", rotating);
   propose("rotating masses and half the reciprocating ones", rotating + 0.5 * reciprocating);
   propose("least peak of the shaking force", best);
-  return proposals;
+  return out;
 }
 
 }  // namespace kurbel

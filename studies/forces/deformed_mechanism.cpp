@@ -2,10 +2,12 @@
 #include "studies/forces/deformed_mechanism.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "mechanisms/reduced/newton_euler.h"
 #include "studies/forces/crank_motion.h"
 
 namespace kurbel {

@@ -5,20 +5,18 @@
 // joint, the contact's force in a joint with a gap. They are what figures of ideal joints and rigid links miss.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/model/model.h"
 #include "mechanisms/slider_crank/slider_crank_dynamics.h"
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 namespace kurbel {
 
 struct MachineForces {
-  double torque = 0;                           // of the shaft on the crank [N·m]
-  std::array<double, joint_count> reaction{};  // of a slider-crank that deforms: magnitudes [N]
+  double torque = 0;             // of the shaft on the crank [N·m]
+  std::vector<double> reaction;  // of one that deforms: magnitudes, in the order of its joints [N]
 };
 
 class DeformedMechanism {

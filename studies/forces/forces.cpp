@@ -4,22 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "engine/numerics/deadline.h"
-#include "engine/numerics/roots.h"
 #include "engine/rigid/rigid_machine.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/cycle/classical.h"
 #include "studies/cycle/machine_cycle.h"
-#include "studies/forces/force_cycle.h"
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
 #include "studies/validity/substitutes.h"
@@ -27,48 +23,50 @@
 namespace kurbel {
 namespace {
 
-ForceCycle cycle_along(const SliderCrankStatics& statics, OutputLoads& loads, const MotionAlong& along,
-                       std::vector<Counterweight>* counterweights = nullptr) {
-  ForceCycle cycle;
-  cycle.cycle = along.cycle;
-  CycleBuilder builder(statics, loads, cycle);
-  for (std::size_t i = 0; i < along.where.size(); ++i) builder.add(along.where[i], along.motion[i]);
-  builder.finish();
-  if (counterweights) *counterweights = propose_counterweights(statics, builder, cycle.positions);
-  return cycle;
-}
-
 // What the machine's own equations have otherwise than rigid links in ideal joints, pointwise at most: an error of every
 // figure that it touches.
 struct Missed {
   double torque = 0, greatest_torque = 0;
-  std::array<double, joint_count> reaction{}, greatest{};
+  double scale = 0;                        // of torques, by what the joints' forces make at their places
+  std::vector<double> reaction, greatest;  // of each joint, of a mechanism that deforms [N]
 };
 
-Missed missed_by(const SliderCrankStatics& statics, OutputLoads& loads, const SimulatedMotion& simulated) {
+Missed missed_by(const MechanismStatics& statics, OutputLoads& loads, const SimulatedMotion& simulated) {
+  constexpr double least = 1e-3;  // of what the joints' forces make at their places: less is no torque to measure by
   Missed missed;
   for (std::size_t i = 0; i < simulated.machine.size(); ++i) {
+    const double there = simulated.along.where[i].place();
+    double phi = there;
+    const PlanarLinkage linkage = statics.linkage(phi);
+    if (phi != there) continue;  // what the links need there is that of a place beside it
     const CrankMotion& m = simulated.along.motion[i];
-    const double phi = simulated.along.where[i].place();
-    const SliderCrankForces f = statics.solve({phi, m.omega, m.alpha, loads.force(phi, m)});
+    const LinkageForces f = statics.solve(linkage, loads.state(phi, m, linkage));
     const MachineForces& own = simulated.machine[i];
     missed.torque = std::max(missed.torque, std::abs(own.torque - f.torque));
     missed.greatest_torque = std::max(missed.greatest_torque, std::abs(own.torque));
-    if (!simulated.deforms) continue;
-    const std::array<double, joint_count> ideal = {f.main_bearing.magnitude(), f.crank_pin.magnitude(),
-                                                   f.slider_pin.magnitude(), std::abs(f.guide)};
-    for (std::size_t k = 0; k < joint_count; ++k) {
-      missed.reaction[k] = std::max(missed.reaction[k], std::abs(own.reaction[k] - ideal[k]));
+    for (const JointForces& j : f.joints)
+      missed.scale = std::max(missed.scale, least * j.force.magnitude() * j.at.magnitude());
+    missed.reaction.resize(own.reaction.size()), missed.greatest.resize(own.reaction.size());
+    for (std::size_t k = 0; k < own.reaction.size(); ++k) {
+      const double ideal = f.joints[k].force.magnitude();
+      missed.reaction[k] = std::max(missed.reaction[k], std::abs(own.reaction[k] - ideal));
       missed.greatest[k] = std::max(missed.greatest[k], own.reaction[k]);
     }
   }
+  missed.scale = std::max(missed.scale, missed.greatest_torque);
   return missed;
 }
 
-void add_missed(const Missed& missed, const SliderCrankData& d, ForceCycle& cycle) {
-  const double force = missed.reaction[0] + missed.reaction[3];  // what the frame feels
-  const double moment = missed.torque + missed.reaction[3] * (d.radius + d.rod_length);
-  for (std::size_t k = 0; k < joint_count; ++k) cycle.reaction[k].widen(missed.reaction[k]);
+void add_missed(const Missed& missed, ForceCycle& cycle) {
+  double force = 0, moment = missed.torque;  // what the frame feels
+  const std::vector<JointForces>& joints = cycle.positions.front().forces.joints;
+  for (std::size_t k = 0; k < missed.reaction.size(); ++k) {
+    cycle.reaction(k).widen(missed.reaction[k]);
+    if (joints[k].from != std::string_view("frame")) continue;
+    double arm = 0;
+    for (const PositionForces& p : cycle.positions) arm = std::max(arm, p.forces.joints[k].at.magnitude());
+    force += missed.reaction[k], moment += missed.reaction[k] * arm;
+  }
   cycle.torque.widen(missed.torque);
   cycle.shaking_force.widen(force);
   cycle.shaking_moment.widen(moment);
@@ -87,169 +85,146 @@ std::string words_of(const Missed& missed, const ForceCycle& cycle) {
       "the mechanism counts as rigid links in ideal joints; in the same motion the machine's own equations have a "
       "crank torque of up to {} for {}",
       with_unit(missed.greatest_torque, "N*m", 5), with_unit(std::abs(cycle.torque.value), "N*m", 5));
-  for (std::size_t k = 0; k < joint_count && missed.greatest[0] > 0; ++k)
-    text += fmt::format(", at the {} {} for {}", name_of(static_cast<Joint>(k)), with_unit(missed.greatest[k], "N", 5),
-                        with_unit(std::abs(cycle.reaction[k].value), "N", 5));
+  for (std::size_t k = 0; k < missed.greatest.size(); ++k)
+    text += fmt::format(", at the {} {} for {}", cycle.positions.front().forces.joints[k].name,
+                        with_unit(missed.greatest[k], "N", 5), with_unit(std::abs(cycle.reaction(k).value), "N", 5));
   return text + "; the greatest difference at an angle is counted as an error of every figure";
 }
 
-SliderCrankJoints without_friction(SliderCrankJoints joints) {
-  for (RevoluteJoint* j : {&joints.main_bearing, &joints.crank_pin, &joints.slider_pin}) j->friction = {};
-  joints.guide.friction = {};
-  joints.guide.rolling_arm = 0;
-  return joints;
-}
-
-// Where friction turns round in a turn: at the ends of the slider's travel, and where the rod turns back.
-std::vector<double> turnings_of(const SliderCrankData& data) {
-  const auto rod = [&](double phi) {
-    return static_cast<double>(linkage_of(data, phi).bodies[1].direction.rate().value());
-  };
-  std::vector<double> angles;
-  for (const auto& slope :
-       {std::function<double(double)>([&](double phi) { return static_cast<double>(linkage_of(data, phi).output[1]); }),
-        std::function<double(double)>(rod)}) {
-    constexpr int cells = 24;
-    const double step = 2 * std::numbers::pi / cells, begin = 0.3 * step;  // off the angles where they like to lie
-    for (int i = 0; i < cells; ++i) {
-      const double a = begin + step * i, b = a + step, at_a = slope(a), at_b = slope(b);
-      if (at_a * at_b < 0) angles.push_back(find_root(slope, a, at_a, b, at_b));
-    }
-  }
-  return angles;
-}
-
 // Of the machine, and with them of the joints: motion and forces follow the same laws.
-Effects effects_of(const Scene& scene, const ForcesOptions& options, const SliderCrankJoints& joints) {
+Effects effects_of(const AskedMechanism& asked, const ForcesOptions& options) {
   if (options.effects) return *options.effects;
-  Effects effects = scene.effects;
+  Effects effects = asked.scene.effects;
   // Joints with clearance, or at a rod that bends, know no friction by the reactions of ideal ones.
   if (!effects.joint_clearance && !effects.flexible_rod)
-    effects.joint_friction = effects.joint_friction || !joints.frictionless();
+    effects.joint_friction = effects.joint_friction || asked.mechanism().joints != nullptr;
   return effects;
+}
+
+// A problem under loads from outside of their data. Of a table that another problem left, too, that is said once, however
+// far either went.
+void tell_outside_data(Forces& out, const std::vector<std::string>& sentences, ForceCycle& cycle, bool simulated) {
+  if (sentences.empty()) return;
+  const auto table = [](const std::string& told) { return told.substr(0, told.find(", and the motion goes to")); };
+  for (const std::string& sentence : sentences)
+    if (std::none_of(out.outside_data.begin(), out.outside_data.end(),
+                     [&](const std::string& told) { return table(told) == table(sentence); }))
+      out.outside_data.push_back(sentence);
+  cycle.drop_errors(simulated);
 }
 
 class Study {
  public:
-  Study(const AskedMechanism& asked, const ForcesOptions& options) : asked_(asked), options_(options) {
-    const Scene& scene = asked.scene;
+  Study(const AskedMechanism& asked, const ForcesOptions& options)
+      : asked_(asked),
+        options_(options),
+        data_(asked.mechanism().data),
+        effects_(effects_of(asked, options)),
+        machine_(asked, effects_, options),
+        loads_(asked, effects_) {
     describe(asked, out_);
-    out_.data = *asked.mechanism().data.as<SliderCrankData>();
-    out_.joints = *asked.network.data.find<SliderCrankJoints>(asked.name);
-    const Effects effects = effects_of(scene, options, out_.joints);
-    if (!effects.gravity) out_.data.gravity = 0;
-    machine_.emplace(asked, effects, options);
-    effects_ = effects;
-    loads_.emplace(asked, effects);
-    if (effects.joint_friction && !out_.joints.frictionless()) loads_->add_edges(turnings_of(out_.data));
-    const SliderCrankJoints given = out_.joints;
-    if (!effects.joint_friction) out_.joints = without_friction(given);
-    statics_.emplace(out_.data, out_.joints);
-    const double share = out_.data.rod_com / out_.data.rod_length;
-    out_.rotating_moment =
-        out_.data.crank_mass * out_.data.crank_com + out_.data.rod_mass * (1 - share) * out_.data.radius;
-    out_.reciprocating_mass = out_.data.slider_mass + out_.data.rod_mass * share;
+    out_.rocks = data_.rocks();
+    out_.joints = *asked.network.data.find<MechanismJoints>(asked.name);
+    out_.friction = effects_.joint_friction && asked.mechanism().joints;
+    if (const std::string why = data_.undetermined(); !why.empty())
+      throw std::invalid_argument(fmt::format("{}: {}; ask run, steady or reduce", asked.name, why));
+    for (const std::string& line : data_.about()) out_.notes.push_back(asked.name + ": " + line);
+    statics_.emplace(data_, out_.joints, out_.friction, !effects_.gravity);
+    loads_.add_edges(statics_->turnings());
     solve_first();
-    if (!effects.joint_friction && !given.frictionless()) tell_friction_left_out(given);
+    if (!out_.friction && asked.mechanism().joints) tell_friction_left_out();
   }
 
   Forces result() {
     std::optional<SimulatedMotion> simulated;
     if (options_.simulate) {
       options_.watch.say("second problem: the motion that the machine keeps");
-      simulated = machine_->solve(*loads_, {out_.notes, out_.complete, out_.diagnosis});
+      simulated = machine_.solve(loads_, {out_.notes, out_.complete, out_.diagnosis});
     }
     if (simulated) solve_second(*simulated), solve_rigid();
-    LinkageCycle links = linkage_cycle(out_.data, *loads_, simulated ? simulated->along : prescribed_);
-    if (simulated)
-      for (const SimulatedMotion::Other& other : simulated->others)
-        links.widen_to(linkage_cycle(out_.data, *loads_, other.motion), other.times);
-    mark_unbounded(out_.unbounded, links);
-    tell_outside_data(out_, loads_->outside_data(prescribed_.motion.front().omega), *out_.prescribed, false);
-    if (simulated) {
-      tell_outside_data(out_, simulated->outside_data, *out_.simulated, true);
-      tell_outside_data(out_, simulated->outside_data, links, true);
-    }
-    if (!out_.prescribed->torque.error)
-      for (Counterweight& c : out_.counterweights) c.peak_bearing.error.reset();
-    out_.links = std::make_shared<const LinkageCycle>(std::move(links));
+    tell_outside_data(out_, loads_.outside_data(prescribed_.motion.front().omega), *out_.prescribed, false);
+    if (simulated) tell_outside_data(out_, simulated->outside_data, *out_.simulated, true);
+    if (out_.balancing && !out_.prescribed->torque.error)
+      for (Counterweight& c : out_.balancing->counterweights) c.peak_bearing.error.reset();
     for (std::optional<ForceCycle>* cycle : {&out_.prescribed, &out_.simulated})
-      for (std::size_t k = 0; *cycle && k < out_.unbounded.of_joint.size(); ++k)
-        (*cycle)->reaction[k].unbounded = out_.unbounded.of_joint[k];
+      if (*cycle) mark_unbounded(out_.unbounded, **cycle);
     return std::move(out_);
   }
 
  private:
+  ForceCycle cycle_along(const MotionAlong& along) { return linkage_cycle(*statics_, loads_, along); }
+
   void solve_first() {
-    const CrankSpeed speed = prescribed_speed(*machine_, options_);
+    const CrankSpeed speed = prescribed_speed(machine_, options_);
     options_.watch.say(
         fmt::format("first problem: {} at {} ({})", out_.mechanism, out_.speed_unit.text(speed.value), speed.source));
-    prescribed_ = steady_motion(*loads_, speed.value, options_.positions);
-    out_.prescribed = cycle_along(*statics_, *loads_, prescribed_, &out_.counterweights);
-    out_.unbounded = unbounded_reactions(out_.data, *loads_, speed.value);
-    describe_first(speed, *loads_, *machine_, out_, *out_.prescribed);
-    if (options_.also) look_further(speed.value);
+    prescribed_ = steady_motion(loads_, speed.value, options_.positions);
+    std::vector<PositionForces> samples;
+    out_.prescribed = linkage_cycle(*statics_, loads_, prescribed_, &samples);
+    const auto at = [&](double phi) {
+      return linkage_position(*statics_, loads_, phi, {speed.value, 0, loads_.left()});
+    };
+    out_.balancing = balancing_of(data_, *out_.prescribed, samples, at);
+    out_.unbounded = unbounded_reactions(data_, loads_, speed.value);
+    describe_first(speed, loads_, machine_, out_, *out_.prescribed);
+    if (!options_.also) return;
+    for (const double phi : options_.also(prescribed_cycle(loads_, speed.value))) out_.also.push_back(at(phi));
   }
 
-  void look_further(double speed) {
-    ForceCycle none;
-    const CycleBuilder builder(*statics_, *loads_, none);
-    for (const double phi : options_.also(prescribed_cycle(*loads_, speed)))
-      out_.also.push_back(builder.at(phi, {speed, 0, loads_->left()}));
-  }
-
-  void tell_friction_left_out(const SliderCrankJoints& given) {
-    const SliderCrankStatics rough(out_.data, given);
-    const ForceCycle cycle = cycle_along(rough, *loads_, prescribed_);
+  void tell_friction_left_out() {
+    const MechanismStatics rough(data_, out_.joints, true, !effects_.gravity);
+    const ForceCycle cycle = linkage_cycle(rough, loads_, prescribed_);
     out_.notes.push_back(
         fmt::format("friction in the joints is omitted{}: in the first problem it would take {} per cycle, and the "
                     "crank's torque would peak at {} instead of {}",
-                    machine_->deforms() ? ", for clearance and a rod that bends cannot be had with it" : "",
+                    machine_.deforms() ? ", for clearance and a rod that bends cannot be had with it" : "",
                     with_unit(cycle.harmful.value, "J", 4), with_unit(std::abs(cycle.torque.value), "N*m", 5),
                     with_unit(std::abs(out_.prescribed->torque.value), "N*m", 5)));
   }
 
   void solve_second(const SimulatedMotion& simulated) {
-    ForceCycle& cycle = out_.simulated.emplace(cycle_along(*statics_, *loads_, simulated.along));
+    ForceCycle& cycle = out_.simulated.emplace(cycle_along(simulated.along));
     for (std::size_t i = 0; i < simulated.others.size(); ++i) {
       const SimulatedMotion::Other& other = simulated.others[i];
-      cycle.widen_to(cycle_along(*statics_, *loads_, other.motion), other.times);
+      cycle.widen_to(cycle_along(other.motion), other.times);
       if (i == 0) judge_works(cycle);  // of this cycle itself, whether or not it comes again
     }
     cycle.label = "simulated";
     cycle.description = simulated.description;
-    const Missed missed = missed_by(*statics_, *loads_, simulated);
-    const double scale =
-        std::max(missed.greatest_torque, rounding_of_torque * std::abs(cycle.reaction[1].value) * out_.data.radius);
-    cycle.machine_residual = scale > 0 ? missed.torque / scale : 0;
-    if (machine_->deforms() || *cycle.machine_residual > same_physics + left_by_tables(asked_.scene)) {
-      add_missed(missed, out_.data, cycle);
-      out_.notes.push_back(words_of(missed, cycle));
-    }
+    const Missed missed = missed_by(*statics_, loads_, simulated);
+    cycle.machine_residual = missed.scale > 0 ? missed.torque / missed.scale : 0;
+    if (!machine_.deforms() && *cycle.machine_residual <= same_physics + left_by_tables(asked_.scene)) return;
+    add_missed(missed, cycle);
+    out_.notes.push_back(words_of(missed, cycle));
   }
 
   void solve_rigid() {
-    out_.elastic = machine_->is_elastic();
+    out_.elastic = machine_.is_elastic();
     if (!out_.elastic || !options_.rigid_behind) return;
-    if (const auto rigid = rigid_motion(asked_, effects_, *loads_, options_))
-      out_.rigid = cycle_along(*statics_, *loads_, *rigid);
+    if (const auto rigid = rigid_motion(asked_, effects_, loads_, options_)) out_.rigid = cycle_along(*rigid);
   }
 
   static constexpr double same_physics = 1e-7;  // tables of the mechanism, and what the step leaves of friction's laws
-  static constexpr double rounding_of_torque =
-      1e-3;  // of the crank pin's load at the radius: less is no torque to measure by
 
   const AskedMechanism& asked_;
   const ForcesOptions& options_;
+  const MechanismData& data_;
   Effects effects_;
   Forces out_;
-  std::optional<MachineMotion> machine_;
-  std::optional<OutputLoads> loads_;
-  std::optional<SliderCrankStatics> statics_;
+  MachineMotion machine_;
+  OutputLoads loads_;
+  std::optional<MechanismStatics> statics_;
   MotionAlong prescribed_;
 };
 
 }  // namespace
+
+std::vector<const ForceCycle*> Forces::problems() const {
+  std::vector<const ForceCycle*> list;
+  for (const auto* problem : {&prescribed, &simulated})
+    if (*problem) list.push_back(&**problem);
+  return list;
+}
 
 std::optional<double> PowerFlow::efficiency() const {
   double in = 0;
@@ -258,7 +233,7 @@ std::optional<double> PowerFlow::efficiency() const {
   return std::max(0.0, 1 - friction / in);  // what goes out is no less than nothing
 }
 
-// --- what the studies of both kinds of mechanism share ---
+// --- motions ---
 
 std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effects& effects, OutputLoads& loads,
                                         const ForcesOptions& options) {
@@ -302,16 +277,17 @@ CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& o
   return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
 }
 
-void describe(const AskedMechanism& asked, AboutForces& out) {
+void describe(const AskedMechanism& asked, Forces& out) {
   out.title = asked.scene.heading();
   out.speed_unit = asked.scene.speed_unit;
   out.scene_file = asked.scene.file;
   out.scene_text = asked.scene.text;
   out.mechanism = asked.name;
+  out.kind = asked.kind;
 }
 
-void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, AboutForces& out,
-                    CycleOfForces& cycle) {
+void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, Forces& out,
+                    ForceCycle& cycle) {
   cycle.label = "prescribed";
   cycle.description = fmt::format("crank turning at {} throughout, {}", out.speed_unit.text(speed.value), speed.source);
   for (const std::string& words : {out.unbounded.any() ? out.unbounded.words : "", loads.words_of_sequence()})
@@ -325,8 +301,6 @@ Forces find_forces(const Scene& scene, const ForcesOptions& options) {
   check(options);
   const Deadline deadline(scene.run.budget);
   const AskedMechanism asked(scene, options.mechanism);
-  if (asked.kind != "slider-crank")
-    throw std::invalid_argument(fmt::format("{}: {} is no slider-crank but a {}", scene.file, asked.name, asked.kind));
   return Study(asked, options).result();
 }
 

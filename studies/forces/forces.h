@@ -1,7 +1,10 @@
-// forces.h — kinetostatics of a scene's slider-crank over a cycle: reactions, balancing torque, friction, balancing.
+// forces.h — kinetostatics of a scene's mechanism over a cycle: reactions in every joint, friction, balancing torque, shaking
+// force and moment, inertia forces and motion of every link, its shares in I_r and kinetic energy.
 //
 // First problem: the crank turns at a given speed; what forces does that need? Second problem: the machine runs as its
 // torques drive it, with the scene's effects, and the forces follow from the motion that it keeps.   (theory 9)
+// Signs and axes: newton_euler.h. Every figure has an error (theory 9.13): what a search at half the resolution finds
+// otherwise, rounding, and, where the motion is simulated, the difference to a run with 30 × looser tolerance.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +13,16 @@
 #include <complex>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/estimate.h"
 #include "engine/scene/scene.h"
+#include "mechanisms/joints/reaction_table.h"
+#include "mechanisms/linkages/slider_crank.h"
 #include "mechanisms/reduced/newton_euler.h"
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "studies/findings/watch.h"
 
 namespace kurbel {
@@ -33,7 +37,7 @@ struct PrescribedCycle {
 struct ForcesOptions {
   int positions = 12;           // of a turn that tables show, ≥ 4
   std::optional<double> speed;  // of the crank in the first problem [rad/s], ≠ 0; default: start speed, else rated
-  std::string mechanism;        // empty: the first slider-crank
+  std::string mechanism;        // empty: the first
   // Of the second problem's machine; default: the scene's, with the joints' friction where they have any.
   std::optional<Effects> effects = {};
   bool simulate = true;       // the second problem, too
@@ -60,11 +64,8 @@ struct PowerFlow {
   std::optional<double> efficiency() const;
 };
 
-struct CyclePosition {
-  CrankState state;
-  double position = 0, velocity = 0;  // of the slider [m, m/s]
-  double rod_angle = 0;               // β [rad]
-  SliderCrankForces forces;
+struct PositionForces {
+  LinkageForces forces;
   PowerFlow power;
   ActingLoads loads = {};
 };
@@ -99,50 +100,55 @@ struct CycleWork {
   double turnover = 0;  // ∫|dA|: what goes to and fro [J]
 };
 
-// What either problem tells of one cycle of any mechanism.
-struct CycleOfForces {
+// One link over the cycle.
+struct LinkOfCycle {
+  std::string name;
+  Peak omega, alpha;                     // [rad/s], [rad/s²]
+  Peak inertia_force, inertia_couple;    // |−m a_S| [N], −I ε [N·m]
+  Estimate reduced_inertia;              // its part of I_r, mean over the angle [kg·m²]
+  Estimate inertia_share;                // of the mean I_r
+  Estimate least_share, greatest_share;  // of I_r at a position
+  Estimate energy;                       // its kinetic energy, mean over the time [J]
+  Estimate energy_share;                 // of the mechanism's
+};
+
+// What either problem says of one cycle.
+struct ForceCycle {
   std::string label;                                 // "prescribed", "simulated"
   std::string description;                           // for people
   double cycle = 0;                                  // [rad]
   Estimate mean_speed, least_speed, greatest_speed;  // of the crank; the mean over the time [rad/s]
   Estimate closure;                                  // speed at the end − at the begin, over the mean: 0 if steady
+  std::vector<PositionForces> positions;             // 720 of a turn, evenly, both ends, whatever is asked for
+  std::vector<PositionForces> rows;                  // those asked for, both ends
+  std::vector<PositionForces> curve;                 // positions, both sides of every load edge, and the peaks
+  PositionForces at_torque_peak;
+  std::vector<NamedPeak> reactions;  // of each joint; of a slide its normal force, then its moment
   Peak torque, shaking_force, shaking_moment;
+  std::vector<LinkOfCycle> links;
   std::vector<ForceHarmonic> shaking_x, shaking_y, shaking_couple, torque_orders;
   Estimate torque_mean;                    // over the angle [N·m]
   std::vector<CycleWork> work;             // by account: loads, weight, the balancing torque, friction of each joint
   Estimate kinetic_change;                 // of the mechanism over the cycle [J]
+  double kinetic_most = 0;                 // its kinetic energy, greatest [J]
+  Estimate input, useful, harmful;         // work that goes in, comes out usefully, is lost [J], ≥ 0
+  double spent = 0;                        // input less what the motion stores [J]
+  std::optional<Estimate> efficiency;      // useful/spent, where works beyond their errors make one: 0 … 1
+  std::string no_efficiency;               // else why
+  int both_edges = 0;                      // positions where both ends of some slide bear
   double power_residual = 0;               // largest, of the powers' balance at a position
+  double equation_residual = 0;            // largest, of the links' equilibrium
+  double friction_residual = 0;            // largest, of the friction laws
   std::optional<double> machine_residual;  // of the torque, from the compiled machine's own, over the largest
 
+  // Of the n-th joint the force's peak.
+  const Peak& reaction(std::size_t joint) const;
+  Peak& reaction(std::size_t joint) { return const_cast<Peak&>(std::as_const(*this).reaction(joint)); }
   // Every error by `times` the difference to the other one; peaks are compared by magnitude.
-  void widen_to(const CycleOfForces& other, double times);
-  // Of what hangs on the loads, and of all else that hangs on how they move the machine.
-  void drop_errors(bool of_motion);
-};
-void widen_peak(Peak& peak, const Peak& other, double times);
-
-// One of the two problems of a slider-crank.
-struct ForceCycle : CycleOfForces {
-  double first_speed = 0, last_speed = 0;  // of the crank at the cycle's begin and end in time [rad/s]
-  std::vector<CyclePosition> positions;    // 720 of a turn, evenly, both ends, whatever is asked for
-  std::vector<CyclePosition> rows;         // those asked for, both ends
-  std::vector<CyclePosition> curve;        // positions, both sides of every load edge, and the peaks
-  Peak reaction[joint_count];              // [N]
-  CyclePosition at_torque_peak;
-  int both_edges = 0;                  // positions where both edges bear
-  double kinetic_most = 0;             // of the mechanism, greatest [J]
-  Estimate input, useful, harmful;     // work that goes in, comes out usefully, is lost [J], ≥ 0
-  double spent = 0;                    // input less what the motion stores [J]
-  std::optional<Estimate> efficiency;  // useful/spent, where works beyond their errors make one: 0 … 1
-  std::string no_efficiency;           // else why
-  double friction_residual = 0;        // largest, of the friction laws
-  int most_iterations = 0;
-
   void widen_to(const ForceCycle& other, double times);
+  // Of what depends on the loads, and of all else that depends on how they move the machine.
   void drop_errors(bool of_motion);
 };
-
-struct LinkageCycle;  // linkage_cycle.h
 
 struct Counterweight {
   std::string name;
@@ -154,62 +160,38 @@ struct Counterweight {
   std::vector<Force2> shaking;     // over the turn, as the positions of the first problem
 };
 
-// What a study of forces is about, of whichever mechanism.
-struct AboutForces {
-  std::string title, scene_file, scene_text, mechanism;
+// Of a slider-crank: what its masses shake, and what balances them.
+struct Balancing {
+  SliderCrankData data;
+  double rotating_moment = 0;                 // of crank and the rod's share in the crank pin, towards the pin [kg·m]
+  double reciprocating_mass = 0;              // of slider and the rod's share in the slider pin [kg]
+  std::vector<Counterweight> counterweights;  // the first: as it is
+};
+
+struct Forces {
+  std::string title, scene_file, scene_text, mechanism, kind;
   SpeedUnit speed_unit;
+  bool rocks = false;    // the output is an angle
   bool elastic = false;  // the second problem's machine is
+  MechanismJoints joints;
+  bool friction = false;  // joints have it, and it counts
+  std::optional<ForceCycle> prescribed, simulated;
+  std::optional<ForceCycle> rigid;     // the second problem of an elastic machine without elasticity, for plots
+  std::vector<PositionForces> also;    // of the first problem, at the further angles that were asked for
+  std::optional<Balancing> balancing;  // of a slider-crank, at the first problem's speed
   UnboundedReactions unbounded;
   std::vector<std::string> outside_data;  // what is taken from beyond the ends of tables; that has no error
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;
-};
-template <class Cycle, class Position>
-struct StudyOfForces : AboutForces {
-  std::optional<Cycle> prescribed, simulated;
-  std::optional<Cycle> rigid;  // the second problem of an elastic machine without elasticity, for plots
-  std::vector<Position> also;  // of the first problem, at the further angles that were asked for
+
+  // The problems that were solved, the first of them first; the last one is the machine's own motion, where there is one.
+  std::vector<const ForceCycle*> problems() const;
+  const ForceCycle& front() const { return simulated ? *simulated : *prescribed; }
 };
 
-struct Forces : StudyOfForces<ForceCycle, CyclePosition> {
-  SliderCrankData data;
-  SliderCrankJoints joints;
-  double rotating_moment = 0;                 // of crank and the rod's share in the crank pin, towards the pin [kg·m]
-  double reciprocating_mass = 0;              // of slider and the rod's share in the slider pin [kg]
-  std::shared_ptr<const LinkageCycle> links;  // of the problem in front, joints without friction: motion and inertia
-  std::vector<Counterweight> counterweights;  // the first: as it is
-};
-
-// A problem under loads from outside of their data. Of a table that another problem left, too, that is told once, however far
-// either went.
-template <class Cycle>
-void tell_outside_data(AboutForces& about, const std::vector<std::string>& sentences, Cycle& cycle, bool simulated) {
-  if (sentences.empty()) return;
-  const auto table = [](const std::string& told) { return told.substr(0, told.find(", and the motion goes to")); };
-  for (const std::string& sentence : sentences)
-    if (std::none_of(about.outside_data.begin(), about.outside_data.end(),
-                     [&](const std::string& told) { return table(told) == table(sentence); }))
-      about.outside_data.push_back(sentence);
-  cycle.drop_errors(simulated);
-}
-
-// Of a study of forces: the problems that were solved, the first of them first; the last one is the machine's own motion,
-// where there is one.
-template <class Study>
-auto problems_of(const Study& f) {
-  std::vector<decltype(&*f.prescribed)> problems;
-  for (const auto* problem : {&f.prescribed, &f.simulated})
-    if (*problem) problems.push_back(&**problem);
-  return problems;
-}
-template <class Study>
-const auto& front_of(const Study& f) {
-  return f.simulated ? *f.simulated : *f.prescribed;
-}
-
-// Throws SceneError where the scene makes no machine; std::invalid_argument where it has no mechanism or options
-// are senseless, or the mechanism is of another kind; std::runtime_error with the position where the joints jam.
+// Throws SceneError where the scene makes no machine; std::invalid_argument where it has no mechanism, its reactions are
+// not determined, or options are senseless; std::runtime_error with the position where the joints jam.
 Forces find_forces(const Scene& scene, const ForcesOptions& options);
 
 // Orders 0 … highest of values given evenly over `turns` turns, both ends (trapezium rule, exact for smooth functions).

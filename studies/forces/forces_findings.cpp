@@ -1,28 +1,65 @@
-// forces_findings.cpp — words, tables and formulas of the forces of a slider-crank.
+// forces_findings.cpp — words, tables and formulas of the forces of a mechanism.
 #include "studies/forces/forces_findings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "engine/scene/units.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/forces/forces_plots.h"
+#include "studies/forces/linkage_cycle.h"
 
 namespace kurbel {
 namespace {
 
-// --- figures ---
+using P = const PositionForces&;
 
-std::vector<NamedPeak> peaks_of(const ForceCycle& c) {
-  std::vector<NamedPeak> peaks;
-  for (std::size_t k = 0; k < joint_count; ++k)
-    peaks.push_back(
-        {fmt::format("reaction of the {}", name_of(static_cast<Joint>(k))), "N", "reaction", c.reaction[k]});
-  return with_torque_and_shaking(std::move(peaks), c);
+// --- peaks in words: "90.0°", "10.45 kN"; for tables with the error, or "no bound" ---
+
+double degrees(double angle) { return angle * 180 / std::numbers::pi; }
+std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.phi)); }
+std::string peak_text(const Peak& p, double factor) { return p.unbounded ? "no bound" : with_error(factor * p, ""); }
+
+Findings begin_findings(const Forces& f, const ForceCycle& front, const std::string& conclusion) {
+  Findings to{.title = f.title,
+              .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front.description),
+              .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
+              .scene_file = f.scene_file,
+              .speed_unit = f.speed_unit.name,
+              .complete = f.complete,
+              .diagnosis = f.diagnosis,
+              .footer = report_footer()};
+  to.conclude(f.complete, conclusion);
+  if (f.complete) to.conclude(true, capitalised(front.description));
+  for (const std::string& sentence : f.outside_data) to.claim(Predicate::outside_data, sentence);
+  to.tell("mechanism", f.mechanism);
+  return to;
 }
 
-bool has_friction(const Forces& f) { return !f.joints.frictionless(); }
+// "press at 60 rpm: the main bearing carries up to 10.45 kN (at 90.0°)", or that reactions have no bound.
+std::string begin_conclusion(const Forces& f, const ForceCycle& front, const Peak& main_bearing) {
+  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4));
+  if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
+  return fmt::format("{}: the main bearing carries up to {} (at {})", moving, in_words(main_bearing, "N"),
+                     at_angle(main_bearing));
+}
+
+std::string torque_in_words(const ForceCycle& c) {
+  if (is_nothing(c.torque)) return "no balancing torque is needed";
+  return fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque));
+}
+
+// The heaviest of all joints.
+const NamedPeak& heaviest(const ForceCycle& c) {
+  const NamedPeak* most = &c.reactions.front();
+  for (const NamedPeak& r : c.reactions)
+    if (r.unit == "N" && std::abs(r.peak.value) > std::abs(most->peak.value)) most = &r;
+  return *most;
+}
 
 // With its error where that shows.
 std::string efficiency_text(const ForceCycle& c) {
@@ -33,10 +70,20 @@ std::string efficiency_text(const ForceCycle& c) {
 }
 
 std::string conclusion_of(const Forces& f) {
-  const ForceCycle& c = front_of(f);
-  std::string text = fmt::format("{}, {}, the shaking force peaks at {}", begin_conclusion(f, c, c.reaction[0]),
-                                 torque_in_words(c), in_words(c.shaking_force, "N"));
-  if (has_friction(f))
+  const ForceCycle& c = f.front();
+  const NamedPeak &bearing = c.reactions.front(), &most = heaviest(c);
+  std::string text = begin_conclusion(f, c, bearing.peak);
+  if (&most != &bearing && !f.unbounded.any() && !f.balancing)
+    text += fmt::format(", the heaviest load of a joint is {} ({}, at {})", in_words(most.peak, "N"), most.name,
+                        at_angle(most.peak));
+  text += ", " + torque_in_words(c);
+  if (!is_nothing(c.shaking_force))
+    text += fmt::format(", the shaking force peaks at {}", in_words(c.shaking_force, "N"));
+  else if (is_nothing(c.shaking_moment))
+    text += ", nothing shakes the frame";
+  else
+    text += fmt::format(", no force but a moment shakes the frame, up to {}", in_words(c.shaking_moment, "N*m"));
+  if (f.friction)
     text += c.efficiency
                 ? fmt::format("; efficiency of the cycle {}{}", efficiency_text(c),
                               c.harmful.value > 0 ? fmt::format(", {} of {} lost", with_unit(c.harmful.value, "J", 4),
@@ -46,30 +93,114 @@ std::string conclusion_of(const Forces& f) {
   return text + ".";
 }
 
+std::string signs_of(const Forces& f) {
+  return fmt::format(
+      "Axes of the mechanism: origin on the crank's axis, +x along the {}, +y 90° ahead of it; angles, torques and "
+      "moments counter-clockwise. “{}: {} on {}” is the force of the first body on the second; the second exerts the "
+      "opposite on the first. A slide's force is normal to it, positive 90° ahead of its direction; its moment is "
+      "about the pin at which it is given. The balancing torque is the shaft's on the crank. Shaking force and moment "
+      "are those of all inertia forces −m a and couples −I ε on the frame, moments about the crank's axis; loads and "
+      "weights are not in them.",
+      f.rocks ? "ground link" : "stroke", f.front().positions.front().forces.joints[1].name,
+      f.front().positions.front().forces.joints[1].from, f.front().positions.front().forces.joints[1].on);
+}
+
+std::string checks_of(const ForceCycle& c) {
+  std::string text = fmt::format(
+      "power balance closes to {:.1e} of the largest power at every position, the links' equilibrium to {:.1e}",
+      c.power_residual, c.equation_residual);
+  if (c.friction_residual > 0) text += fmt::format("; friction laws hold to {:.1e}", c.friction_residual);
+  if (c.both_edges > 0)
+    text +=
+        fmt::format("; a slide is in contact at both edges at {} of {} positions", c.both_edges, c.positions.size());
+  return text;
+}
+
 // --- tables ---
 
-Rows position_table(const ForceCycle& c) {
-  using P = const CyclePosition&;
-  return table_of("", fmt::format("{}: {}", c.label, c.description), c.rows)
-      .headed(fmt::format("{}: {}", c.label, c.description))
-      .text_in(0)
-      .always()
-      .only_for_people("φ [°]", [](P p) { return degrees(p.state.phi); }, {.digits = 5})
-      .only_for_people("ω [rad/s]", [](P p) { return p.state.omega; })
-      .only_for_people("M [N·m]", [&](P p) { return or_zero(p.forces.torque, c.torque.value); })
-      .only_for_people("R main [N]", [](P p) { return p.forces.main_bearing.magnitude(); })
-      .only_for_people("R crank pin [N]", [](P p) { return p.forces.crank_pin.magnitude(); })
-      .only_for_people("R slider pin [N]", [](P p) { return p.forces.slider_pin.magnitude(); })
-      .only_for_people("N guide [N]", [&](P p) { return or_zero(p.forces.guide, c.reaction[3].value); })
-      .only_for_people("at [mm]", [](P p) { return p.forces.guide_point; }, {.factor = 1e3, .digits = 4})
-      .only_for_people("shaking [N]", [](P p) { return p.forces.shaking_force.magnitude(); })
-      .only_for_people("η", [](P p) {
-        return p.power.efficiency() ? fmt::format("{:.4f}", *p.power.efficiency()) : std::string("—");
-      });
+KeyFigure key_figure(const NamedPeak& p) {
+  return {
+      "largest " + p.name, p.peak.told(), p.unit, p.peak.error, fmt::format("at φ = {}", at_angle(p.peak)), 0, p.means};
+}
+
+RowsOf<std::size_t> peak_table(const Forces& f) {
+  std::vector<std::vector<NamedPeak>> of;
+  for (const ForceCycle* c : f.problems()) of.push_back(peaks_of(f, *c));
+  const std::vector<NamedPeak> first = of.front();
+  auto table = table_of("", "Largest values over the cycle", numbers_below(first.size()));
+  const auto unit_of = [&](std::size_t i) { return readable_unit(first[i].peak.value, first[i].unit); };
+  table.text_in(1).only_for_people("largest", [&](std::size_t i) { return first[i].name; });
+  for (std::size_t k = 0; k < of.size(); ++k)
+    table
+        .only_for_people(f.problems()[k]->label,
+                         [&](std::size_t i) { return peak_text(of[k][i].peak, unit_of(i).factor); })
+        .only_for_people("at", [&](std::size_t i) { return at_angle(of[k][i].peak); });
+  return table.only_for_people("unit", [&](std::size_t i) { return unit_of(i).unit; });
+}
+
+Rows work_table(const Forces& f) {
+  const std::vector<const ForceCycle*> problems = f.problems();
+  std::vector<std::size_t> acting;
+  for (std::size_t i = 0; i < problems.front()->work.size(); ++i)
+    for (const ForceCycle* c : problems)
+      if (c->work[i].work.value != 0 && (acting.empty() || acting.back() != i)) acting.push_back(i);
+  auto table = table_of("", "Work done on the mechanism in a cycle", std::move(acting));
+  table.text_in(2).always();
+  table.only_for_people("work of a cycle", [&](std::size_t i) { return problems.front()->work[i].name; })
+      .only_for_people("line", [&](std::size_t i) { return problems.back()->work[i].kind; });
+  for (const ForceCycle* c : problems)
+    table.only_for_people(c->label, [&](std::size_t i) { return with_error(c->work[i].work, ""); });
+  return table.only_for_people("unit", [](std::size_t) { return std::string("J"); });
+}
+
+Rows harmonic_table(const ForceCycle& c, bool on_terminal) {
+  const auto amplitude = [](const std::vector<ForceHarmonic>& orders) {
+    return [&](std::size_t k) { return with_error(orders[k].amplitude, ""); };
+  };
+  auto table = table_of("", fmt::format("Amplitudes by order, {} motion", c.label), numbers_below(c.shaking_x.size()))
+                   .headed(fmt::format("harmonics, {} motion", c.label))
+                   .fold()
+                   .always()
+                   .only_for_people("order", [&](std::size_t k) { return c.shaking_x[k].order; })
+                   .only_for_people("along [N]", amplitude(c.shaking_x))
+                   .only_for_people("across [N]", amplitude(c.shaking_y))
+                   .only_for_people("moment [N·m]", amplitude(c.shaking_couple))
+                   .only_for_people("balancing torque [N·m]", amplitude(c.torque_orders));
+  table.terminal = on_terminal;
+  return table;
+}
+
+// Of a slide that the scene gives, the table says where its reaction acts.
+bool is_given(const Forces& f, const JointForces& j) {
+  const std::vector<RubbingJoint>& given = f.joints.joints;
+  return std::any_of(given.begin(), given.end(), [&](const RubbingJoint& r) { return r.name == j.name; });
+}
+
+Rows position_table(const Forces& f, const ForceCycle& c) {
+  auto table = table_of("", fmt::format("{}: {}", c.label, c.description), c.rows);
+  table.headed(fmt::format("{}: {}", c.label, c.description)).text_in(0).always();
+  table.only_for_people("φ [°]", [](P p) { return degrees(p.forces.state.phi); }, {.digits = 5})
+      .only_for_people("ω [rad/s]", [](P p) { return p.forces.state.omega; })
+      .only_for_people("M [N·m]", [&](P p) { return or_zero(p.forces.torque, c.torque.value); });
+  const double largest = heaviest(c).peak.value;
+  for (std::size_t k = 0; k < c.rows.front().forces.joints.size(); ++k) {
+    const JointForces& j = c.rows.front().forces.joints[k];
+    table.only_for_people(fmt::format("{} [N]", j.name),
+                          [k, largest](P p) { return or_zero(force_of(p.forces.joints[k]), largest); });
+    if (j.slides && is_given(f, j))
+      table.only_for_people("at [mm]", [k](P p) { return p.forces.joints[k].point(); }, {.factor = 1e3, .digits = 4});
+  }
+  table.only_for_people("shaking [N]", [&](P p) { return or_zero(p.forces.shaking_force.magnitude(), largest); });
+  if (f.friction)
+    table.only_for_people("η", [](P p) {
+      return p.power.efficiency() ? fmt::format("{:.4f}", *p.power.efficiency()) : std::string("—");
+    });
+  return table;
 }
 
 Rows counterweight_table(const Forces& f) {
-  return table_of("counterweights", "Counterweights beyond what the crank has: what they leave", f.counterweights)
+  return table_of("counterweights", "Counterweights beyond what the crank has: what they leave",
+                  f.balancing->counterweights)
       .headed("counterweights opposite to the crank pin, beyond what the crank has (at constant speed)")
       .always()
       .column("name", "counterweight", &Counterweight::name)
@@ -81,134 +212,66 @@ Rows counterweight_table(const Forces& f) {
       .estimate("peak_main_bearing", "peak of main bearing [N]", &Counterweight::peak_bearing);
 }
 
-std::string checks_of(const ForceCycle& c) {
-  std::string text =
-      fmt::format("power balance closes to {:.1e} of the largest power at every position", c.power_residual);
-  if (c.most_iterations > 0)
-    text += fmt::format("; friction laws hold to {:.1e}, at most {} Newton steps a position", c.friction_residual,
-                        c.most_iterations);
-  if (c.both_edges > 0)
-    text +=
-        fmt::format("; the slider is in contact at both edges at {} of {} positions", c.both_edges, c.positions.size());
-  return text;
-}
-
-// --- for programs and files ---
-
-Record force_record(Force2 force) {
-  return {{"x", force.x}, {"y", force.y}, {"magnitude", force.magnitude()}, {"direction", force.direction()}};
-}
-
-Record position_record(const CyclePosition& p) {
-  const SliderCrankForces& s = p.forces;
-  const Record guide = {{"normal", s.guide},          {"point", s.guide_point},
-                        {"moment", s.guide_moment},   {"friction", s.guide_friction},
-                        {"both_edges", s.both_edges}, {"edge_front", s.edge_front},
-                        {"edge_back", s.edge_back}};
-  const Record inertia = {{"crank", force_record(s.crank_inertia)},
-                          {"rod", force_record(s.rod_inertia)},
-                          {"slider", force_record(s.slider_inertia)},
-                          {"crank_couple", s.crank_couple},
-                          {"rod_couple", s.rod_couple}};
-  return {{"phi", p.state.phi},
-          {"omega", p.state.omega},
-          {"alpha", p.state.alpha},
-          {"position", p.position},
-          {"velocity", p.velocity},
-          {"slider_force", p.state.slider_force},
-          {"torque", s.torque},
-          {"main_bearing", force_record(s.main_bearing)},
-          {"crank_pin", force_record(s.crank_pin)},
-          {"slider_pin", force_record(s.slider_pin)},
-          {"guide", guide},
-          {"inertia", inertia},
-          {"shaking_force", force_record(s.shaking_force)},
-          {"shaking_moment", s.shaking_moment},
-          {"efficiency", p.power.efficiency()},
-          {"friction_power", s.friction_power},
-          {"friction_residual", s.residual},
-          {"power_residual", p.power.residual}};
-}
-
-Record cycle_record(const ForceCycle& c) {
-  Record r = common_record(c, peaks_of(c));
-  const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
-  if (c.efficiency)
-    tell("efficiency", *c.efficiency);
-  else
-    tell("efficiency", Value()), tell("no_efficiency", c.no_efficiency);
-  tell("work_in", c.input.value);
-  tell("work_useful", c.useful.value);
-  tell("work_harmful", c.harmful.value);
-  tell("works_error", larger_error(c.input, {0, larger_error(c.useful, c.harmful)}));
-  tell("friction_residual", c.friction_residual);
-  tell("positions_on_both_edges", c.both_edges);
-  tell("positions", each(c.rows, position_record));
-  return r;
-}
-
-DataTable table_of_forces(const ForceCycle& c) {
-  using P = const CyclePosition&;
-  auto data = data_of(c.positions);
-  data.in_file("phi", "rad", [](P p) { return p.state.phi; })
-      .in_file("omega", "rad/s", [](P p) { return p.state.omega; })
-      .in_file("alpha", "rad/s2", [](P p) { return p.state.alpha; })
-      .in_file("position_along_x", "m", &CyclePosition::position)
-      .in_file("velocity", "m/s", &CyclePosition::velocity)
-      .in_file("slider_force_along_x", "N", [](P p) { return p.state.slider_force; })
-      .in_file("torque_of_shaft_on_crank", "N*m", [](P p) { return p.forces.torque; });
-  const auto force = [&](const std::string& name, Force2 SliderCrankForces::*of) {
-    data.in_file(name + "_x", "N", [of](P p) { return (p.forces.*of).x; });
-    data.in_file(name + "_y", "N", [of](P p) { return (p.forces.*of).y; });
+void say_links(Findings& to, Chapter in, const ForceCycle& c) {
+  using L = const LinkOfCycle&;
+  const auto told = [](auto LinkOfCycle::*of, double factor = 1) {
+    return [of, factor](L l) { return with_error(factor * (l.*of), ""); };
   };
-  force("main_bearing_of_frame_on_crank", &SliderCrankForces::main_bearing);
-  force("crank_pin_of_crank_on_rod", &SliderCrankForces::crank_pin);
-  force("slider_pin_of_rod_on_slider", &SliderCrankForces::slider_pin);
-  data.in_file("guide_of_frame_on_slider_y", "N", [](P p) { return p.forces.guide; })
-      .in_file("guide_point_from_pin_x", "m", [](P p) { return p.forces.guide_point; })
-      .in_file("guide_friction_on_slider_x", "N", [](P p) { return p.forces.guide_friction; })
-      .in_file("both_edges", {}, [](P p) { return static_cast<int>(p.forces.both_edges); });
-  force("shaking_on_frame", &SliderCrankForces::shaking_force);
-  data.in_file("shaking_on_frame_moment_about_crank_axis", "N*m", [](P p) { return p.forces.shaking_moment; });
-  for (std::size_t k = 0; k < joint_count; ++k) {
-    const char* const joints[] = {"main", "crank_pin", "slider_pin", "guide"};
-    data.in_file(fmt::format("friction_{}", joints[k]), "W", [k](P p) { return p.forces.friction_power[k]; });
-  }
-  return data.in_file("efficiency", {}, [](P p) { return p.power.efficiency(); })
-      .in_file(
-          "power_residual", {}, [](P p) { return p.power.residual; }, 3)
-      .data();
+  to.say(in, table_of("", "Motion and inertia forces of the links, largest over the cycle", c.links)
+                 .headed("links: motion and inertia forces, largest over the cycle")
+                 .text_in(0)
+                 .always()
+                 .only_for_people("link", &LinkOfCycle::name)
+                 .only_for_people("ω [rad/s]", told(&LinkOfCycle::omega))
+                 .only_for_people("ε [rad/s²]", told(&LinkOfCycle::alpha))
+                 .only_for_people("m a [N]", told(&LinkOfCycle::inertia_force))
+                 .only_for_people("at", [](L l) { return at_angle(l.inertia_force); })
+                 .only_for_people("−I ε [N·m]", told(&LinkOfCycle::inertia_couple)));
+  to.say(in, table_of("", "Shares of the links in the reduced inertia and the kinetic energy", c.links)
+                 .headed("links: shares in I_r (mean over the angle) and kinetic energy (mean over the time)")
+                 .text_in(0)
+                 .always()
+                 .only_for_people("link", &LinkOfCycle::name)
+                 .only_for_people("I_r [kg·m²]", told(&LinkOfCycle::reduced_inertia))
+                 .only_for_people("of I_r [%]", told(&LinkOfCycle::inertia_share, 100))
+                 .only_for_people("least [%]", told(&LinkOfCycle::least_share, 100))
+                 .only_for_people("most [%]", told(&LinkOfCycle::greatest_share, 100))
+                 .only_for_people("T [J]", told(&LinkOfCycle::energy))
+                 .only_for_people("of T [%]", told(&LinkOfCycle::energy_share, 100)));
+  to.draw(in, [&c] { return link_plots(c); });
 }
 
 // --- formulas ---
 
+// With the numbers of the peak.
 Formulas torque_formula(const Forces& f) {
-  // With the numbers of the peak.
-  const ForceCycle& c = front_of(f);
-  const CyclePosition* const peak = &c.at_torque_peak;
-  const ReducedSample at = closed_sample(f.data, peak->state.phi);
-  const double w = peak->state.omega, loss = w != 0 ? peak->power.friction / w : 0;
+  const PositionForces& peak = f.front().at_torque_peak;
+  const LinkageForces& at = peak.forces;
+  const double w = at.state.omega, by = w != 0 ? 1 / w : 0;
+  double slope = 0;
+  for (const LinkForces& l : at.links) slope += l.reduced_inertia_rate;
   return Formulas()
-      .add(fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(peak->state.phi)),
+      .add(fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(at.state.phi)),
            "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
            "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) = {:.6g} N·m",
-           at.inertia, peak->state.alpha, at.inertia_slope, w, at.gravity_torque, peak->state.slider_force,
-           at.output_velocity_ratio, loss, peak->forces.torque)
+           at.reduced_inertia, at.state.alpha, slope, w, by * at.weight_power, at.state.load, by * at.output_velocity,
+           by * peak.power.friction, at.torque)
       .note(
-          "I_r reduced inertia, M_g torque of the weights, F force on the slider, P_f power lost in the joints; SI "
+          "I_r reduced inertia, M_g torque of the weights, F load on the output, P_f power lost in the joints; SI "
           "units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the power "
           "balance below.");
 }
 
 Formulas mass_formula(const Forces& f) {
-  const double share = f.data.rod_com / f.data.rod_length;
+  const SliderCrankData& d = f.balancing->data;
+  const double share = d.rod_com / d.rod_length;
   return Formulas()
       .add("Masses that rotate and that reciprocate (theory 9.11)",
            "U_rot = m₁ s₁ + m₂ (1 − c/l) r,   m_rec = m₃ + m₂ c/l",
            "U_rot = {:.5g} · ({:.5g}) + {:.5g} · (1 − {:.4g}) · {:.5g} = {:.5g} kg·m,   m_rec = {:.5g} + {:.5g} · "
            "{:.4g} = {:.5g} kg",
-           f.data.crank_mass, f.data.crank_com, f.data.rod_mass, share, f.data.radius, f.rotating_moment,
-           f.data.slider_mass, f.data.rod_mass, share, f.reciprocating_mass)
+           d.crank_mass, d.crank_com, d.rod_mass, share, d.radius, f.balancing->rotating_moment, d.slider_mass,
+           d.rod_mass, share, f.balancing->reciprocating_mass)
       .note(
           "A counterweight U = U_rot balances the rotating masses; each κ m_rec r more takes κ of the first order "
           "along the stroke and puts it across. A negative U is taken off, or set on the pin's side.");
@@ -226,100 +289,115 @@ void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
                      .body = c.no_efficiency + "."});
 }
 
-void show_friction_circle(Findings& to, Chapter in, const char* name, const RevoluteJoint& j) {
+void show_friction_circle(Findings& to, Chapter in, const RubbingJoint& j) {
   if (j.radius == 0) return;
   const double f_k = j.friction.kinetic;
-  to.show(in, Formulas().add(fmt::format("Friction circle of the {} (theory 8.4)", name), "ρ = r sin(atan f)",
+  to.show(in, Formulas().add(fmt::format("Friction circle of the {} (theory 8.4)", j.name), "ρ = r sin(atan f)",
                              "ρ = {:.5g} mm · sin(atan {:.4g}) = {:.5g} mm", 1e3 * j.radius, f_k,
                              1e3 * friction_circle_radius(j.radius, f_k)));
 }
 
 // --- all of it ---
 
-constexpr const char* signs =
-    "Axes of the mechanism: origin on the crank's axis, +x along the stroke towards the extended end, +y 90° ahead of "
-    "it; angles, torques and moments counter-clockwise. Main bearing: frame on crank. Crank pin: crank on rod. Slider "
-    "pin: rod on slider. Guide: frame on slider, along +y. Each body does the opposite to the first. The balancing "
-    "torque is the shaft's on the crank. Shaking force and moment are those of all inertia forces −m a and couples −I "
-    "ε on the frame, moments about the crank's axis; loads and weights are not in them.";
-
 void say_positions(Findings& to, Chapter in, const Forces& f) {
-  to.say(in, peak_table(f, peaks_of).text_in(1).not_on_page());
-  for (const ForceCycle* c : problems_of(f)) {
-    to.say(in, position_table(*c));
+  to.say(in, peak_table(f));
+  for (const ForceCycle* c : f.problems()) {
+    to.say(in, position_table(f, *c));
     to.say(in, Sentences{.lines = {checks_of(*c)}, .indent = "  ", .page = false});
     to.show(in, Text{.title = "", .body = fmt::format("Check: {}.", checks_of(*c))});
-    to.tell(c->label, cycle_record(*c));
+    to.tell(c->label, cycle_record(f, *c));
+    to.tables.push_back({"forces_" + c->label, [c, &f] { return table_of_forces(f, *c); }});
+    to.tables.push_back({"links_" + c->label, [c] { return table_of_links(*c); }});
   }
 }
 
-void say_friction(Findings& to, Chapter in, const Forces& f) {
-  const auto problems = problems_of(f);
-  to.say(in, work_table({problems.begin(), problems.end()}));
-  show_efficiency(to, in, front_of(f));
-  if (!has_friction(f)) {
+void say_work(Findings& to, Chapter in, const Forces& f) {
+  to.say(in, work_table(f));
+  show_efficiency(to, in, f.front());
+  if (!f.friction) {
     to.show(in, Text{.title = "",
-                     .body = "The joints are without friction: give main_bearing, crank_pin, slider_pin and guide of "
-                             "the slider-crank their radii and coefficients to count it."});
+                     .body = "The joints are without friction: give them radii and coefficients of friction in the "
+                             "scene to count it."});
     return;
   }
   to.draw(in, [&f] { return friction_plots(f); });
-  show_friction_circle(to, in, "main bearing", f.joints.main_bearing);
-  show_friction_circle(to, in, "crank pin", f.joints.crank_pin);
-  show_friction_circle(to, in, "slider pin", f.joints.slider_pin);
+  for (const RubbingJoint& joint : f.joints.joints) show_friction_circle(to, in, joint);
 }
 
 void say_shaking(Findings& to, Chapter in, const Forces& f) {
-  to.draw(in, [&f] { return shaking_plots(f, "along the stroke", "across the stroke"); });
-  for (const ForceCycle* c : problems_of(f)) {
+  const std::string x = f.rocks ? "the ground link" : "the stroke";
+  to.draw(in, [&f, x] { return shaking_plots(f, "along " + x, "across " + x); });
+  for (const ForceCycle* c : f.problems()) {
     to.draw(in, [c] { return harmonic_plot(*c); });
-    to.say(in, harmonic_table(*c, c == &front_of(f)));
+    to.say(in, harmonic_table(*c, c == &f.front()));
   }
+  if (!f.balancing) return;
   to.draw(in, [&f] { return counterweight_plot(f); });
   to.say(in, counterweight_table(f));
   to.show(in, mass_formula(f));
-  to.tell("rotating_moment", f.rotating_moment);
-  to.tell("reciprocating_mass", f.reciprocating_mass);
+  to.tell("rotating_moment", f.balancing->rotating_moment);
+  to.tell("reciprocating_mass", f.balancing->reciprocating_mass);
 }
 
 }  // namespace
 
+bool is_nothing(const Peak& p) {
+  constexpr double negligible = 1e-6;
+  return std::abs(p.value) <= p.error.value_or(0) && p.error.value_or(0) <= negligible * p.scale;
+}
+
+std::string in_words(const Peak& p, const std::string& si_unit) {
+  const ReadableUnit unit = readable_unit(p.value, si_unit);
+  if (std::abs(p.value) <= p.error.value_or(0) && !is_nothing(p))  // not told from zero: alone it would say too much
+    return with_error(unit.factor * p, unit.unit);
+  return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
+}
+
+double or_zero(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
+
+std::vector<NamedPeak> peaks_of(const Forces& f, const ForceCycle& c) {
+  std::vector<NamedPeak> peaks;
+  for (const NamedPeak& r : c.reactions) {
+    if (f.balancing && r.means == "reaction_moment") continue;
+    peaks.push_back(r);
+    if (f.balancing) peaks.back().name = "reaction of the " + r.name.substr(0, r.name.find(':'));
+  }
+  peaks.push_back({"balancing torque", "N*m", "balancing_torque", c.torque});
+  peaks.push_back({"shaking force", "N", "shaking_force", c.shaking_force});
+  peaks.push_back({"shaking moment", "N*m", "shaking_moment", c.shaking_moment});
+  return peaks;
+}
+
 Findings findings_of(const Forces& f) {
-  Findings to = begin_findings(f, front_of(f), conclusion_of(f));
-  for (const NamedPeak& p : peaks_of(front_of(f))) to.figures.push_back(key_figure(p));
+  const ForceCycle& front = f.front();
+  Findings to = begin_findings(f, front, conclusion_of(f));
+  for (const NamedPeak& p : peaks_of(f, front))
+    if (p.means != "reaction_moment" || !is_nothing(p.peak)) to.figures.push_back(key_figure(p));  // a ram carries none
   const Chapter torque = to.chapter("Balancing torque"), reactions = to.chapter("Reactions in the joints (theory 9.6)"),
                 links = to.chapter("Links: motion, inertia forces, shares"),
-                polar = to.chapter("Polar diagrams of the bearings' loads"),
-                shaking = to.chapter("Shaking force and moment; balancing"),
-                friction = to.chapter("Work, friction, efficiency"), positions = to.chapter("Position by position"),
+                polar = to.chapter("Polar diagrams of the joints' loads"),
+                shaking = to.chapter(f.balancing ? "Shaking force and moment; balancing" : "Shaking force and moment"),
+                work = to.chapter("Work, friction, efficiency"), positions = to.chapter("Position by position"),
                 notes = to.chapter("Notes");
+  to.tell("kind", f.kind);
+  to.tell("signs", signs_of(f));
   to.draw(torque, [&f] { return torque_plot(f); });
   to.show(torque, torque_formula(f));
-  to.tell("signs", signs);
   to.draw(reactions, [&f] { return reaction_plots(f); });
-  to.show(reactions, Text{.title = "Signs and axes", .body = signs});
+  to.show(reactions, Text{.title = "Signs and axes", .body = signs_of(f)});
   to.show(polar,
           Text{.title = "",
                .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; "
-                       "turning with the pin, where the pin is: that is where an oil hole must not be."});
+                       "in axes of a link, where its pin or bore is: that is where an oil hole must not be."});
   to.draw(polar, [&f] { return polar_plots(f); });
   say_positions(to, positions, f);
-  say_friction(to, friction, f);
+  say_work(to, work, f);
   say_shaking(to, shaking, f);
-  say_links(to, links, *f.links);
-  to.tell("links", links_list(*f.links));
+  say_links(to, links, front);
+  to.tell("links", links_list(front));
   to.note(notes, f.notes);
   to.show_scene(f.scene_file, f.scene_text);
-  for (const ForceCycle* c : problems_of(f))
-    to.tables.push_back({"forces_" + c->label, [c] { return table_of_forces(*c); }});
-  to.tables.push_back({"links_" + front_of(f).label, [&f] { return table_of_links(*f.links); }});
   return to;
-}
-
-StudyOutput output_of_forces(const Scene& scene, const ForcesOptions& options) {
-  if (chosen_mechanism(scene, options.mechanism).kind->name == "slider-crank")
-    return output_of(find_forces(scene, options));
-  return output_of(find_linkage_forces(scene, options));
 }
 
 }  // namespace kurbel

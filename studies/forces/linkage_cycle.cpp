@@ -14,9 +14,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/scene/units.h"
-#include "engine/values/dense_tables.h"
-#include "mechanisms/reduced/mechanism.h"
-#include "studies/forces/machine_motion.h"
+#include "mechanisms/reduced/mechanism_data.h"
 
 namespace kurbel {
 namespace {
@@ -25,8 +23,14 @@ using LinkageQuantity = std::function<double(const PositionForces&)>;
 
 class Builder {
  public:
-  Builder(const MechanismData& data, OutputLoads& loads, const MotionAlong& along, LinkageCycle& cycle)
-      : data_(data), loads_(loads), along_(along), cycle_(cycle) {}
+  Builder(const MechanismStatics& statics, OutputLoads& loads, const MotionAlong& along, ForceCycle& cycle)
+      : statics_(statics), loads_(loads), along_(along), cycle_(cycle) {
+    for (const WorkAccount& account : loads_.model().accounts)
+      cycle_.work.push_back({account.name, name_of(account.kind)});
+    cycle_.work.push_back({"balancing torque", "driving"});
+    for (const RubbingJoint& joint : statics_.joints().joints)
+      cycle_.work.push_back({"friction of " + joint.name, "harmful"});
+  }
 
   void build() {
     for (std::size_t i = 0; i < along_.where.size(); ++i) add(along_.where[i], along_.motion[i]);
@@ -45,12 +49,14 @@ class Builder {
     find_peaks();
     find_links();
     find_orders();
-    balance();
     collect_curve();
+    balance();
+    judge_works(cycle_);
   }
+  std::vector<PositionForces>& samples() { return samples_; }
 
  private:
-  PositionForces at(double phi, CrankMotion motion) { return linkage_position(data_, loads_, phi, motion); }
+  PositionForces at(double phi, CrankMotion motion) { return linkage_position(statics_, loads_, phi, motion); }
   void add(const Abscissa& where, CrankMotion motion);
   void find_speeds();
   void find_scales();
@@ -63,7 +69,7 @@ class Builder {
   // Of a link's motion: without the reactions, which cost the most.
   PositionForces moving_at(double phi, CrankMotion motion) {
     PositionForces p;
-    const PlanarLinkage linkage = linkage_beside(data_, phi);
+    const PlanarLinkage linkage = statics_.linkage(phi);
     p.forces = motion_in(linkage, {phi, motion.omega, motion.alpha});
     return p;
   }
@@ -94,15 +100,15 @@ class Builder {
     return estimate_from(fine, with_step(2), rounding_of_forces * std::abs(fine));
   }
 
-  const MechanismData& data_;
+  const MechanismStatics& statics_;
   OutputLoads& loads_;
   const MotionAlong& along_;
-  LinkageCycle& cycle_;
+  ForceCycle& cycle_;
   std::vector<PositionForces> samples_;  // every abscissa but rows alone
   std::vector<double> phi_;
   std::vector<MotionSample> motion_;
-  std::vector<CycleWork> shares_;
-  double force_ = 0, moment_ = 0;  // the largest: rounding is measured by them
+  double force_ = 0, moment_ = 0;            // the largest: rounding is measured by them
+  double inertia_ = 0, inertia_moment_ = 0;  // of the links' inertia, which what shakes the frame is the sum of
 };
 
 void Builder::add(const Abscissa& where, CrankMotion motion) {
@@ -114,11 +120,6 @@ void Builder::add(const Abscissa& where, CrankMotion motion) {
   if (where.row && !where.grid) return;
   samples_.push_back(p);
   if (where.weight == 0) return;
-  if (cycle_.work.empty()) {
-    for (const WorkAccount& account : loads_.model().accounts)
-      cycle_.work.push_back({account.name, name_of(account.kind)});
-    cycle_.work.push_back({"balancing torque", "driving"});
-  }
   const double dt = where.weight / std::abs(motion.omega);
   std::size_t k = 0;
   const auto account = [&](double power) {
@@ -127,6 +128,7 @@ void Builder::add(const Abscissa& where, CrankMotion motion) {
   };
   for (const double torque : loads_.shares(where.place(), motion)) account(torque * motion.omega);
   account(p.power.crank);
+  for (const RubbingJoint& joint : statics_.joints().joints) account(-p.forces.friction_loss(joint.name));
 }
 
 void Builder::find_speeds() {
@@ -144,12 +146,14 @@ void Builder::find_scales() {
       arm = std::max(arm, j.at.magnitude());
     }
     for (const LinkForces& l : p.forces.links) {
-      force_ = std::max(force_, l.inertia_force.magnitude());
-      moment_ = std::max(moment_, std::abs(l.inertia_couple));
+      inertia_ = std::max(inertia_, l.inertia_force.magnitude());
+      inertia_moment_ =
+          std::max({inertia_moment_, std::abs(l.inertia_couple), l.com.magnitude() * l.inertia_force.magnitude()});
     }
     moment_ = std::max(moment_, std::abs(p.forces.torque));
   }
-  moment_ = std::max(moment_, force_ * arm);
+  force_ = std::max(force_, inertia_);
+  moment_ = std::max({moment_, inertia_moment_, force_ * arm});
 }
 
 void Builder::find_peaks() {
@@ -167,6 +171,7 @@ void Builder::find_peaks() {
                                   peak([k](const PositionForces& p) { return p.forces.joints[k].moment; }, moment_)});
   }
   cycle_.torque = peak([](const PositionForces& p) { return p.forces.torque; }, moment_);
+  cycle_.at_torque_peak = at(cycle_.torque.phi, motion_between(motion_, cycle_.torque.phi));
   cycle_.shaking_force = peak([](const PositionForces& p) { return p.forces.shaking_force.magnitude(); }, force_);
   cycle_.shaking_moment = peak([](const PositionForces& p) { return p.forces.shaking_moment; }, moment_);
 }
@@ -230,9 +235,9 @@ void Builder::find_orders() {
         }(),
         turns, scale);
   };
-  cycle_.shaking_x = orders_of([](const PositionForces& p) { return p.forces.shaking_force.x; }, force_);
-  cycle_.shaking_y = orders_of([](const PositionForces& p) { return p.forces.shaking_force.y; }, force_);
-  cycle_.shaking_couple = orders_of([](const PositionForces& p) { return p.forces.shaking_moment; }, moment_);
+  cycle_.shaking_x = orders_of([](const PositionForces& p) { return p.forces.shaking_force.x; }, inertia_);
+  cycle_.shaking_y = orders_of([](const PositionForces& p) { return p.forces.shaking_force.y; }, inertia_);
+  cycle_.shaking_couple = orders_of([](const PositionForces& p) { return p.forces.shaking_moment; }, inertia_moment_);
   const LinkageQuantity torque = [](const PositionForces& p) { return p.forces.torque; };
   cycle_.torque_orders = orders_of(torque, moment_);
   cycle_.torque_mean = mean(torque, {});
@@ -241,25 +246,30 @@ void Builder::find_orders() {
 
 // The works of a cycle make its change of kinetic energy: what is left over is every work's error.
 void Builder::balance() {
+  constexpr double nothing = 1e-9;  // of the largest power
   double scale = 0, left = -cycle_.kinetic_change.value;
   for (const PositionForces& p : samples_)
-    for (const double power : {p.power.crank, p.power.load, p.power.weight, p.power.kinetic_rate})
+    for (const double power : {p.power.crank, p.power.load, p.power.weight, p.power.kinetic_rate, p.power.friction})
       scale = std::max(scale, std::abs(power));
-  for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows})
+  for (auto* list : {&samples_, &cycle_.positions, &cycle_.rows, &cycle_.curve})
     for (PositionForces& p : *list) {
-      const double open = p.power.crank + p.power.load + p.power.weight - p.power.kinetic_rate;
+      const PowerFlow& w = p.power;
+      const double open = w.crank + w.load + w.weight - w.friction - w.kinetic_rate;
       p.power.residual = scale > 0 ? open / scale : 0;
+      p.power.nothing = nothing * scale;
       cycle_.power_residual = std::max(cycle_.power_residual, std::abs(p.power.residual));
       cycle_.equation_residual = std::max(cycle_.equation_residual, p.forces.residual);
+      cycle_.friction_residual = std::max(cycle_.friction_residual, p.forces.friction_residual);
     }
-  for (const CycleWork& w : cycle_.work) left += w.work.value;
-  cycle_.kinetic_change.error =
-      std::abs(left) + rounding_of_forces * std::abs(cycle_.positions.front().forces.kinetic_energy);
-  for (CycleWork& w : cycle_.work) {
-    w.work.error = std::abs(left) + rounding_of_forces * w.turnover;
-    if (std::abs(w.work.value) <= rounding_of_forces * w.turnover) w.work.value = 0;
-    if (w.name == "balancing torque" && w.work.value < 0) w.kind = "useful";
+  for (const PositionForces& p : cycle_.positions) {
+    cycle_.kinetic_most = std::max(cycle_.kinetic_most, p.forces.kinetic_energy);
+    const auto& joints = p.forces.joints;
+    if (std::any_of(joints.begin(), joints.end(), [](const JointForces& j) { return j.both_edges; }))
+      ++cycle_.both_edges;
   }
+  for (const CycleWork& w : cycle_.work) left += w.work.value;
+  cycle_.kinetic_change.error = rounding_of_forces * cycle_.kinetic_most;
+  for (CycleWork& w : cycle_.work) w.work.error = std::abs(left) + rounding_of_forces * w.turnover;
 }
 
 void Builder::collect_curve() {
@@ -279,22 +289,26 @@ void Builder::collect_curve() {
 
 }  // namespace
 
-PositionForces linkage_position(const MechanismData& data, OutputLoads& loads, double phi, CrankMotion motion) {
-  const PlanarLinkage linkage = linkage_beside(data, phi);
+PositionForces linkage_position(const MechanismStatics& statics, OutputLoads& loads, double phi, CrankMotion motion) {
+  const PlanarLinkage linkage = statics.linkage(phi);
   PositionForces p;
   p.loads = motion.loads;
-  p.forces = forces_in(linkage, loads.state(phi, motion, linkage));
+  p.forces = statics.solve(linkage, loads.state(phi, motion, linkage));
   p.power = {.crank = p.forces.torque * motion.omega,
              .load = p.forces.load_power,
              .weight = p.forces.weight_power,
-             .kinetic_rate = p.forces.kinetic_rate};
+             .kinetic_rate = p.forces.kinetic_rate,
+             .friction = p.forces.friction_loss()};
   return p;
 }
 
-LinkageCycle linkage_cycle(const MechanismData& data, OutputLoads& loads, const MotionAlong& motion) {
-  LinkageCycle cycle;
+ForceCycle linkage_cycle(const MechanismStatics& statics, OutputLoads& loads, const MotionAlong& motion,
+                         std::vector<PositionForces>* samples) {
+  ForceCycle cycle;
   cycle.cycle = motion.cycle;
-  Builder(data, loads, motion, cycle).build();
+  Builder builder(statics, loads, motion, cycle);
+  builder.build();
+  if (samples) *samples = std::move(builder.samples());
   return cycle;
 }
 
@@ -304,7 +318,7 @@ UnboundedReactions unbounded_reactions(const MechanismData& data, OutputLoads& l
   });
 }
 
-void mark_unbounded(const UnboundedReactions& unbounded, LinkageCycle& cycle) {
+void mark_unbounded(const UnboundedReactions& unbounded, ForceCycle& cycle) {
   const auto& joints = cycle.positions.front().forces.joints;
   for (NamedPeak& reaction : cycle.reactions)
     for (std::size_t k = 0; k < unbounded.of_joint.size(); ++k)
@@ -317,113 +331,6 @@ std::string begin_unbounded(const std::string& mechanism, const UnboundedReactio
   for (const double phi : unbounded.at) angles.push_back(fmt::format("{:.4g}°", phi * 180 / std::numbers::pi));
   return fmt::format("{}: reactions in its joints have no bound at φ = {} ({} at {:g} rad beside)", mechanism,
                      fmt::join(angles, ", "), with_unit(unbounded.greatest, "N", 4), unbounded.beside);
-}
-
-void LinkageCycle::widen_to(const LinkageCycle& other, double times) {
-  using L = LinkOfCycle;
-  CycleOfForces::widen_to(other, times);
-  for (std::size_t k = 0; k < reactions.size(); ++k) widen_peak(reactions[k].peak, other.reactions[k].peak, times);
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    for (auto peak : {&L::omega, &L::alpha, &L::inertia_force, &L::inertia_couple})
-      widen_peak(links[k].*peak, other.links[k].*peak, times);
-    for (auto figure : {&L::reduced_inertia, &L::inertia_share, &L::energy, &L::energy_share})
-      (links[k].*figure).widen_to(other.links[k].*figure, times);
-  }
-}
-
-void LinkageCycle::drop_errors(bool of_motion) {
-  CycleOfForces::drop_errors(of_motion);
-  for (NamedPeak& reaction : reactions) reaction.peak.error.reset();
-  for (LinkOfCycle& l : links) {
-    if (!of_motion) return;
-    for (Peak* peak : {&l.omega, &l.alpha, &l.inertia_force, &l.inertia_couple}) peak->error.reset();
-    for (Estimate* mean :
-         {&l.reduced_inertia, &l.inertia_share, &l.least_share, &l.greatest_share, &l.energy, &l.energy_share})
-      mean->error.reset();
-  }
-}
-
-namespace {
-
-// The machine's own torque on the crank, held against that of the links' equilibrium: where they differ (inertia that is
-// taken at its mean), the difference is an error, and is told.
-void hold_against_machine(const Scene& scene, const MechanismData& data, OutputLoads& loads,
-                          const SimulatedMotion& simulated, LinkageCycle& cycle, std::vector<std::string>& notes) {
-  const double same_physics = 1e-7 + left_by_tables(scene);  // tables of the mechanism, and of its loads
-  constexpr double least = 1e-3;  // of what the joints' forces make at their places: less is no torque to measure by
-  double missed = 0, greatest = 0;
-  for (std::size_t i = 0; i < simulated.machine.size(); ++i) {
-    const CrankMotion& m = simulated.along.motion[i];
-    const double phi = simulated.along.where[i].place(), own = simulated.machine[i].torque;
-    double beside = phi;
-    const PlanarLinkage linkage = linkage_beside(data, beside);
-    if (beside != phi) continue;  // what the links need there is that of a place beside it
-    const LinkageForces f = forces_in(linkage, loads.state(phi, m, linkage));
-    missed = std::max(missed, std::abs(own - f.torque));
-    greatest = std::max(greatest, std::abs(own));
-    for (const JointForces& j : f.joints) greatest = std::max(greatest, least * j.force.magnitude() * j.at.magnitude());
-  }
-  cycle.machine_residual = greatest > 0 ? missed / greatest : 0;
-  if (missed <= same_physics * greatest) return;
-  cycle.torque_mean.widen(missed);
-  cycle.torque.widen(missed);
-  for (ForceHarmonic& h : cycle.torque_orders) h.amplitude.widen(2 * missed);
-  notes.push_back(fmt::format(
-      "the mechanism counts as its links are; the machine's own equations have a crank torque that differs by up to {} "
-      "in the same motion, which is counted as an error of the torque",
-      with_unit(missed, "N*m", 4)));
-}
-
-}  // namespace
-
-LinkageStudy find_linkage_forces(const Scene& scene, const ForcesOptions& options) {
-  check(options);
-  const Deadline deadline(scene.run.budget);
-  const AskedMechanism asked(scene, options.mechanism);
-  LinkageStudy out;
-  describe(asked, out);
-  out.kind = asked.kind;
-  Effects effects = options.effects.value_or(scene.effects);
-  if (effects.joint_friction && asked.mechanism().joints) {
-    effects.joint_friction = false;
-    out.notes.push_back(fmt::format(
-        "{}: forces takes its joints as ideal: motion and reactions do not include their friction; run and steady do",
-        asked.name));
-  }
-  const MachineMotion machine(asked, effects, options);
-  const MechanismData& data = asked.mechanism().data;
-  if (const std::string why = data.undetermined(); !why.empty())
-    throw std::invalid_argument(fmt::format("{}: {}; ask run, steady or reduce", asked.name, why));
-  out.rocks = data.rocks();
-  for (const std::string& line : data.about()) out.notes.push_back(asked.name + ": " + line);
-  OutputLoads loads(asked, effects);
-  const CrankSpeed speed = prescribed_speed(machine, options);
-  options.watch.say(
-      fmt::format("first problem: {} at {} ({})", asked.name, out.speed_unit.text(speed.value), speed.source));
-  out.prescribed = linkage_cycle(data, loads, steady_motion(loads, speed.value, options.positions));
-  tell_outside_data(out, loads.outside_data(speed.value), *out.prescribed, false);
-  out.unbounded = unbounded_reactions(data, loads, speed.value);
-  describe_first(speed, loads, machine, out, *out.prescribed);
-  mark_unbounded(out.unbounded, *out.prescribed);
-  if (options.also)
-    for (const double phi : options.also(prescribed_cycle(loads, speed.value)))
-      out.also.push_back(linkage_position(data, loads, phi, {speed.value, 0, loads.left()}));
-  if (!options.simulate) return out;
-  options.watch.say("second problem: the motion that the machine keeps");
-  const auto motion = machine.solve(loads, {out.notes, out.complete, out.diagnosis});
-  if (!motion) return out;
-  out.simulated = linkage_cycle(data, loads, motion->along);
-  for (const SimulatedMotion::Other& other : motion->others)
-    out.simulated->widen_to(linkage_cycle(data, loads, other.motion), other.times);
-  hold_against_machine(scene, data, loads, *motion, *out.simulated, out.notes);
-  tell_outside_data(out, motion->outside_data, *out.simulated, true);
-  out.simulated->label = "simulated";
-  out.simulated->description = motion->description;
-  mark_unbounded(out.unbounded, *out.simulated);
-  out.elastic = machine.is_elastic();
-  if (!out.elastic || !options.rigid_behind) return out;
-  if (const auto rigid = rigid_motion(asked, effects, loads, options)) out.rigid = linkage_cycle(data, loads, *rigid);
-  return out;
 }
 
 }  // namespace kurbel

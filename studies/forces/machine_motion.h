@@ -111,9 +111,9 @@ struct CrankSpeed {
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options);
 
 // Names scene and mechanism.
-void describe(const AskedMechanism& asked, AboutForces& out);
+void describe(const AskedMechanism& asked, Forces& out);
 // How the first problem was posed, and notes on what it leaves out.
-void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, AboutForces& out,
-                    CycleOfForces& cycle);
+void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, Forces& out,
+                    ForceCycle& cycle);
 
 }  // namespace kurbel

@@ -15,7 +15,7 @@ StudyOutput forces_in_joints(const Inquiry& inquiry, ForcesAsked asked) {
   asked.watch = inquiry.watch;
   if (const std::optional<Paper> paper = asked.sheet.sheet(inquiry))
     return output_of(sheet_of(inquiry.scene, asked, *paper, inquiry.author));
-  return output_of_forces(inquiry.scene, asked);
+  return output_of(find_forces(inquiry.scene, asked));
 }
 
 }  // namespace
@@ -27,9 +27,10 @@ Question forces_question() {
        .arguments = "scene.toml",
        .help = "reactions in every joint of a mechanism, balancing torque, friction, shaking forces, inertia forces of "
                "its links",
-       .does = "kinetostatics of any mechanism: reactions in every joint, balancing torque, shaking forces, motion and "
-               "inertia forces of every link, its share in I_r; a slider-crank's joint friction and counterweights "
-               "(`--speed`, `--positions`, `--mechanism`); a sheet of the positions to be printed (`--sheet`)"},
+       .does =
+           "kinetostatics of any mechanism: reactions in every joint, balancing torque, shaking forces, motion and "
+           "inertia forces of every link, its share in I_r, friction of the joints; a slider-crank's counterweights "
+           "(`--speed`, `--positions`, `--mechanism`); a sheet of the positions to be printed (`--sheet`)"},
       OptionsOf<ForcesAsked>()
           .add({.name = "positions",
                 .doc = "positions of a turn in the tables (default: 12)",

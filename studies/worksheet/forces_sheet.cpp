@@ -1,4 +1,4 @@
-// forces_sheet.cpp — forces of both kinds of study in one form; tables and diagrams of reactions and balancing torque.
+// forces_sheet.cpp — forces in the form of a sheet; tables and diagrams of reactions and balancing torque.
 #include "studies/worksheet/forces_sheet.h"
 
 #include <fmt/format.h>
@@ -19,16 +19,6 @@
 namespace kurbel {
 namespace {
 
-// --- both kinds in one form ---
-
-ForcesAt forces_of(const CyclePosition& p) {
-  const SliderCrankForces& f = p.forces;
-  return {p.state.phi,
-          p.state.slider_force,
-          f.torque,
-          {{f.main_bearing, 0}, {f.crank_pin, 0}, {f.slider_pin, 0}, {{0, f.guide}, f.guide_moment}},
-          {{f.crank_inertia, f.crank_couple}, {f.rod_inertia, f.rod_couple}, {f.slider_inertia, 0}}};
-}
 ForcesAt forces_of(const PositionForces& p) {
   ForcesAt at{p.forces.state.phi, p.forces.state.load, p.forces.torque, {}, {}};
   for (const JointForces& j : p.forces.joints) at.reactions.push_back({j.force, j.moment});
@@ -36,12 +26,11 @@ ForcesAt forces_of(const PositionForces& p) {
   return at;
 }
 
-template <class Position>
-void take(ForcesSheet& sheet, const std::vector<Position>& also, const std::vector<Position>& curve) {
-  for (const Position& p : also) sheet.looks.push_back(forces_of(p));
+void take_forces(ForcesSheet& sheet) {
+  for (const PositionForces& p : sheet.forces.also) sheet.looks.push_back(forces_of(p));
   for (std::size_t k = 1; k < sheet.looks.size(); k += 3) sheet.at.push_back(sheet.looks[k]);
   std::vector<ForcesAt> forces;
-  for (const Position& p : curve) forces.push_back(forces_of(p));
+  for (const PositionForces& p : sheet.forces.prescribed->curve) forces.push_back(forces_of(p));
   for (const auto& [way, at] : by_way(sheet.motion.cycle, forces)) sheet.way.push_back(way), sheet.curve.push_back(*at);
 }
 
@@ -134,7 +123,7 @@ double heaviest(const ForcesSheet& sheet) {
 }
 
 std::string notes_of(const ForcesSheet& sheet) {
-  const std::string& unbounded = sheet.linkage ? sheet.linkage->unbounded.words : sheet.slider_crank->unbounded.words;
+  const std::string& unbounded = sheet.forces.unbounded.words;
   return unbounded.empty() ? "" : "\n" + unbounded + ".";
 }
 
@@ -285,21 +274,15 @@ ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Pap
     sheet.speed = fmt::format("crank at {}, constant", scene.speed_unit.text(c.speed, 5));
     return looked_at(cycle, sheet.motion.positions);
   };
-  if (chosen.kind == "slider-crank") {
-    sheet.slider_crank = find_forces(scene, asked);
-    name_parts(sheet, sheet.slider_crank->links->positions.front().forces);
-    take(sheet, sheet.slider_crank->also, sheet.slider_crank->prescribed->curve);
-  } else {
-    sheet.linkage = find_linkage_forces(scene, asked);
-    name_parts(sheet, sheet.linkage->prescribed->positions.front().forces);
-    take(sheet, sheet.linkage->also, sheet.linkage->prescribed->curve);
-  }
+  sheet.forces = find_forces(scene, asked);
+  name_parts(sheet, sheet.forces.prescribed->positions.front().forces);
+  take_forces(sheet);
   return sheet;
 }
 
 StudyOutput output_of(ForcesSheet sheet) {
   std::string html = sheet.html();
-  StudyOutput output = sheet.linkage ? output_of(std::move(*sheet.linkage)) : output_of(std::move(*sheet.slider_crank));
+  StudyOutput output = output_of(std::move(sheet.forces));
   output.files.emplace_back("sheet.html", std::move(html));
   return output;
 }

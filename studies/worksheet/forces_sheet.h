@@ -1,10 +1,9 @@
 // forces_sheet.h — the classical sheet of a mechanism's forces: the mechanism in its positions, reactions in every joint,
 // inertia forces, balancing torque, at a crank that turns evenly (theory 9, first problem).
 //
-// Every number is one of the first problem of find_forces or find_linkage_forces.
+// Every number is one of the first problem of find_forces.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +35,7 @@ struct ForcesSheet {
   };
   Paper paper;
   std::string author, title, scene_file, speed;
-  std::optional<Forces> slider_crank;  // one of the two
-  std::optional<LinkageStudy> linkage;
+  Forces forces;
   std::vector<MechanismOnSheet> mechanisms;  // the one
   SheetMotion motion;
   std::vector<Joint> joints;

@@ -10,7 +10,6 @@
 #include "engine/numerics/index.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/forces.h"
-#include "studies/forces/linkage_cycle.h"
 #include "tests/agreement/agreement.h"
 #include "tests/mechanisms/simbody_reactions.h"
 
@@ -53,35 +52,20 @@ struct ToldForces {
   double greatest = 0, least = 0, mean = 0;  // torque on the crank
   double torque_error = 0;                   // stated by the study
   double between = 0;                        // what positions leave open
-  std::optional<Peak> main_bearing, slider_pin;
+  Peak main_bearing, slider_pin;             // of a slider-crank
 };
 // Torques stand at positions; between them an extreme may be beyond by as much as they differ on its smooth side.
 ToldForces forces_told(const ForceCycle& cycle) {
   Curve torque;
-  for (const CyclePosition& p : cycle.curve) torque.add(p.forces.torque);
+  for (const PositionForces& p : cycle.curve) torque.add(p.forces.torque);
   const std::size_t high = torque.greatest(), low = torque.least();
   return {torque.values[high],
           torque.values[low],
           cycle.torque_mean.value,
           cycle.torque.error.value_or(0),
           std::max(torque.between(high), torque.between(low)),
-          cycle.reaction[at(static_cast<int>(Joint::main_bearing))],
-          cycle.reaction[at(static_cast<int>(Joint::slider_pin))]};
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-
-ToldForces forces_told(const LinkageCycle& cycle) {
-  Curve torque;
-  for (const PositionForces& p : cycle.curve) torque.add(p.forces.torque);
-  const std::size_t high = torque.greatest(), low = torque.least();
-  return {torque.values[high],
-          torque.values[low],
-          0,
-          cycle.torque.error.value_or(0),
-          std::max(torque.between(high), torque.between(low)),
-          {},
-          {}};
+          cycle.reaction(0),
+          cycle.reaction(2)};
 }
 
 // The mechanism's element, and the coupling whose torque is all that drives it.
@@ -216,12 +200,6 @@ class ForcesComparison {
     if (reactions_known(effects)) topics.push_back(Topic::reactions);
     if (topics.empty()) return;
     try {
-      if (!driven_.mechanism->data.as<SliderCrankData>()) {
-        const LinkageStudy links =
-            find_linkage_forces(scene_, {.speed = {}, .mechanism = driven_.mechanism->name, .watch = {}});
-        if (!links.simulated) throw std::invalid_argument(links.notes.empty() ? "no cycle" : links.notes.back());
-        return judge(links.notes, forces_told(*links.simulated), effects);
-      }
       const Forces found = find_forces(scene_, {.speed = {}, .mechanism = driven_.mechanism->name, .watch = {}});
       if (!found.simulated) throw std::invalid_argument(found.notes.empty() ? "no cycle" : found.notes.back());
       judge(found.notes, forces_told(*found.simulated), effects);
@@ -261,11 +239,10 @@ class ForcesComparison {
     compare_peak("main bearing", cycle.main_bearing, cycle.most_main_bearing, told.main_bearing, found);
     compare_peak("slider pin", cycle.slider_pin, cycle.most_slider_pin, told.slider_pin, found);
   }
-  void compare_peak(const std::string& name, const Curve& curve, double run, const std::optional<Peak>& told,
+  void compare_peak(const std::string& name, const Curve& curve, double run, const Peak& told,
                     const std::vector<std::string>& found) {
-    if (!told) return refuse({Topic::reactions}, name + " is not told");
     compare(Topic::reactions, name, {run, left_by_runs * run + curve.between(curve.greatest())},
-            {told->value, told->error.value_or(0)}, found);
+            {told.value, told.error.value_or(0)}, found);
   }
   struct Uncertain {
     double value, error;

@@ -154,7 +154,7 @@ TEST(BeyondTables, ForcesUnderALoadFromOutsideHaveNoErrors) {
     const Forces f = find_forces(press_known_over(points, shunt), {});
     ASSERT_TRUE(f.prescribed && f.simulated);
     for (const ForceCycle* cycle : {&*f.prescribed, &*f.simulated}) {
-      for (const Peak& reaction : cycle->reaction) EXPECT_EQ(reaction.error.has_value(), !outside) << points;
+      for (const NamedPeak& reaction : cycle->reactions) EXPECT_EQ(reaction.peak.error.has_value(), !outside) << points;
       for (const Estimate* figure : {static_cast<const Estimate*>(&cycle->torque), &cycle->torque_mean, &cycle->input})
         EXPECT_EQ(figure->error.has_value(), !outside) << points;
     }
@@ -179,10 +179,10 @@ saw = {{ kind = "four-bar", crank = "0.1 m", coupler = "0.4 m", rocker = "0.3 m"
 run = {{ until = "5 s", start = {{ speed = "9 rad/s" }} }}
 )",
                                                shunt, beyond));
-    const LinkageStudy f = find_linkage_forces(scene, {});
+    const Forces f = find_forces(scene, {});
     ASSERT_TRUE(f.prescribed && f.simulated);
     const bool outside = *beyond == 0;
-    for (const LinkageCycle* cycle : {&*f.prescribed, &*f.simulated}) {
+    for (const ForceCycle* cycle : {&*f.prescribed, &*f.simulated}) {
       EXPECT_EQ(cycle->reactions.front().peak.error.has_value(), !outside);
       EXPECT_EQ(cycle->torque.error.has_value(), !outside);
     }

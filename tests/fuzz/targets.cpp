@@ -151,7 +151,6 @@ const Verb verbs[] = {
     [](const Scene& s) { return fault_of_answer(find_modes(s, s.effects, {})); },
     [](const Scene& s) { return fault_of_answer(find_gears(s, {})); },
     [](const Scene& s) { return fault_of_answer(find_forces(s, {})); },
-    [](const Scene& s) { return fault_of_answer(find_linkage_forces(s, {})); },
     [](const Scene& s) {
       return fault_of_answer(steady(s, {Effects{}, s.effects}, {}));
     },

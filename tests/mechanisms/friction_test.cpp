@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "tests/mechanisms/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 
 namespace kurbel::friction_test {
 namespace {

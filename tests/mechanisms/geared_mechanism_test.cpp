@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 #include "tests/support/elements.h"
 
 namespace kurbel::geared_mechanism_test {

@@ -9,7 +9,7 @@
 
 #include "mechanisms/loads/rounded_profile.h"
 #include "mechanisms/loads/slider_loads.h"
-#include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::holds_and_dead_centres_test {

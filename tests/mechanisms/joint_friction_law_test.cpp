@@ -11,6 +11,7 @@
 #include "engine/events/equations.h"
 #include "engine/run/run.h"
 #include "mechanisms/kinds/joint_keys.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 #include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
@@ -58,7 +59,8 @@ JointFriction::State same_state(const CrankState& s) {
 
 // A slider-crank by the closed form, and by the tables of its reactions.
 struct Both {
-  Both(const SliderCrankData& d, const SliderCrankJoints& j) : statics(d, j), law(friction_of(d, j)->get(false)) {}
+  Both(const SliderCrankData& d, const SliderCrankJoints& j)
+      : statics(d, j), law(friction_of(d, joints_of(j))->get(false)) {}
   double scale(const CrankState& s) const {
     return std::abs(statics.solve_frictionless(s).torque) + statics.data().radius * std::abs(s.slider_force);
   }
@@ -161,7 +163,7 @@ TEST(JointFrictionLaw, SecondExtractionAgreesAndIsAnother) {
   Draw draw;
   const SliderCrankData d = draw.mechanism();
   const SliderCrankJoints j = draw.joints(true);
-  const auto source = friction_of(d, j);
+  const auto source = friction_of(d, joints_of(j));
   EXPECT_EQ(source->get(false), source->get(false));
   double greatest = 0, apart = 0;
   for (int k = 0; k < 200; ++k) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/events/equations.h"
-#include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 #include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 

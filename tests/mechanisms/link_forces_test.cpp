@@ -332,7 +332,7 @@ accuracy = 1e-10
 
 TEST(LinkForces, TheMachinesBalanceOverACycle) {
   const Scene scene = test::scene_from(sieve);
-  const LinkageStudy study = find_linkage_forces(scene, {});
+  const Forces study = find_forces(scene, {});
   EXPECT_LT(study.prescribed->power_residual, 1e-11);
   EXPECT_LT(study.prescribed->equation_residual, 1e-14);
   ASSERT_TRUE(study.simulated);

@@ -118,7 +118,7 @@ TEST(LinkageForcesInScenes, BalanceOverTheCycle) {
   for (const char* scene : {"scenes/six_link_press.toml", "scenes/stephenson.toml", "scenes/scotch_yoke.toml",
                             "scenes/straight_line.toml", "scenes/walking_leg.toml"}) {
     SCOPED_TRACE(scene);
-    const LinkageStudy study = find_linkage_forces(test::scene_file(scene), options);
+    const Forces study = find_forces(test::scene_file(scene), options);
     EXPECT_LT(study.prescribed->power_residual, 1e-11);
     EXPECT_LT(study.prescribed->equation_residual, 1e-15);
   }
@@ -144,7 +144,7 @@ until = "1 s"
   EXPECT_EQ(mechanism_in(*compile(scene, Effects{}), "m").travel.winding, 1);
   EXPECT_TRUE(test::run(scene).complete);
   try {
-    find_linkage_forces(scene, {});
+    find_forces(scene, {});
     ADD_FAILURE() << "not refused";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("reactions are not assessed"), std::string::npos) << error.what();

@@ -8,7 +8,7 @@
 
 namespace kurbel {
 
-// Senses as in slider_crank_forces.h; frame's axes [N, N·m].
+// Senses as in slider_crank_statics.h; frame's axes [N, N·m].
 struct SimbodyReactions {
   double main_bearing[2];  // frame on crank
   double crank_pin[2];     // crank on rod

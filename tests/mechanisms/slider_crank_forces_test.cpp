@@ -1,5 +1,4 @@
 // slider_crank_forces_test.cpp — reactions against Simbody, energy and published cases; friction against its laws.
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include "tests/mechanisms/mechanism_examples.h"
 #include "tests/mechanisms/simbody_reactions.h"
 #include "tests/mechanisms/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 
 namespace kurbel::slider_crank_forces_test {
 namespace {

@@ -1,6 +1,5 @@
 // slider_crank_forces_test.cpp — published reactions and torques: textbook engines (sc05), a flexible-rod benchmark's
 // rigid limit (mb04), a pendulum by ADAMS (mb05), the slider-crank of SUNDIALS' IDAS (sc04).
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 
 #include "engine/steppers/stepper.h"
 #include "tests/mechanisms/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 #include "tests/support/validation.h"
 
 namespace kurbel::slider_crank_forces_test {

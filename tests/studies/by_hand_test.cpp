@@ -82,23 +82,23 @@ run = {{ start = {{ speed = "60 rad/s" }}, until = "1 s" }}
 // A counterweight is mass on the crank: the forces are those of a crank that has it.
 TEST(Counterweights, ShakeAndLoadTheBearingLikeACrankThatHasThem) {
   const Forces bare = crank_forces(0.03);
-  ASSERT_GE(bare.counterweights.size(), 3u);
-  for (const Counterweight& c : bare.counterweights) {
+  ASSERT_GE(bare.balancing->counterweights.size(), 3u);
+  for (const Counterweight& c : bare.balancing->counterweights) {
     const Forces with = crank_forces(0.03 - c.moment / 4);
     EXPECT_NEAR(c.peak_force.value, with.prescribed->shaking_force.value, 1e-7 * c.peak_force.value) << c.name;
-    EXPECT_NEAR(c.peak_bearing.value, with.prescribed->reaction[0].value, 1e-7 * c.peak_bearing.value) << c.name;
+    EXPECT_NEAR(c.peak_bearing.value, with.prescribed->reaction(0).value, 1e-7 * c.peak_bearing.value) << c.name;
   }
 }
 
 // The rod's mass at its two pins by the lever: ¾ on the crank, ¼ on the slider.
 TEST(Forces, RodIsSharedBetweenItsPins) {
   const Forces f = crank_forces(0.03);
-  EXPECT_NEAR(f.rotating_moment, 4 * 0.03 + 2 * 0.75 * 0.1, 1e-15);
-  EXPECT_NEAR(f.reciprocating_mass, 3 + 2 * 0.25, 1e-15);
+  EXPECT_NEAR(f.balancing->rotating_moment, 4 * 0.03 + 2 * 0.75 * 0.1, 1e-15);
+  EXPECT_NEAR(f.balancing->reciprocating_mass, 3 + 2 * 0.25, 1e-15);
 }
 
 TEST(Counterweights, BalanceTheRotatingMassesAndTheirShareOfTheReciprocatingOnes) {
-  const auto proposals = crank_forces(0.03).counterweights;
+  const auto proposals = crank_forces(0.03).balancing->counterweights;
   const double rotating = 4 * 0.03 + 2 * 0.75 * 0.1, reciprocating = (3 + 2 * 0.25) * 0.1;
   EXPECT_NEAR(proposals[1].moment, rotating, 1e-15);
   EXPECT_NEAR(proposals[2].moment, rotating + 0.5 * reciprocating, 1e-15);

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
 
 #include "studies/forces/forces_findings.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::linkage_forces_test {
@@ -44,7 +46,7 @@ accuracy = 1e-8
 )";
 
 // Joints that turn without friction take no power: what the balancing torque does in a cycle is what the load takes.
-void expect_balance(const LinkageCycle& c) {
+void expect_balance(const ForceCycle& c) {
   EXPECT_LT(c.power_residual, 1e-11);
   EXPECT_LT(c.equation_residual, 1e-16);
   double sum = -c.kinetic_change.value, largest = 0;
@@ -61,7 +63,7 @@ TEST(ForcesInALinkage, BalanceOverTheCycleInEveryMechanism) {
   options.simulate = false;
   for (const char* scene : {"scenes/four_bar_rocker.toml", "scenes/shaper.toml", "scenes/knuckle_press.toml"}) {
     SCOPED_TRACE(scene);
-    const LinkageStudy f = find_linkage_forces(test::scene_file(scene), options);
+    const Forces f = find_forces(test::scene_file(scene), options);
     expect_balance(*f.prescribed);
     for (const NamedPeak& r : f.prescribed->reactions) {
       ASSERT_TRUE(r.peak.error) << r.name;
@@ -76,7 +78,7 @@ TEST(ForcesInALinkage, GoThroughChangePointsWithTheMachine) {
   for (const char* lengths : {"crank = \"100 mm\"\ncoupler = \"300 mm\"\nrocker = \"100 mm\"\nground = \"300 mm\"",
                               "crank = \"100 mm\"\ncoupler = \"250 mm\"\nrocker = \"250 mm\"\nground = \"100 mm\""}) {
     SCOPED_TRACE(lengths);
-    const LinkageStudy f = find_linkage_forces(
+    const Forces f = find_forces(
         test::scene_from(
             std::string("line = [\"motor\", \"bars\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = "
                         "\"400 N*m\", no_load_speed = \"12 rad/s\", inertia = \"2 kg*m2\" }\n[bars]\nkind = "
@@ -98,8 +100,8 @@ TEST(ForcesInALinkage, TellsSpeedsOfTheLinks) {
   ForcesOptions options;
   options.simulate = false;
   options.speed = 10;
-  const LinkageStudy f = find_linkage_forces(test::scene_from(rocker), options);
-  const LinkageCycle& c = *f.prescribed;
+  const Forces f = find_forces(test::scene_from(rocker), options);
+  const ForceCycle& c = *f.prescribed;
   EXPECT_DOUBLE_EQ(c.links[0].omega.value, 10);
   EXPECT_EQ(c.links[0].alpha.value, 0);
   const auto& positions = c.positions;
@@ -128,8 +130,8 @@ TEST(ForcesInALinkage, ShakesAsATurningMass) {
   ForcesOptions options;
   options.simulate = false;
   options.speed = 10;
-  const LinkageStudy f = find_linkage_forces(test::scene_from(text), options);
-  const LinkageCycle& c = *f.prescribed;
+  const Forces f = find_forces(test::scene_from(text), options);
+  const ForceCycle& c = *f.prescribed;
   EXPECT_NEAR(c.shaking_force.value, 2 * 0.08 * 100, 1e-12 * 16);
   EXPECT_NEAR(c.shaking_x[0].amplitude.value, 16, 1e-11);
   EXPECT_NEAR(c.shaking_x[1].amplitude.value, 0, 1e-10);
@@ -143,8 +145,7 @@ TEST(ForcesInALinkage, HasPeaksThatNoPositionsMove) {
   coarse.simulate = fine.simulate = false;
   coarse.positions = 5, fine.positions = 77;
   const Scene scene = test::scene_from(rocker);
-  const LinkageCycle a = *find_linkage_forces(scene, coarse).prescribed,
-                     b = *find_linkage_forces(scene, fine).prescribed;
+  const ForceCycle a = *find_forces(scene, coarse).prescribed, b = *find_forces(scene, fine).prescribed;
   EXPECT_EQ(a.rows.size(), 6);
   EXPECT_EQ(b.rows.size(), 78);
   for (std::size_t k = 0; k < a.reactions.size(); ++k) {
@@ -160,9 +161,9 @@ TEST(ForcesInALinkage, HasPeaksThatNoPositionsMove) {
 // What a looser run finds otherwise is in the error: a run at a tenth of the tolerance lies within it.
 TEST(ForcesInALinkage, HasErrorsThatHoldTheSimulatedFigures) {
   Scene scene = test::scene_from(rocker);
-  const LinkageStudy f = find_linkage_forces(scene, {});
+  const Forces f = find_forces(scene, {});
   scene.run.accuracy = 1e-10;
-  const LinkageStudy truth = find_linkage_forces(scene, {});
+  const Forces truth = find_forces(scene, {});
   ASSERT_TRUE(f.simulated && truth.simulated);
   expect_balance(*f.simulated);
   for (std::size_t k = 0; k < f.simulated->reactions.size(); ++k) {
@@ -177,34 +178,113 @@ TEST(ForcesInALinkage, HasErrorsThatHoldTheSimulatedFigures) {
 TEST(ForcesInALinkage, NamesJointsSensesAndAxes) {
   ForcesOptions options;
   options.simulate = false;
-  const LinkageStudy f = find_linkage_forces(test::scene_from(rocker), options);
+  const Forces f = find_forces(test::scene_from(rocker), options);
   const Findings findings = findings_of(f);
   const auto json = nlohmann::json::parse(json_text(summary_of(findings)));
   EXPECT_NE(json.at("signs").get<std::string>().find("crank pin: crank on coupler"), std::string::npos);
   ASSERT_EQ(findings.tables.size(), 2U);
   const std::string csv = csv_text(findings.tables[0].table());
   EXPECT_NE(csv.find("rocker_bearing_of_frame_on_rocker_x [N]"), std::string::npos) << csv.substr(0, 400);
-  bool told = false;
-  for (const auto& note : json.at("notes"))
-    told = told || note.get<std::string>().find("no friction of them by their reactions") != std::string::npos;
-  EXPECT_TRUE(told);
 }
 
-// One study's links are the other's: a slider-crank by its closed form and by all links at once.
-TEST(ForcesInALinkage, AgreesWithTheSliderCranksOwn) {
+// With friction in all joints, an offset, a guide that the reaction leaves, mass and force beside the pin: against the closed
+// form, which shares neither the links' equations nor the laws' solution.
+TEST(ForcesInALinkage, AreThoseOfTheSliderCranksClosedForm) {
   ForcesOptions options;
   options.simulate = false;
-  const Scene scene = test::scene_file("scenes/crank_press.toml");
-  const Forces own = find_forces(scene, options);
-  for (std::size_t i = 0; i < own.prescribed->positions.size(); i += 37) {
-    const SliderCrankForces& s = own.prescribed->positions[i].forces;
-    const LinkageForces& l = own.links->positions[i].forces;
-    EXPECT_NEAR(l.links[1].inertia_force.x, s.rod_inertia.x, 1e-12 * own.prescribed->shaking_force.value);
-    EXPECT_NEAR(l.shaking_moment, s.shaking_moment, 1e-10 * own.prescribed->torque.value);
-    if (own.joints.frictionless()) {
-      EXPECT_NEAR(l.joints[1].force.magnitude(), s.crank_pin.magnitude(), 1e-10 * own.prescribed->reaction[1].value);
+  const Scene scene = test::scene_from(R"(
+line = ["crank"]
+[crank]
+kind = "slider-crank"
+radius = "100 mm"
+rod = "350 mm"
+offset = "20 mm"
+crank_mass = "4 kg"
+crank_com = "30 mm"
+crank_inertia = "0.15 kg*m2"
+rod_mass = "2 kg"
+rod_com = "122.5 mm"
+rod_inertia = "0.02 kg*m2"
+slider_mass = "3 kg"
+stroke_angle = "35 deg"
+load = { kind = "opposing", force = "500 N" }
+main_bearing = { radius = "40 mm", friction = 0.05, static_friction = 0.1, stribeck_speed = "0.3 m/s" }
+crank_pin = { radius = "30 mm", friction = 0.05 }
+slider_pin = { radius = "15 mm", friction = 0.08, viscous_friction = "0.02 s/m" }
+guide = { friction = 0.1, length = "60 mm", middle = "5 mm", width = "80 mm", slider_com = "30 mm", force_offset = "12 mm" }
+[run]
+start = { speed = "30 rad/s" }
+)");
+  const Forces f = find_forces(scene, options);
+  const ForceCycle& c = *f.prescribed;
+  const SliderCrankStatics statics(f.balancing->data, slider_crank_joints(f.joints));
+  const double scale = c.reaction(1).value, arm = 0.1;
+  int edges = 0;
+  for (const PositionForces& p : c.curve) {
+    const LinkageForces& l = p.forces;
+    if (std::abs(l.output_velocity) < 1e-6) continue;  // there friction is either way
+    const SliderCrankForces own = statics.solve({l.state.phi, l.state.omega, l.state.alpha, l.state.load});
+    const Force2 pins[] = {own.main_bearing, own.crank_pin, own.slider_pin};
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR((l.joints[k].force - pins[k]).magnitude(), 0, 1e-11 * scale) << l.state.phi << " joint " << k;
+      EXPECT_NEAR(l.joints[k].friction, own.friction_torque[k], 1e-12 * scale * arm) << l.state.phi << " joint " << k;
     }
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(l.joints[k].friction_power, own.friction_power[k], 1e-11 * scale * arm * 30) << k;
+    const JointForces& guide = l.joints[3];
+    EXPECT_NEAR(guide.normal, own.guide, 1e-11 * scale);
+    EXPECT_NEAR(guide.moment, own.guide_moment, 1e-11 * scale * arm);
+    EXPECT_NEAR(guide.friction, own.guide_friction, 1e-11 * scale);
+    EXPECT_EQ(guide.both_edges, own.both_edges);
+    EXPECT_NEAR(guide.edge_front, own.edge_front, 1e-10 * scale);
+    EXPECT_NEAR(guide.edge_back, own.edge_back, 1e-10 * scale);
+    EXPECT_NEAR(l.torque, own.torque, 1e-11 * scale * arm);
+    EXPECT_NEAR(l.links[1].inertia_force.x, own.rod_inertia.x, 1e-12 * scale);
+    EXPECT_NEAR(l.shaking_moment, own.shaking_moment, 1e-11 * scale * arm);
+    edges += own.both_edges;
   }
+  EXPECT_GT(edges, 100);
+  EXPECT_LT(edges, 700);
+  EXPECT_LT(c.friction_residual, 1e-12);
+  EXPECT_LT(c.power_residual, 1e-12);
+}
+
+// Friction in the joints of a four-bar: the machine moves as its links need it, and what goes in is used or lost.
+TEST(ForcesInALinkage, HaveTheFrictionOfTheJoints) {
+  std::string rough = rocker;
+  rough.replace(rough.find("[run]"), 5,
+                "joints = { main_bearing = { radius = \"20 mm\", friction = 0.1 }, crank_pin = { radius = \"15 mm\", "
+                "friction = 0.1 }, rocker_pin = { radius = \"12 mm\", friction = 0.08 }, rocker_bearing = { radius = "
+                "\"20 mm\", friction = 0.05 } }\n[run]");
+  const Forces f = find_forces(test::scene_from(rough), {}), ideal = find_forces(test::scene_from(rocker), {});
+  ASSERT_TRUE(f.friction && f.simulated);
+  EXPECT_LT(*f.simulated->machine_residual, 1e-7);
+  for (const ForceCycle* c : f.problems()) {
+    EXPECT_LT(c->power_residual, 1e-11);
+    EXPECT_LT(c->friction_residual, 1e-12);
+    double lost = 0;
+    for (const CycleWork& w : c->work)
+      if (w.name.starts_with("friction of ")) lost -= w.work.value;
+    EXPECT_GT(lost, 0);
+    EXPECT_NEAR(c->harmful.value, lost, 1e-9 * lost);
+    EXPECT_NEAR(c->input.value, c->useful.value + lost + c->kinetic_change.value, 1e-7 * c->input.value);
+    EXPECT_NEAR(c->efficiency->value, c->useful.value / c->input.value, 1e-9);
+    // ρ |R| of each pin, against its turning.
+    for (const PositionForces& p : c->positions)
+      for (const JointForces& j : p.forces.joints)
+        if (std::string(j.name) == "crank pin") {
+          EXPECT_NEAR(std::abs(j.friction), 0.015 * 0.1 / std::sqrt(1.01) * j.force.magnitude(),
+                      1e-12 * c->reaction(1).value);
+        }
+  }
+  EXPECT_NEAR(ideal.prescribed->efficiency->value, 1, 1e-9);
+  EXPECT_NE(output_of(f).conclusion().find("efficiency of the cycle"), std::string::npos);
+  Effects off;
+  ForcesOptions options;
+  options.effects = off;
+  const Forces left_out = find_forces(test::scene_from(rough), options);
+  EXPECT_EQ(left_out.prescribed->torque.value, ideal.prescribed->torque.value);
+  EXPECT_NE(left_out.notes.back().find("friction in the joints is omitted"), std::string::npos);
 }
 
 }  // namespace

@@ -18,10 +18,11 @@ TEST(PeakAtACorner, OfAnIndicatorDiagramIsTheForceThere) {
   const Forces forces = find_forces(scene, {});
   ASSERT_TRUE(forces.simulated.has_value());
   double there = 0;
-  for (const CyclePosition& p : forces.simulated->positions)
-    if (std::abs(p.state.phi - 390 * std::numbers::pi / 180) < 1e-6) there = p.forces.main_bearing.magnitude();
+  for (const PositionForces& p : forces.simulated->positions)
+    if (std::abs(p.forces.state.phi - 390 * std::numbers::pi / 180) < 1e-6)
+      there = p.forces.joints[0].force.magnitude();
   ASSERT_GT(there, 0);
-  EXPECT_NEAR(forces.simulated->reaction[0].value, there, 1e-6 * there);
+  EXPECT_NEAR(forces.simulated->reaction(0).value, there, 1e-6 * there);
 }
 
 TEST(PeakAtACorner, IsThatOfSimbodyInTheRunsStates) {

@@ -292,16 +292,17 @@ TEST(ForcesSheet, ASliderCranksNumbersAreTheStudysFigures) {
   const Forces study = find_forces(scene, options);
   const auto cells = cells_of(sheet.html());
   for (int k = 0; k < 12; ++k) {
-    const SliderCrankForces& f = study.prescribed->rows[static_cast<std::size_t>(k)].forces;
+    const LinkageForces& f = study.prescribed->rows[static_cast<std::size_t>(k)].forces;
     if (k % 3 == 0) continue;  // a pin or the slider turns its sense of sliding there: its friction is either way
     const std::string row = std::to_string(k);
-    const double dust = 1e-6 * std::abs(study.prescribed->reaction[1].value);
-    EXPECT_NEAR(cell_at(cells, row, "R_01"), f.main_bearing.magnitude(), dust) << k;
-    EXPECT_NEAR(cell_at(cells, row, "R_12"), f.crank_pin.magnitude(), dust) << k;
-    EXPECT_NEAR(cell_at(cells, row, "R_23"), f.slider_pin.magnitude(), dust) << k;
-    EXPECT_NEAR(cell_at(cells, row, "R_03"), f.guide, dust) << k;
+    const double dust = 1e-6 * std::abs(study.prescribed->reaction(1).value);
+    EXPECT_NEAR(cell_at(cells, row, "R_01"), f.joints[0].force.magnitude(), dust) << k;
+    EXPECT_NEAR(cell_at(cells, row, "R_12"), f.joints[1].force.magnitude(), dust) << k;
+    EXPECT_NEAR(cell_at(cells, row, "R_23"), f.joints[2].force.magnitude(), dust) << k;
+    EXPECT_NEAR(cell_at(cells, row, "R_03"), f.joints[3].normal, dust) << k;
     EXPECT_NEAR(cell_at(cells, row, "M_b"), f.torque, 1e-6 * std::abs(study.prescribed->torque.value)) << k;
-    EXPECT_NEAR(cell_at(cells, row, "F_x2"), f.rod_inertia.x, 1e-9 * f.rod_inertia.magnitude()) << k;
+    EXPECT_NEAR(cell_at(cells, row, "F_x2"), f.links[1].inertia_force.x, 1e-9 * f.links[1].inertia_force.magnitude())
+        << k;
   }
   double most = 0;
   for (const auto& c : cells)

@@ -11,6 +11,7 @@
 #include "studies/forces/forces.h"
 #include "studies/forces/forces_findings.h"
 #include "tests/mechanisms/slider_crank_geometry.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 #include "tests/support/scenes.h"
 #include "tests/support/steady_simulation.h"
 #include "tests/support/thorough.h"
@@ -158,7 +159,7 @@ TEST(Efficiency, LiesBetweenNothingAndOneForAnyLoadSpeedAndFriction) {
       EXPECT_NEAR(c->efficiency->value, (c->useful / (c->useful + c->harmful)).value, 2e-3)
           << c->label << " " << load << friction;
     }
-    for (const CyclePosition& p : f.prescribed->positions)
+    for (const PositionForces& p : f.prescribed->positions)
       if (p.power.efficiency()) {
         EXPECT_LE(*p.power.efficiency(), 1);
       }
@@ -181,9 +182,9 @@ TEST(ForcePeaks, AreOfTheContinuousMotionWhateverRowsAreAskedFor) {
     EXPECT_EQ(f.prescribed->rows.size(), static_cast<std::size_t>(positions) + 1);
     if (!first) first = f;
     const auto same = [&](const ForceCycle& a, const ForceCycle& b) {
-      for (std::size_t k = 0; k < joint_count; ++k) {
-        EXPECT_EQ(a.reaction[k].value, b.reaction[k].value) << positions << " joint " << k;
-        EXPECT_EQ(a.reaction[k].phi, b.reaction[k].phi) << positions;
+      for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(a.reaction(k).value, b.reaction(k).value) << positions << " joint " << k;
+        EXPECT_EQ(a.reaction(k).phi, b.reaction(k).phi) << positions;
       }
       EXPECT_EQ(a.torque.value, b.torque.value) << positions;
       EXPECT_EQ(a.shaking_moment.value, b.shaking_moment.value) << positions;
@@ -192,8 +193,8 @@ TEST(ForcePeaks, AreOfTheContinuousMotionWhateverRowsAreAskedFor) {
       if (a.efficiency) {
         EXPECT_EQ(a.efficiency->value, b.efficiency->value) << positions;
       }
-      for (const CyclePosition& row : a.rows)
-        EXPECT_LE(row.forces.main_bearing.magnitude(), a.reaction[0].value * (1 + 1e-9)) << positions;
+      for (const PositionForces& row : a.rows)
+        EXPECT_LE(row.forces.joints[0].force.magnitude(), a.reaction(0).value * (1 + 1e-9)) << positions;
     };
     same(*f.prescribed, *first->prescribed);
     if (options.simulate) {
@@ -201,16 +202,16 @@ TEST(ForcePeaks, AreOfTheContinuousMotionWhateverRowsAreAskedFor) {
       same(*f.simulated, *first->simulated);
     }
     // The bearing of the crank as it is, is the same bearing.
-    EXPECT_EQ(f.counterweights[0].peak_bearing.value, f.prescribed->reaction[0].value);
-    EXPECT_EQ(f.counterweights[0].peak_force.value, f.prescribed->shaking_force.value);
+    EXPECT_EQ(f.balancing->counterweights[0].peak_bearing.value, f.prescribed->reaction(0).value);
+    EXPECT_EQ(f.balancing->counterweights[0].peak_force.value, f.prescribed->shaking_force.value);
   }
   const Forces& f = *first;
   const auto json = nlohmann::json::parse(output_of(f).json());
   double drawn = 0;
-  for (const CyclePosition& p : f.simulated->curve) drawn = std::max(drawn, p.forces.main_bearing.magnitude());
-  EXPECT_NEAR(drawn, f.simulated->reaction[0].value, 1e-12 * drawn);
-  EXPECT_EQ(json["simulated"]["peaks"][0]["value"].get<double>(), f.simulated->reaction[0].value);
-  EXPECT_EQ(f.simulated->at_torque_peak.state.phi, f.simulated->torque.phi);
+  for (const PositionForces& p : f.simulated->curve) drawn = std::max(drawn, p.forces.joints[0].force.magnitude());
+  EXPECT_NEAR(drawn, f.simulated->reaction(0).value, 1e-12 * drawn);
+  EXPECT_EQ(json["simulated"]["peaks"][0]["value"].get<double>(), f.simulated->reaction(0).value);
+  EXPECT_EQ(f.simulated->at_torque_peak.forces.state.phi, f.simulated->torque.phi);
   EXPECT_NEAR(f.simulated->at_torque_peak.forces.torque, f.simulated->torque.value,
               1e-9 * std::abs(f.simulated->torque.value));
 }
@@ -222,8 +223,8 @@ TEST(ForcePeaks, AreThoseOfADenseScan) {
   options.simulate = false;
   const Forces f =
       find_forces(test::scene_from(crank("load = { kind = \"opposing\", force = \"900 N\" }", bearings, 30)), options);
-  const SliderCrankStatics statics(f.data, f.joints);
-  const SliderCrankGeometry g(f.data);
+  const SliderCrankStatics statics(f.balancing->data, slider_crank_joints(f.joints));
+  const SliderCrankGeometry g(f.balancing->data);
   double bearing = 0, torque = 0;
   constexpr int n = 20000;
   const auto look = [&](double phi) {
@@ -234,8 +235,8 @@ TEST(ForcePeaks, AreThoseOfADenseScan) {
   };
   for (int i = 0; i < n; ++i) look(2 * pi * (i + 0.5) / n);
   for (const double edge : {0.0, pi}) look(edge - 1e-9), look(edge + 1e-9);
-  EXPECT_GE(f.prescribed->reaction[0].value, bearing * (1 - 1e-9));
-  EXPECT_LE(f.prescribed->reaction[0].value, bearing * (1 + 1e-6));
+  EXPECT_GE(f.prescribed->reaction(0).value, bearing * (1 - 1e-9));
+  EXPECT_LE(f.prescribed->reaction(0).value, bearing * (1 + 1e-6));
   EXPECT_GE(std::abs(f.prescribed->torque.value), torque * (1 - 1e-9));
   EXPECT_LE(std::abs(f.prescribed->torque.value), torque * (1 + 1e-6));
 }

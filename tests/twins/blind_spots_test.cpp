@@ -6,9 +6,9 @@
 #include <complex>
 #include <numbers>
 
-#include "mechanisms/slider_crank/slider_crank_forces.h"
 #include "studies/modes/modes.h"
 #include "studies/reduce/reduce.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::blind_spots_test {

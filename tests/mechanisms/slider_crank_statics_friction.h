@@ -1,13 +1,13 @@
-// slider_crank_friction.h — friction in the slider-crank's joints at one state: a law over the reactions; its solution.
+// slider_crank_statics_friction.h — friction in the slider-crank's joints at one state: a law over the reactions; its solution.
 //
-// Internal to slider_crank_*.cpp: what the private names of SliderCrankStatics stand for.
+// Internal to slider_crank_statics*.cpp: what the private names of SliderCrankStatics stand for.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 #include <utility>
 
-#include "mechanisms/slider_crank/slider_crank_forces.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 
 namespace kurbel {
 

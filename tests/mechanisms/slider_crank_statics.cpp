@@ -1,5 +1,5 @@
-// slider_crank_forces.cpp — equilibrium of slider, rod and crank, and the reactions and inertia forces of one state.
-#include "mechanisms/slider_crank/slider_crank_forces.h"
+// slider_crank_statics.cpp — equilibrium of slider, rod and crank, and the reactions and inertia forces of one state.
+#include "tests/mechanisms/slider_crank_statics.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "mechanisms/slider_crank/slider_crank_friction.h"
 #include "mechanisms/slider_crank/slider_crank_pose.h"
+#include "tests/mechanisms/slider_crank_statics_friction.h"
 
 namespace kurbel {
 namespace {
@@ -110,12 +110,6 @@ void validate(const FrictionCoefficient& f, const std::string& joint) {
 }
 
 }  // namespace
-
-bool SliderCrankJoints::frictionless() const {
-  const auto slides = [](const RevoluteJoint& j) { return j.radius > 0 && !j.friction.none(); };
-  return !slides(main_bearing) && !slides(crank_pin) && !slides(slider_pin) && guide.friction.none() &&
-         guide.rolling_arm == 0;
-}
 
 void validate(const SliderCrankJoints& joints) {
   const auto revolute = [](const RevoluteJoint& joint, const std::string& name) {

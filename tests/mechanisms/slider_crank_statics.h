@@ -1,4 +1,5 @@
-// slider_crank_forces.h — reactions, balancing torque and joint friction of the slider-crank by d'Alembert's principle.
+// slider_crank_statics.h — reactions, balancing torque and joint friction of the slider-crank by d'Alembert's principle, in
+// closed form: a source that shares nothing with mechanisms/reduced/newton_euler.h and mechanisms/friction.
 //
 //   y                A ← crank pin              All forces in the frame's axes: x along the stroke towards the extended
 //   |      crank   .'  `-._    rod              end, y 90° ahead. Sense of the reactions:
@@ -20,8 +21,9 @@
 #include <string>
 
 #include "engine/base/enumerators.h"
-#include "mechanisms/friction/friction.h"
+#include "mechanisms/joints/reaction_table.h"
 #include "mechanisms/linkages/slider_crank.h"
+#include "mechanisms/reduced/newton_euler.h"
 
 namespace kurbel {
 
@@ -46,25 +48,15 @@ struct SliderCrankJoints {
   RevoluteJoint main_bearing, crank_pin, slider_pin;
   SliderGuide guide;
 
-  bool frictionless() const;
+  bool frictionless() const {
+    const auto slides = [](const RevoluteJoint& j) { return j.radius > 0 && !j.friction.none(); };
+    return !slides(main_bearing) && !slides(crank_pin) && !slides(slider_pin) && guide.friction.none() &&
+           guide.rolling_arm == 0;
+  }
 };
 
 // Throws std::invalid_argument naming the first value outside its domain.
 void validate(const SliderCrankJoints& joints);
-
-struct Force2 {
-  double x = 0, y = 0;  // [N]
-  double magnitude() const { return std::hypot(x, y); }
-  double direction() const { return std::atan2(y, x); }  // [rad]
-  // Seen from axes turned by `angle` against the frame.
-  Force2 seen_from(double angle) const {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {c * x + s * y, c * y - s * x};
-  }
-};
-inline Force2 operator+(Force2 a, Force2 b) { return {a.x + b.x, a.y + b.y}; }
-inline Force2 operator-(Force2 a, Force2 b) { return {a.x - b.x, a.y - b.y}; }
-inline Force2 operator*(double s, Force2 a) { return {s * a.x, s * a.y}; }
 
 // What the mechanism is asked at: position, motion, and the force on its slider.
 struct CrankState {
@@ -99,6 +91,33 @@ struct SliderCrankForces {
 
   double friction_loss() const;  // [W]
 };
+
+// The same as any mechanism's joints, in their order, and back.
+inline MechanismJoints joints_of(const SliderCrankJoints& j) {
+  const auto pin = [](const char* name, const RevoluteJoint& joint) {
+    return RubbingJoint{.name = name, .friction = joint.friction, .radius = joint.radius};
+  };
+  const SliderGuide& g = j.guide;
+  return {{pin("main bearing", j.main_bearing),
+           pin("crank pin", j.crank_pin),
+           pin("slider pin", j.slider_pin),
+           {.name = "guide",
+            .friction = g.friction,
+            .length = g.length,
+            .middle = g.middle,
+            .width = g.width,
+            .rolling_arm = g.rolling_arm,
+            .roller_radius = g.roller_radius}},
+          {.com = g.com_x, .load = g.force_offset}};
+}
+inline SliderCrankJoints slider_crank_joints(const MechanismJoints& given) {
+  const auto pin = [&](std::size_t k) { return RevoluteJoint{given.joints[k].radius, given.joints[k].friction}; };
+  const RubbingJoint& g = given.joints[3];
+  return {pin(0),
+          pin(1),
+          pin(2),
+          {g.friction, g.length, g.middle, g.width, g.rolling_arm, g.roller_radius, given.off.com, given.off.load}};
+}
 
 class SliderCrankStatics {
  public:
