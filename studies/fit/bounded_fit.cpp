@@ -18,13 +18,6 @@ std::vector<int> bounds_pressed(const Eigen::VectorXd& u, const Eigen::VectorXd&
   return pressed;
 }
 
-std::vector<Eigen::Index> free_of(const std::vector<int>& pressed) {
-  std::vector<Eigen::Index> list;
-  for (std::size_t k = 0; k < pressed.size(); ++k)
-    if (pressed[k] == 0) list.push_back(static_cast<Eigen::Index>(k));
-  return list;
-}
-
 Eigen::MatrixXd columns_of(const Eigen::MatrixXd& m, const std::vector<Eigen::Index>& which) {
   Eigen::MatrixXd part(m.rows(), static_cast<Eigen::Index>(which.size()));
   for (std::size_t k = 0; k < which.size(); ++k) part.col(static_cast<Eigen::Index>(k)) = m.col(which[k]);
@@ -58,18 +51,18 @@ BoundedFit fit_within_bounds(const BoundedProblem& problem, const Eigen::VectorX
     if (!derivative) return fit;
     fit.jacobian = *derivative;
     fit.on_bound = bounds_pressed(fit.u, fit.jacobian.transpose() * fit.r);
-    const std::vector<Eigen::Index> free = free_of(fit.on_bound);
-    if (free.empty() || fit.steps >= most_steps) {
-      fit.converged = free.empty();
+    Eigen::MatrixXd j = fit.jacobian;  // of what is held: 0, and so is its step
+    for (Eigen::Index k = 0; k < j.cols(); ++k)
+      if (fit.on_bound[static_cast<std::size_t>(k)] != 0) j.col(k).setZero();
+    const bool all_held = j.isZero(0);
+    if (all_held || fit.steps >= most_steps) {
+      fit.converged = all_held;
       return fit;
     }
-    const Eigen::MatrixXd j = columns_of(fit.jacobian, free);
     bool accepted = false;
     double hoped = 0;
     for (int tries = 0; tries < 16 && !accepted; ++tries, lambda *= 4) {
-      const Eigen::VectorXd step = damped_step(j, fit.r, lambda);
-      Eigen::VectorXd full = Eigen::VectorXd::Zero(fit.u.size());
-      for (std::size_t k = 0; k < free.size(); ++k) full[free[k]] = step[static_cast<Eigen::Index>(k)];
+      const Eigen::VectorXd full = damped_step(j, fit.r, lambda);
       const Eigen::VectorXd u = (fit.u + full).cwiseMax(0).cwiseMin(1);
       const Eigen::VectorXd moved = u - fit.u;
       const double expected = fit.cost() - (fit.r + fit.jacobian * moved).squaredNorm();

@@ -10,23 +10,10 @@
 
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
+#include "studies/history/spectrum.h"
 
 namespace kurbel {
 namespace {
-
-// Values that go together: 1 + 2 Σ ρ_k up to the first that is not positive.
-double correlation_length(const Eigen::VectorXd& r) {
-  const Eigen::Index n = r.size();
-  const double power = r.squaredNorm();
-  if (n < 8 || !(power > 0)) return 1;
-  double sum = 1;
-  for (Eigen::Index k = 1; k < n / 2; ++k) {
-    const double rho = r.head(n - k).dot(r.tail(n - k)) / power;
-    if (rho <= 0) break;
-    sum += 2 * rho;
-  }
-  return std::min(sum, static_cast<double>(n) / 4);
-}
 
 class FitWork {
  public:
@@ -63,82 +50,87 @@ class FitWork {
     return std::move(study_);
   }
 
-  bool all_of_scatter() const {
-    return std::all_of(problem_.comparisons().begin(), problem_.comparisons().end(),
-                       [](const ComparedRecord& c) { return c.of_scatter(); });
-  }
-
-  // Relative weights become those of what is left; then errors.
+  // Each record counts by what it leaves when it is fitted by itself: what the machine lacks there must not draw unknowns
+  // that others determine. Then all of them together, and errors.
   void weigh() {
-    if (!all_of_scatter())
-      for (int k = 0; k < 2; ++k) {
-        problem_.residuals(state_.best.u);
-        problem_.weigh_by_residuals(state_.best.u);
-        const int before = state_.best.steps;
-        state_.best = problem_.fit(state_.best.u, 10);
-        state_.best.steps += before;
+    const std::size_t count = problem_.records().size();
+    std::vector<Eigen::VectorXd> alone(count, state_.best.u);
+    constexpr int rounds = 2, most_steps = 12;
+    for (int round = 0; round < rounds; ++round)
+      for (std::size_t r = 0; r < count; ++r) {
+        problem_.active.assign(count, false), problem_.active[r] = true;
+        const bool enough = static_cast<std::size_t>(problem_.comparisons()[r].size()) > 2 * problem_.unknowns_of(r);
+        if (enough && (count > 1 || round > 0))
+          if (const BoundedFit found = problem_.fit(alone[r], most_steps); found.r.size() > 0) alone[r] = found.u;
+        if (problem_.residuals(alone[r])) problem_.weigh(r, alone[r]);
       }
+    problem_.active.assign(count, true);
+    const int before = state_.best.steps;
+    state_.best = problem_.fit(count > 1 ? state_.best.u : alone[0]);
+    if (count > 1)
+      if (const BoundedFit other = problem_.fit(together(alone));
+          other.r.size() > 0 && other.cost() < state_.best.cost())
+        state_.best = other;
+    state_.best.steps += before;
     problem_.residuals(state_.best.u);
     study_.steps = state_.best.steps, study_.converged = state_.best.converged;
     determine();
   }
 
-  // Rows over √τ of their channel, so that values which go together count as one.
+  // Unknowns of one record alone as that one finds them.
+  Eigen::VectorXd together(const std::vector<Eigen::VectorXd>& alone) const {
+    Eigen::VectorXd u = state_.best.u;
+    for (std::size_t k = 0; k < problem_.unknowns().size(); ++k)
+      if (const auto& record = problem_.unknowns()[k].record)
+        u[static_cast<Eigen::Index>(k)] = alone[*record][static_cast<Eigen::Index>(k)];
+    return u;
+  }
+
   void determine() {
-    Eigen::MatrixXd j = state_.best.jacobian;
-    Eigen::VectorXd r = state_.best.r;
-    double effective = 0;
-    Eigen::Index begin = 0;
+    const Eigen::MatrixXd& j = state_.best.jacobian;
     std::vector<Eigen::MatrixXd> scores;
-    Eigen::Index rows = 0;
-    for (std::size_t k = 0; k < problem_.records().size(); ++k) {
-      const ComparedRecord& c = problem_.comparisons()[k];
-      const bool one_by_one = c.cycles().rows() > 1;
-      for (std::size_t channel = 0; channel < problem_.records()[k].channels.size(); ++channel) {
-        const Eigen::Index at = begin + c.begin(channel);
-        const bool points = c.orders().empty() && problem_.records()[k].over != Over::mode;
-        const double tau = points ? correlation_length(r.segment(at, c.per_channel())) : 1;
-        lengths_.push_back(tau);
-        effective += static_cast<double>(c.per_channel()) / tau;
-        if (!one_by_one) j.middleRows(at, c.per_channel()) /= std::sqrt(tau);
-        r.segment(at, c.per_channel()) /= std::sqrt(tau);
-      }
+    double independent = 0, widened = 1;
+    bool by_scatter = true;
+    Eigen::Index begin = 0, rows = 0;
+    for (const ComparedRecord& c : problem_.comparisons()) {
       Eigen::MatrixXd part = j.middleRows(begin, c.size());
-      if (one_by_one) {
-        const auto n = static_cast<double>(c.cycles().rows());
-        Eigen::MatrixXd deviations = c.cycles();
-        for (Eigen::Index i = 0; i < deviations.cols(); ++i) deviations.col(i) /= c.deviation()[i];
-        part = (deviations * part / std::sqrt(n * (n - 1))).eval();
+      if (const auto n = static_cast<double>(c.cycles().rows()); n > 1) {
+        const Eigen::MatrixXd deviations = c.cycles() * c.deviation().cwiseInverse().asDiagonal();
+        part = (deviations * part * (c.widened() / std::sqrt(n * (n - 1)))).eval();
         cycles_ = std::max(cycles_, n);
       }
-      rows += part.rows();
+      independent += c.independent(), widened = std::max(widened, c.widened());
+      by_scatter = by_scatter && c.of_scatter();
+      begin += c.size(), rows += part.rows();
       scores.push_back(std::move(part));
-      begin += c.size();
     }
-    Eigen::MatrixXd all;
-    if (cycles_ > 0) {
-      all.resize(rows, problem_.size());
-      Eigen::Index next = 0;
+    Eigen::MatrixXd all(cycles_ > 0 ? rows : 0, problem_.size());
+    if (Eigen::Index next = 0; cycles_ > 0)
       for (const Eigen::MatrixXd& part : scores) all.middleRows(next, part.rows()) = part, next += part.rows();
-    }
     constexpr double least_floor = 1e-4, most_floor = 1e-2;
     const double floor = std::clamp(3 * problem_.noise(), least_floor, most_floor);
     state_.determined = determined_by(j, state_.best.on_bound, floor, all);
-    const double freedom = std::max(effective - static_cast<double>(problem_.size()), 1.0);
-    const double reduced = r.squaredNorm() / freedom;
-    const bool by_scatter = all_of_scatter();
+    const double freedom = std::max(independent - static_cast<double>(problem_.size()), 1.0);
+    const double reduced = state_.best.cost() / freedom;
     constexpr double below_machine_error = 0.5;  // of weights by what is left it is 1
-    study_.chi_squared = by_scatter ? reduced : 0;
+    study_.chi_squared = by_scatter ? reduced * widened * widened : 0;
     state_.covariance = state_.determined.covariance * std::max(1.0, reduced);
-    const double degrees = by_scatter && reduced <= 1 && cycles_ > 1 ? cycles_ - 1 : freedom;
-    state_.interval = boost::math::quantile(boost::math::students_t(degrees), 0.975);
+    const bool of_cycles = by_scatter && study_.chi_squared <= 1 && cycles_ > 1;
+    state_.interval = boost::math::quantile(boost::math::students_t(of_cycles ? cycles_ - 1 : freedom), 0.975);
     study_.errors_from =
         !by_scatter && reduced < below_machine_error
             ? "the machine's own error ([run] accuracy): what is left is smaller"
-        : !by_scatter ? "what is left between record and machine, as noise of its own correlation length"
-        : reduced > 1
-            ? fmt::format("the scatter of cycles, times {:.3g}: so much larger is what is left", std::sqrt(reduced))
-            : "the scatter of cycles";
+        : !by_scatter            ? "what is left between record and machine, as noise of its own correlation length"
+        : study_.chi_squared > 1 ? fmt::format("the scatter of cycles, times {:.3g}: so much larger is what is left",
+                                               std::sqrt(study_.chi_squared))
+                                 : "the scatter of cycles";
+    constexpr double contradictory = 2;
+    if (problem_.records().size() > 1 && reduced > contradictory)
+      study_.notes.push_back(
+          fmt::format("the records contradict each other: together they leave {:.2g} times what each leaves by itself, "
+                      "and all errors "
+                      "are widened by that",
+                      std::sqrt(reduced)));
   }
 
   void say_values() {
@@ -173,16 +165,16 @@ class FitWork {
         study_.held.push_back(fmt::format("{}: {} = {} keeps {}", problem_.records()[r].name, held->key,
                                           with_unit(held->value, held->unit, 5),
                                           study_.speed_unit.text(*problem_.requests()[r].mean_speed, 6)));
-    study_.settings = problem_.machines().front().settings_at(u, problem_.responses().front().held);
     const MachineQuestion& first = problem_.requests().front().scene;
+    const std::vector<std::string> fitted =
+        problem_.machines().front().settings_at(u, problem_.responses().front().held);
     std::vector<std::string> settings;
     for (const std::string& s : first.settings) {
       const std::string path = s.substr(0, s.find('=') + 1);
-      if (std::none_of(study_.settings.begin(), study_.settings.end(),
-                       [&](const auto& f) { return f.starts_with(path); }))
+      if (std::none_of(fitted.begin(), fitted.end(), [&](const auto& f) { return f.starts_with(path); }))
         settings.push_back(s);
     }
-    settings.insert(settings.end(), study_.settings.begin(), study_.settings.end());
+    settings.insert(settings.end(), fitted.begin(), fitted.end());
     study_.written = SettledText(first.text, first.file, settings).text();
   }
 
@@ -213,39 +205,72 @@ class FitWork {
   }
 
   void say_residuals() {
-    std::size_t number = 0;
     for (std::size_t r = 0; r < problem_.records().size(); ++r) {
       const FitRecord& record = problem_.records()[r];
       const ComparedRecord& c = problem_.comparisons()[r];
       const Eigen::VectorXd points = c.points_of(problem_.responses()[r], problem_.unknowns(), state_.best.u);
-      const Eigen::VectorXd shown = c.compared(points), left = shown - c.data();
+      const Eigen::VectorXd left = c.compared(points) - c.data(), measured = c.measured_points();
       const auto count = static_cast<Eigen::Index>(record.at.size());
       for (std::size_t k = 0; k < record.channels.size(); ++k) {
         const RecordChannel& channel = record.channels[k];
-        const auto part = left.segment(c.begin(k), c.per_channel());
-        const auto data = c.data().segment(c.begin(k), c.per_channel());
+        const auto rms = [&](const Eigen::VectorXd& all) {
+          return std::sqrt(all.segment(c.begin(k), c.per_channel()).squaredNorm() /
+                           static_cast<double>(c.per_channel()));
+        };
         ChannelResidual& told = study_.residuals.emplace_back(
             ChannelResidual{.record = record.name, .channel = channel.channel, .unit = channel.unit});
         told.of = c.orders().empty() ? "points" : "orders";
         told.count = static_cast<std::size_t>(c.per_channel());
-        told.rms = std::sqrt(part.squaredNorm() / static_cast<double>(c.per_channel()));
+        told.rms = rms(left);
+        const auto data = c.data().segment(c.begin(k), c.per_channel());
         const double size = c.orders().empty() ? data.maxCoeff() - data.minCoeff() : data.cwiseAbs().maxCoeff();
         if (size > 0) told.range_part = told.rms / size;
-        if (channel.has_scatter())
-          told.scatter = std::sqrt(c.deviation().segment(c.begin(k), c.per_channel()).squaredNorm() /
-                                   static_cast<double>(c.per_channel()));
-        told.correlation_length = lengths_[number++];
-        Curve95& curve = study_.curves.emplace_back(Curve95{.record = record.name,
-                                                            .channel = channel.channel,
-                                                            .unit = channel.unit,
-                                                            .over = record.over,
-                                                            .at = record.at,
-                                                            .measured = channel.mean,
-                                                            .shown = {}});
-        for (Eigen::Index i = 0; i < count; ++i)
-          curve.shown.push_back(points[static_cast<Eigen::Index>(k) * count + i]);
+        if (channel.has_scatter()) told.scatter = rms(c.scatter());
+        told.correlation_length = c.length(k);
+        const Eigen::VectorXd m = measured.segment(static_cast<Eigen::Index>(k) * count, count),
+                              s = points.segment(static_cast<Eigen::Index>(k) * count, count);
+        const Eigen::VectorXd dm = m.array() - m.mean(), ds = s.array() - s.mean();
+        told.alike = dm.dot(ds) / std::max(dm.norm() * ds.norm(), 1e-300);
+        told.peak = m.cwiseAbs().maxCoeff(), told.peak_fitted = s.cwiseAbs().maxCoeff();
+        study_.curves.push_back({.record = record.name,
+                                 .channel = channel.channel,
+                                 .unit = channel.unit,
+                                 .over = record.over,
+                                 .at = record.at,
+                                 .measured = channel.mean,
+                                 .shown = {s.begin(), s.end()}});
+        if (record.over == Over::time) say_bands(study_.curves.back());
       }
       if (record.over == Over::angle) say_orders(r, points);
+    }
+  }
+
+  // Octaves below half the mean rate of points.
+  void say_bands(const Curve95& curve) {
+    constexpr std::size_t fewest = 128;
+    constexpr int most = 7;
+    if (curve.at.size() < fewest) return;
+    const double step = (curve.at.back() - curve.at.front()) / static_cast<double>(curve.at.size() - 1);
+    std::vector<double> measured, fitted, left;
+    const Signal m(curve.at, curve.measured), s(curve.at, curve.shown);
+    for (std::size_t i = 0; i < curve.at.size(); ++i) {
+      const double at = curve.at.front() + static_cast<double>(i) * step;
+      measured.push_back(m.at(at)), fitted.push_back(s.at(at)), left.push_back(m.at(at) - s.at(at));
+    }
+    const auto rms = [](const AmplitudeSpectrum& spectrum, double from, double to) {
+      constexpr double hann = 1.5;  // lines that a sine's power is spread over
+      double power = 0;
+      for (std::size_t i = 1; i < spectrum.frequency.size(); ++i)
+        if (spectrum.frequency[i] > from && spectrum.frequency[i] <= to)
+          power += 0.5 * spectrum.amplitude[i] * spectrum.amplitude[i] / hann;
+      return std::sqrt(power);
+    };
+    const AmplitudeSpectrum a = spectrum_of(measured, step), b = spectrum_of(fitted, step), c = spectrum_of(left, step);
+    double to = 0.5 / step;
+    for (int k = 0; k < most && to > 4 * a.resolution; ++k, to /= 2) {
+      const double from = k + 1 < most && to > 8 * a.resolution ? to / 2 : 0;
+      study_.bands.push_back(
+          {curve.record, curve.channel, curve.unit, from, to, rms(a, from, to), rms(b, from, to), rms(c, from, to)});
     }
   }
 
@@ -256,17 +281,13 @@ class FitWork {
     for (std::size_t k = 0; k < record.channels.size(); ++k)
       for (std::size_t o = 0; o < by_order.orders().size(); ++o) {
         const Eigen::Index i = by_order.begin(k) + 2 * static_cast<Eigen::Index>(o);
-        OrderResidual& told = study_.orders.emplace_back(OrderResidual{.record = record.name,
-                                                                       .channel = record.channels[k].channel,
-                                                                       .unit = record.channels[k].unit,
-                                                                       .order = by_order.orders()[o],
-                                                                       .measured = {},
-                                                                       .fitted = {}});
+        OrderFigure& told = study_.orders.emplace_back(
+            OrderFigure{record.name, record.channels[k].channel, record.channels[k].unit, by_order.orders()[o]});
         told.measured = order_part(by_order.data()[i], by_order.data()[i + 1]);
-        told.fitted = order_part(shown[i], shown[i + 1]);
+        told.shown = order_part(shown[i], shown[i + 1]);
         told.left = std::hypot(shown[i] - by_order.data()[i], shown[i + 1] - by_order.data()[i + 1]);
         if (record.channels[k].has_scatter())
-          told.scatter = std::hypot(by_order.deviation()[i], by_order.deviation()[i + 1]);
+          told.scatter = std::hypot(by_order.scatter()[i], by_order.scatter()[i + 1]);
       }
   }
 
@@ -301,7 +322,6 @@ class FitWork {
   FitProblem problem_;
   FitState state_;
   FitStudy study_;
-  std::vector<double> lengths_;
   double cycles_ = 0;
 };
 

@@ -53,15 +53,27 @@ struct ChannelResidual {
   std::optional<double> range_part = {};  // over the measured range; of orders over the greatest amplitude
   std::optional<double> scatter = {};     // of the mean, RMS of the deviations
   double correlation_length = 1;          // values that go together, τ ≥ 1: 1 of noise
+  double alike = 0;                       // correlation of measured and fitted points
+  double peak = 0, peak_fitted = 0;       // greatest magnitude of the points
   std::optional<double> times() const { return scatter && *scatter > 0 ? std::optional(rms / *scatter) : std::nullopt; }
 };
 
-struct OrderResidual {
+// Of a record over the angle, or of one that is predicted.
+struct OrderFigure {
   std::string record, channel, unit;
   double order = 0;
-  OrderPart measured, fitted;
-  double left = 0;                     // magnitude of the difference
-  std::optional<double> scatter = {};  // of the measured mean
+  std::optional<OrderPart> measured = {};
+  OrderPart shown = {};
+  std::optional<double> left = {};                               // magnitude of the difference
+  std::optional<double> scatter = {};                            // of the measured mean
+  std::optional<double> amplitude_error = {}, phase_error = {};  // 95 %, of a prediction
+};
+
+// Of a record over time: RMS within a band of frequencies (Hann's window).
+struct BandResidual {
+  std::string record, channel, unit;
+  double from = 0, to = 0;  // [Hz]
+  double measured = 0, fitted = 0, left = 0;
 };
 
 struct EffectTried {
@@ -69,16 +81,12 @@ struct EffectTried {
   double reduction = 0;  // of the weighted sum of squares, refitted: 1 − with/without
 };
 
+// An unknown as the other records find it.
 struct WithoutRecord {
-  std::string record;
-  double rms = 0, rms_fitted = 0;   // of its residual over the deviations: predicted by the others, fitted with them
-  std::vector<double> values = {};  // of the unknowns, in their units
-};
-
-struct FitStart {
-  double cost = 0;
-  Eigen::VectorXd from, to;
-  bool same = false;  // as the best
+  std::string record, name, unit;
+  double value = 0, fitted = 0;       // in its unit
+  std::optional<double> errors = {};  // the difference over the standard error
+  double rms = 0, rms_fitted = 0;     // of that record's residual over the deviations: predicted, fitted
 };
 
 // What a record shows: points over its axis, with 95 % where it is predicted.
@@ -88,21 +96,14 @@ struct Curve95 {
   std::vector<double> at, measured, shown, low = {}, high = {};  // measured empty: not known
 };
 
-struct PredictedOrder {
-  std::string prediction, channel, unit;
-  double order = 0;
-  OrderPart value;
-  double amplitude_error = 0, phase_error = 0;  // 95 %
-  std::optional<OrderPart> measured = {};
-};
-
 struct Prediction {
   std::string given, failed = {};
   std::optional<Estimate> delta = {};  // (max − min)/mid of the first speed, 95 %
   std::optional<double> measured_delta = {};
   std::optional<HeldQuantity> held = {};
-  std::optional<double> rms = {}, rms_of_fitted_record = {};  // against the file: of this, of taking the fitted record
-  std::optional<double> inside = {};                          // part of the points within 95 %
+  // Against the file, over the angle about the mean: what is left, and what taking the fitted record for it would leave.
+  std::optional<double> rms = {}, rms_of_fitted_record = {};
+  std::optional<double> inside = {};  // part of the points within 95 %
 };
 
 struct FitStudy {
@@ -112,12 +113,11 @@ struct FitStudy {
   std::vector<Correlation> correlations;  // the strongest first
   std::vector<std::string> confounded;    // a sentence for each combination that the data cannot tell apart
   std::vector<ChannelResidual> residuals;
-  std::vector<OrderResidual> orders;
+  std::vector<OrderFigure> orders, predicted_orders;
+  std::vector<BandResidual> bands;
   std::vector<EffectTried> effects;
   std::vector<WithoutRecord> left_out;
-  std::vector<FitStart> starts;
   std::vector<Curve95> curves, predicted_curves;
-  std::vector<PredictedOrder> predicted_orders;
   std::vector<Prediction> predictions;
   std::vector<std::string> held;  // "half: load.torque = 7.9 N·m keeps 3000 rpm"
   Eigen::MatrixXd covariance;     // of the unknowns in their units
@@ -126,8 +126,7 @@ struct FitStudy {
   std::size_t values = 0, runs = 0;
   int steps = 0;
   bool converged = false;
-  std::vector<std::string> settings;  // of the fitted scene
-  std::string written;                // its text
+  std::string written;  // text of the fitted scene
   std::vector<std::string> notes;
   std::string conclusion;
   bool complete = true;

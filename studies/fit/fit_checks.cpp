@@ -32,24 +32,21 @@ void try_starts(FitProblem& problem, const FitOptions& options, FitState& state,
   std::vector<SweptParameter> unit;
   for (const Unknown& u : problem.unknowns()) unit.push_back({.path = u.name, .low = 0, .high = 1});
   const Design design(fmt::format("sobol:{}", options.starts - 1), unit, options.seed);
-  const auto take = [&](const Eigen::VectorXd& from, const BoundedFit& found) {
-    study.starts.push_back({.cost = found.r.size() ? found.cost() : HUGE_VAL, .from = from, .to = found.u});
-    if (found.r.size() && (state.best.r.size() == 0 || found.cost() < state.best.cost())) state.best = found;
-  };
-  take(problem.given(), state.best);
+  std::vector<BoundedFit> found = {state.best};
   for (std::size_t i = 0; i + 1 < options.starts; ++i) {
     const std::vector<double> row = design.row(i);
-    const Eigen::VectorXd from = Eigen::Map<const Eigen::VectorXd>(row.data(), problem.size());
-    take(from, problem.fit(from));
+    found.push_back(problem.fit(Eigen::Map<const Eigen::VectorXd>(row.data(), problem.size())));
+    if (found.back().r.size() && (state.best.r.size() == 0 || found.back().cost() < state.best.cost()))
+      state.best = found.back();
   }
   std::size_t same = 0, other = 0;
-  for (FitStart& s : study.starts) {
-    s.same = s.cost <= state.best.cost() * (1 + same_cost) + 1e-9;
-    if (s.same && (s.to - state.best.u).cwiseAbs().maxCoeff() > same_place) ++other;
-    same += s.same;
+  for (const BoundedFit& f : found) {
+    if (f.r.size() == 0 || f.cost() > state.best.cost() * (1 + same_cost) + 1e-9) continue;
+    ++same;
+    other += (f.u - state.best.u).cwiseAbs().maxCoeff() > same_place;
   }
   study.notes.push_back(
-      fmt::format("{} of {} starts came to the best fit{}", same, study.starts.size(),
+      fmt::format("{} of {} starts came to the best fit{}", same, found.size(),
                   other ? fmt::format(", {} of them with other values: the data do not tell them apart", other) : ""));
 }
 
@@ -63,10 +60,14 @@ void leave_records_out(FitProblem& problem, const FitState& state, FitStudy& stu
     problem.active[r] = true;
     const auto all = problem.residuals(others.u);
     if (!all) continue;
-    WithoutRecord& told = study.left_out.emplace_back(WithoutRecord{.record = problem.records()[r].name});
-    told.rms = rms_of(part_of(problem, *all, r)), told.rms_fitted = rms_of(part_of(problem, state.best.r, r));
-    for (std::size_t k = 0; k < problem.unknowns().size(); ++k)
-      told.values.push_back(problem.unknowns()[k].at(others.u[static_cast<Eigen::Index>(k)]));
+    const double rms = rms_of(part_of(problem, *all, r)), rms_fitted = rms_of(part_of(problem, state.best.r, r));
+    for (std::size_t k = 0; k < problem.unknowns().size(); ++k) {
+      const FittedUnknown& u = study.unknowns[k];
+      WithoutRecord& told = study.left_out.emplace_back(WithoutRecord{
+          problem.records()[r].name, u.unknown.name, u.unknown.range.unit, 0, u.value, {}, rms, rms_fitted});
+      told.value = u.unknown.at(others.u[static_cast<Eigen::Index>(k)]);
+      if (u.error && *u.error > 0) told.errors = (told.value - u.value) / *u.error;
+    }
   }
 }
 
@@ -97,6 +98,8 @@ void try_off_effects(FitProblem& problem, const FitState& state, FitStudy& study
   std::stable_sort(study.effects.begin(), study.effects.end(), [](const EffectTried& a, const EffectTried& b) {
     return (a.failed.empty() ? a.reduction : -HUGE_VAL) > (b.failed.empty() ? b.reduction : -HUGE_VAL);
   });
+  if (study.effects.empty())
+    study.notes.push_back("no effect is off that the scenes have data for: none was tried for what is left");
   constexpr double worth_saying = 0.05;
   if (!study.effects.empty() && study.effects.front().failed.empty() && study.effects.front().reduction > worth_saying)
     study.notes.push_back(fmt::format("{}, which is off, would take {:.2g} % off the sum of squares that is left",

@@ -67,30 +67,61 @@ Rows residual_table(const FitStudy& s) {
       .only_for_programs("scatter", &R::scatter)
       .column("times", "over the scatter", [](const R& r) { return r.times(); }, {.digits = 3})
       .column("together", "go together", &R::correlation_length, {.digits = 2})
+      .column("correlation", "correlation", &R::alike, {.digits = 3})
+      .only_for_programs("peak", &R::peak)
+      .only_for_programs("peak_fitted", &R::peak_fitted)
+      .only_for_people("peak", in_unit(s, &R::peak), ReadAs{.digits = 4})
+      .only_for_people("fitted", in_unit(s, &R::peak_fitted), ReadAs{.digits = 4})
       .only_for_programs("unit", &R::unit)
       .only_for_people("unit", [&s](const R& r) { return unit_shown(s, r.unit); });
 }
 
-Rows order_table(const FitStudy& s) {
-  using R = OrderResidual;
-  return table_of("orders", "By order of the link's turns", s.orders)
-      .text_in(2)
-      .column("record", "record", &R::record)
+Rows order_table(const FitStudy& s, const char* key, const char* title, const std::vector<OrderFigure>& rows) {
+  using R = OrderFigure;
+  const bool predicted = key != std::string("orders");
+  const auto part = [&s](std::optional<OrderPart> p, const R& r) {
+    return p ? std::optional(shown_in(s, r.unit, p->amplitude)) : std::nullopt;
+  };
+  const auto speed = [&s](std::optional<double> R::*member) {
+    return [&s, member](const R& r) {
+      return r.*member ? std::optional(shown_in(s, r.unit, *(r.*member))) : std::nullopt;
+    };
+  };
+  auto table = table_of(key, title, rows);
+  table.text_in(2)
+      .column("record", predicted ? "scene" : "record", &R::record)
       .column("channel", "channel", &R::channel)
       .column("order", "order", &R::order)
-      .column("measured", "measured", [&s](const R& r) { return shown_in(s, r.unit, r.measured.amplitude); },
-              {.digits = 4})
-      .column("fitted", "fitted", [&s](const R& r) { return shown_in(s, r.unit, r.fitted.amplitude); }, {.digits = 4})
-      .column("measured_phase", "phase [deg]", [](const R& r) { return r.measured.phase; },
+      .column("measured", "measured", [part](const R& r) { return part(r.measured, r); }, {.digits = 4})
+      .column("shown", predicted ? "predicted" : "fitted", [part](const R& r) { return part(r.shown, r); },
+              {.digits = 4});
+  if (predicted) table.column("amplitude_error", "±", speed(&R::amplitude_error), {.digits = 2});
+  table
+      .column("measured_phase", "phase [deg]",
+              [](const R& r) { return r.measured ? std::optional(r.measured->phase) : std::nullopt; },
               {.factor = degrees, .digits = 4})
-      .column("fitted_phase", "fitted [deg]", [](const R& r) { return r.fitted.phase; },
-              {.factor = degrees, .digits = 4})
-      .column("left", "left", [&s](const R& r) { return shown_in(s, r.unit, r.left); }, {.digits = 3})
-      .column("scatter", "scatter of the mean",
-              [&s](const R& r) { return r.scatter ? std::optional(shown_in(s, r.unit, *r.scatter)) : r.scatter; },
-              {.digits = 2})
+      .column("shown_phase", predicted ? "predicted [deg]" : "fitted [deg]", [](const R& r) { return r.shown.phase; },
+              {.factor = degrees, .digits = 4});
+  if (predicted) table.column("phase_error", "±", &R::phase_error, {.factor = degrees, .digits = 2});
+  table.column("left", "left", speed(&R::left), {.digits = 3});
+  if (!predicted) table.column("scatter", "scatter of the mean", speed(&R::scatter), {.digits = 2});
+  return table.column(
+      "unit", "unit", [&s](const R& r) { return r.unit == "rad/s" ? s.speed_unit.name : r.unit; }, pretty_unit);
+}
+
+Rows band_table(const FitStudy& s) {
+  using B = BandResidual;
+  return table_of("bands", "By frequency, RMS", s.bands)
+      .text_in(2)
+      .column("record", "record", &B::record)
+      .column("channel", "channel", &B::channel)
+      .column("from", "from [Hz]", &B::from, {.digits = 3})
+      .column("to", "to [Hz]", &B::to, {.digits = 3})
+      .column("measured", "measured", in_unit(s, &B::measured), {.digits = 3})
+      .column("fitted", "fitted", in_unit(s, &B::fitted), {.digits = 3})
+      .column("left", "left", in_unit(s, &B::left), {.digits = 3})
       .column(
-          "unit", "unit", [&s](const R& r) { return r.unit == "rad/s" ? s.speed_unit.name : r.unit; }, pretty_unit);
+          "unit", "unit", [&s](const B& r) { return r.unit == "rad/s" ? s.speed_unit.name : r.unit; }, pretty_unit);
 }
 
 Rows effect_table(const FitStudy& s) {
@@ -101,22 +132,9 @@ Rows effect_table(const FitStudy& s) {
       .column("failed", "", &E::failed);
 }
 
-struct WithoutRecordRow {
-  std::string record, name, unit;
-  double value = 0, fitted = 0, rms = 0, rms_fitted = 0;
-  std::optional<double> errors = {};
-};
 Rows left_out_table(const FitStudy& s) {
-  std::vector<WithoutRecordRow> rows;
-  for (const WithoutRecord& l : s.left_out)
-    for (std::size_t k = 0; k < s.unknowns.size(); ++k) {
-      const FittedUnknown& u = s.unknowns[k];
-      WithoutRecordRow& row = rows.emplace_back(
-          WithoutRecordRow{l.record, u.unknown.name, u.unknown.range.unit, l.values[k], u.value, l.rms, l.rms_fitted});
-      if (u.error && *u.error > 0) row.errors = (l.values[k] - u.value) / *u.error;
-    }
-  using R = WithoutRecordRow;
-  return table_of("left_out", "Without each record", std::move(rows))
+  using R = WithoutRecord;
+  return table_of("left_out", "Without each record", s.left_out)
       .text_in(2)
       .column("record", "without", &R::record)
       .column("name", "unknown", &R::name)
@@ -148,28 +166,6 @@ Rows prediction_table(const FitStudy& s) {
       .column("failed", "", &P::failed);
 }
 
-Rows predicted_order_table(const FitStudy& s) {
-  using P = PredictedOrder;
-  const auto of = [&s](const P& p, double v) { return shown_in(s, p.unit, v); };
-  return table_of("predicted_orders", "Predicted orders, with 95 %", s.predicted_orders)
-      .text_in(2)
-      .column("prediction", "scene", &P::prediction)
-      .column("channel", "channel", &P::channel)
-      .column("order", "order", &P::order)
-      .column("amplitude", "amplitude", [of](const P& p) { return of(p, p.value.amplitude); }, {.digits = 4})
-      .column("amplitude_error", "±", [of](const P& p) { return of(p, p.amplitude_error); }, {.digits = 2})
-      .column("phase", "phase [deg]", [](const P& p) { return p.value.phase; }, {.factor = degrees, .digits = 4})
-      .column("phase_error", "±", &P::phase_error, {.factor = degrees, .digits = 2})
-      .column("measured", "measured",
-              [of](const P& p) { return p.measured ? std::optional(of(p, p.measured->amplitude)) : std::nullopt; },
-              {.digits = 4})
-      .column("measured_phase", "phase [deg]",
-              [](const P& p) { return p.measured ? std::optional(p.measured->phase) : std::nullopt; },
-              {.factor = degrees, .digits = 4})
-      .column(
-          "unit", "unit", [&s](const P& p) { return p.unit == "rad/s" ? s.speed_unit.name : p.unit; }, pretty_unit);
-}
-
 Plot frame(const FitStudy& s, const Curve95& c, const std::string& title) {
   Plot plot{.title = title, .x = {}, .y = {c.channel, unit_shown(s, c.unit)}};
   plot.x = c.over == Over::time    ? Axis{"time", "s"}
@@ -185,31 +181,26 @@ Series line_of(const FitStudy& s, const Curve95& c, const std::string& name, Rol
   return series;
 }
 
-std::vector<Plot> overlays(const FitStudy& s) {
+std::vector<Plot> overlays(const FitStudy& s, const std::vector<Curve95>& curves) {
   std::vector<Plot> plots;
-  for (const Curve95& c : s.curves) {
-    Plot over = frame(s, c, fmt::format("{} of {}: measured and fitted", c.channel, c.record));
-    over.series = {marks(line_of(s, c, "measured", Role::reference, c.measured)),
-                   line_of(s, c, "fitted", Role::elastic, c.shown)};
-    if (c.over == Over::mode) over.series[1] = marks(over.series[1]);
+  for (const Curve95& c : curves) {
+    const bool predicted = !c.low.empty();
+    const std::string name = predicted ? "predicted" : "fitted";
+    Plot over = frame(s, c, fmt::format("{} of {}: {}", c.channel, c.record, predicted ? name : "measured and fitted"));
+    if (!c.measured.empty()) over.series.push_back(marks(line_of(s, c, "measured", Role::reference, c.measured)));
+    const Series line = line_of(s, c, name, Role::elastic, c.shown);
+    over.series.push_back(c.over == Over::mode ? marks(line) : line);
+    if (predicted) {
+      over.series.push_back(dashed(line_of(s, c, "95 %, lower end", Role::sky, c.low)));
+      over.series.push_back(dashed(line_of(s, c, "95 %, upper end", Role::sky, c.high)));
+    }
+    plots.push_back(std::move(over));
+    if (predicted) continue;
     Plot left = frame(s, c, fmt::format("What is left of {} of {}", c.channel, c.record));
     std::vector<double> difference;
     for (std::size_t i = 0; i < c.shown.size(); ++i) difference.push_back(c.measured[i] - c.shown[i]);
     left.series = {line_of(s, c, "measured − fitted", Role::vermillion, difference)};
-    plots.push_back(std::move(over)), plots.push_back(std::move(left));
-  }
-  return plots;
-}
-
-std::vector<Plot> predicted(const FitStudy& s) {
-  std::vector<Plot> plots;
-  for (const Curve95& c : s.predicted_curves) {
-    Plot plot = frame(s, c, fmt::format("{} of {}: predicted", c.channel, c.record));
-    if (!c.measured.empty()) plot.series.push_back(marks(line_of(s, c, "measured", Role::reference, c.measured)));
-    plot.series.push_back(line_of(s, c, "predicted", Role::elastic, c.shown));
-    plot.series.push_back(dashed(line_of(s, c, "95 %, lower end", Role::sky, c.low)));
-    plot.series.push_back(dashed(line_of(s, c, "95 %, upper end", Role::sky, c.high)));
-    plots.push_back(std::move(plot));
+    plots.push_back(std::move(left));
   }
   return plots;
 }
@@ -266,13 +257,14 @@ Findings findings_of(const FitStudy& s) {
   f.say(values, correlation_table(s));
   f.draw(values, [&s] { return contours(s); });
   f.say(left, residual_table(s));
-  f.say(left, order_table(s));
-  f.draw(left, [&s] { return overlays(s); });
+  f.say(left, order_table(s, "orders", "By order of the link's turns", s.orders));
+  f.say(left, band_table(s));
+  f.draw(left, [&s] { return overlays(s, s.curves); });
   f.say(checks, effect_table(s));
   f.say(checks, left_out_table(s));
   f.say(predictions, prediction_table(s));
-  f.say(predictions, predicted_order_table(s));
-  f.draw(predictions, [&s] { return predicted(s); });
+  f.say(predictions, order_table(s, "predicted_orders", "Predicted orders, with 95 %", s.predicted_orders));
+  f.draw(predictions, [&s] { return overlays(s, s.predicted_curves); });
   f.tell("errors_from", s.errors_from);
   f.tell("chi_squared", s.chi_squared);
   f.tell("values", s.values);

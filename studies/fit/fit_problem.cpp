@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 #include "engine/numerics/deadline.h"
+#include "engine/scene/messages.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
 #include "studies/variants/in_threads.h"
@@ -23,12 +25,22 @@ double factor_of(const std::string& unit) {
   return read ? read->factor : 1;
 }
 
+void require_quantity(const RecordRequest& request) {
+  const Scene scene = VariedScene(request.scene, {}).at({});
+  const Setting* const setting = quantity_place(scene.components, request.hold_by).setting;
+  if (!setting || setting->number == 0)
+    throw std::invalid_argument(fmt::format(
+        "--hold: {} has no quantity {} other than 0 that could keep the speed; give one such as load.torque",
+        request.scene.file, in_quotes(request.hold_by)));
+}
+
 }  // namespace
 
 FitProblem::FitProblem(std::vector<RecordRequest> requests, const std::vector<std::string>& free, int jobs, Watch watch)
     : requests_(std::move(requests)), jobs_(jobs), watch_(std::move(watch)) {
   for (RecordRequest& request : requests_) {
     records_.push_back(read_record(request));
+    if (!request.hold_by.empty()) require_quantity(request);
     if (request.hold_by.empty() || request.mean_speed) continue;
     if (request.over != Over::angle)
       throw std::invalid_argument(fmt::format("--hold: {} is over {}; a mean speed is held over the angle alone",
@@ -81,12 +93,12 @@ Eigen::VectorXd FitProblem::given() const {
   return u;
 }
 
-std::vector<Response> FitProblem::compute(const std::vector<Item>& items) {
+std::vector<Response> FitProblem::compute(const std::vector<RecordMachine>& machines, const std::vector<Item>& items) {
   std::vector<Response> responses(items.size());
   const bool whole = in_threads(items.size(), jobs_, [&]() -> Worker {
-    return [&, machines = machines_](std::size_t i) mutable {
-      const std::size_t r = items[i].record;
-      responses[i] = machines[r].at(items[i].u, effects[r] ? &*effects[r] : nullptr);
+    return [&, own = machines](std::size_t i) mutable {
+      const std::size_t m = items[i].machine;
+      responses[i] = own[m].at(items[i].u, effects[m] ? &*effects[m] : nullptr);
       return !watch_.stopped();
     };
   });
@@ -97,16 +109,9 @@ std::vector<Response> FitProblem::compute(const std::vector<Item>& items) {
 }
 
 std::vector<Response> FitProblem::responses_of(const RecordMachine& machine, const std::vector<Eigen::VectorXd>& at) {
-  std::vector<Response> responses(at.size());
-  const bool whole = in_threads(at.size(), jobs_, [&]() -> Worker {
-    return [&, own = machine](std::size_t i) mutable {
-      responses[i] = own.at(at[i]);
-      return !watch_.stopped();
-    };
-  });
-  if (!whole) throw OutOfTime(0);
-  runs_ += at.size();
-  return responses;
+  std::vector<Item> items;
+  for (const Eigen::VectorXd& u : at) items.push_back({0, u});
+  return compute({machine}, items);
 }
 
 Eigen::VectorXd FitProblem::shown(std::size_t record, const Eigen::VectorXd& u) const {
@@ -130,52 +135,67 @@ Eigen::VectorXd FitProblem::stacked(const std::vector<Response>& responses, cons
 
 std::optional<Eigen::VectorXd> FitProblem::residuals(const Eigen::VectorXd& u) {
   std::vector<Item> items;
-  for (std::size_t r = 0; r < records_.size(); ++r) items.push_back({r, u});
-  responses_ = compute(items);
   for (std::size_t r = 0; r < records_.size(); ++r)
-    if (!responses_[r].failed.empty()) {
-      failure_ = records_[r].name + ": " + responses_[r].failed;
-      return {};
-    }
+    if (active[r]) items.push_back({r, u});
+  std::vector<Response> computed = compute(machines_, items);
+  responses_.resize(records_.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::size_t r = items[i].machine;
+    responses_[r] = std::move(computed[i]);
+    if (responses_[r].failed.empty()) continue;
+    failure_ = records_[r].name + ": " + responses_[r].failed;
+    return {};
+  }
   const Eigen::VectorXd r = stacked(responses_, u);
   if (r.allFinite()) return r;
   failure_ = "what the machine shows is not finite";
   return {};
 }
 
-std::pair<Eigen::VectorXd, Eigen::VectorXd> FitProblem::around(const Eigen::VectorXd& u, std::size_t unknown) const {
+std::pair<Eigen::VectorXd, Eigen::VectorXd> FitProblem::around(const Eigen::VectorXd& u, std::size_t unknown,
+                                                               double step) const {
   const auto k = static_cast<Eigen::Index>(unknown);
   Eigen::VectorXd below = u, above = u;
-  below[k] = std::max(0.0, u[k] - steps_[unknown]), above[k] = std::min(1.0, u[k] + steps_[unknown]);
+  below[k] = std::max(0.0, u[k] - step), above[k] = std::min(1.0, u[k] + step);
   return {below, above};
 }
 
-std::optional<Eigen::MatrixXd> FitProblem::derivative(const Eigen::VectorXd& u) {
+std::optional<std::vector<FitProblem::Sides>> FitProblem::sides(const Eigen::VectorXd& u,
+                                                                const std::vector<double>& steps) {
   std::vector<Item> items;
-  for (std::size_t k = 0; k < unknowns_.size(); ++k)
+  std::vector<Sides> list(unknowns_.size());
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    std::tie(list[k].below, list[k].above) = around(u, k, steps[k]);
     for (std::size_t r = 0; r < records_.size(); ++r)
-      if (active[r] && machines_[r].depends_on(k)) {
-        const auto [below, above] = around(u, k);
-        items.push_back({r, below}), items.push_back({r, above});
-      }
-  const std::vector<Response> computed = compute(items);
-  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(values_compared()), size());
+      if (active[r] && machines_[r].depends_on(k))
+        items.push_back({r, list[k].below}), items.push_back({r, list[k].above});
+  }
+  const std::vector<Response> computed = compute(machines_, items);
   std::size_t next = 0;
-  for (std::size_t k = 0; k < unknowns_.size(); ++k) {
-    auto [below, above] = around(u, k);
-    std::vector<Response> at_below = responses_, at_above = responses_;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    std::vector<Response> below = responses_, above = responses_;
     bool below_runs = true, above_runs = true;
     for (std::size_t r = 0; r < records_.size(); ++r)
       if (active[r] && machines_[r].depends_on(k)) {
-        at_below[r] = computed[next++], at_above[r] = computed[next++];
-        below_runs = below_runs && at_below[r].failed.empty(), above_runs = above_runs && at_above[r].failed.empty();
-        if (!at_below[r].failed.empty()) failure_ = at_below[r].failed;
+        below[r] = computed[next++], above[r] = computed[next++];
+        below_runs = below_runs && below[r].failed.empty(), above_runs = above_runs && above[r].failed.empty();
+        if (!below[r].failed.empty()) failure_ = records_[r].name + ": " + below[r].failed;
       }
     if (!below_runs && !above_runs) return {};
-    if (!below_runs) below = u, at_below = responses_;
-    if (!above_runs) above = u, at_above = responses_;
-    const auto c = static_cast<Eigen::Index>(k);
-    j.col(c) = (stacked(at_above, above) - stacked(at_below, below)) / (above[c] - below[c]);
+    if (!below_runs) list[k].below = u, below = responses_;
+    if (!above_runs) list[k].above = u, above = responses_;
+    list[k].r_below = stacked(below, list[k].below), list[k].r_above = stacked(above, list[k].above);
+  }
+  return list;
+}
+
+std::optional<Eigen::MatrixXd> FitProblem::derivative(const Eigen::VectorXd& u) {
+  const auto found = sides(u, steps_);
+  if (!found) return {};
+  Eigen::MatrixXd j(static_cast<Eigen::Index>(values_compared()), size());
+  for (Eigen::Index k = 0; k < size(); ++k) {
+    const Sides& s = (*found)[static_cast<std::size_t>(k)];
+    j.col(k) = (s.r_above - s.r_below) / (s.above[k] - s.below[k]);
   }
   if (!j.allFinite()) return {};
   return j;
@@ -186,24 +206,13 @@ bool FitProblem::choose_steps(const Eigen::VectorXd& given) {
   const auto centre = residuals(u);
   if (!centre) return false;
   const auto first = derivative(u);
-  if (!first) return false;
+  const auto near = sides(u, std::vector<double>(unknowns_.size(), tiny));
+  if (!first || !near) return false;
   noise_ = 0;
   for (std::size_t k = 0; k < unknowns_.size(); ++k) {
-    if (!unknowns_[k].moves_machine()) continue;
-    const auto c = static_cast<Eigen::Index>(k);
-    std::vector<Item> items;
-    Eigen::VectorXd below = u, above = u;
-    below[c] -= tiny, above[c] += tiny;
-    for (std::size_t r = 0; r < records_.size(); ++r)
-      if (machines_[r].depends_on(k)) items.push_back({r, below}), items.push_back({r, above});
-    const std::vector<Response> computed = compute(items);
-    if (std::any_of(computed.begin(), computed.end(), [](const Response& r) { return !r.failed.empty(); })) continue;
-    std::vector<Response> at_below = responses_, at_above = responses_;
-    for (std::size_t i = 0; i < items.size(); i += 2)
-      at_below[items[i].record] = computed[i], at_above[items[i].record] = computed[i + 1];
-    const Eigen::VectorXd low = stacked(at_below, below), high = stacked(at_above, above);
-    const double noise = (low - 2 * *centre + high).norm() / std::sqrt(6.0), slope = first->col(c).norm();
-    if (!(slope > 0)) continue;
+    const double slope = first->col(static_cast<Eigen::Index>(k)).norm();
+    if (!unknowns_[k].moves_machine() || !(slope > 0)) continue;
+    const double noise = ((*near)[k].r_below - 2 * *centre + (*near)[k].r_above).norm() / std::sqrt(6.0);
     steps_[k] = std::clamp(noise / (std::sqrt(2.0) * slope * wanted_noise), shortest, longest);
     noise_ = std::max(noise_, noise / (std::sqrt(2.0) * slope * steps_[k]));
   }
@@ -217,8 +226,15 @@ BoundedFit FitProblem::fit(const Eigen::VectorXd& u, int most_steps) {
   return fit_within_bounds(problem, u, most_steps);
 }
 
-void FitProblem::weigh_by_residuals(const Eigen::VectorXd& u) {
-  for (std::size_t r = 0; r < records_.size(); ++r) comparisons_[r].weigh_by(shown(r, u) - comparisons_[r].data());
+void FitProblem::weigh(std::size_t record, const Eigen::VectorXd& u) {
+  comparisons_[record].weigh_by(shown(record, u) - comparisons_[record].data(), unknowns_of(record));
+}
+
+std::size_t FitProblem::unknowns_of(std::size_t record) const {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < unknowns_.size(); ++k)
+    count += unknowns_[k].moves_machine() ? machines_[record].depends_on(k) : unknowns_[k].concerns(record);
+  return count;
 }
 
 }  // namespace kurbel

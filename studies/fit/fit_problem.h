@@ -37,7 +37,7 @@ class FitProblem {
   std::vector<bool> active;
   std::vector<std::optional<Effects>> effects;
 
-  // Of all active records: residuals over their deviations. Nothing: one cannot be computed.
+  // Of all active records: residuals over their deviations, 0 of the others. Nothing: one cannot be computed.
   std::optional<Eigen::VectorXd> residuals(const Eigen::VectorXd& u);
   const std::vector<Response>& responses() const { return responses_; }  // of the last u
   const std::string& failure() const { return failure_; }
@@ -45,19 +45,28 @@ class FitProblem {
 
   // What each record shows with u, in values compared. Of the last u's responses.
   Eigen::VectorXd shown(std::size_t record, const Eigen::VectorXd& u) const;
-  void weigh_by_residuals(const Eigen::VectorXd& u);  // relative weights; of the last u's responses
+  // Weights of a record by what it leaves; of the last u's responses.
+  void weigh(std::size_t record, const Eigen::VectorXd& u);
+  std::size_t unknowns_of(std::size_t record) const;  // that what it shows may depend on
 
   // Runs of one machine at many u, in threads. Throws OutOfTime where it is interrupted.
   std::vector<Response> responses_of(const RecordMachine& machine, const std::vector<Eigen::VectorXd>& at);
   // Two u around it by the unknown's step, within the bounds.
-  std::pair<Eigen::VectorXd, Eigen::VectorXd> around(const Eigen::VectorXd& u, std::size_t unknown) const;
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> around(const Eigen::VectorXd& u, std::size_t unknown, double step) const;
+  double step_of(std::size_t unknown) const { return steps_[unknown]; }
 
  private:
   struct Item {
-    std::size_t record = 0;
+    std::size_t machine = 0;
     Eigen::VectorXd u;
   };
-  std::vector<Response> compute(const std::vector<Item>& items);
+  std::vector<Response> compute(const std::vector<RecordMachine>& machines, const std::vector<Item>& items);
+  // Below and above u by each unknown's step; u itself where the machine does not run there, or a bound is.
+  struct Sides {
+    Eigen::VectorXd below, above;      // u
+    Eigen::VectorXd r_below, r_above;  // residuals
+  };
+  std::optional<std::vector<Sides>> sides(const Eigen::VectorXd& u, const std::vector<double>& steps);
   std::optional<Eigen::MatrixXd> derivative(const Eigen::VectorXd& u);
   Eigen::VectorXd stacked(const std::vector<Response>& responses, const Eigen::VectorXd& u) const;
 

@@ -157,66 +157,41 @@ StudyOutput fitted(const Inquiry& inquiry, FitAsked asked) {
 
 OptionsOf<FitAsked> options() {
   const std::string record = "; \"half: …\" for the record half.csv alone";
-  return OptionsOf<FitAsked>()
-      .add({.name = "measured",
-            .doc =
-                "a measured record (CSV, XLSX): \"half.csv\", \"half=file.csv\" with a name of its own, \"down.csv in "
-                "down.toml\" of another scene; repeatable",
-            .each_time = true},
-           &FitAsked::measured)
-      .add(
-          {.name = "map",
-           .doc = "which column is which channel, \"speed=speed.engine\"; \"c*=speed.engine\": columns of many cycles; "
-                  "\"sd=scatter of speed.engine\": the deviation of one cycle; \"COLUMN=angle [deg]\"; of modes "
-                  "natural_frequency, damped_frequency, damping_ratio" +
-                  record + "; repeatable",
-           .each_time = true},
-          &FitAsked::maps)
-      .add({.name = "over",
-            .doc = "angle (steady; default), time (run) or modes" + record + "; repeatable",
-            .each_time = true},
-           &FitAsked::over)
-      .add(
-          {.name = "free",
-           .doc =
-               "an unknown with its bounds: \"rotor.inertia=0.005..0.05 kg*m2\"; \"each: KEY=…\" one for every record; "
-               "\"gain of TABLE=0.9..1.1\", \"shift of TABLE=-2..2 deg\", \"dead centre of TABLE=-2..2 deg\"; "
-               "\"shift=…\", \"gain of CHANNEL=…\", \"offset of CHANNEL=…\", \"pattern of CHANNEL=1,2\" of a record" +
-               record + "; repeatable",
-           .each_time = true},
-          &FitAsked::free)
-      .add(
-          {.name = "hold",
-           .doc =
-               "\"mean speed by load.torque\": the record's mean speed is kept by that quantity, \"mean speed=3000 rpm "
-               "by load.torque\" another one" +
-               record + "; repeatable",
-           .each_time = true},
-          &FitAsked::hold)
-      .add({.name = "orders",
-            .doc = "orders of the reduction link's turns that are compared, 0.5,1.5,2.5 (default: all points)" + record,
-            .each_time = true},
-           &FitAsked::orders)
-      .add({.name = "window",
-            .doc = "a point is the mean over so much, \"12 deg\", \"1 ms\"" + record,
-            .each_time = true},
-           &FitAsked::window)
-      .add({.name = "cycles", .doc = "that a mean with a scatter is of (default: 1)" + record, .each_time = true},
-           &FitAsked::cycles)
-      .add(
-          {.name = "teeth",
-           .doc =
-               "the mapped column holds the times at which an encoder's teeth pass: pitches of a turn less the missing "
-               "teeth, 60-2" +
-               record,
-           .each_time = true},
-          &FitAsked::teeth)
-      .add({.name = "predict",
-            .doc = "a scene whose record is predicted with the fitted values: \"full.toml\", \"full.toml at 3060 rpm\" "
-                   "(mean "
-                   "speed held), \"full.toml against full.csv\"; repeatable",
-            .each_time = true},
-           &FitAsked::predict)
+  OptionsOf<FitAsked> options;
+  const auto texts = [&](const char* name, std::vector<std::string> FitAsked::*member, const std::string& doc) {
+    options.add({.name = name, .doc = doc + "; repeatable", .each_time = true}, member);
+  };
+  texts("measured", &FitAsked::measured,
+        "a measured record (CSV, XLSX): \"half.csv\", \"half=file.csv\" with a name of its own, \"down.csv in "
+        "down.toml\" of another scene");
+  texts("map", &FitAsked::maps,
+        "which column is which channel, \"speed=speed.engine\"; \"c*=speed.engine\": columns of many cycles; "
+        "\"sd=scatter of speed.engine\": the deviation of one cycle; \"COLUMN=angle [deg]\"; of modes "
+        "natural_frequency, damped_frequency, damping_ratio" +
+            record);
+  texts("over", &FitAsked::over, "angle (steady; default), time (run) or modes" + record);
+  texts("free", &FitAsked::free,
+        "an unknown with its bounds: \"rotor.inertia=0.005..0.05 kg*m2\"; \"each: KEY=…\" one for every record; \"gain "
+        "of TABLE=0.9..1.1\", \"shift of TABLE=-2..2 deg\", \"dead centre of TABLE=-2..2 deg\"; \"shift=…\", \"gain of "
+        "CHANNEL=…\", \"offset of CHANNEL=…\", \"pattern of CHANNEL=1,2\" of a record" +
+            record);
+  texts("hold", &FitAsked::hold,
+        "\"mean speed by load.torque\": the record's mean speed is kept by that quantity, \"mean speed=3000 rpm by "
+        "load.torque\" another one" +
+            record);
+  texts("orders", &FitAsked::orders,
+        "orders of the reduction link's turns that are compared, 0.5,1.5,2.5 (default: all points)" + record);
+  texts("window", &FitAsked::window, "a point is the mean over so much, \"12 deg\", \"1 ms\"" + record);
+  texts("cycles", &FitAsked::cycles, "that a mean with a scatter is of (default: 1)" + record);
+  texts("teeth", &FitAsked::teeth,
+        "the mapped column holds the times at which an encoder's teeth pass: pitches of a turn less the missing teeth, "
+        "60-2" +
+            record);
+  texts(
+      "predict", &FitAsked::predict,
+      "a scene whose record is predicted with the fitted values: \"full.toml\", \"full.toml at 3060 rpm\" (mean speed "
+      "held), \"full.toml against full.csv\"");
+  return options
       .add({.name = "starts",
             .doc = "starts within the bounds, the scene's own values first (default: 1)",
             .domain = {.low = 1, .high = 10'000}},
@@ -227,7 +202,7 @@ OptionsOf<FitAsked> options() {
            &FitAsked::jobs)
       .add({.name = "no_checks", .doc = "skip the fits without each record, and with each effect that is off"},
            &FitAsked::checks, false)
-      .add({.name = "write", .doc = "writes the fitted scene"}, &FitAsked::write);
+      .add({.name = "write", .doc = "writes the fitted scene of the first record"}, &FitAsked::write);
 }
 
 }  // namespace

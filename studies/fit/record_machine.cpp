@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -46,37 +47,34 @@ std::optional<Signal> over_angle(const SteadyCycle& cycle, const std::string& ch
 // Rows of a run's trajectory, which is straight between them: so many for each point of the record, and more.
 constexpr std::size_t points_between = 12, more_points = 2'000, most_points = 100'000;
 
+Eigen::Map<const Eigen::VectorXd> mapped(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+// Values that go together: 1 + 2 Σ ρ_k up to the first that is not positive.
+double correlation_length(const Eigen::VectorXd& r) {
+  const Eigen::Index n = r.size();
+  const double power = r.squaredNorm();
+  if (n < 8 || !(power > 0)) return 1;
+  double sum = 1;
+  for (Eigen::Index k = 1; k < n / 2; ++k) {
+    const double rho = r.head(n - k).dot(r.tail(n - k)) / power;
+    if (rho <= 0) break;
+    sum += 2 * rho;
+  }
+  return std::min(sum, static_cast<double>(n) / 4);
+}
+
 }  // namespace
 
-Averaged::Averaged(const Signal& signal, const Signal* pace) : signal_(signal) {
-  if (pace) pace_ = *pace;
-  const auto& x = signal_.time();
-  const auto& y = signal_.value();
-  value_.assign(x.size(), 0), weight_.assign(x.size(), 0);
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    const double width = x[i] - x[i - 1];
-    const double p0 = pace_ ? pace_->at(x[i - 1]) : 1, p1 = pace_ ? pace_->at(x[i]) : 1;
-    value_[i] = value_[i - 1] + 0.5 * width * (y[i - 1] * p0 + y[i] * p1);
-    weight_[i] = weight_[i - 1] + 0.5 * width * (p0 + p1);
+double ShownSignal::mean(double x, double reach) const {
+  constexpr int parts = 32;
+  double sum = 0, weight = 0;
+  for (int i = 0; i < parts; ++i) {
+    const double at = x + reach * ((2 * i + 1.0) / parts - 1), density = pace ? pace->at(at) : 1;
+    sum += density * signal.at(at), weight += density;
   }
-}
-
-double Averaged::integral(const std::vector<double>& sums, double x, bool weighted_by_value) const {
-  const auto& grid = signal_.time();
-  double turns = 0;
-  if (signal_.period()) turns = std::floor((x - grid.front()) / *signal_.period());
-  const double inside = signal_.period() ? x - turns * *signal_.period() : x;
-  const auto after = std::upper_bound(grid.begin(), grid.end(), inside);
-  const auto i = std::clamp<std::size_t>(static_cast<std::size_t>(after - grid.begin()), 1, grid.size() - 1);
-  const double width = inside - grid[i - 1];
-  const auto density = [&](double y, double at) { return (weighted_by_value ? y : 1) * (pace_ ? pace_->at(at) : 1); };
-  const double low = density(signal_.value()[i - 1], grid[i - 1]), high = density(signal_.at(inside), inside);
-  return turns * sums.back() + sums[i - 1] + 0.5 * width * (low + high);
-}
-
-double Averaged::mean(double x, double reach) const {
-  return (integral(value_, x + reach, true) - integral(value_, x - reach, true)) /
-         (integral(weight_, x + reach, false) - integral(weight_, x - reach, false));
+  return sum / weight;
 }
 
 RecordMachine::RecordMachine(const RecordRequest& request, const FitRecord& record, std::size_t number,
@@ -165,9 +163,8 @@ Response RecordMachine::run(const Scene& given, const Effects& effects) const {
   for (const RecordChannel& c : record_->channels) {
     if (std::none_of(known.begin(), known.end(), [&](const Channel& k) { return k.name == c.channel; }))
       return {.failed = "its run has no " + c.channel};
-    response.channels.emplace_back(signal_of(result, c.channel), nullptr);
+    response.channels.push_back({signal_of(result, c.channel)});
   }
-  response.end = until_;
   return response;
 }
 
@@ -181,7 +178,6 @@ Response RecordMachine::cycle(const Scene& scene, const Effects& effects) const 
   const SteadyCycle& found = study.cycles.front();
   if (!found.found) return {.failed = found.why.empty() ? study.diagnosis : found.why};
   Response response;
-  response.end = found.model->cycle;
   response.held = found.held_quantity;
   std::optional<Signal> pace = over_angle(found, "speed." + study.link);
   if (pace) {
@@ -192,7 +188,7 @@ Response RecordMachine::cycle(const Scene& scene, const Effects& effects) const 
   for (const RecordChannel& c : record_->channels) {
     const auto signal = over_angle(found, c.channel);
     if (!signal) return {.failed = "its steady cycle has no " + c.channel + " over the angle"};
-    response.channels.emplace_back(*signal, pace ? &*pace : nullptr);
+    response.channels.push_back({*signal, pace});
   }
   return response;
 }
@@ -231,7 +227,10 @@ std::vector<std::string> RecordMachine::settings_at(const Eigen::VectorXd& u,
 }
 
 ComparedRecord::ComparedRecord(const FitRecord& record, const std::vector<double>& orders, std::size_t number)
-    : record_(record), orders_(record.over == Over::angle ? orders : std::vector<double>{}), number_(number) {
+    : record_(record),
+      orders_(record.over == Over::angle ? orders : std::vector<double>{}),
+      number_(number),
+      lengths_(record.channels.size(), 1.0) {
   const auto points = static_cast<Eigen::Index>(record.at.size());
   if (!orders_.empty()) {
     const std::vector<double> weights = weights_over(record);
@@ -246,56 +245,53 @@ ComparedRecord::ComparedRecord(const FitRecord& record, const std::vector<double
   }
   per_channel_ = orders_.empty() ? points : map_.rows();
   data_ = compared(measured_points());
-  deviation_ = Eigen::VectorXd::Zero(data_.size());
-  const double cycles = std::sqrt(static_cast<double>(record.cycles));
-  std::size_t common = SIZE_MAX;
+  scatter_ = Eigen::VectorXd::Zero(data_.size());
+  std::vector<Eigen::MatrixXd> blocks;
+  Eigen::Index common = std::numeric_limits<Eigen::Index>::max();
   for (std::size_t c = 0; c < record.channels.size(); ++c) {
     const RecordChannel& channel = record.channels[c];
-    auto part = deviation_.segment(begin(c), per_channel_);
-    common = std::min(common, channel.cycles.size());
-    if (!channel.has_scatter()) {
-      of_scatter_ = false;
-      const auto here = data_.segment(begin(c), per_channel_);
-      const double range = orders_.empty() && record.over != Over::mode ? here.maxCoeff() - here.minCoeff() : 0;
-      // Modes: each by its own size. Orders: all by the greatest.
-      for (Eigen::Index i = 0; i < per_channel_; ++i)
-        part[i] = range > 0 ? range : record.over == Over::mode ? std::abs(here[i]) : here.cwiseAbs().maxCoeff();
-      part = part.cwiseMax(1e-9 * std::max(here.cwiseAbs().maxCoeff(), 1e-300));
-      continue;
-    }
-    const Eigen::Map<const Eigen::VectorXd> scatter(channel.scatter.data(), points);
-    if (!channel.cycles.empty() && !orders_.empty()) {
-      Eigen::VectorXd squares = Eigen::VectorXd::Zero(per_channel_);
-      for (const auto& cycle : channel.cycles)
-        squares += (map_ * (Eigen::Map<const Eigen::VectorXd>(cycle.data(), points) -
-                            Eigen::Map<const Eigen::VectorXd>(channel.mean.data(), points)))
-                       .cwiseAbs2();
-      part = (squares / static_cast<double>(channel.cycles.size() - 1)).cwiseSqrt() / cycles;
-    } else if (!orders_.empty()) {
-      // Points taken as independent of each other.
-      part = (map_.cwiseAbs2() * scatter.cwiseAbs2()).cwiseSqrt() / cycles;
-    } else {
-      part = scatter / cycles;
-    }
+    const Eigen::MatrixXd& block = blocks.emplace_back(cycles_of(channel));
+    common = std::min(common, block.rows());
+    auto part = scatter_.segment(begin(c), per_channel_);
+    of_scatter_ = of_scatter_ && channel.has_scatter();
+    const double root = std::sqrt(static_cast<double>(record.cycles));
+    if (!channel.has_scatter())
+      part = sizes(data_.segment(begin(c), per_channel_));
+    else if (block.rows() > 1)
+      part = (block.colwise().squaredNorm().transpose() / static_cast<double>(block.rows() - 1)).cwiseSqrt() / root;
+    else if (orders_.empty())
+      part = mapped(channel.scatter) / root;
+    else  // points taken as independent of each other
+      part = (map_.cwiseAbs2() * mapped(channel.scatter).cwiseAbs2()).cwiseSqrt() / root;
   }
-  if (common == 0 || common == SIZE_MAX) return;
-  cycles_.resize(static_cast<Eigen::Index>(common), data_.size());
-  for (std::size_t k = 0; k < common; ++k) {
-    Eigen::VectorXd all(static_cast<Eigen::Index>(record.channels.size()) * points);
-    for (std::size_t c = 0; c < record.channels.size(); ++c)
-      all.segment(static_cast<Eigen::Index>(c) * points, points) =
-          Eigen::Map<const Eigen::VectorXd>(record.channels[c].cycles[k].data(), points) -
-          Eigen::Map<const Eigen::VectorXd>(record.channels[c].mean.data(), points);
-    cycles_.row(static_cast<Eigen::Index>(k)) = compared(all).transpose();
-  }
+  deviation_ = scatter_;
+  if (common < 2 || blocks.empty()) return;
+  cycles_.resize(common, data_.size());
+  for (std::size_t c = 0; c < blocks.size(); ++c)
+    cycles_.middleCols(begin(c), per_channel_) = blocks[c].topRows(common);
+}
+
+// A row for each cycle: what is compared of it, less that of the mean.
+Eigen::MatrixXd ComparedRecord::cycles_of(const RecordChannel& channel) const {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(channel.cycles.size()), per_channel_);
+  for (std::size_t k = 0; k < channel.cycles.size(); ++k)
+    rows.row(static_cast<Eigen::Index>(k)) = compared(mapped(channel.cycles[k]) - mapped(channel.mean)).transpose();
+  return rows;
+}
+
+// Without scatter: modes each by their own size, orders by the greatest, points by their range.
+Eigen::VectorXd ComparedRecord::sizes(const Eigen::VectorXd& data) const {
+  if (record_.over == Over::mode) return data.cwiseAbs().cwiseMax(1e-300);
+  const double greatest = std::max(data.cwiseAbs().maxCoeff(), 1e-300);
+  const double size = orders_.empty() ? data.maxCoeff() - data.minCoeff() : greatest;
+  return Eigen::VectorXd::Constant(data.size(), std::max(size, 1e-9 * greatest));
 }
 
 Eigen::VectorXd ComparedRecord::measured_points() const {
   const auto points = static_cast<Eigen::Index>(record_.at.size());
   Eigen::VectorXd all(static_cast<Eigen::Index>(record_.channels.size()) * points);
   for (std::size_t c = 0; c < record_.channels.size(); ++c)
-    for (Eigen::Index i = 0; i < points; ++i)
-      all[static_cast<Eigen::Index>(c) * points + i] = record_.channels[c].mean[static_cast<std::size_t>(i)];
+    all.segment(static_cast<Eigen::Index>(c) * points, points) = mapped(record_.channels[c].mean);
   return all;
 }
 
@@ -325,7 +321,7 @@ Eigen::VectorXd ComparedRecord::points_of(const Response& response, const std::v
       if (!response.modes.empty())
         shown[i] = response.modes[c][k];
       else
-        shown[i] = record_.reach.empty() ? response.channels[c].at(record_.at[k] + shift)
+        shown[i] = record_.reach.empty() ? response.channels[c].signal.at(record_.at[k] + shift)
                                          : response.channels[c].mean(record_.at[k] + shift, record_.reach[k]);
     }
     const double mean = shown.mean();
@@ -345,21 +341,37 @@ Eigen::VectorXd ComparedRecord::points_of(const Response& response, const std::v
   return all;
 }
 
-void ComparedRecord::weigh_by(const Eigen::VectorXd& residual) {
-  if (of_scatter_) return;
-  for (std::size_t c = 0; c < record_.channels.size(); ++c) {
-    if (record_.channels[c].has_scatter()) continue;
-    const auto left = residual.segment(begin(c), per_channel_);
-    const auto here = data_.segment(begin(c), per_channel_);
-    const double floor = record_.machine_error * std::max(here.cwiseAbs().maxCoeff(), 1e-300);
-    auto part = deviation_.segment(begin(c), per_channel_);
-    const auto count = static_cast<double>(per_channel_);
-    if (record_.over == Over::mode)
-      part *= std::sqrt(left.cwiseQuotient(part).squaredNorm() / count);
-    else
-      part.setConstant(std::sqrt(left.squaredNorm() / count));
-    part = part.cwiseMax(floor);
+void ComparedRecord::weigh_by(const Eigen::VectorXd& left, std::size_t unknowns) {
+  for (std::size_t c = 0; c < lengths_.size(); ++c)
+    if (orders_.empty() && record_.over != Over::mode)
+      lengths_[c] = correlation_length(left.segment(begin(c), per_channel_));
+  const double values = independent(), freedom = std::max(values - static_cast<double>(unknowns), 1.0);
+  double squares = 0, scattered = 0;  // over the scatter
+  for (std::size_t c = 0; c < lengths_.size(); ++c) {
+    const auto part = left.segment(begin(c), per_channel_);
+    const Eigen::VectorXd size = scatter_.segment(begin(c), per_channel_);
+    const double of_size = part.cwiseQuotient(size).squaredNorm() / static_cast<double>(per_channel_);
+    if (record_.channels[c].has_scatter()) {
+      const double count = static_cast<double>(per_channel_) / lengths_[c];
+      squares += count * of_size, scattered += count;
+    }
+    const double greatest = std::max(data_.segment(begin(c), per_channel_).cwiseAbs().maxCoeff(), 1e-300);
+    deviation_.segment(begin(c), per_channel_) =
+        (size * std::sqrt(of_size * values / freedom)).cwiseMax(record_.machine_error * greatest) *
+        std::sqrt(lengths_[c]);
   }
+  if (scattered == 0) return;
+  widened_ = std::sqrt(std::max(1.0, squares / scattered * values / freedom));
+  for (std::size_t c = 0; c < lengths_.size(); ++c)
+    if (record_.channels[c].has_scatter())
+      deviation_.segment(begin(c), per_channel_) =
+          scatter_.segment(begin(c), per_channel_) * widened_ * std::sqrt(lengths_[c]);
+}
+
+double ComparedRecord::independent() const {
+  double count = 0;
+  for (const double length : lengths_) count += static_cast<double>(per_channel_) / length;
+  return count;
 }
 
 OrderPart order_part(double real, double imaginary) {

@@ -13,27 +13,19 @@
 
 namespace kurbel {
 
-// A signal with its integrals: means over stretches of it. Over the angle time passes as 1/ω: `pace`, its density.
-class Averaged {
- public:
-  Averaged(const Signal& signal, const Signal* pace);
-  double at(double x) const { return signal_.at(x); }
-  // ∫ y p dx/∫ p dx over x ± reach.
+// A signal of the machine. Over the angle time passes as 1/ω: `pace`.
+struct ShownSignal {
+  Signal signal;
+  std::optional<Signal> pace = {};
+  // ∫ y dt/∫ dt over x ± reach, by the midpoints of equal parts.
   double mean(double x, double reach) const;
-
- private:
-  double integral(const std::vector<double>& sums, double x, bool weighted_by_value) const;
-  Signal signal_;
-  std::optional<Signal> pace_;
-  std::vector<double> value_, weight_;  // ∫ y p dx, ∫ p dx up to each point
 };
 
 // What the machine shows over the record's axis.
 struct Response {
   std::string failed;  // why it shows nothing; empty: it does
-  std::vector<Averaged> channels = {};
+  std::vector<ShownSignal> channels = {};
   std::vector<std::vector<double>> modes = {};  // per channel, at the record's rows
-  double begin = 0, end = 0;                    // of what was simulated
   std::optional<HeldQuantity> held = {};
 };
 
@@ -76,8 +68,9 @@ class ComparedRecord {
   Eigen::Index size() const { return data_.size(); }
   const Eigen::VectorXd& data() const { return data_; }
   const Eigen::VectorXd& deviation() const { return deviation_; }  // of each, that weights it
-  bool of_scatter() const { return of_scatter_; }                  // deviations are those of cycles, not relative
-  const Eigen::MatrixXd& cycles() const { return cycles_; }  // a row each: cycle − mean; none: not known one by one
+  const Eigen::VectorXd& scatter() const { return scatter_; }  // of the mean; of a channel without it the data's size
+  bool of_scatter() const { return of_scatter_; }              // all channels have it
+  const Eigen::MatrixXd& cycles() const { return cycles_; }    // a row each: cycle − mean; none: not known one by one
   Eigen::Index begin(std::size_t channel) const { return static_cast<Eigen::Index>(channel) * per_channel_; }
   Eigen::Index per_channel() const { return per_channel_; }
   const std::vector<double>& orders() const { return orders_; }
@@ -88,18 +81,28 @@ class ComparedRecord {
   // The same of what is compared: a linear map of points.
   Eigen::VectorXd compared(const Eigen::VectorXd& points) const;
   Eigen::VectorXd measured_points() const;
-  // Of relative weights: by what is left of each channel.
-  void weigh_by(const Eigen::VectorXd& residual);
+  // Weights by what is left of it where it is fitted with so many unknowns: of a channel without scatter that is the
+  // deviation; with scatter it is widened by the root of the reduced χ², where that exceeds 1. Values that go together
+  // count as one: deviations grow by √τ, τ = 1 + 2 Σ ρ_k.
+  void weigh_by(const Eigen::VectorXd& left, std::size_t unknowns);
+  double widened() const { return widened_; }                             // deviations by scatter
+  double length(std::size_t channel) const { return lengths_[channel]; }  // τ ≥ 1: values that go together
+  double independent() const;                                             // values, those that go together as one
 
  private:
+  Eigen::MatrixXd cycles_of(const RecordChannel& channel) const;
+  Eigen::VectorXd sizes(const Eigen::VectorXd& data) const;
+
   FitRecord record_;
   std::vector<double> orders_;
   std::size_t number_;
   Eigen::Index per_channel_ = 0;
   Eigen::MatrixXd map_;  // of one channel's points to its orders; empty: points are compared
-  Eigen::VectorXd data_, deviation_;
+  Eigen::VectorXd data_, deviation_, scatter_;
   Eigen::MatrixXd cycles_;
+  std::vector<double> lengths_;
   bool of_scatter_ = true;
+  double widened_ = 1;
 };
 
 // Per channel and order of what is compared by orders: A, ψ.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -138,6 +139,56 @@ TEST_F(Fit, FindsAStiffnessByAMode) {
       {"spring.stiffness=3..8 kN*m/rad"}));
   ASSERT_TRUE(found.complete) << found.diagnosis;
   EXPECT_NEAR(found.unknowns[0].value, k / 1000, 1e-6 * k / 1000);
+}
+
+// Two records, one shared unknown and a start speed of each; each left out, the other finds the same within its error.
+TEST_F(Fit, SharesUnknownsBetweenRecordsAndLeavesEachOut) {
+  FitOptions options = asked(coasting, file("a.csv", coasting_record(0.3, 81, 4)), Over::time, {"n=speed.rotor"},
+                             {"drag.damping=0.05..0.6 N*m*s/rad", "each: run.start.speed=80..120 rad/s"});
+  options.records.push_back(options.records[0]);
+  options.records[0].name = "a", options.records[1].name = "b";
+  options.records[1].file = file("b.csv", coasting_record(0.3, 81, 9, 0.2));
+  const FitStudy found = fit_machine(options);
+  ASSERT_EQ(found.unknowns.size(), 3u);
+  EXPECT_EQ(found.unknowns[1].unknown.name, "a: run.start.speed");
+  EXPECT_NEAR(found.unknowns[0].value, damping, 4 * *found.unknowns[0].error);
+  EXPECT_NEAR(found.unknowns[1].value, omega0, 4 * *found.unknowns[1].error);
+  EXPECT_NEAR(found.unknowns[2].value, coasted(0.2), 4 * *found.unknowns[2].error);
+  ASSERT_EQ(found.left_out.size(), 6u);
+  for (const WithoutRecord& l : found.left_out)
+    if (l.name == "drag.damping") {
+      EXPECT_LT(std::abs(*l.errors), 5);
+    }
+  EXPECT_FALSE(found.correlations.empty());
+}
+
+// A record that no value of the free unknowns explains is given little weight in what another one determines: the second
+// record's rotor has another drag than the scene says, and b alone is shared.
+TEST_F(Fit, ARecordThatItsMachineDoesNotExplainDrawsLittle) {
+  FitOptions options = asked(coasting, file("good.csv", coasting_record(0.02, 81, 4)), Over::time, {"n=speed.rotor"},
+                             {"drag.damping=0.05..0.6 N*m*s/rad"});
+  std::string bad = "t [s],n [rad/s]\n";
+  for (int i = 0; i < 81; ++i) bad += fmt::format("{},{}\n", 0.0375 * i, coasted(0.0375 * i) + 20 * std::sin(0.25 * i));
+  options.records.push_back(options.records[0]);
+  options.records[0].name = "good", options.records[1].name = "bad";
+  options.records[1].file = file("bad.csv", bad);
+  options.checks = false;
+  EXPECT_NEAR(fit_machine(options).unknowns.at(0).value, damping, 1e-3);
+}
+
+// What is left holds a frequency that the machine lacks: its band is the one that is named.
+TEST_F(Fit, SaysWhichBandOfFrequenciesIsLeft) {
+  std::string text = "t [s],n [rad/s]\n";
+  for (int i = 0; i < 400; ++i)
+    text += fmt::format("{},{}\n", 0.0075 * i, coasted(0.0075 * i) + 2 * std::sin(2 * pi * 25 * 0.0075 * i));
+  const FitStudy found = fit_machine(
+      asked(coasting, file("band.csv", text), Over::time, {"n=speed.rotor"}, {"drag.damping=0.05..0.6 N*m*s/rad"}));
+  const auto most = std::max_element(found.bands.begin(), found.bands.end(),
+                                     [](const BandResidual& a, const BandResidual& b) { return a.left < b.left; });
+  ASSERT_NE(most, found.bands.end());
+  EXPECT_LE(most->from, 25);
+  EXPECT_GE(most->to, 25);
+  EXPECT_NEAR(most->left, 2 / std::sqrt(2.0), 0.05);
 }
 
 // A record over the angle of a machine without a cycle, a channel that does not vary, a bad map, more unknowns than data.
