@@ -15,8 +15,6 @@
 namespace kurbel {
 namespace {
 
-constexpr std::size_t fewest_rows = 4;
-
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(' ');
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
@@ -67,10 +65,10 @@ class Reader {
     for (const std::string& map : request_.maps)
       maps.push_back(split_option("--map", map, "--map \"T1=torque.main_coupling\""));
     for (const Option& map : maps)
-      if (name_with_unit(map.value).name == "time") find_time(map);
+      if (name_with_unit(map.value).name == request_.over) find_time(map);
     if (!time_asked_) find_time_by_name();
     for (const Option& map : maps)
-      if (name_with_unit(map.value).name != "time") add_signal(map);
+      if (name_with_unit(map.value).name != request_.over) add_signal(map);
     messages_.throw_if_any();
     read_numbers();
     messages_.throw_if_any();
@@ -133,20 +131,21 @@ class Reader {
 
   void find_time(const Option& map) {
     if (const TableHeading* heading = required(map))
-      if (const auto source = source_of(*heading, map, "time", "s")) time_ = *source;
+      if (const auto source = source_of(*heading, map, request_.over, request_.over_unit)) time_ = *source;
     time_asked_ = true;
   }
   void find_time_by_name() {
     for (const TableHeading& h : headings_) {
       std::string name = h.name;
       std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-      if (name != "time" && name != "t") continue;
-      if (const auto source = source_of(h, {}, "time", "s")) time_ = *source;
+      if (name != request_.over && !(name == "t" && request_.over == "time")) continue;
+      if (const auto source = source_of(h, {}, request_.over, request_.over_unit)) time_ = *source;
       return;
     }
     messages_.add(headings_.empty() ? Location{} : headings_.front().at,
-                  fmt::format("no column \"time\" or \"t\"; columns: {}; say which it is: --map \"COLUMN=time [s]\"",
-                              quoted_list(file_.names())));
+                  fmt::format("no column \"{0}\"{1}; columns: {2}; say which it is: --map \"COLUMN={0}{3}\"",
+                              request_.over, request_.over == "time" ? " or \"t\"" : "", quoted_list(file_.names()),
+                              request_.over_unit.empty() ? "" : fmt::format(" [{}]", request_.over_unit)));
   }
 
   void add_signal(const Option& map) {
@@ -186,13 +185,13 @@ class Reader {
   }
   void require_ascending(const TableNumbers& numbers) {
     const std::vector<double>& t = numbers.columns[0];
-    if (t.size() < fewest_rows)
-      messages_.add({}, fmt::format("{} rows; at least {} are needed", t.size(), fewest_rows));
+    if (t.size() < request_.fewest_rows)
+      messages_.add({}, fmt::format("{} rows; at least {} are needed", t.size(), request_.fewest_rows));
     for (std::size_t i = 1; i < t.size(); ++i)
       if (!(t[i] > t[i - 1])) {
         messages_.add(numbers.at[i],
-                      fmt::format("time {} after {}: times must ascend; sort the rows, and drop what stands twice",
-                                  t[i], t[i - 1]));
+                      fmt::format("{0} {1} after {2}: {0}s must ascend; sort the rows, and drop what stands twice",
+                                  request_.over, t[i], t[i - 1]));
         return;
       }
   }

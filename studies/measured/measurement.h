@@ -13,6 +13,9 @@ struct MeasurementRequest {
   std::vector<std::string> maps;     // "T1=torque.main_coupling", "T1=torque.main_coupling [kN*m]", "t=time [ms]"
   std::string shift;                 // "0.2 s", "fit"; empty: none
   std::vector<std::string> offsets;  // "T1=5 N*m", "T1=fit", "fit": every column's
+  // What the rows stand over, as a column or a map names it, in SI: "time", "s"; "angle", "rad"; "mode", "".
+  std::string over = "time", over_unit = "s";
+  std::size_t fewest_rows = 4;
   bool asked() const { return !file.empty() || !maps.empty() || !shift.empty() || !offsets.empty(); }
 };
 
@@ -34,7 +37,7 @@ struct MeasuredSignal {
 
 struct Measurement {
   std::string file;
-  std::vector<double> time;  // as measured [s], ascending
+  std::vector<double> time;  // as measured [s], ascending; of a record over something else that, in SI
   Fitted shift = {};         // simulated time = measured time + shift [s]
   std::vector<MeasuredSignal> signals;
 };

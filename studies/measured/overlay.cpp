@@ -40,21 +40,6 @@ struct Points {
   }
 };
 
-// What was followed for the plots, close where something happens, and the rows of the trajectory.
-Signal signal_of(const Result& r, const std::string& channel) {
-  Points points;
-  const double end = r.trajectory->time().back();
-  if (const Trace* trace = r.traces ? r.traces->find(channel) : nullptr)
-    for (std::size_t i = 0; i < trace->x.size(); ++i)
-      if (trace->x[i] <= end) points.add(trace->x[i], trace->y[i]);
-  const auto& channels = r.trajectory->channels();
-  const auto found =
-      std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == channel; });
-  const auto k = static_cast<std::size_t>(found - channels.begin());
-  for_each_row(*r.trajectory, [&](double t, std::span<const double> values) { points.add(t, values[k]); });
-  return points.signal();
-}
-
 // The last whole round of a cycle, from where the link passes its zero.
 std::optional<Signal> signal_of(const SteadyCycle& c, const std::string& channel) {
   if (!c.found || !c.traces || c.traces->last_cycles.empty()) return {};
@@ -141,6 +126,20 @@ void add_over_angle(SteadyCycle& c, const Measurement& m, const Alignment& a) {
 }
 
 }  // namespace
+
+Signal signal_of(const Result& r, const std::string& channel) {
+  Points points;
+  const double end = r.trajectory->time().back();
+  if (const Trace* trace = r.traces ? r.traces->find(channel) : nullptr)
+    for (std::size_t i = 0; i < trace->x.size(); ++i)
+      if (trace->x[i] <= end) points.add(trace->x[i], trace->y[i]);
+  const auto& channels = r.trajectory->channels();
+  const auto found =
+      std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == channel; });
+  const auto k = static_cast<std::size_t>(found - channels.begin());
+  for_each_row(*r.trajectory, [&](double t, std::span<const double> values) { points.add(t, values[k]); });
+  return points.signal();
+}
 
 std::vector<KnownChannel> channels_of_run(const Model& model) {
   return known(model, model.scene.run.output, [](const Channel&) { return true; });

@@ -31,6 +31,9 @@ struct Overlay {
 std::vector<KnownChannel> channels_of_run(const Model& model);
 std::vector<KnownChannel> channels_of_cycle(const Model& model);
 
+// A channel along a run: what was followed for the plots, close where something happens, and the rows of the trajectory.
+Signal signal_of(const Result& run, const std::string& channel);
+
 // Adds the residuals to the figures of run or cycles, and what was measured to their traces.
 Overlay lay_over(const Measurement& measurement, Result& run);
 Overlay lay_over(const Measurement& measurement, SteadyStudy& study);

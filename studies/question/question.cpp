@@ -24,12 +24,13 @@ Question advise_question();
 Question accuracy_question();
 Question uncertainty_question();
 Question export_question();  // in library/fmi
+Question fit_question();
 
 const std::vector<Question>& questions() {
   static const std::vector<Question> all = {
       compare_question(),  reduce_question(),      size_question(),   forces_question(),  gears_question(),
       modes_question(),    report_question(),      steady_question(), effects_question(), advise_question(),
-      accuracy_question(), uncertainty_question(), export_question()};
+      accuracy_question(), uncertainty_question(), fit_question(),    export_question()};
   return all;
 }
 

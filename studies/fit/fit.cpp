@@ -1,0 +1,340 @@
+// fit.cpp — from start to values with errors; what is left.
+#include "studies/fit/fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
+#include "studies/history/spectrum.h"
+
+namespace kurbel {
+namespace {
+
+class FitWork {
+ public:
+  explicit FitWork(const FitOptions& options)
+      : options_(options), problem_(options.records, options.free, options.jobs, options.watch) {
+    const Scene scene = VariedScene(options.records.front().scene, {}).at({});
+    study_.title = scene.heading(), study_.scene_file = options.records.front().scene.file;
+    study_.scene_text = scene.text, study_.speed_unit = scene.speed_unit;
+    study_.values = problem_.values_compared();
+  }
+
+  FitStudy run() {
+    if (!problem_.choose_steps(problem_.given())) return without_fit();
+    state_.best = problem_.fit(problem_.given());
+    if (options_.starts > 1) try_starts(problem_, options_, state_, study_);
+    if (state_.best.r.size() == 0 || state_.best.jacobian.size() == 0) return without_fit();
+    weigh();
+    say_values();
+    say_residuals();
+    if (options_.checks) {
+      leave_records_out(problem_, state_, study_);
+      try_off_effects(problem_, state_, study_);
+    }
+    predict(problem_, options_, state_, study_);
+    study_.runs = problem_.runs();
+    conclude();
+    return std::move(study_);
+  }
+
+ private:
+  FitStudy without_fit() {
+    study_.complete = false, study_.diagnosis = problem_.failure();
+    study_.conclusion = "No fit: the machine does not run with these values: " + problem_.failure();
+    return std::move(study_);
+  }
+
+  // Each record counts by what it leaves when it is fitted by itself: what the machine lacks there must not draw unknowns
+  // that others determine. Then all of them together, and errors.
+  void weigh() {
+    const std::size_t count = problem_.records().size();
+    std::vector<Eigen::VectorXd> alone(count, state_.best.u);
+    constexpr int rounds = 2, most_steps = 12;
+    for (int round = 0; round < rounds; ++round)
+      for (std::size_t r = 0; r < count; ++r) {
+        problem_.active.assign(count, false), problem_.active[r] = true;
+        const bool enough = static_cast<std::size_t>(problem_.comparisons()[r].size()) > 2 * problem_.unknowns_of(r);
+        if (enough && (count > 1 || round > 0))
+          if (const BoundedFit found = problem_.fit(alone[r], most_steps); found.r.size() > 0) alone[r] = found.u;
+        if (problem_.residuals(alone[r])) problem_.weigh(r, alone[r]);
+      }
+    problem_.active.assign(count, true);
+    const int before = state_.best.steps;
+    state_.best = problem_.fit(count > 1 ? state_.best.u : alone[0]);
+    if (count > 1)
+      if (const BoundedFit other = problem_.fit(together(alone));
+          other.r.size() > 0 && other.cost() < state_.best.cost())
+        state_.best = other;
+    state_.best.steps += before;
+    problem_.residuals(state_.best.u);
+    study_.steps = state_.best.steps, study_.converged = state_.best.converged;
+    determine();
+  }
+
+  // Unknowns of one record alone as that one finds them.
+  Eigen::VectorXd together(const std::vector<Eigen::VectorXd>& alone) const {
+    Eigen::VectorXd u = state_.best.u;
+    for (std::size_t k = 0; k < problem_.unknowns().size(); ++k)
+      if (const auto& record = problem_.unknowns()[k].record)
+        u[static_cast<Eigen::Index>(k)] = alone[*record][static_cast<Eigen::Index>(k)];
+    return u;
+  }
+
+  void determine() {
+    const Eigen::MatrixXd& j = state_.best.jacobian;
+    std::vector<Eigen::MatrixXd> scores;
+    double independent = 0, widened = 1;
+    bool by_scatter = true;
+    Eigen::Index begin = 0, rows = 0;
+    for (const ComparedRecord& c : problem_.comparisons()) {
+      Eigen::MatrixXd part = j.middleRows(begin, c.size());
+      if (const auto n = static_cast<double>(c.cycles().rows()); n > 1) {
+        const Eigen::MatrixXd deviations = c.cycles() * c.deviation().cwiseInverse().asDiagonal();
+        part = (deviations * part * (c.widened() / std::sqrt(n * (n - 1)))).eval();
+        cycles_ = std::max(cycles_, n);
+      }
+      independent += c.independent(), widened = std::max(widened, c.widened());
+      by_scatter = by_scatter && c.of_scatter();
+      begin += c.size(), rows += part.rows();
+      scores.push_back(std::move(part));
+    }
+    Eigen::MatrixXd all(cycles_ > 0 ? rows : 0, problem_.size());
+    if (Eigen::Index next = 0; cycles_ > 0)
+      for (const Eigen::MatrixXd& part : scores) all.middleRows(next, part.rows()) = part, next += part.rows();
+    constexpr double least_floor = 1e-4, most_floor = 1e-2;
+    const double floor = std::clamp(3 * problem_.noise(), least_floor, most_floor);
+    state_.determined = determined_by(j, state_.best.on_bound, floor, all);
+    const double freedom = std::max(independent - static_cast<double>(problem_.size()), 1.0);
+    const double reduced = state_.best.cost() / freedom;
+    constexpr double below_machine_error = 0.5;  // of weights by what is left it is 1
+    study_.chi_squared = by_scatter ? reduced * widened * widened : 0;
+    state_.covariance = state_.determined.covariance * std::max(1.0, reduced);
+    const bool of_cycles = by_scatter && study_.chi_squared <= 1 && cycles_ > 1;
+    state_.interval = boost::math::quantile(boost::math::students_t(of_cycles ? cycles_ - 1 : freedom), 0.975);
+    study_.errors_from =
+        !by_scatter && reduced < below_machine_error
+            ? "the machine's own error ([run] accuracy): what is left is smaller"
+        : !by_scatter            ? "what is left between record and machine, as noise of its own correlation length"
+        : study_.chi_squared > 1 ? fmt::format("the scatter of cycles, times {:.3g}: so much larger is what is left",
+                                               std::sqrt(study_.chi_squared))
+                                 : "the scatter of cycles";
+    constexpr double contradictory = 2;
+    if (problem_.records().size() > 1 && reduced > contradictory)
+      study_.notes.push_back(
+          fmt::format("the records contradict each other: together they leave {:.2g} times what each leaves by itself, "
+                      "and all errors "
+                      "are widened by that",
+                      std::sqrt(reduced)));
+  }
+
+  void say_values() {
+    const Eigen::VectorXd& u = state_.best.u;
+    const Determination& d = state_.determined;
+    study_.covariance = state_.covariance;
+    for (std::size_t k = 0; k < problem_.unknowns().size(); ++k) {
+      const auto c = static_cast<Eigen::Index>(k);
+      const Unknown& unknown = problem_.unknowns()[k];
+      const double range = unknown.range.high - unknown.range.low;
+      study_.covariance.row(c) *= range, study_.covariance.col(c) *= range;
+      FittedUnknown& told = study_.unknowns.emplace_back(FittedUnknown{.unknown = unknown, .value = unknown.at(u[c])});
+      if (std::count(d.no_trace.begin(), d.no_trace.end(), k)) {
+        told.remark = "without influence on what is compared";
+      } else if (state_.best.on_bound[k] != 0) {
+        told.remark = state_.best.on_bound[k] < 0 ? "on its lower bound" : "on its upper bound";
+      } else if (!d.known[k]) {
+        told.remark = "not determined: see what the data cannot tell apart";
+      } else {
+        told.error = std::sqrt(state_.covariance(c, c)) * range;
+        told.low = told.value - state_.interval * *told.error, told.high = told.value + state_.interval * *told.error;
+        if (*told.error > 0.5 * range) told.remark = "the data hardly bound it: its error is over half of its range";
+      }
+      for (std::size_t other = 0; other < k; ++other)
+        if (const double value = d.correlation(other, k); value != 0) study_.correlations.push_back({other, k, value});
+    }
+    std::stable_sort(study_.correlations.begin(), study_.correlations.end(),
+                     [](const Correlation& a, const Correlation& b) { return std::abs(a.value) > std::abs(b.value); });
+    say_what_is_joined();
+    for (std::size_t r = 0; r < problem_.records().size(); ++r)
+      if (const auto& held = problem_.responses()[r].held)
+        study_.held.push_back(fmt::format("{}: {} = {} keeps {}", problem_.records()[r].name, held->key,
+                                          with_unit(held->value, held->unit, 5),
+                                          study_.speed_unit.text(*problem_.requests()[r].mean_speed, 6)));
+    const MachineQuestion& first = problem_.requests().front().scene;
+    const std::vector<std::string> fitted =
+        problem_.machines().front().settings_at(u, problem_.responses().front().held);
+    std::vector<std::string> settings;
+    for (const std::string& s : first.settings) {
+      const std::string path = s.substr(0, s.find('=') + 1);
+      if (std::none_of(fitted.begin(), fitted.end(), [&](const auto& f) { return f.starts_with(path); }))
+        settings.push_back(s);
+    }
+    settings.insert(settings.end(), fitted.begin(), fitted.end());
+    study_.written = SettledText(first.text, first.file, settings).text();
+  }
+
+  void say_what_is_joined() {
+    for (const SharedDirection& direction : state_.determined.undetermined) {
+      std::string names, change;
+      for (std::size_t i = 0; i < direction.unknowns.size(); ++i) {
+        const std::size_t k = direction.unknowns[i];
+        const Unknown& unknown = problem_.unknowns()[k];
+        const double length = state_.best.jacobian.col(static_cast<Eigen::Index>(k)).norm();
+        const double lead = state_.best.jacobian.col(static_cast<Eigen::Index>(direction.unknowns[0])).norm();
+        const double by =
+            direction.parts[i] / direction.parts[0] * lead / length * (unknown.range.high - unknown.range.low);
+        names += (i == 0 ? "" : i + 1 == direction.unknowns.size() ? " and " : ", ") + unknown.name;
+        change += fmt::format("{}{:+.3g}{} of {}", i ? ", " : "", by,
+                              unknown.range.unit.empty() ? "" : " " + pretty_unit(unknown.range.unit), unknown.name);
+      }
+      study_.confounded.push_back(fmt::format(
+          "the data cannot tell apart {}: moved together ({}), nothing that is compared changes; hold one of "
+          "them, or give a record that shows it",
+          names, change));
+    }
+    constexpr double nearly = 0.95;
+    for (const Correlation& c : study_.correlations)
+      if (std::abs(c.value) > nearly)
+        study_.confounded.push_back(fmt::format("{} and {} are hardly told apart: correlation {:+.4f}",
+                                                problem_.unknowns()[c.a].name, problem_.unknowns()[c.b].name, c.value));
+  }
+
+  void say_residuals() {
+    for (std::size_t r = 0; r < problem_.records().size(); ++r) {
+      const FitRecord& record = problem_.records()[r];
+      const ComparedRecord& c = problem_.comparisons()[r];
+      const Eigen::VectorXd points = c.points_of(problem_.responses()[r], problem_.unknowns(), state_.best.u);
+      const Eigen::VectorXd left = c.compared(points) - c.data(), measured = c.measured_points();
+      const auto count = static_cast<Eigen::Index>(record.at.size());
+      for (std::size_t k = 0; k < record.channels.size(); ++k) {
+        const RecordChannel& channel = record.channels[k];
+        const auto rms = [&](const Eigen::VectorXd& all) {
+          return std::sqrt(all.segment(c.begin(k), c.per_channel()).squaredNorm() /
+                           static_cast<double>(c.per_channel()));
+        };
+        ChannelResidual& told = study_.residuals.emplace_back(
+            ChannelResidual{.record = record.name, .channel = channel.channel, .unit = channel.unit});
+        told.of = c.orders().empty() ? "points" : "orders";
+        told.count = static_cast<std::size_t>(c.per_channel());
+        told.rms = rms(left);
+        const auto data = c.data().segment(c.begin(k), c.per_channel());
+        const double size = c.orders().empty() ? data.maxCoeff() - data.minCoeff() : data.cwiseAbs().maxCoeff();
+        if (size > 0) told.range_part = told.rms / size;
+        if (channel.has_scatter()) told.scatter = rms(c.scatter());
+        told.correlation_length = c.length(k);
+        const Eigen::VectorXd m = measured.segment(static_cast<Eigen::Index>(k) * count, count),
+                              s = points.segment(static_cast<Eigen::Index>(k) * count, count);
+        const Eigen::VectorXd dm = m.array() - m.mean(), ds = s.array() - s.mean();
+        told.alike = dm.dot(ds) / std::max(dm.norm() * ds.norm(), 1e-300);
+        told.peak = m.cwiseAbs().maxCoeff(), told.peak_fitted = s.cwiseAbs().maxCoeff();
+        study_.curves.push_back({.record = record.name,
+                                 .channel = channel.channel,
+                                 .unit = channel.unit,
+                                 .over = record.over,
+                                 .at = record.at,
+                                 .measured = channel.mean,
+                                 .shown = {s.begin(), s.end()}});
+        if (record.over == Over::time) say_bands(study_.curves.back());
+      }
+      if (record.over == Over::angle) say_orders(r, points);
+    }
+  }
+
+  // Octaves below half the mean rate of points.
+  void say_bands(const Curve95& curve) {
+    constexpr std::size_t fewest = 128;
+    constexpr int most = 7;
+    if (curve.at.size() < fewest) return;
+    const double step = (curve.at.back() - curve.at.front()) / static_cast<double>(curve.at.size() - 1);
+    std::vector<double> measured, fitted, left;
+    const Signal m(curve.at, curve.measured), s(curve.at, curve.shown);
+    for (std::size_t i = 0; i < curve.at.size(); ++i) {
+      const double at = curve.at.front() + static_cast<double>(i) * step;
+      measured.push_back(m.at(at)), fitted.push_back(s.at(at)), left.push_back(m.at(at) - s.at(at));
+    }
+    const auto rms = [](const AmplitudeSpectrum& spectrum, double from, double to) {
+      constexpr double hann = 1.5;  // lines that a sine's power is spread over
+      double power = 0;
+      for (std::size_t i = 1; i < spectrum.frequency.size(); ++i)
+        if (spectrum.frequency[i] > from && spectrum.frequency[i] <= to)
+          power += 0.5 * spectrum.amplitude[i] * spectrum.amplitude[i] / hann;
+      return std::sqrt(power);
+    };
+    const AmplitudeSpectrum a = spectrum_of(measured, step), b = spectrum_of(fitted, step), c = spectrum_of(left, step);
+    double to = 0.5 / step;
+    for (int k = 0; k < most && to > 4 * a.resolution; ++k, to /= 2) {
+      const double from = k + 1 < most && to > 8 * a.resolution ? to / 2 : 0;
+      study_.bands.push_back(
+          {curve.record, curve.channel, curve.unit, from, to, rms(a, from, to), rms(b, from, to), rms(c, from, to)});
+    }
+  }
+
+  void say_orders(std::size_t r, const Eigen::VectorXd& points) {
+    const FitRecord& record = problem_.records()[r];
+    const ComparedRecord by_order(record, told_orders(problem_.requests()[r], record), r);
+    const Eigen::VectorXd shown = by_order.compared(points);
+    for (std::size_t k = 0; k < record.channels.size(); ++k)
+      for (std::size_t o = 0; o < by_order.orders().size(); ++o) {
+        const Eigen::Index i = by_order.begin(k) + 2 * static_cast<Eigen::Index>(o);
+        OrderFigure& told = study_.orders.emplace_back(
+            OrderFigure{record.name, record.channels[k].channel, record.channels[k].unit, by_order.orders()[o]});
+        told.measured = order_part(by_order.data()[i], by_order.data()[i + 1]);
+        told.shown = order_part(shown[i], shown[i + 1]);
+        told.left = std::hypot(shown[i] - by_order.data()[i], shown[i + 1] - by_order.data()[i + 1]);
+        if (record.channels[k].has_scatter())
+          told.scatter = std::hypot(by_order.scatter()[i], by_order.scatter()[i + 1]);
+      }
+  }
+
+  void conclude() {
+    for (const FittedUnknown& u : study_.unknowns) {
+      if (u.unknown.kind != Unknown::Kind::key && study_.unknowns.size() > 3) continue;
+      study_.conclusion += fmt::format("{}{} = {}{}", study_.conclusion.empty() ? "" : ", ", u.unknown.name,
+                                       with_error({u.value, u.error}, u.unknown.range.unit),
+                                       u.remark.empty() ? "" : " (" + u.remark + ")");
+    }
+    double worst = 0;
+    for (const ChannelResidual& r : study_.residuals) worst = std::max(worst, r.range_part.value_or(0));
+    study_.conclusion += fmt::format("; what is left is {:.2g} % of the measured range at most", 100 * worst);
+    if (study_.chi_squared > 0)
+      study_.conclusion += study_.chi_squared > 2 ? fmt::format(
+                                                        ", {:.2g} times what the scatter of cycles explains: the "
+                                                        "machine lacks an effect, or the record errs",
+                                                        std::sqrt(study_.chi_squared))
+                                                  : ", as much as the scatter of cycles explains";
+    if (!study_.converged) study_.notes.push_back("the fit has not come to its end; give further starts (--starts 8)");
+    double longest = 1;
+    for (const ChannelResidual& r : study_.residuals) longest = std::max(longest, r.correlation_length);
+    if (longest > 3)
+      study_.notes.push_back(
+          fmt::format("what is left goes together over some {:.0f} points: it is no noise; an effect is "
+                      "missing, or the record errs. Errors allow for that length",
+                      longest));
+    if (!study_.confounded.empty()) study_.conclusion += "; " + study_.confounded.front();
+  }
+
+  const FitOptions& options_;
+  FitProblem problem_;
+  FitState state_;
+  FitStudy study_;
+  double cycles_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> told_orders(const RecordRequest& request, const FitRecord& record) {
+  if (!request.orders.empty()) return request.orders;
+  std::vector<double> orders;
+  constexpr int most = 8;
+  for (int k = 1; k <= most; ++k) orders.push_back(k * 2 * std::numbers::pi / record.period);
+  return orders;
+}
+
+FitStudy fit_machine(const FitOptions& options) { return FitWork(options).run(); }
+
+}  // namespace kurbel

@@ -1,0 +1,114 @@
+// record_machine.h — the machine of a record: what it shows there with given unknowns, brought to what is compared.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/matrices/linear_algebra.h"
+#include "studies/fit/unknowns.h"
+#include "studies/measured/alignment.h"
+#include "studies/steady/steady.h"
+
+namespace kurbel {
+
+// A signal of the machine. Over the angle time passes as 1/ω: `pace`.
+struct ShownSignal {
+  Signal signal;
+  std::optional<Signal> pace = {};
+  // ∫ y dt/∫ dt over x ± reach, by the midpoints of equal parts.
+  double mean(double x, double reach) const;
+};
+
+// What the machine shows over the record's axis.
+struct Response {
+  std::string failed;  // why it shows nothing; empty: it does
+  std::vector<ShownSignal> channels = {};
+  std::vector<std::vector<double>> modes = {};  // per channel, at the record's rows
+  std::optional<HeldQuantity> held = {};
+};
+
+// Of one record, a prediction likewise. May be copied: each thread has its own.
+class RecordMachine {
+ public:
+  // Refuses, as the scene's reader does, keys that are none, and ends of ranges beyond a key's domain.
+  RecordMachine(const RecordRequest& request, const FitRecord& record, std::size_t number,
+                const std::vector<Unknown>& unknowns);
+
+  // With scaled unknowns u. Another set of effects in place of the scene's, where one is given.
+  Response at(const Eigen::VectorXd& u, const Effects* effects = nullptr);
+  bool depends_on(std::size_t unknown) const;
+  const Scene& scene_at(const Eigen::VectorXd& u) { return varied_.at(values_of(u)); }
+  // "rotor.inertia=0.0123 kg*m2" for each key that this machine has, and of what held the speed.
+  std::vector<std::string> settings_at(const Eigen::VectorXd& u, const std::optional<HeldQuantity>& held) const;
+  const std::vector<std::size_t>& keys() const { return keys_; }
+
+ private:
+  std::vector<double> values_of(const Eigen::VectorXd& u) const;
+  void change_tables(Scene& scene, const Eigen::VectorXd& u) const;
+  Response run(const Scene& scene, const Effects& effects) const;
+  Response cycle(const Scene& scene, const Effects& effects) const;
+  Response modes(const Scene& scene) const;
+
+  RecordRequest request_;
+  std::shared_ptr<const FitRecord> record_;
+  std::vector<Unknown> unknowns_;
+  std::vector<std::size_t> keys_, tables_;  // unknowns that are its keys; that change its tables
+  VariedScene varied_;
+  double until_ = 0;
+};
+
+// What of a record is compared: its points, or orders of the link's turns, each as real and imaginary part of
+// A e^{iψ} = 2 Σ w y e^{−ikφ}, y = A cos(kφ + ψ).
+class ComparedRecord {
+ public:
+  ComparedRecord(const FitRecord& record, const std::vector<double>& orders, std::size_t number);
+
+  Eigen::Index size() const { return data_.size(); }
+  const Eigen::VectorXd& data() const { return data_; }
+  const Eigen::VectorXd& deviation() const { return deviation_; }  // of each, that weights it
+  const Eigen::VectorXd& scatter() const { return scatter_; }  // of the mean; of a channel without it the data's size
+  bool of_scatter() const { return of_scatter_; }              // all channels have it
+  const Eigen::MatrixXd& cycles() const { return cycles_; }    // a row each: cycle − mean; none: not known one by one
+  Eigen::Index begin(std::size_t channel) const { return static_cast<Eigen::Index>(channel) * per_channel_; }
+  Eigen::Index per_channel() const { return per_channel_; }
+  const std::vector<double>& orders() const { return orders_; }
+
+  // What a record would show of the response: at its points, a channel behind the other.
+  Eigen::VectorXd points_of(const Response& response, const std::vector<Unknown>& unknowns,
+                            const Eigen::VectorXd& u) const;
+  // The same of what is compared: a linear map of points.
+  Eigen::VectorXd compared(const Eigen::VectorXd& points) const;
+  Eigen::VectorXd measured_points() const;
+  // Weights by what is left of it where it is fitted with so many unknowns: of a channel without scatter that is the
+  // deviation; with scatter it is widened by the root of the reduced χ², where that exceeds 1. Values that go together
+  // count as one: deviations grow by √τ, τ = 1 + 2 Σ ρ_k.
+  void weigh_by(const Eigen::VectorXd& left, std::size_t unknowns);
+  double widened() const { return widened_; }                             // deviations by scatter
+  double length(std::size_t channel) const { return lengths_[channel]; }  // τ ≥ 1: values that go together
+  double independent() const;                                             // values, those that go together as one
+
+ private:
+  Eigen::MatrixXd cycles_of(const RecordChannel& channel) const;
+  Eigen::VectorXd sizes(const Eigen::VectorXd& data) const;
+
+  FitRecord record_;
+  std::vector<double> orders_;
+  std::size_t number_;
+  Eigen::Index per_channel_ = 0;
+  Eigen::MatrixXd map_;  // of one channel's points to its orders; empty: points are compared
+  Eigen::VectorXd data_, deviation_, scatter_;
+  Eigen::MatrixXd cycles_;
+  std::vector<double> lengths_;
+  bool of_scatter_ = true;
+  double widened_ = 1;
+};
+
+// Per channel and order of what is compared by orders: A, ψ.
+struct OrderPart {
+  double amplitude = 0, phase = 0;  // [rad]
+};
+OrderPart order_part(double real, double imaginary);
+
+}  // namespace kurbel

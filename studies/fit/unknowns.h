@@ -1,0 +1,56 @@
+// unknowns.h — what a fit may change: keys of the scene, tables in it, and what lies between machine and record.
+//
+//     rotor.inertia=0.005..0.05 kg*m2           a key, the same for all records
+//     half: load.torque=2..8 N*m                a key, of the machine of this record alone
+//     each: run.start.speed=1400..1460 rpm      a key, an unknown of its own for every record
+//     gain of engine.load.pressure=0.9..1.1     a table's values times this
+//     shift of engine.load.pressure=-2..2 deg   a table, later by this
+//     shift=-2..2 deg                           the record, simulated = measured + shift
+//     dead centre of engine.load.pressure=-2..2 deg   table and record, later together by this
+//     gain of speed.engine=0.98..1.02, offset of speed.engine=-5..5 rpm    what a record shows = gain · simulated + offset
+//     pattern of speed.engine=1,2               Σ (a cos k φ + b sin k φ) of its mean, that an encoder adds each turn
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/experiments/parameter.h"
+#include "studies/fit/fit_record.h"
+
+namespace kurbel {
+
+struct Unknown {
+  enum class Kind { key, table_gain, table_shift, record_shift, dead_centre, gain, offset, cosine, sine };
+  Kind kind = Kind::key;
+  std::string name;                        // as it is reported: "rotor.inertia", "half: shift"
+  SweptParameter range;                    // path, unit, ends
+  std::string of = {};                     // table or channel
+  std::optional<std::size_t> record = {};  // of this one alone; none: of all
+  double factor = 1;                       // to SI
+  int order = 0;                           // of a pattern, a turn
+
+  double at(double u) const { return range.low + u * (range.high - range.low); }  // in its unit
+  double si(double u) const { return factor * at(u); }
+  bool concerns(std::size_t r) const { return !record || *record == r; }
+  bool moves_machine() const {
+    return kind == Kind::key || kind == Kind::table_gain || kind == Kind::table_shift || kind == Kind::dead_centre;
+  }
+};
+
+// "half: rest" for a record of that name; "each: rest" where `each` may stand.
+struct OfRecord {
+  std::optional<std::size_t> record = {};
+  bool each = false;
+  std::string rest;
+};
+// Throws std::invalid_argument for a name that no record has. `option`: as messages name it.
+OfRecord of_record(const std::string& option, const std::string& text, const std::vector<std::string>& names);
+
+// Throws std::invalid_argument in words.
+std::vector<Unknown> parse_unknowns(const std::vector<std::string>& given, const std::vector<FitRecord>& records);
+
+// A table of the scene under a path, "engine.load.pressure"; null: there is none.
+CurveData* table_at(std::vector<Section>& sections, const std::string& path);
+
+}  // namespace kurbel

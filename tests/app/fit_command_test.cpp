@@ -1,0 +1,56 @@
+// fit_command_test.cpp — kurbel fit on the command line: exit codes, places of what is wrong.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace kurbel::fit_command_test {
+namespace {
+
+struct Said {
+  int code = -1;
+  std::string text;  // stdout and stderr
+};
+
+Said kurbel(const std::string& arguments) {
+  const std::string command = std::string(KURBEL_EXECUTABLE) + " fit " + arguments + " 2>&1";
+  Said said;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> part;
+  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
+  const int status = pclose(pipe);
+  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return said;
+}
+
+const std::string tasks = std::string(KURBEL_SOURCE_DIR) + "/docs/tasks/";
+const std::string set = tasks + "fit_set.toml --measured " + tasks + "fit_set_1500.csv ";
+const std::string mapped = set + "--map 'c*=speed.engine' ";
+const std::string rotor = "--free 'rotor.inertia=0.05..0.8 kg*m2' ";
+
+TEST(FitCommand, WhatIsWrongEndsWithTwoAndItsPlace) {
+  for (const auto& [arguments, says] : {
+           std::pair(set + rotor + "--map c1=speed.engin", "\"c1=speed.engin\":1:4: no channel"),
+           {set + rotor + "--map 'x*=speed.engine'", "no column of"},
+           {mapped + "--free 'rotr.inertia=0.05..0.8 kg*m2'", "did you mean \"rotor\"?"},
+           {mapped + "--free 'rotor.inertia=0.05..0.8 kg'", "must be an inertia"},
+           {mapped + "--free 'gain of speed.rotor=0.9..1.1'", "no table \"speed.rotor\""},
+           {mapped + rotor + "--hold 'mean speed by load.torqe'", "no quantity \"load.torqe\""},
+           {mapped + rotor + "--orders 0.5,x", "--orders \"x\""},
+           {mapped + rotor + "--over anlge", "must be time, angle or modes"},
+           {mapped + rotor + "--map 'b: c1=speed.engine'", "no record \"b\""},
+           {mapped + rotor + "--orders 0.5 --free 'engine.crank_inertia=0..0.05 kg*m2'",
+            "2 unknowns for 2 values that are compared"},
+           {mapped + rotor + "--predict nothere.toml", "nothere.toml: no such file"},
+           {mapped + rotor + "--write /nonexistent/x.toml", "there is no folder"},
+       }) {
+    const Said said = kurbel(arguments + " --no-files");
+    EXPECT_EQ(said.code, 2) << arguments << "\n" << said.text;
+    EXPECT_NE(said.text.find(says), std::string::npos) << arguments << "\n" << said.text;
+  }
+}
+
+}  // namespace
+}  // namespace kurbel::fit_command_test
