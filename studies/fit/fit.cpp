@@ -148,7 +148,7 @@ class FitWork {
       } else if (state_.best.on_bound[k] != 0) {
         told.remark = state_.best.on_bound[k] < 0 ? "on its lower bound" : "on its upper bound";
       } else if (!d.known[k]) {
-        told.remark = "not determined: see what the data cannot tell apart";
+        told.remark = "not determined: see what the data cannot separate";
       } else {
         told.error = std::sqrt(state_.covariance(c, c)) * range;
         told.low = told.value - state_.interval * *told.error, told.high = told.value + state_.interval * *told.error;
@@ -193,14 +193,14 @@ class FitWork {
                               unknown.range.unit.empty() ? "" : " " + pretty_unit(unknown.range.unit), unknown.name);
       }
       study_.confounded.push_back(fmt::format(
-          "the data cannot tell apart {}: moved together ({}), nothing that is compared changes; hold one of "
+          "the data cannot separate {}: moved together ({}), nothing that is compared changes; hold one of "
           "them, or give a record that shows it",
           names, change));
     }
     constexpr double nearly = 0.95;
     for (const Correlation& c : study_.correlations)
       if (std::abs(c.value) > nearly)
-        study_.confounded.push_back(fmt::format("{} and {} are hardly told apart: correlation {:+.4f}",
+        study_.confounded.push_back(fmt::format("{} and {} are hardly separable: correlation {:+.4f}",
                                                 problem_.unknowns()[c.a].name, problem_.unknowns()[c.b].name, c.value));
   }
 

@@ -111,7 +111,7 @@ struct FitStudy {
   SpeedUnit speed_unit;
   std::vector<FittedUnknown> unknowns;
   std::vector<Correlation> correlations;  // the strongest first
-  std::vector<std::string> confounded;    // a sentence for each combination that the data cannot tell apart
+  std::vector<std::string> confounded;    // a sentence for each combination that the data cannot separate
   std::vector<ChannelResidual> residuals;
   std::vector<OrderFigure> orders, predicted_orders;
   std::vector<BandResidual> bands;

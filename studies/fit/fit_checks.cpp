@@ -1,4 +1,4 @@
-// fit_checks.cpp — other starts, records left out, effects that are off.
+// fit_checks.cpp — other starts, records omitted, effects that are off.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ void try_starts(FitProblem& problem, const FitOptions& options, FitState& state,
   }
   study.notes.push_back(
       fmt::format("{} of {} starts came to the best fit{}", same, found.size(),
-                  other ? fmt::format(", {} of them with other values: the data do not tell them apart", other) : ""));
+                  other ? fmt::format(", {} of them with other values: the data do not separate them", other) : ""));
 }
 
 void leave_records_out(FitProblem& problem, const FitState& state, FitStudy& study) {

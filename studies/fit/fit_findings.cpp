@@ -142,7 +142,7 @@ Rows left_out_table(const FitStudy& s) {
       .column("fitted", "of all", &R::fitted, {.digits = 5})
       .column("errors", "apart [standard errors]", &R::errors, {.digits = 2})
       .column("unit", "unit", &R::unit, pretty_unit)
-      .column("rms", "record left out, over its deviations", &R::rms, {.digits = 3})
+      .column("rms", "record omitted, over its deviations", &R::rms, {.digits = 3})
       .column("rms_fitted", "fitted", &R::rms_fitted, {.digits = 3});
 }
 
@@ -252,7 +252,7 @@ Findings findings_of(const FitStudy& s) {
     f.say(values, Sentences{.lines = {"standard errors by " + s.errors_from}, .title = "", .indent = "  "});
   f.say(values,
         Sentences{
-            .lines = s.confounded, .title = "What the data cannot tell apart", .indent = "  ", .key = "confounded"});
+            .lines = s.confounded, .title = "What the data cannot separate", .indent = "  ", .key = "confounded"});
   f.say(values, Sentences{.lines = s.held, .title = "What keeps the speed", .indent = "  ", .key = "held"});
   f.say(values, correlation_table(s));
   f.draw(values, [&s] { return contours(s); });
