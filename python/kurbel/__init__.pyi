@@ -208,6 +208,10 @@ def accuracy(scene: _Scene, *, set: _Settings = ..., within: _Value = ..., budge
 def uncertainty(scene: _Scene, *, set: _Settings = ..., figures: _Values = ..., limit: _Values = ..., of: _Value = ...,
                 samples: _Value = ..., seed: _Value = ..., jobs: _Value = ..., no_error: bool = ...,
                 no_trials: bool = ...) -> Study: ...
+def fit(scene: _Scene, *, set: _Settings = ..., measured: _Values = ..., map: _Values = ..., over: _Values = ...,
+        free: _Values = ..., hold: _Values = ..., orders: _Values = ..., window: _Values = ..., cycles: _Values = ...,
+        teeth: _Values = ..., predict: _Values = ..., starts: _Value = ..., seed: _Value = ..., jobs: _Value = ...,
+        no_checks: bool = ..., write: _Value = ...) -> Study: ...
 def export(scene: _Scene, *, set: _Settings = ..., fmi: _Value = ..., kind: _Value = ..., input: _Values = ...,
            parameter: _Values = ..., output: _Values = ..., effects: _Values = ..., name: _Value = ...) -> Study: ...
 # made by the program: end

@@ -91,15 +91,15 @@ Rows methods_table(const Sizing& s) {
   if (s.meeting) all.push_back(*s.meeting);
   return table_of("methods", "Flywheel by each method", std::move(all))
       .column("method", "method", &SizeMethod::name)
-      .column("drive_inertia", "I_drive on link [kg·m²]", &SizeMethod::drive_inertia, {.digits = 7})
-      .column("flywheel", "flywheel [kg·m²]", &SizeMethod::flywheel, {.digits = 7})
+      .column("drive_inertia", "I_drive on link [kg·m²]", &SizeMethod::drive_inertia, {.digits = 6})
+      .column("flywheel", "flywheel [kg·m²]", &SizeMethod::flywheel, {.digits = 6})
       .column("flywheel_error", "numerical error", &SizeMethod::error,
               [](const std::optional<double>& e) { return e ? fmt::format("± {:.1g}", *e) : std::string(); })
-      .column("flywheel_by_parts", "by theory 3.1 [kg·m²]", &SizeMethod::flywheel_by_parts, {.digits = 7})
+      .column("flywheel_by_parts", "by theory 3.1 [kg·m²]", &SizeMethod::flywheel_by_parts, {.digits = 6})
       .only_for_people(
           "against exact [%]",
           [&](const SizeMethod& m) { return fmt::format("{:+.3f}", 100 * (m.drive_inertia / s.exact.inertia - 1)); })
-      .column("delta", "δ reached", &SizeMethod::delta, {.digits = 7, .otherwise = "stops"});
+      .column("delta", "δ reached", &SizeMethod::delta, {.digits = 6, .otherwise = "stops"});
 }
 
 Rows reached_table(const Sizing& s) {

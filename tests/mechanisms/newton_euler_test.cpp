@@ -12,6 +12,7 @@
 #include "tests/mechanisms/linkage_truth.h"
 #include "tests/mechanisms/mechanism_examples.h"
 #include "tests/mechanisms/simbody_reactions.h"
+#include "tests/mechanisms/slider_crank_statics.h"
 
 namespace kurbel::newton_euler_test {
 namespace {
