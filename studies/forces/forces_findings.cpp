@@ -250,16 +250,20 @@ Formulas torque_formula(const Forces& f) {
   const double w = at.state.omega, by = w != 0 ? 1 / w : 0;
   double slope = 0;
   for (const LinkForces& l : at.links) slope += l.reduced_inertia_rate;
+  const bool within = !at.state.applied.empty();  // springs, dampers, forces and couples
+  const double power_within = at.load_power - at.state.load * at.output_velocity;
   return Formulas()
-      .add(fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(at.state.phi)),
-           "M = I_r ε + ½ I_r′ ω² − M_g − F x′ + P_f/ω",
-           "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}) + ({:.5g}) = {:.6g} N·m",
-           at.reduced_inertia, at.state.alpha, slope, w, by * at.weight_power, at.state.load, by * at.output_velocity,
-           by * peak.power.friction, at.torque)
-      .note(
-          "I_r reduced inertia, M_g torque of the weights, F load on the output, P_f power lost in the joints; SI "
+      .add(
+          fmt::format("At its peak, φ = {:.4g}° (theory 9.7)", degrees(at.state.phi)),
+          fmt::format("M = I_r ε + ½ I_r′ ω² − M_g − F x′{} + P_f/ω", within ? " − M_i" : ""),
+          "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}){} + ({:.5g}) = {:.6g} N·m",
+          at.reduced_inertia, at.state.alpha, slope, w, by * at.weight_power, at.state.load, by * at.output_velocity,
+          within ? fmt::format(" − ({:.5g})", by * power_within) : "", by * peak.power.friction, at.torque)
+      .note(fmt::format(
+          "I_r reduced inertia, M_g torque of the weights, F load on the output, {}P_f power lost in the joints; SI "
           "units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the power "
-          "balance below.");
+          "balance below.",
+          within ? "M_i torque of the springs, dampers, forces and couples within the linkage, " : ""));
 }
 
 Formulas mass_formula(const Forces& f) {

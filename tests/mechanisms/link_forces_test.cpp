@@ -336,7 +336,8 @@ TEST(LinkForces, TheMachinesBalanceOverACycle) {
   EXPECT_LT(study.prescribed->power_residual, 1e-11);
   EXPECT_LT(study.prescribed->equation_residual, 1e-14);
   ASSERT_TRUE(study.simulated);
-  EXPECT_LT(study.simulated->machine_residual, 1e-7);
+  ASSERT_TRUE(study.simulated->machine_residual);
+  EXPECT_LT(*study.simulated->machine_residual, 1e-7);
   EXPECT_LT(study.simulated->power_residual, 1e-9);
   const Result r = test::run(scene);
   EXPECT_TRUE(r.complete) << r.diagnosis;
