@@ -117,7 +117,7 @@ Brief brief_of(const Comparison& c) {
 
 // On the terminal the amplification of torques stands below the figures.
 Rows with_amplification(const Comparison& c, const Rows& figures) {
-  Lines lines = figures.texts();
+  Lines lines = figures.texts(true);
   for (const ComparisonRow& row : c.amplification) {
     const FigureCells factor = cells_of(row.b, "", {});
     lines.push_back({row.name, "1", "", factor.value, factor.error, "", ""});
