@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "kurbel_fmi_image.h"  // its checksum: a cache of objects sees no other change
+#include <kurbel_fmi_image.h>  // its checksum: a cache of objects sees no other change
 
 // clang-format off
 asm(".section .rodata\n"

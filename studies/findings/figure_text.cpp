@@ -79,7 +79,9 @@ FigureText figure_text(const Estimate& estimate, int most_digits) {
   if (*error == 0) return {rounded_number(value, digits_if_exact), "± 0"};
   const double size = std::abs(*error);
   int place = last_place_of_error(size);
-  const int least_place = value != 0 ? exponent_of(value) - (most_digits - 1) : place;
+  int least_place = place;
+  if (value != 0)
+    least_place = exponent_of(rounded_to(value, exponent_of(value) - (most_digits - 1))) - (most_digits - 1);
   if (place < least_place) {
     double units = units_of(size, place);
     if (units >= 20) units = units_of(size, ++place);

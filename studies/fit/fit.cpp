@@ -15,6 +15,11 @@
 namespace kurbel {
 namespace {
 
+// In double throughout: boost's constants in long double are set at every start of the program, and not under valgrind.
+using StudentsT =
+    boost::math::students_t_distribution<double,
+                                         boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+
 class FitWork {
  public:
   explicit FitWork(const FitOptions& options)
@@ -116,7 +121,7 @@ class FitWork {
     study_.chi_squared = by_scatter ? reduced * widened * widened : 0;
     state_.covariance = state_.determined.covariance * std::max(1.0, reduced);
     const bool of_cycles = by_scatter && study_.chi_squared <= 1 && cycles_ > 1;
-    state_.interval = boost::math::quantile(boost::math::students_t(of_cycles ? cycles_ - 1 : freedom), 0.975);
+    state_.interval = boost::math::quantile(StudentsT(of_cycles ? cycles_ - 1 : freedom), 0.975);
     study_.errors_from =
         !by_scatter && reduced < below_machine_error
             ? "the machine's own error ([run] accuracy): what is left is smaller"
@@ -192,10 +197,10 @@ class FitWork {
         change += fmt::format("{}{:+.3g}{} of {}", i ? ", " : "", by,
                               unknown.range.unit.empty() ? "" : " " + pretty_unit(unknown.range.unit), unknown.name);
       }
-      study_.confounded.push_back(fmt::format(
-          "the data cannot separate {}: moved together ({}), nothing that is compared changes; hold one of "
-          "them, or give a record that shows it",
-          names, change));
+      study_.confounded.push_back(
+          fmt::format("the data cannot separate {}: moved together ({}), nothing that is compared changes; hold one of "
+                      "them, or give a record that shows it",
+                      names, change));
     }
     constexpr double nearly = 0.95;
     for (const Correlation& c : study_.correlations)

@@ -151,7 +151,7 @@ std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, cons
     const std::string& name = joints[b.joint].name;
     if (b.by == BarredRange::By::limit)
       notes.push_back(fmt::format(
-          "\"{}\" is beyond its {} at every speed looked at, by up to {:.3g} times: no range of speed is free of it",
+          "\"{}\" is beyond its {} at every speed examined, by up to {:.3g} times: no range of speed is free of it",
           name, reason_in_words(b), b.peak / b.limit));
     else if (b.by == BarredRange::By::rule)
       notes.push_back(
@@ -160,7 +160,7 @@ std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, cons
                       name, b.reason, b.peak / b.limit, name));
     else
       notes.push_back(
-          fmt::format("the torque of \"{}\", which has play, changes sign at every speed looked at: it hammers", name));
+          fmt::format("the torque of \"{}\", which has play, changes sign at every speed examined: it hammers", name));
   }
   if (!verdicts.empty())
     notes.push_back(fmt::format("limits: steady loads of {}; peaks {}", loads.words,

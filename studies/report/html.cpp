@@ -2,6 +2,7 @@
 #include "studies/report/render.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numbers>
@@ -9,7 +10,6 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
-#include "studies/claims/conclusion.h"
 #include "studies/data/value.h"
 #include "studies/files/whole_file.h"
 #include "studies/findings/figure_text.h"
@@ -347,7 +347,7 @@ std::string html_of(const Report& report, const Letterhead& head) {
     if (name == "title")
       html += escaped(report.title);
     else if (name == "conclusion")
-      html += escaped(in_one_line(report.conclusion));
+      html += escaped(fmt::format("{}", fmt::join(report.conclusion, " ")));
     else if (name == "css")
       html += report_assets::page_css();
     else if (name == "js")

@@ -271,8 +271,8 @@ std::set<std::string> options_of_command(const std::string& command) {
 TEST(Facade, AStudyHasTheOptionsOfItsCommand) {
   // Where results go and how they are shown, which a program has by itself (Study::write, json, html, text, Watcher), and a
   // scene's settings and data files.
-  const std::set<std::string> of_all = {"allow_files", "author", "brand", "format", "help", "json",   "no_files",
-                                        "open",        "out",    "plots", "quiet",  "set",  "verbose"};
+  const std::set<std::string> of_all = {"all",      "allow_files", "author", "brand", "format", "help", "json",
+                                        "no_files", "open",        "out",    "plots", "quiet",  "set",  "verbose"};
   // A pair of gears without a machine.
   const std::map<std::string, std::set<std::string>> of_commands_alone = {
       {"gears",

@@ -222,7 +222,8 @@ start = { speed = "30 rad/s" }
   int edges = 0;
   for (const PositionForces& p : c.curve) {
     const LinkageForces& l = p.forces;
-    if (std::abs(l.output_velocity) < 1e-6) continue;  // there friction is either way
+    // There friction of the guide, or of the pin of a rod that does not turn, is either way.
+    if (std::abs(l.output_velocity) < 1e-6 || std::abs(std::cos(l.state.phi)) < 1e-12) continue;
     const SliderCrankForces own = statics.solve({l.state.phi, l.state.omega, l.state.alpha, l.state.load});
     const Force2 pins[] = {own.main_bearing, own.crank_pin, own.slider_pin};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -176,7 +176,7 @@ TEST(OrbitCycle, ASearchThatFailsProvesNothingOfAFlywheel) {
   const SizedOrbits::Meeting m =
       SizedOrbits(scene, parts, watch).meeting(0.5 * first.crank.value, first, s.motor_inertia, scene.effects);
   EXPECT_FALSE(m.orbit);
-  EXPECT_NE(m.unknown.find("kg·m²: after 0 rounds"), std::string::npos) << m.unknown;
+  EXPECT_NE(m.unknown.find("kg·m²: after 0 cycles"), std::string::npos) << m.unknown;
   EXPECT_EQ(m.least, first.crank.value);
 }
 

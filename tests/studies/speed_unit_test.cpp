@@ -22,7 +22,7 @@ SpeedUnit radians() { return {"rad/s", 1}; }
 
 TEST(SpeedUnits, AFigureInATableIsInTheUnitOfItsScene) {
   const FigureCells turns = figure_cells({2 * pi, 1.6e-6 * pi}, "rad/s", {});
-  EXPECT_EQ(turns.value, "60.00000");
+  EXPECT_EQ(turns.value, "60.0000");
   EXPECT_EQ(turns.error, "± 0.00005");
   EXPECT_EQ(turns.unit, "rpm");
   EXPECT_EQ(figure_cells({2.5}, "rad/s", radians()).unit, "rad/s");

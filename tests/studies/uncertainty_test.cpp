@@ -242,7 +242,7 @@ TEST(Uncertainty, WhatGradientsDoNotFollowIsToldByItsSamples) {
   EXPECT_NEAR(f.by_samples, 10 * u, 4 * 10 * u / std::sqrt(4000.0));  // long tails scatter by more than 1/√(2n)
   EXPECT_FALSE(f.is_linear());
   EXPECT_EQ(f.deviation(), f.by_samples);
-  EXPECT_NE(s.conclusion.find(fmt::format("a deviation of {:.2g} rpm", 30 / std::numbers::pi * f.by_samples)),
+  EXPECT_NE(s.conclusion.find(fmt::format("a standard deviation of {:.2g} rpm", 30 / std::numbers::pi * f.by_samples)),
             std::string::npos)
       << s.conclusion;
   ASSERT_EQ(s.notes.size(), 1u);
