@@ -82,6 +82,7 @@ FigureText figure_text(const Estimate& estimate, int most_digits) {
   int least_place = place;
   if (value != 0)
     least_place = exponent_of(rounded_to(value, exponent_of(value) - (most_digits - 1))) - (most_digits - 1);
+  if (place < least_place && size >= 0.5 * power_of_ten(least_place)) place = least_place;
   if (place < least_place) {
     double units = units_of(size, place);
     if (units >= 20) units = units_of(size, ++place);
@@ -109,7 +110,7 @@ std::string with_error(const Estimate& estimate, std::string_view unit) {
   const std::string its = unit.empty() ? "" : " " + pretty_unit(unit);
   if (!shows(estimate, text)) return text.value + its;
   if (*estimate.error < std::abs(estimate.value)) return text.value + " " + text.error + its;
-  return "less than " + rounded_number(std::abs(estimate.value) + *estimate.error, 2) + its;
+  return "less than " + readable(rounded_number(std::abs(estimate.value) + *estimate.error, 2)) + its;
 }
 
 std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed) {

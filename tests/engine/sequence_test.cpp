@@ -151,7 +151,7 @@ TEST(Sequence, RoundsByTheClock) {
   for (const auto& [keys, message] : std::vector<std::pair<std::string, std::string>>{
            {"every = \"5 s\"\nrate = \"12 1/min\"", "both \"every\" and \"rate\" given"},
            {"repeat = false\nevery = \"5 s\"", "repeat = false, but"},
-           {"every = \"0 s\"", "every = \"0 s\""},
+           {"every = \"0 s\"", "every = 0 s; must be > 0"},
            {"every = \"5 rpm\"", "every"}})
     EXPECT_NE(refusal_of(test::with(once, "[sequence]\n", "[sequence]\n" + keys + "\n")).find(message),
               std::string::npos)

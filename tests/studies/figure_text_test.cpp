@@ -61,7 +61,8 @@ TEST(FigureText, CoversWhatItStandsForAndNoDigitIsBeyondTheError) {
     ASSERT_TRUE(text.error.starts_with("± ")) << text.error;
     const double printed = std::stod(text.value), printed_error = std::stod(text.error.substr(4 - 1));
     const double round_off = 1e-14 * std::abs(value);
-    const bool rounded = printed_error < 0.9e-6 * std::abs(value);  // to six digits
+    // To six digits, where the error is less than half of the last one.
+    const bool rounded = error < 0.5 * std::pow(10, std::floor(std::log10(std::abs(value))) - 5);
     ASSERT_LE((rounded ? 0 : std::abs(value - printed)) + error, printed_error + round_off)
         << text.value << " " << text.error;
     ASSERT_LE(std::abs(value - printed), std::max(printed_error, 5.1e-6 * std::abs(value)))

@@ -255,7 +255,7 @@ TEST(ForcesInALinkage, HaveTheFrictionOfTheJoints) {
   std::string rough = rocker;
   rough.replace(rough.find("[run]"), 5,
                 "joints = { main_bearing = { radius = \"20 mm\", friction = 0.1 }, crank_pin = { radius = \"15 mm\", "
-                "friction = 0.1 }, rocker_pin = { radius = \"12 mm\", friction = 0.08 }, rocker_bearing = { radius = "
+                "friction = 0.1 }, coupler_pin = { radius = \"12 mm\", friction = 0.08 }, rocker_bearing = { radius = "
                 "\"20 mm\", friction = 0.05 } }\n[run]");
   const Forces f = find_forces(test::scene_from(rough), {}), ideal = find_forces(test::scene_from(rocker), {});
   ASSERT_TRUE(f.friction && f.simulated);
