@@ -17,7 +17,7 @@ CHOSEN = {
     "steady": ("crank_press", "piston_pump", "six_inertia_chain", "gear_pair", "genset", "dc_hoist",
                "two_axis_motor", "worm_losses_shaft", "sine_and_crank", "belt_slips", "planetary_held"),
     "modes": ("four_bar_rocker", "six_inertia_chain", "piston_pump", "torque_by_table", "housing_support_fan", "damper_tuned"),
-    "forces": ("piston_pump", "four_bar_rocker", "knuckle_small"),
+    "forces": ("crank_press", "four_bar_rocker"),
     "size": ("crank_press", "four_bar_rocker", "knuckle_small", "two_axis_motor", "dc_hoist"),
     "reduce": ("crank_press", "four_bar_rocker", "piston_pump", "shaper", "worm_losses_shaft"),
     "gears": ("gear_pair", "gear_test_rig", "crank_press"),
