@@ -250,9 +250,9 @@ Findings findings_of(const FitStudy& s) {
   f.say(values, value_table(s));
   if (!s.unknowns.empty())
     f.say(values, Sentences{.lines = {"standard errors by " + s.errors_from}, .title = "", .indent = "  "});
-  f.say(values,
-        Sentences{
-            .lines = s.confounded, .title = "What the data cannot separate", .indent = "  ", .key = "confounded"});
+  f.say(
+      values,
+      Sentences{.lines = s.confounded, .title = "What the data cannot separate", .indent = "  ", .key = "confounded"});
   f.say(values, Sentences{.lines = s.held, .title = "What keeps the speed", .indent = "  ", .key = "held"});
   f.say(values, correlation_table(s));
   f.draw(values, [&s] { return contours(s); });
