@@ -32,6 +32,8 @@ class Command:
     then: tuple = ()            # arguments of what is asked next, in the same folder: STATE.0 and STATE.1 are files that all of them share
 
 
+# A line of progress every ten seconds, on a loaded machine.
+PROGRESS = re.compile(r"(?m)^.*: \d+ %\n")
 # What accuracy chooses by processor time, and the words about it; errors and counts of each setting are compared.
 BY_TIME = frozenset({"stdout", "conclusion", "findings", "answers", "on_front", "on_front_of_model", "median", "fastest", "slowest"})
 INTERRUPTED = {130, -signal.SIGINT, -signal.SIGTERM, -signal.SIGHUP, -signal.SIGKILL}  # no answer of the program
@@ -148,7 +150,7 @@ def run_once(program, cell, arguments, out, limit):
         return words.replace(str(folder), "FOLDER").replace(str(program), "kurbel")
     place = out if out.is_dir() else Path(f"{out}.incomplete")
     summary = place / "summary.json"
-    return {"exit": code, "seconds": seconds, "stdout": text(folder / "stdout"), "stderr": text(folder / "stderr"),
+    return {"exit": code, "seconds": seconds, "stdout": text(folder / "stdout"), "stderr": re.sub(PROGRESS, "", text(folder / "stderr")),
             "summary": json.loads(text(summary)) if summary.is_file() else None,
             "csv": {file.name: text(file) for file in sorted(place.glob("*.csv"))}}
 
