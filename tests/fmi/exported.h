@@ -23,11 +23,7 @@ using namespace importer;
 namespace fs = std::filesystem;
 
 struct Folder {
-  fs::path path;
-  Folder() {
-    char pattern[] = "/tmp/kurbel_fmi_XXXXXX";
-    path = mkdtemp(pattern);
-  }
+  fs::path path = folder_of_its_own();
   ~Folder() { fs::remove_all(path); }
 };
 

@@ -19,6 +19,9 @@ struct Variable {
   std::optional<unsigned> derivative_of;  // value reference of the state
 };
 
+// A new one among the system's temporary folders, that whoever asks removes. Throws std::runtime_error.
+std::string folder_of_its_own();
+
 // What stands in a component's archive.
 class Unpacked {
  public:

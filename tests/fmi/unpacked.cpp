@@ -16,10 +16,14 @@
 namespace importer {
 namespace fs = std::filesystem;
 
+std::string folder_of_its_own() {
+  std::string pattern = (fs::temp_directory_path() / "kurbel_fmi_XXXXXX").string();
+  if (!mkdtemp(pattern.data())) throw std::runtime_error("no folder for the component: " + pattern);
+  return pattern;
+}
+
 Unpacked::Unpacked(const fs::path& archive) {
-  char pattern[] = "/tmp/kurbel_fmi_XXXXXX";
-  if (!mkdtemp(pattern)) throw std::runtime_error("no folder for the component");
-  folder = pattern;
+  folder = folder_of_its_own();
   int error = 0;
   zip_t* const zip = zip_open(archive.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &error);
   if (!zip) throw std::runtime_error("no archive: " + archive.string());
