@@ -17,7 +17,8 @@ class LinkRecorder final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override {
     tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, turned_forwards_, late_from_, late_begin_,
-         late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_);
+         late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_,
+         extreme_, turned_back_, first_swing_, last_swing_);
   }
 
   // Its greatest angle less that at the end, turns counted [rad].
@@ -37,6 +38,10 @@ class LinkRecorder final : public Observer {
   double lowest() const { return low_; }
   double highest() const { return high_; }
   double frequency() const { return 0.5 * (changes_ - 1) / (last_change_ - first_change_); }
+  // Half the angle between two reversals, for the first two and the last two of that quarter [rad]; 0 below three reversals.
+  double first_amplitude() const { return 0.5 * first_swing_; }
+  double last_amplitude() const { return 0.5 * last_swing_; }
+  double time_of_swings() const { return last_change_ - first_change_; }  // from the first reversal to the last [s]
 
  private:
   const Model& m_;
@@ -48,6 +53,8 @@ class LinkRecorder final : public Observer {
   int late_sense_ = 0, changes_ = 0;
   double way_ = 0, low_ = 0, high_ = 0, fastest_ = 0, late_fastest_ = 0;
   double reversal_ = 0, first_change_ = 0, last_change_ = 0;  // [s]
+  double extreme_ = 0, turned_back_ = 0;                      // the angles at reversal_ and at last_change_
+  double first_swing_ = 0, last_swing_ = 0;
 };
 
 }  // namespace kurbel

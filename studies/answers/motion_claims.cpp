@@ -25,6 +25,7 @@ constexpr double drives = 1e-6;           // of the usual torque: above it somet
 constexpr double far_away = 1.5;          // times the usual speed: nothing in the scene tells of such a one
 constexpr double turns_back_from = 1e-2;  // of the usual speed
 constexpr double disagree = 0.1;          // of the usual speed: shafts that a spring joins start apart
+constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 
 class Judge {
@@ -244,11 +245,19 @@ class Judge {
   // To and fro to the end, of what is to come to no steady motion and is not commanded.
   std::optional<Claim> vibrates(const Periods& p) const {
     if (is_commanded() || p.steady || rests() || !recorder_.vibrates()) return {};
-    return claimed(
-        Predicate::vibrates,
-        fmt::format("\"{}\" vibrates to the end, between {:.1f}° and {:.1f}°", link(),
-                    recorder_.lowest() * 180 / std::numbers::pi, recorder_.highest() * 180 / std::numbers::pi),
-        link(), {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
+    return claimed(Predicate::vibrates, fmt::format("\"{}\" vibrates {}", link(), course_of_vibration()), link(),
+                   {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
+  }
+  // A lasting vibration by its range, one that decays or grows by its amplitudes.
+  std::string course_of_vibration() const {
+    const double first = recorder_.first_amplitude(), last = recorder_.last_amplitude();
+    const double degree = std::numbers::pi / 180, low = recorder_.lowest() / degree,
+                 high = recorder_.highest() / degree;
+    if (first == 0 || std::abs(last - first) < changes_by * first)
+      return fmt::format("to the end, between {:.1f}° and {:.1f}°", low, high);
+    return fmt::format("about {:.1f}°; the vibration {}: its amplitude {} from {:.3g}° to {:.3g}° in the last {:.3g} s",
+                       0.5 * (low + high), last < first ? "decays" : "grows", last < first ? "falls" : "rises",
+                       first / degree, last / degree, recorder_.time_of_swings());
   }
 
   // An induction motor that its loads keep below its breakdown speed, where it gives less and less the slower it is.

@@ -87,7 +87,9 @@ constexpr std::array kinds = {
               "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
     ClaimKind{vibrates, runs, note, anything,
               "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
-              "its last quarter, and gains less than a quarter of its way",
+              "its last quarter, and gains less than a quarter of its way; it decays or grows where the amplitude of "
+              "the last "
+              "two reversals differs by more than a tenth from that of the first two",
               "value: frequency [Hz]",
               "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
               "run, compare, steady"},
