@@ -100,7 +100,8 @@ std::string figures_in_words(const Result& r) {
   constexpr double stands_within_the_cycle = 2;
   // Over a cycle the force is a datum; a mechanism without one turns kinetic energy into it.
   if (const Figure* force = first_of(r, quantities::peak_force); force && force->value != 0 && r.model->cycle == 0)
-    more(fmt::format("the force on \"{}\" reaches {}{}", force->of, told(*force),
+    more(fmt::format("the force on \"{}\" reaches {}{}", force->of,
+                     told_shortly(std::abs(force->value), force->unit, speed),
                      force->at ? " at " + told_shortly(*force->at, "s") : ""));
   if (const Figure* delta = first_of(r, quantities::delta); delta && delta->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
