@@ -238,7 +238,7 @@ int present(StudyOutput output, const StudyOptions& options) {
   else if (options.quiet)
     say(printable(output.conclusion()) + "\n");
   else if (options.all || !output.brief)
-    say_with_conclusion(output.text(options.all), output.conclusion());
+    say_with_conclusion(output.text(options.all), conclusion_text(output));
   else
     say_with_conclusion(brief_text(output), headline_text(output));
   if (!options.no_files) write_files(output, options, stopped);

@@ -18,7 +18,9 @@ namespace kurbel {
 std::string terminal_text(const Findings& findings, bool all_digits = false);
 // In short: at most Brief::most_lines lines of Brief::width columns; empty where there is no short form.
 std::string brief_text(const Findings& findings);
-// Sentence by sentence on lines of at most Brief::width columns.
+// A sentence a line, as terminal_text has it.
+std::string conclusion_text(const Findings& findings);
+// Sentence by sentence on lines of at most Brief::width columns, as brief_text has it.
 std::string headline_text(const Findings& findings);
 // What summary.json holds.
 Record summary_of(const Findings& findings);

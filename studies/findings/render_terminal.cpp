@@ -26,7 +26,7 @@ std::string right(const std::string& text, std::size_t columns) {
 std::string opening_of(const Findings& f) {
   std::string text;
   if (f.opening != Findings::Opening::conclusion) text += f.title + "\n";
-  if (f.opening != Findings::Opening::title) text += f.conclusion() + "\n";
+  if (f.opening != Findings::Opening::title) text += conclusion_text(f) + "\n";
   return text;
 }
 
@@ -131,6 +131,10 @@ std::string terminal_text(const Findings& findings, bool all_digits) {
   for (const Statement& s : findings.statements)
     std::visit([&](const auto& what) { say(text, what, all_digits); }, s.what);
   return text;
+}
+
+std::string conclusion_text(const Findings& findings) {
+  return fmt::format("{}", fmt::join(concluded(findings.claims), "\n"));
 }
 
 std::string headline_text(const Findings& findings) {

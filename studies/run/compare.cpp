@@ -103,8 +103,11 @@ void conclude(Comparison& c) {
   if (worst != c.amplification.end() && worst->b->value > 0) {
     const std::string& joint = worst->of;
     const Figure* peak = c.b.find(quantities::peak_torque, joint);
-    c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
-                               with_unit(std::abs(peak->value), "N*m", 4), worst->b->value, c.a.label);
+    const double ratio = worst->b->value;
+    c.conclusion =
+        fmt::format("The {} model's peak torque in {} is {}, {} the {} model's", c.b.label, joint,
+                    with_unit(std::abs(peak->value), "N*m", 4),
+                    std::abs(ratio - 1) < 0.005 ? "within 0.5 % of" : fmt::format("{:.3g} ×", ratio), c.a.label);
   }
   for (const ComparisonRow& row : c.rows) {
     const bool repeats = row.what == quantities::delta;
