@@ -35,10 +35,11 @@ std::size_t number_at(std::string_view text) {
   return n;
 }
 
-// As long as the word of letters and digits, with points within, that begins here.
+// As long as the word of letters and digits, with points and hyphens within, that begins here.
 std::size_t word_at(std::string_view text) {
   std::size_t n = 0;
-  while (n < text.size() && (is_of_word(text[n]) || (text[n] == '.' && n + 1 < text.size() && is_of_word(text[n + 1]))))
+  while (n < text.size() && (is_of_word(text[n]) || ((text[n] == '.' || text[n] == '-') && n > 0 &&
+                                                     n + 1 < text.size() && is_of_word(text[n + 1]))))
     ++n;
   return n;
 }

@@ -28,22 +28,22 @@ std::string conclusion_of(const Sizing& s) {
   const SizeMethod& exact = exact_method(s);
   if (s.needed && exact.flywheel <= 0)
     return fmt::format(
-        "{}: by the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
+        "By the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
         "{:.5g}; {}",
-        s.title, s.delta, s.reached.front().crank.value, s.meeting_words);
+        s.delta, s.reached.front().crank.value, s.meeting_words);
   if (!s.needed)
     return fmt::format(
-        "{}: {}no flywheel is needed for δ = {:g}: without any, δ is smaller already; {}", s.title,
-        s.estimate ? "by an estimate, the rigid machine without its losses, " : "", s.delta,
+        "{} flywheel is needed for δ = {:g}: without any, δ is smaller already; {}",
+        s.estimate ? "By an estimate, the rigid machine without its losses, no" : "No", s.delta,
         exact.drive_inertia > 0
             ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
             : std::string("its torques would not make the speed fluctuate as much with any inertia"));
   std::string text = s.estimate ? fmt::format(
-                                      "{}: an estimate, by the rigid machine without its losses: a flywheel of about "
+                                      "An estimate, by the rigid machine without its losses: a flywheel of about "
                                       "{:.3g} kg·m² on {} for δ = {:g} {}",
-                                      s.title, exact.flywheel, s.flywheel, s.delta, basis_of(s))
-                                : fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", s.title,
-                                              exact.flywheel, s.flywheel, s.delta, basis_of(s));
+                                      exact.flywheel, s.flywheel, s.delta, basis_of(s))
+                                : fmt::format("A flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", exact.flywheel,
+                                              s.flywheel, s.delta, basis_of(s));
   text +=
       fmt::format(", at a mid speed of {} of {} ({})", s.speed_unit.text(s.mid_speed, 4), s.link, s.mid_speed_source);
   if (s.soft) {
@@ -379,7 +379,8 @@ Findings findings_of(const Sizing& s) {
              .scene_file = s.scene_file,
              .speed_unit = s.speed_unit.name,
              .complete = s.complete,
-             .diagnosis = s.diagnosis};
+             .diagnosis = s.diagnosis,
+             .opening = Findings::Opening::title_and_conclusion};
   add_answers(f, s);
   judge_dimensions(f, s);
   const Chapter cycle = f.chapter("One cycle"), synthesis = f.chapter("Inertia for the demanded δ"),
