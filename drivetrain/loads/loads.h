@@ -29,7 +29,7 @@ struct OpposingLoad {
   Rated rated() const { return {dry, rated_speed}; }
 };
 
-// M = −(b ω + q ω |ω|): smooth through standstill, no static torque. Needs no modes: the sign is that of ω.
+// M = −(b ω + q ω |ω|): smooth through standstill, no static torque. The sign of q ω |ω| is that of ω itself, not a mode.
 struct SpeedLoad {
   static constexpr ShaftTraits is{};
   Account work_account = Account::useful;

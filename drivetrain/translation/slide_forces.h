@@ -80,7 +80,7 @@ struct ForceOverTravel {
   int next_mode(const ShaftState<double>& x, int which) const {
     return PieceGuard::next(branch(x.direction), x.mode, which);
   }
-  std::string mode_name(int) const { return {}; }  // a table's knots are no events worth telling
+  std::string mode_name(int) const { return {}; }  // passing a point of a table is not reported
   bool uses_time() const { return false; }
   bool uses_speed() const { return false; }
   Rated rated() const { return {per_radian * forwards.max_abs(), 0}; }
