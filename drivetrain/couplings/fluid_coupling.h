@@ -5,7 +5,7 @@
 // λ is given over −1 ≤ ν ≤ 1 with λ(1) = 0; below its first point it is constant. The law is symmetric: if the driven
 // side is faster, it drives back. It is smooth through ν = 1; at ω_b = −ω_a (countercurrent braking) its slope jumps.
 // (Föttinger's law of similarity; VDI 2153, Hydrodynamische Leistungsübertragung.) A ring joined to a shaft by a viscous
-// film is a Houdaille damper. With the shaft's inertia J on a spring k to the frame and μ = J_ring/J, the least peak is
+// film is an untuned (Houdaille) damper. With shaft inertia J on a spring k to the frame, μ = J_ring/J, the least peak is
 // M₀/k · (1 + 2/μ) at ω² = (k/J) 2/(2 + μ), with c = 2 J_ring √(k/J)/√(2 (1 + μ)(2 + μ)) (Den Hartog, Mechanical
 // Vibrations, 4th ed., ch. 3.3).
 #pragma once
