@@ -7,8 +7,7 @@
 // The output receives i μ. The two lines of L intersect where the flanks change: at λ = (b₂ − b₁)/(1/η₂ − η₁). η₂ ≤ 0:
 // the gear is self-locking. At rest it then holds any torque on the output; to lower the load, the input must be driven
 // with λ = |η₂| |μ|. If |η₂| I₂ ≥ I₁ i² (I₁: inertia on the input, I₂: on the output), no acceleration satisfies this
-// while the load drives: the gear jams and stops at once
-// (engine/equations/jam.h). Units: N·m; 0 < η₁ ≤ 1, η₂ ≤ 1, b ≥ 0.
+// while the load drives: the gear jams and stops at once (engine/equations/jam.h). Units: N·m; 0 < η₁ ≤ 1, η₂ ≤ 1, b ≥ 0.
 #pragma once
 
 #include <algorithm>

@@ -10,8 +10,7 @@
 // order one, and round-off is small for any ratio of the inertias, including zero inertia. (G I⁻¹ T, which eliminates α
 // first, loses the constraint between a light shaft and two heavy ones.)
 // - The independence of rows depends only on the rank of G (elimination.h), not on the inertias.
-// - A solution exists if Yᵀ I Z is regular. With losses the allowed motions and the torque-free combinations may become
-//   orthogonal: the gear is self-locking.
+// - A solution exists if Yᵀ I Z is regular. With losses, Y ≠ Z, it may be singular: the gear is self-locking.
 // - Redundant rows (two brakes on one coordinate) share λ in proportion to their capacities: of all λ the one with the
 //   least Σ λ²/capacity.
 // Both equations are checked for every solution.
