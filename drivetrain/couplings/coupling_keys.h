@@ -1,4 +1,4 @@
-// coupling_keys.h — fields that everything with two halves shares.
+// coupling_keys.h — fields shared by all components with two shafts.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ Key application_factor_key();
 
 const Fields<ShaftRating>& shaft_rating_fields();
 
-// A shaft's data as a scene gives them.
+// Data of a shaft in the scene.
 struct ShaftKeys {
   std::optional<double> stiffness, length, diameter;  // k [N·m/rad], L, D [m]
   double bore = 0, shear_modulus = 0, density = 0;    // d [m], G [Pa], ρ [kg/m³]
@@ -35,7 +35,7 @@ struct ShaftKeys {
   double application_factor = 1;
 
   bool judges_stress() const { return allowable_shear_stress || rating.any(); }
-  double polar_moment() const;   // J_p = π (D⁴ − d⁴)/32 [m⁴]; of one given by its diameter
+  double polar_moment() const;   // J_p = π (D⁴ − d⁴)/32 [m⁴]; only for shafts given by diameter
   double polar_modulus() const;  // W_p = 2 J_p/D [m³]
 };
 

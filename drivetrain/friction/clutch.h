@@ -1,4 +1,4 @@
-// clutch.h — what joins two shafts by friction, or in one sense only: friction clutch, torque limiter, one-way clutch.
+// clutch.h — friction clutch, torque limiter, one-way clutch, friction brake.
 //
 //     slipping:  τ = p M(|v|) sgn v,  M(v) = M_k + M′ v  ≥ 0,   v = θ̇
 //     locked:    |τ| ≤ p M_s,  M_s ≥ M_k

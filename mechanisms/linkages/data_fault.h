@@ -1,4 +1,4 @@
-// data_fault.h — what is wrong with a mechanism's data, in words, and the checks that mechanisms share.
+// data_fault.h — faults of a mechanism's data with messages, and the checks shared by mechanisms.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct DataFault {
 };
 using DataFaults = std::vector<DataFault>;
 
-// Collects faults of the values one by one.
+// Collects faults of values.
 class DataChecks {
  public:
   void finite(const char* key, double value, const char* unit);
@@ -32,14 +32,14 @@ class DataChecks {
   DataFaults faults_;
 };
 
-// Links of the loop crank – coupler – rocker – ground; the names are those of a scene's keys.
+// Links of the loop crank – coupler – rocker – ground, and their keys in the scene.
 struct CrankRockerLoop {
   double crank, coupler, rocker, ground;  // [m], > 0
   const char *crank_name, *coupler_name, *rocker_name, *ground_name;
 };
-// The crank turns fully and the rocker rocks (Grashof, 1883): crank + any other link < the sum of the two left.
+// The crank turns fully and the rocker rocks (Grashof, 1883): crank + any other link < sum of the remaining two.
 void check_crank_rocker(const CrankRockerLoop& loop, DataChecks& checks);
-// The loop can be closed, and links that pass through one line, or hardly do not, do so clearly.
+// The loop can be closed, and its lengths are not ambiguously near to those with a change point.
 void check_loop_closes(const CrankRockerLoop& loop, DataChecks& checks);
 
 // Throws std::invalid_argument with the first fault.
@@ -48,14 +48,14 @@ void throw_if_any(const char* mechanism, const DataFaults& faults);
 // "12.5 mm"
 std::string in_mm(double metres);
 
-// Least and greatest sine of the angles from … to (from ≤ to).
+// Minimum and maximum sine of the angles from … to (from ≤ to).
 struct Range {
   double least, greatest;
 };
 Range sine_range(double from, double to);
 
-// Where two links of lengths a from A and b from B meet, left of the directed line A → B or right of it. The circles
-// must cut each other.
+// Point at the distance a_length from a and b_length from b, left or right of the directed line a → b. The circles must
+// intersect.
 PlanePoint meeting_point(PlanePoint a, double a_length, PlanePoint b, double b_length, bool left);
 
 }  // namespace kurbel
