@@ -23,7 +23,7 @@ struct VerbText : QuestionText {
   bool of_scene = true;  // has the options common to all studies; otherwise only its own
 };
 
-// Registers the command while the object exists.
+// Registers the command for the lifetime of the program.
 class Verb {
  public:
   explicit Verb(VerbText text);

@@ -105,7 +105,7 @@ class Instance {
     double t = 0;
     std::vector<double> y;
   };
-  std::optional<Moment> moment_;  // in model exchange: time and states set by the importer
+  std::optional<Moment> moment_;  // during a callback within a step: its time and states
 };
 
 }  // namespace kurbel

@@ -98,7 +98,7 @@ struct Periods {
   std::optional<double> run_up_end;                         // from here on within the range of the steady cycle ± 1 %
   std::optional<double> run_down_begin;                     // the last source was switched off
   std::optional<double> standstill;                         // at rest from here on
-  double run_up_resolution = 0, standstill_resolution = 0;  // sensitivity to errors of the size of the tolerance [s]
+  double run_up_resolution = 0, standstill_resolution = 0;  // shift by errors of the size of the tolerance [s]
   double steady_speed = 0;                                  // of steady motion only [rad/s]
   bool steady = false;                                      // deviation from the limit of the mid speed < 0.1 %
   std::optional<double> remaining;                          // to the limit [rad/s]; empty: no limit is recognisable

@@ -121,7 +121,7 @@ struct FitStudy {
   std::vector<Prediction> predictions;
   std::vector<std::string> held;  // "half: load.torque = 7.9 N·m keeps 3000 rpm"
   Eigen::MatrixXd covariance;     // of the unknowns in their units
-  std::string errors_from;        // "scatter of 47 cycles", "residuals"
+  std::string errors_from;        // "the scatter of cycles", …
   double chi_squared = 0;         // over its degrees of freedom, by scatter; 0: not known
   std::size_t values = 0, runs = 0;
   int steps = 0;

@@ -16,7 +16,7 @@
 
 namespace kurbel {
 
-// Loads that act at an instant; `element`: of the model that belongs to `now`.
+// Loads that act on this element of a machine at an instant.
 ActingLoads acting_loads(const Model& model, std::size_t element, const Instant& now);
 
 struct LinkageState;

@@ -11,7 +11,7 @@ Findings findings_of(const Forces& forces);
 
 // --- shared by forces_findings.cpp and forces_record.cpp ---
 
-// Zero up to rounding. A value below its error but above rounding is not zero for this.
+// Zero within a negligible error; a larger error may hide a non-zero value.
 bool is_nothing(const Peak& peak);
 // "10.45 kN"; with the error if it is indistinguishable from zero.
 std::string in_words(const Peak& peak, const std::string& si_unit);

@@ -39,7 +39,7 @@ std::optional<Place> section_of(const std::string& question, const std::string& 
 // Copies the statements of the `wanted` sections into chapters of the report; `chapters` by Place.
 void take(const Part& part, const std::vector<bool>& wanted, const std::vector<Chapter>& chapters, Findings& report);
 
-// Claims of all parts; a limit left open by one part and assessed by another is not reported as open.
+// Claims of all parts; a part's open limits are not mentioned if other parts assess all of them.
 Claims claims_of(const std::vector<Part>& parts);
 
 // One line each: what the parts could not assess, and what the scene does not specify.
