@@ -11,9 +11,8 @@
 
 namespace kurbel {
 
-// First the machine as it is, then its variants, then figures. Warnings and faults are sorted by topic, severity and excess
-// over their limit, at most two per topic; the others by topic, in the given order. Full stops are added, numbers rounded as in
-// headlines.
+// First the machine as it is, then its variants, then figures. Warnings and faults by topic, severity and excess over their
+// limit, at most two per topic; the others by topic, in the given order. Adds full stops, rounds numbers as in headlines.
 std::vector<std::string> concluded(Claims claims);
 
 // In one line.
