@@ -11,8 +11,8 @@
 
 namespace kurbel {
 
-// First the machine as it is, then its variants, then figures. Warnings and faults by topic, severity and excess over their
-// limit, at most two per topic; the others by topic, in the given order. Adds full stops, rounds numbers as in headlines.
+// Of the machine as it is bad news first; behind it what is said of its variants, then figures. Bad news by question, then by severity, then by how far it is beyond its limit, at most two of a question; then the
+// others by question, each as it was given. With full stops, and rounded as headlines are.
 std::vector<std::string> concluded(Claims claims);
 
 // In one line.

@@ -18,7 +18,7 @@ namespace kurbel {
 std::string terminal_text(const Findings& findings, bool all_digits = false);
 // Short form: at most Brief::most_lines lines of Brief::width columns; empty if there is none.
 std::string brief_text(const Findings& findings);
-// One sentence after the other on lines of at most Brief::width columns.
+// Sentence by sentence on lines of at most Brief::width columns.
 std::string headline_text(const Findings& findings);
 // The contents of summary.json.
 Record summary_of(const Findings& findings);

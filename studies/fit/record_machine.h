@@ -13,7 +13,7 @@
 
 namespace kurbel {
 
-// A signal of the machine. Over the angle, time passes as 1/ω: `pace`.
+// A signal of the machine. Over the angle time passes as 1/ω: `pace`.
 struct ShownSignal {
   Signal signal;
   std::optional<Signal> pace = {};

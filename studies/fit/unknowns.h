@@ -6,9 +6,9 @@
 //     gain of engine.load.pressure=0.9..1.1     factor on a table's values
 //     shift of engine.load.pressure=-2..2 deg   a table, delayed by this
 //     shift=-2..2 deg                           the record, simulated = measured + shift
-//     dead centre of engine.load.pressure=-2..2 deg   table and record together, delayed by this
-//     gain of speed.engine=0.98..1.02, offset of speed.engine=-5..5 rpm    record = gain · simulated + offset
-//     pattern of speed.engine=1,2               Σ (a cos k φ + b sin k φ) of its mean, the encoder error of each turn
+//     dead centre of engine.load.pressure=-2..2 deg   table and record, later together by this
+//     gain of speed.engine=0.98..1.02, offset of speed.engine=-5..5 rpm    what a record shows = gain · simulated + offset
+//     pattern of speed.engine=1,2               Σ (a cos k φ + b sin k φ) of its mean, that an encoder adds each turn
 #pragma once
 
 #include <optional>

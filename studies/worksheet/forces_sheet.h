@@ -36,7 +36,7 @@ struct ForcesSheet {
   Paper paper;
   std::string author, title, scene_file, speed;
   Forces forces;
-  std::vector<MechanismOnSheet> mechanisms;  // only one
+  std::vector<MechanismOnSheet> mechanisms;  // the one
   SheetMotion motion;
   std::vector<Joint> joints;
   std::vector<std::string> links;
