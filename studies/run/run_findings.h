@@ -38,7 +38,7 @@ std::string in_words(const Figure& figure);
 std::string sure(const Figure& figure);                          // value, error, unit in SI
 std::string sure(const Figure& figure, const SpeedUnit& speed);  // the same, of a speed in this unit
 SpeedUnit speed_unit_of(const Result& result);                   // of its scene
-std::string at_time(const Figure& figure);                       // "at 1.23 s"; empty: no time
+std::string at_time(const Figure& figure);                       // "at 1.23 s"; empty: at none
 const Figure* largest_peak(const Result& result);                // of torque in any coupling
 const Figure* first_of(const Result& result, const QuantityKind& what);
 
