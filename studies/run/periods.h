@@ -3,8 +3,7 @@
 // All from the reduction link's speed ω on the dense output of the steps, not from samples.
 //
 // driven time   from the start until the last driving source is finally switched off; the whole run if none is.
-// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time, converted to equal time
-// steps.
+// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time, converted to equal time steps.
 //               For machines without a cycle: mean speeds of sixteen equal parts of the driven time.
 // steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
 //               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
