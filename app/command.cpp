@@ -1,4 +1,4 @@
-// command.cpp — the parser of the command line, CLI11, and what is said of a mistyped one.
+// command.cpp — the command-line parser CLI11, and messages on mistyped commands.
 #include "app/command.h"
 
 #include <fmt/format.h>
@@ -92,7 +92,7 @@ std::vector<OptionHelp> options_of(const std::function<void(OptionList&)>& set_u
 
 namespace {
 
-// " — did you mean "--quiet"?" for the first option that the command does not know.
+// " — did you mean "--quiet"?" for the first unknown option.
 std::string option_meant(const CLI::App& command, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
@@ -106,7 +106,7 @@ std::string option_meant(const CLI::App& command, int argc, char** argv) {
   return "";
 }
 
-// CLI11 says little about a mistyped command.
+// Extends CLI11's short message on a mistyped command.
 void refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -126,7 +126,7 @@ void refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** 
   }
 }
 
-// An option without its value is a mistake, as where a script's variable is empty.
+// An option with an empty value is an error, for example an empty variable in a script.
 void refuse_empty_values(CLI::App& app) {
   const CLI::Validator not_empty(
       [](std::string& value) { return value.empty() ? std::string("must not be empty") : std::string(); }, "");

@@ -1,4 +1,4 @@
-// run.cpp — a run with what it recorded, handed out.
+// run.cpp — a run and its records for the caller.
 #include <kurbel/run.h>
 
 #include <stdexcept>
@@ -22,7 +22,7 @@ struct RunParts {
 
 namespace {
 
-// A run, trials of it where they were wanted, a test's record over it.
+// A run, its trials if requested, and a measured record compared with it.
 struct ToldRun {
   WithTrials<Result> tried;
   bool has_trials = false;
@@ -34,7 +34,7 @@ Findings findings_of(const ToldRun& run) {
   return findings;
 }
 
-// Read before anything runs; nothing: none was asked for.
+// Read before any computation; empty: not requested.
 std::optional<Measurement> measurement_of(const RunChoices& choices, const Model& model) {
   const MeasurementRequest request{choices.measured, choices.map, choices.shift, choices.offset};
   if (!request.asked()) return {};

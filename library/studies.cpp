@@ -1,4 +1,4 @@
-// studies.cpp — the questions by their names: the machine asked, the findings handed out.
+// studies.cpp — the questions by name: asked of a machine, with their findings.
 #include <algorithm>
 #include <stdexcept>
 

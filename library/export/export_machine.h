@@ -28,7 +28,7 @@ struct ExportedComponent {
   ExportedDependencies dependencies;
 };
 
-// Throws SceneError where the scene makes no machine, std::invalid_argument for what cannot be exported, with the reason.
+// Throws SceneError for a scene that makes no machine, std::invalid_argument with the reason for what cannot be exported.
 ExportedComponent component_of(const Scene& scene, const ExportAsked& asked);
 
 // The archive. `fmi` 2 or 3.

@@ -1,4 +1,4 @@
-// claim_kinds.cpp — every claim: when it is true, what shows it, how it reads, who says it. The one list; docs/claims.md is made of it.
+// claim_kinds.cpp — the list of all claims: definition, evidence, wording, commands; the source of docs/claims.md.
 #include <algorithm>
 #include <array>
 

@@ -1,4 +1,4 @@
-// conclusion.h — claims of a study, and the conclusion that they make.
+// conclusion.h — the conclusion of a study, made from its claims.
 //
 //     figures_told "δ is 0.1043819", limit_exceeded "\"clutch\" gets too hot"
 //         → "\"clutch\" gets too hot.", "δ is 0.1044."

@@ -1,4 +1,4 @@
-// parameter.cpp — ranges and lists as they are written on a command line or in a table.
+// parameter.cpp — parsing of ranges and lists from the command line or a table.
 #include "studies/experiments/parameter.h"
 
 #include <fmt/format.h>
@@ -148,7 +148,7 @@ SweptParameter parse_heading(const TableHeading& heading, const std::string& fil
   return p;
 }
 
-// Plain numbers in a column stay numbers; a column with anything else is one of words.
+// Plain numbers in a column remain numbers; a column with any other text is one of words.
 void fill_column(SweptParameter& p, const std::vector<std::vector<std::string>>& cells, std::size_t k,
                  std::vector<std::vector<double>>& rows) {
   const bool numbers = std::all_of(cells.begin(), cells.end(), [&](const auto& row) {

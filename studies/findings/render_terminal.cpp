@@ -1,4 +1,4 @@
-// render_terminal.cpp — findings as text: columns by display width, statements in the order in which they are said.
+// render_terminal.cpp — findings as text: columns by display width, statements in the order given.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -44,7 +44,7 @@ void say(std::string& text, const Sentences& words, bool) {
 void say(std::string&, const Field&, bool) {}
 void say(std::string&, const Drawn&, bool) {}
 
-// At most so many columns; what is cut off stands in the report.
+// At most `columns` columns; the rest is in the report.
 std::string shortened(const std::string& text, std::size_t columns) {
   static const std::string told_elsewhere = " … (report)";
   if (width(text) <= columns) return text;
@@ -55,7 +55,7 @@ std::string shortened(const std::string& text, std::size_t columns) {
   return text.substr(0, blank == std::string::npos || blank < bytes / 2 ? bytes : blank) + told_elsewhere;
 }
 
-// Broken between words; lines behind the first are indented.
+// Wrapped between words; lines after the first are indented.
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns, const std::string& indent) {
   std::vector<std::string> lines;
   std::string line;

@@ -1,4 +1,4 @@
-// measurement.cpp — headings and units, options, and the numbers, with a message for whatever is wrong.
+// measurement.cpp — headings and units, options, and numbers, with a message for every error.
 #include "studies/measured/measurement.h"
 
 #include <fmt/format.h>
@@ -93,7 +93,7 @@ class Reader {
     return heading;
   }
 
-  // Of the heading or of the option, one of them; both may say the same.
+  // From the heading or from the option; both only if they agree.
   std::optional<Source> source_of(const TableHeading& heading, const Option& option, const std::string& channel,
                                   const std::string& si_unit) {
     const auto in_heading = heading.unit, in_option = name_with_unit(option.value).unit;

@@ -10,7 +10,7 @@
 
 namespace kurbel {
 
-// Each stands in the folder of its study.
+// Each is defined in the folder of its study.
 Question compare_question();
 Question reduce_question();
 Question size_question();

@@ -42,7 +42,7 @@ struct Quantity {
   std::function<double(const ReducedPosition&)> value;
 };
 
-// What each position holds; values that are rounding dust beside the largest of their kind are zeros.
+// Values of each position; rounding errors relative to the largest of their kind are set to zero.
 std::vector<Quantity> quantities_of(const MachineReduction& r) {
   const ReducedNames n = names_of(r);
   const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit);

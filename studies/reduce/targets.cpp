@@ -1,4 +1,4 @@
-// targets.cpp — names of shafts and sliders, and how a slider moves with the link.
+// targets.cpp — names of shafts and sliders, and the motion of a slider with the link.
 #include "studies/reduce/targets.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// forced_response.cpp — one complex solve an order; the sum synthesised over the cycle and its peak located.
+// forced_response.cpp — one complex solution per order; the sum is synthesised over the cycle and its peak located.
 #include "studies/response/forced_response.h"
 
 #include <algorithm>
@@ -190,7 +190,7 @@ Extremes extremes_of_sum(const std::vector<Complex>& x) {
 
 namespace {
 
-// What joints dissipate at one frequency: by their damping, or with states of their own by all that they do.
+// Dissipation of joints at one frequency: by their damping, or with internal states by their total work.
 std::vector<double> dissipated(const LinearDrive& drive, const std::vector<FrequencyResponse::JointSwing>& swings,
                                double omega) {
   Eigen::VectorXcd rate(static_cast<Index>(swings.size()));
@@ -205,7 +205,7 @@ std::vector<double> dissipated(const LinearDrive& drive, const std::vector<Frequ
   return power;
 }
 
-// Counts what one frequency does to one joint.
+// Adds the contribution of one frequency to one joint.
 void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, double power, double omega,
            std::size_t harmonic) {
   const double amplitude = std::abs(swing.torque);
@@ -218,7 +218,7 @@ void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, dou
   joint.dominant_omega = omega;
 }
 
-// The reduction link's speed by the coordinates' speeds: a row; empty where it may not move.
+// The reduction link's speed as a row of the coordinates' speeds; empty if it is prescribed.
 Eigen::VectorXcd row_of_link(const LinearDrive& drive) {
   const Model& m = *drive.model;
   const int link = m.shaft_of_node[static_cast<std::size_t>(m.reduction_node)];
@@ -230,7 +230,7 @@ Eigen::VectorXcd row_of_link(const LinearDrive& drive) {
   return ratio != 0 ? Eigen::VectorXcd(link_row / ratio) : link_row;
 }
 
-// A joint that carries nothing on the mean, as a damper's ring, has what rounding leaves of the others' torques.
+// A joint without mean torque, such as a damper's ring, has only rounding errors of the others' torques.
 void clear_noise(SpeedResponse& response) {
   constexpr double noise = 1e-10;
   double largest = 0;
@@ -271,7 +271,7 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
   else
     result.speed_swing = HUGE_VAL;
   std::vector<double> beside(drive.joints.size(), 0.0);
-  // What swings at one frequency keeps its phases.
+  // Excitations of one frequency keep their phases.
   std::vector<FrequencySource> sources = excitations.by_frequency;
   std::sort(sources.begin(), sources.end(),
             [](const FrequencySource& a, const FrequencySource& b) { return a.omega < b.omega; });

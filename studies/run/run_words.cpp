@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-// The time of a period's end from the figure that has it, if one has.
+// The time of a period's end, from the figure of that time if there is one.
 std::string time_text(const Result& r, double t) {
   for (const Figure& f : r.figures)
     if (f.at && *f.at == t && (f.name == "run_up_time" || f.name == "run_down_time"))
@@ -22,7 +22,7 @@ std::string time_text(const Result& r, double t) {
   return with_unit(t, "s", 6);
 }
 
-// What the figures of a cycle belong to, where there are any.
+// The cycle that figures belong to, if there are any.
 std::string of_last_cycle(const Result& r) {
   return first_of(r, quantities::cycle_fluctuation) ? " (figures of a cycle are those of the last whole one)" : "";
 }

@@ -57,7 +57,7 @@ std::string conclusion_of(const Sizing& s) {
   return text;
 }
 
-// What the sized machine has, a sentence a model: δ is demanded of the crank, and judged there.
+// Results of the sized machine, one sentence per model: δ is demanded and assessed at the crank.
 std::string words_of(const Sizing& s, const DeltaReached& r) {
   return fmt::format(
       "{} with {:.6g} kg·m², δ is {:.5g} at the crank, where {:g} is demanded{}",
@@ -76,7 +76,7 @@ std::string comparison_with_scene(const Sizing& s) {
 
 // --- tables ---
 
-// On the terminal below its title, with a blank line behind it.
+// On the terminal below its title, followed by a blank line.
 void say_titled(Findings& f, Chapter in, Rows rows) {
   rows.heading = rows.title;
   rows.apart = false;
@@ -172,7 +172,7 @@ Rows positions_table(const Sizing& s) {
   constexpr int steps = 12;
   const std::vector<double> phi = angles(s, steps);
   const double largest = s.diagram.load_torque.largest(), energy = s.diagram.load_work.largest();
-  // Rounding beside the largest value reads as zero.
+  // Rounding errors relative to the largest value are set to zero.
   const auto clean = [&](const Piecewise& f, double scale) {
     return [&f, &phi, scale](std::size_t k) {
       const double v = f.value(phi[k]);
@@ -334,7 +334,7 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
   f.tell("notes", s.notes);
 }
 
-// Simulated as it really is, it may not keep what it was sized for.
+// The actual machine may not have the δ that it was sized for.
 void add_answers(Findings& f, const Sizing& s) {
   f.conclude(s.complete, conclusion_of(s));
   for (const SizedModel model : {SizedModel::rigid, SizedModel::elastic})
@@ -352,7 +352,7 @@ void add_answers(Findings& f, const Sizing& s) {
         s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
 }
 
-// Rim speed and stress of the flywheel as it is to be built, at the greatest speed of the cycle.
+// Rim speed and stress of the resulting flywheel, at the greatest speed of the cycle.
 void judge_dimensions(Findings& f, const Sizing& s) {
   if (!s.dimensions) return;
   const FlywheelDimensions& d = *s.dimensions;
