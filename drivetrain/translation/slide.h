@@ -23,7 +23,7 @@ struct SlideKeys {
   Account work = Account::useful;
   double start = 0;  // s at the start [m]
 };
-const Fields<SlideKeys>& slide_fields();
+Fields<SlideKeys> slide_fields();
 
 // Puts mass and forces on the node, whose shaft moves the slide by so much in a radian [m/rad], and the channels that
 // tell of it: position, velocity, acceleration, force, in m, s and N.

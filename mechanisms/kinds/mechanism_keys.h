@@ -57,13 +57,14 @@ void build_mechanism(const Section& section, const MechanismData& data, const Mo
 // Tables of its loads over the travel end somewhere; `component`: as the scene names what they are of.
 void limit_loads(const Mechanism& mechanism, const std::string& component, int node, Network& net);
 // A kind of mechanism by its fields alone.
-template <const auto& fields>
+template <auto fields>
 Kind mounted_kind(std::string name, KeyDoc doc) {
-  return on_a_shaft(
-      std::move(name), std::move(doc), fields().keys(), [](const Section& section, Network& net, Messages& messages) {
-        const auto mechanism = fields().read(section, messages);
-        build_mechanism(section, mechanism.linkage, mechanism.mounting, faults_of(mechanism.linkage), net, messages);
-      });
+  return on_a_shaft(std::move(name), std::move(doc), made_once<fields>().keys(),
+                    [](const Section& section, Network& net, Messages& messages) {
+                      const auto mechanism = made_once<fields>().read(section, messages);
+                      build_mechanism(section, mechanism.linkage, mechanism.mounting, faults_of(mechanism.linkage), net,
+                                      messages);
+                    });
 }
 
 }  // namespace kurbel

@@ -118,15 +118,14 @@ struct SliderCrankKeys : Mounted<SliderCrankData> {
   DeformationKeys deformation;
 };
 
-const Fields<SliderCrankKeys>& slider_crank_fields() {
-  static const auto made = Fields<SliderCrankKeys>()
-                               .add(slider_crank_linkage(), &SliderCrankKeys::linkage)
-                               .add(mounting_without_joints("force on the slider, or a list of them", slider_loads()),
-                                    &SliderCrankKeys::mounting)
-                               .add(firing(), &SliderCrankKeys::firing)
-                               .add(joint_fields(), &SliderCrankKeys::joints)
-                               .add(deformation_fields(), &SliderCrankKeys::deformation);
-  return made;
+Fields<SliderCrankKeys> slider_crank_fields() {
+  return Fields<SliderCrankKeys>()
+      .add(slider_crank_linkage(), &SliderCrankKeys::linkage)
+      .add(mounting_without_joints("force on the slider, or a list of them", slider_loads()),
+           &SliderCrankKeys::mounting)
+      .add(firing(), &SliderCrankKeys::firing)
+      .add(joint_fields(), &SliderCrankKeys::joints)
+      .add(deformation_fields(), &SliderCrankKeys::deformation);
 }
 
 // Angle of the shaft at which this cylinder fires; none, with a message, where order and intervals do not fit.
@@ -190,11 +189,11 @@ bool put_phase(const Section& s, const FiringKeys& f, Mounting& mounting, Messag
   return true;
 }
 
-void build_slider_crank(const Section& s, Network& net, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  auto mechanism = slider_crank_fields().read(s, messages);
-  put_phase(s, mechanism.firing, mechanism.mounting, messages);
-  const bool sound = messages.all().size() == before;
+void build_slider_crank(const Section& s, const Reading<SliderCrankKeys>& mechanism, Network& net) {
+  Messages& messages = mechanism.messages();
+  Mounting mounting = mechanism.mounting;
+  put_phase(s, mechanism.firing, mounting, messages);
+  const bool sound = mechanism.sound();
   const SliderCrankData& d = mechanism.linkage;
   DataFaults faults = faults_of(d);
   const bool friction = mechanism.joints.rub();
@@ -214,16 +213,16 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
              "rod = {} is shorter than radius + |offset|, so that the crank rocks; gaps and bending then decide how "
              "far it goes, beyond any arc that is known: lengthen the rod, or omit clearance and rod_flexibility",
              in_mm(d.rod_length))});
-  build_mechanism(s, d, mechanism.mounting, faults, net, messages, joints_of(mechanism.joints),
+  build_mechanism(s, d, mounting, faults, net, messages, joints_of(mechanism.joints),
                   deformation_of(mechanism.deformation, d, s, messages));
 }
 
 }  // namespace
 
 Kind slider_crank_kind() {
-  return on_a_shaft("slider-crank",
-                    "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
-                    slider_crank_fields().keys(), build_slider_crank);
+  return kind_of<slider_crank_fields, build_slider_crank>(
+      on_a_shaft, "slider-crank",
+      "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)");
 }
 
 }  // namespace kurbel
