@@ -11,7 +11,6 @@
 // (engine/equations/jam.h). Units: N·m; 0 < η₁ ≤ 1, η₂ ≤ 1, b ≥ 0.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -17,7 +17,6 @@
 // the currents are those of steady motion at that speed.
 #pragma once
 
-#include <algorithm>
 #include <complex>
 #include <string>
 

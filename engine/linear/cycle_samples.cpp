@@ -1,7 +1,6 @@
 // cycle_samples.cpp — the round is run once more; what it does is read between the steps.
 #include "engine/linear/cycle_samples.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "engine/numerics/index.h"

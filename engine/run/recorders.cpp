@@ -1,8 +1,6 @@
 // recorders.cpp — what a run leaves behind.
 #include "engine/run/recorders.h"
 
-#include <algorithm>
-
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"

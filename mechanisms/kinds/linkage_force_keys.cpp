@@ -12,7 +12,6 @@
 #include "engine/numerics/deadline.h"
 #include "mechanisms/kinds/mechanism_keys.h"
 #include "mechanisms/linkage/travel.h"
-#include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 namespace {

@@ -6,9 +6,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <span>
 #include <stdexcept>
 
 #include "mechanisms/reduced/crank_cycle.h"

@@ -5,9 +5,7 @@
 // is the least error that is ever stated. Then each method climbs the ladder of tolerances.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>

@@ -1,7 +1,6 @@
 // link_recorder.h — an observer of the reduction link: how far it came, when it last turned, whether it goes to and fro.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/run/run.h"

@@ -1,7 +1,6 @@
 // spectrum.h — frequencies and orders of a simulated torque: whole run, and by speed along a run-up.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "engine/base/estimate.h"

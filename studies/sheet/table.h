@@ -1,7 +1,6 @@
 // table.h — a table of a sheet: a column a quantity, a row a position; as many digits as its largest value has use for.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
