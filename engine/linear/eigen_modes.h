@@ -34,9 +34,6 @@ struct UndampedModes {
 // The lowest modes. Throws std::runtime_error where they cannot be found to a backward error of 1e-10.
 UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted = {});
 
-// Number of modes with ω < omega, rigid ones included.
-int modes_below(const LinearDrive& drive, double omega);
-
 // Where a mode's energy is. Of state i the share is |w_i v_i|/Σ |w_k v_k|, w and v the left and the right eigenvector: it
 // does not depend on the states' units. Springs, inertias, windings, dampers and resistors are reciprocal; there w_i is
 // ± v_i in units of √(2 E_i), and the share is that of the stored energy E_i itself: ½ k θ², ½ J ω², ½ L i².

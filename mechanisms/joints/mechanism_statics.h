@@ -18,7 +18,7 @@ class MechanismStatics {
   // Null: nothing is known of it.
   const RubbingJoint* joint_data(const char* name) const;
 
-  // The links at φ. Of a mechanism that passes change points φ is moved beside them (beside_change_point).
+  // The links at φ. Of a mechanism that passes change points φ is moved beside them (linkage_beside).
   PlanarLinkage linkage(double& phi) const;
   // Throws as forces_in; Jam, with the numbers, where no finite reactions satisfy the friction laws.
   LinkageForces solve(const PlanarLinkage& linkage, const LinkageState& state) const;

@@ -37,8 +37,6 @@ class Linkage {
   int turns() const { return turns_; }                         // of the driving link until all stands where it stood
   // Where all links stand. Throws std::runtime_error with the group and φ where it cannot be closed.
   LinkPoses poses(long double phi) const;
-  // Groups that hold more joints than they need; their reactions are not determined.
-  bool is_redundant() const;
 
   SketchSpot spot_of(int point) const;      // of the sketch's point, in the mechanism's axes [m]
   SketchSpot centre_of(int link) const;     // centre of mass [m]

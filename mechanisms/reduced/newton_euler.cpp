@@ -318,11 +318,6 @@ std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std
   return columns;
 }
 
-double beside_change_point(const MechanismData& data, double phi) {
-  linkage_beside(data, phi);
-  return phi;
-}
-
 PlanarLinkage linkage_beside(const MechanismData& data, double& phi) {
   constexpr double least = 1e-3;  // of the sine
   PlanarLinkage there = data.linkage(phi);

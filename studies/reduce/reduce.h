@@ -78,7 +78,6 @@ struct ChainSpring {
 struct Chain {
   std::vector<ChainInertia> inertias;
   std::vector<ChainSpring> springs;
-  double total() const;
 };
 
 // A coupler curve: where a point of a linkage is, at equal steps of its driving link's angle.
