@@ -17,40 +17,6 @@ namespace {
 
 using Crank = SliderCrankData;
 
-// A rod shorter than r + |e| lets the crank rock, if its pin comes within the rod's reach of the slider's line, and clearly
-// so: a stop that is hardly one is a change point that rounding would choose the branch of.
-void add_rod_faults(const SliderCrankData& d, DataFaults& faults) {
-  constexpr double hardly = 1e-6;
-  const double reach = d.radius + std::abs(d.offset), near = std::abs(d.offset) - d.radius;
-  const auto close_to = [&](double length) { return std::abs(d.rod_length - length) <= hardly * reach; };
-  if (d.rod_length <= near)
-    faults.push_back({"rod", fmt::format("rod = {}; must be > |offset| - radius = {}, else the rod cannot reach the "
-                                         "slider's line; lengthen the rod or the crank",
-                                         in_mm(d.rod_length), in_mm(near))});
-  else if (d.rocks() && (close_to(reach) || close_to(std::abs(near))))
-    faults.push_back(
-        {"rod", fmt::format("rod = {} differs by only {:.1e} of itself from the length at which crank and rod pass "
-                            "upright, so that rounding would choose the branch; lengthen or shorten it clearly",
-                            in_mm(d.rod_length),
-                            std::abs(d.rod_length - (close_to(reach) ? reach : std::abs(near))) / d.rod_length)});
-  else if (d.folds && !d.changes() && !d.rocks())
-    faults.push_back({"branch", fmt::format("branch = \"folds\" needs a rod of at most radius + |offset| = {}; the rod "
-                                            "is {} long: leave the branch out",
-                                            in_mm(reach), in_mm(d.rod_length))});
-}
-
-// The rod must reach the slider's line, and no body may have less inertia than its mass demands.
-DataFaults faults_of(const SliderCrankData& d) {
-  DataFaults faults;
-  add_rod_faults(d, faults);
-  const double least = d.crank_mass * d.crank_com * d.crank_com;
-  if (d.crank_inertia < least * (1 - 1e-12))
-    faults.push_back({"crank_inertia", fmt::format("crank_inertia = {:.6g} kg·m²; is about the axis and must be ≥ "
-                                                   "crank_mass · crank_com² = {:.6g} kg·m²",
-                                                   d.crank_inertia, least)});
-  return faults;
-}
-
 Key inertia_key(const char* name, const char* doc) { return defaulted(name, "kg*m2", "0 kg*m2", not_negative, doc); }
 
 Fields<Crank> slider_crank_linkage() {

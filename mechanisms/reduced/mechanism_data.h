@@ -7,7 +7,7 @@
 //     LinkageDrawing drawing_of(const D&);                      how it is drawn, and whether its output rocks
 //     double D::gravity                                         [m/s²]
 // where there is something to say,
-//     void validate(const D&);                                  throws std::invalid_argument with what is wrong
+//     DataFaults faults_of(const D&);                           what is wrong with it
 //     std::vector<PlanePoint> places_of(const D&, double phi);  by which it is drawn, of a drawing that names no joints
 //     std::optional<CrankArc> arc_of(const D&);                 within which angles its crank rocks
 //     std::string locks_of(const D&);                           what happens at their ends, in words
@@ -55,7 +55,7 @@ class MechanismData {
     held.drawing = drawing_of(*d);
     held.gravity = d->gravity;
     held.linkage = [d](long double phi) { return linkage_of(*d, phi); };
-    if constexpr (requires { validate(*d); }) held.validate = [d] { validate(*d); };
+    if constexpr (requires { faults_of(*d); }) held.faults = [d] { return faults_of(*d); };
     if constexpr (requires { places_of(*d, 0.0); }) held.places = [d](double phi) { return places_of(*d, phi); };
     if constexpr (has_bodies && requires { own_bodies(*d); }) held.own_bodies = [d] { return own_bodies(*d); };
     if constexpr (requires { arc_of(*d); }) held.arc = arc_of(*d);
@@ -101,7 +101,7 @@ class MechanismData {
     LinkageDrawing drawing;
     double gravity = 0;
     std::function<PlanarLinkage(long double)> linkage;
-    std::function<void()> validate;
+    std::function<DataFaults()> faults;
     std::function<std::vector<PlanePoint>(double)> places;
     std::function<std::unique_ptr<MechanismBodies>()> own_bodies;
     std::optional<CrankArc> arc;
