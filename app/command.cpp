@@ -9,7 +9,6 @@
 
 #include "app/terminal.h"
 #include "engine/scene/keys.h"
-#include "engine/scene/units.h"
 
 namespace kurbel::app {
 
@@ -100,8 +99,7 @@ std::string option_meant(const CLI::App& command, int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
     if (!word.starts_with("--") || std::find(names.begin(), names.end(), word) != names.end()) continue;
-    const auto near = nearest(word, names);
-    return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+    return suggestion(word, names);
   }
   return "";
 }
@@ -111,9 +109,8 @@ void refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** 
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
-    const auto near = nearest(argv[1], names);
     complain(fmt::format("kurbel: unknown command \"{}\"{}; allowed: {}. See kurbel --help\n", argv[1],
-                         near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(names)));
+                         suggestion(argv[1], names), listed(names)));
   } else if (argc == 1) {
     complain(fmt::format("kurbel: no command given; allowed: {}. Begin with kurbel new press, or see kurbel --help\n",
                          listed(names)));

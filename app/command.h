@@ -6,7 +6,6 @@
 //     command.action([&code, arguments] { code = run(*arguments); });
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>

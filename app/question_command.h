@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/command_line.h"

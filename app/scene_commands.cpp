@@ -27,11 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
-  const auto near = nearest(word, names);
-  return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
-}
-
 // "press, pump, …"
 std::string names_of_templates() {
   std::string names;
@@ -49,8 +44,8 @@ const SceneTemplate& template_named(const std::string& kind) {
   if (kind.empty())
     throw std::invalid_argument(
         fmt::format("which kind of machine? Write e.g. kurbel new press; allowed: {}", listed(names)));
-  throw std::invalid_argument(fmt::format("no scene {} to start from{}; allowed: {}", in_quotes(kind),
-                                          did_you_mean(kind, names), listed(names)));
+  throw std::invalid_argument(
+      fmt::format("no scene {} to start from{}; allowed: {}", in_quotes(kind), suggestion(kind, names), listed(names)));
 }
 
 // The path as one word of a shell's line.
@@ -116,7 +111,7 @@ int print_keys(const std::string& kind, bool list_kinds) {
   const std::vector<std::string> names = names_of_keys();
   if (std::find(names.begin(), names.end(), kind) == names.end())
     throw std::invalid_argument(
-        fmt::format("no kind {}{}; allowed: {}", in_quotes(kind), did_you_mean(kind, names), listed(names)));
+        fmt::format("no kind {}{}; allowed: {}", in_quotes(kind), suggestion(kind, names), listed(names)));
   say(keys_of(kind));
   return exit_done;
 }

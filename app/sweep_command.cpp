@@ -2,7 +2,6 @@
 // kurbel diff: two machines side by side.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <stdexcept>

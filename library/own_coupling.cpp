@@ -73,7 +73,7 @@ void build_own_coupling(const Section& section, Network& net, Messages& messages
     const std::scoped_lock lock(own_couplings_mutex);
     return own_couplings().at(section.kind->name);
   }();
-  const auto inertia = side_inertia_fields().read(section, messages);
+  const SideInertias inertia = side_inertia_fields().read(section, messages);
   const auto [in, out] = two_shafts(section, inertia, net);
   net.connect(in, out, 1, section.name, OwnCoupling(kind.make(parameters_of(section, kind.parameters))));
 }

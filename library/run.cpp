@@ -3,7 +3,6 @@
 
 #include <stdexcept>
 
-#include "engine/run/checkpoint.h"
 #include "library/machine_parts.h"
 #include "studies/measured/overlay.h"
 #include "studies/run/run_findings.h"

@@ -14,14 +14,14 @@ class Network;
 struct SideInertias {
   double in = 0, out = 0;  // [kg·m²]
 };
-const Fields<SideInertias>& side_inertia_fields();
+Fields<SideInertias> side_inertia_fields();
 // The two shafts of a component, each with its inertia.
 std::array<int, 2> two_shafts(const Section& section, const SideInertias& inertia, Network& net);
 
-const Fields<CouplingLimits>& coupling_limit_fields();
+Fields<CouplingLimits> coupling_limit_fields();
 Key application_factor_key();
 
-const Fields<ShaftRating>& shaft_rating_fields();
+Fields<ShaftRating> shaft_rating_fields();
 
 // Data of a shaft in the scene.
 struct ShaftKeys {
@@ -39,6 +39,6 @@ struct ShaftKeys {
   double polar_modulus() const;  // W_p = 2 J_p/D [m³]
 };
 
-const Fields<Damping>& damping_fields();  // in its four forms
+Fields<Damping> damping_fields();  // in its four forms
 
 }  // namespace kurbel

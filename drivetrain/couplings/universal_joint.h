@@ -8,7 +8,6 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "drivetrain/couplings/coupling.h"

@@ -5,7 +5,6 @@
 // p is the command of the operating sequence (pressure over rated pressure); M_s static, M_k kinetic capacity.
 #pragma once
 
-#include <cmath>
 #include <limits>
 
 #include "engine/elements/element.h"

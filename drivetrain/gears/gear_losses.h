@@ -10,7 +10,6 @@
 // while the load drives: the gear jams and stops at once (engine/equations/jam.h). Units: N·m; 0 < η₁ ≤ 1, η₂ ≤ 1, b ≥ 0.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

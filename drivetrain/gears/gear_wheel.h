@@ -35,8 +35,6 @@ struct BasicRack {
 
 // Minimum number of teeth without undercut at shift x: z = 2 (h* − x) cos β/sin² α_t (theory 6.3); 17.10 at 20°, h* = 1.
 double least_teeth(const BasicRack& rack, double helix = 0, double shift = 0);
-// Minimum shift without undercut: x = h* − z sin² α_t/(2 cos β), h* = h_a* (theory 6.4).
-double least_shift(const BasicRack& rack, int teeth, double helix = 0);
 
 // A point of an outline; and a point by its radius and its angle from the centre line of the tooth.
 struct OutlinePoint {
@@ -71,7 +69,7 @@ struct GearWheel {
   double tip_thickness() const { return thickness_normal(tip_diameter); }
   // Diameter at which the flanks meet (external wheels); infinite for internal ones.
   double pointed_diameter() const;
-  // Minimum x without undercut by this rack with its rounding: h_Ff* − z sin² α_t/(2 cos β). −∞ for internal wheels.
+  // x that just avoids undercut by this rack with its rounding: h_Ff* − z sin² α_t/(2 cos β) (theory 6.4). −∞ for internal wheels.
   double least_shift_generated() const;
 };
 

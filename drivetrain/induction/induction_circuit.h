@@ -16,7 +16,6 @@
 // steady motion when turning.
 #pragma once
 
-#include <algorithm>
 #include <complex>
 #include <string>
 

@@ -51,6 +51,6 @@ struct InductionKeys : CatalogueKeys, NameplateKeys, CircuitKeys, StartingKeys {
 
 const Words<Starting>& starting_methods();
 const char* name_of(Starting method);
-const Fields<InductionKeys>& induction_fields();
+Fields<InductionKeys> induction_fields();
 
 }  // namespace kurbel

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <string>
-#include <string_view>
 
 #include "engine/elements/element.h"
 #include "engine/numerics/dual.h"

@@ -13,7 +13,7 @@ struct HeatRating {
   std::optional<double> engagement;  // allowable heat of one engagement [J]
   std::optional<double> power;       // allowable mean power over a run [W]
 };
-const Fields<HeatRating>& heat_rating_fields();
+Fields<HeatRating> heat_rating_fields();
 
 // Rating of a flywheel; empty: not stated.
 struct RimRating {
@@ -22,7 +22,7 @@ struct RimRating {
   std::optional<double> density;  // ρ [kg/m³]
   std::optional<double> stress;   // allowable hoop stress of the free thin ring, σ = ρ (r ω)² [Pa]
 };
-const Fields<RimRating>& rim_rating_fields();
+Fields<RimRating> rim_rating_fields();
 
 // The duty for which the rated torque of a motor is stated (IEC 60034-1); empty: not stated.
 struct DutyRating {

@@ -15,7 +15,7 @@ class Network;
 
 Key inertia_key(const char* fallback, const char* doc);  // required where the fallback is empty
 Key own_inertia_key();                                   // "0 kg*m2" unless given
-const Fields<Window>& window_fields();                   // start, stop
+Fields<Window> window_fields();                          // start, stop
 const std::vector<std::string>& any_abscissa();          // time, angle, speed
 
 // Adds a torque over time, angle or speed as the matching element; `refuse` receives the faults of its data.

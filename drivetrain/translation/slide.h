@@ -23,7 +23,7 @@ struct SlideKeys {
   Account work = Account::useful;
   double start = 0;  // s at the start [m]
 };
-const Fields<SlideKeys>& slide_fields();
+Fields<SlideKeys> slide_fields();
 
 // Puts mass and forces on the node whose shaft moves the slide by `per_radian` [m/rad], and adds the channels position,
 // velocity, acceleration and force, in m, s and N.

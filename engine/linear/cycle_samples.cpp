@@ -1,7 +1,6 @@
 // cycle_samples.cpp — integrates the period again and samples the dense output.
 #include "engine/linear/cycle_samples.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "engine/numerics/index.h"

@@ -34,12 +34,9 @@ struct UndampedModes {
 // The lowest modes. Throws std::runtime_error if they do not converge to a backward error of 1e-10.
 UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted = {});
 
-// Number of modes with ω < omega, including rigid ones.
-int modes_below(const LinearDrive& drive, double omega);
-
-// Distribution of a mode's energy. The share of state i is |w_i v_i|/Σ |w_k v_k| with the left and right eigenvectors w and
-// v, independent of the units of the states. For reciprocal elements (springs, inertias, windings, dampers, resistors)
-// w_i = ± v_i in units of √(2 E_i), and the share is that of the stored energy E_i: ½ k θ², ½ J ω², ½ L i².
+// Where a mode's energy is. Of state i the share is |w_i v_i|/Σ |w_k v_k|, w and v the left and the right eigenvector: it
+// does not depend on the states' units. Springs, inertias, windings, dampers and resistors are reciprocal; there w_i is
+// ± v_i in units of √(2 E_i), and the share is that of the stored energy E_i itself: ½ k θ², ½ J ω², ½ L i².
 struct EnergyParts {
   double springs = 0, inertias = 0;  // at a given angle of the link `springs` includes weights
   std::vector<double> own;           // per internal state; the sum of all shares is 1; empty: unknown, or none

@@ -35,7 +35,6 @@ class LuOf {
   LuOf() = default;
   explicit LuOf(const Matrix& a);
   Vector solve(const Vector& right) const;
-  Vector solve_transposed(const Vector& right) const;  // Aᵀ x = b
   Matrix solve_all(const Matrix& right) const;
   Matrix inverse() const;
 
@@ -46,11 +45,10 @@ class LuOf {
 using Lu = LuOf<double>;
 using ComplexLu = LuOf<std::complex<double>>;
 
-// LU with full pivoting: gives the rank. Pivots up to `threshold` of the largest count as zero; 0: default by rounding.
+// LU by full pivots. Pivots up to `threshold` of the largest count as zero; 0: as rounding makes them.
 class FullLu {
  public:
   explicit FullLu(const Eigen::MatrixXd& a, double threshold = 0);
-  Eigen::Index rank() const;
   bool invertible() const;
   Eigen::MatrixXd kernel() const;  // columns; empty: the matrix has full column rank
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
@@ -83,7 +81,6 @@ Qr qr(const Eigen::MatrixXd& a);
 // A = L Lᵀ; empty where A is not positive definite.
 struct Cholesky {
   Eigen::MatrixXd lower;
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 };
 Cholesky cholesky(const Eigen::MatrixXd& a);
 Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& right);  // L⁻¹ B

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "engine/numerics/deadline.h"
 
 namespace kurbel {

@@ -9,7 +9,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "engine/base/enumerators.h"
 #include "engine/return_map/return_map.h"

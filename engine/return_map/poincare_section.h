@@ -9,7 +9,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <span>
 #include <string>
 #include <utility>

@@ -1,8 +1,6 @@
 // recorders.cpp — records of a run: trajectory, extremes, cycles, energy balance.
 #include "engine/run/recorders.h"
 
-#include <algorithm>
-
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"

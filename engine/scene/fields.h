@@ -1,18 +1,15 @@
 // fields.h — a table of keys, each declared once together with its member.
 //
-//     const Fields<Spring>& spring_fields() {
-//       static const auto made =
-//           Fields<Spring>()
-//               .add(required("stiffness", "N/m", positive, "k"), &Spring::k)
-//               .add(quantity("damping", "N*s/m", any_number, "c; default: none"), &Spring::c)
-//               .add(choice("seat", "flat", "of its ends"), &Spring::ground,
-//                    {{"flat", true}, {"open", false}})
-//               .add(quantity("preload", "N", any_number, "default: by the stiffness"), &Spring::preload,
-//                    [](const Spring& s) { return 1e-3 * s.k; });
-//       return made;
+//     Fields<Spring> spring_fields() {
+//       return Fields<Spring>()
+//           .add(required("stiffness", "N/m", positive, "k"), &Spring::k)
+//           .add(quantity("damping", "N*s/m", any_number, "c; default: none"), &Spring::c)
+//           .add(choice("seat", "flat", "of its ends"), &Spring::ground, {{"flat", true}, {"open", false}})
+//           .add(quantity("preload", "N", any_number, "default: by the stiffness"), &Spring::preload,
+//                [](const Spring& s) { return 1e-3 * s.k; });
 //     }
-//     .keys = spring_fields().keys()                          for reader, schema, docs and --set
-//     const auto spring = spring_fields().read(section, messages);   for the build function
+//     void build_spring(const Section& section, const Reading<Spring>& spring, Network& net);
+//     kind_of<spring_fields, build_spring>(between_shafts, "spring", "a spring")
 //
 // The type of the member defines that of the key: double a quantity, int a whole number, bool a flag (or, as an enum,
 // words), a string a text, vectors of numbers lists, CurveData a curve, a struct with its own fields nested tables. A
@@ -50,7 +47,8 @@ class Tables;
 struct Place {
   const Section* section;
   Messages* messages;
-  std::string what;  // its name in faults: gearbox "g": stages[2]
+  std::string what;                             // how faults name it: gearbox "g": stages[2]
+  std::size_t before = messages->all().size();  // faults before it is read
 };
 
 // Words of a text with their values.
@@ -219,6 +217,7 @@ class Reading : public D {
   const Section& section() const { return *place_.section; }
   Messages& messages() const { return *place_.messages; }
   const std::string& what() const { return place_.what; }
+  bool sound() const { return place_.messages->all().size() == place_.before; }  // no fault since its reading began
 
   // The name of the key of a member; for a group the first given one.
   template <class M, class B>
@@ -443,5 +442,20 @@ class Tables {
   std::vector<Kind> kinds_;
   std::vector<std::function<T(const Place&)>> readers_;
 };
+
+// The fields that a function makes, made once: a Reading refers to them.
+template <auto fields>
+const auto& made_once() {
+  static const auto made = fields();
+  return made;
+}
+// A kind of components by the function that makes its fields, and the one that builds from what they read.
+template <auto fields, auto build>
+Kind kind_of(decltype(on_a_shaft)* placed, std::string name, KeyDoc doc) {
+  return placed(std::move(name), std::move(doc), made_once<fields>().keys(),
+                [](const Section& section, Network& net, Messages& messages) {
+                  build(section, made_once<fields>().read(section, messages), net);
+                });
+}
 
 }  // namespace kurbel

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string>
-#include <string_view>
 
 #include "engine/scene/document.h"
 #include "engine/scene/keys.h"

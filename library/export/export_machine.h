@@ -1,7 +1,6 @@
 // export_machine.h — a scene as a component of FMI 2.0 or 3.0: checked, described, packed.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

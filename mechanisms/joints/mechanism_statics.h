@@ -18,7 +18,7 @@ class MechanismStatics {
   // Null: the scene has no data of it.
   const RubbingJoint* joint_data(const char* name) const;
 
-  // The links at φ. Near a change point φ is moved away from it (beside_change_point).
+  // The links at φ. Of a mechanism that passes change points φ is moved beside them (linkage_beside).
   PlanarLinkage linkage(double& phi) const;
   // Throws as forces_in; throws Jam, with the numbers, if no finite reactions satisfy the friction laws.
   LinkageForces solve(const PlanarLinkage& linkage, const LinkageState& state) const;

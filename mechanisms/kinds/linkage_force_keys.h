@@ -44,7 +44,7 @@ struct LinkageForceKeys {
   std::vector<Reading<PointForceKeys>> forces;
   std::vector<Reading<CoupleKeys>> couples;
 };
-const Fields<LinkageForceKeys>& linkage_force_fields();
+Fields<LinkageForceKeys> linkage_force_fields();
 
 // Each as a mechanism without inertia. Faults go into the messages.
 std::vector<Mechanism> linkage_forces(const Section& section, const LinkageForceKeys& keys,

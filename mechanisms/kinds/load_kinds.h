@@ -46,10 +46,20 @@ struct CylinderKeys : MisfireKeys {
   double outside = 0;               // [Pa]
 };
 
+namespace load_keys {
+using PressLoad = LoadKeys<PressKeys>;
+using Constant = LoadKeys<ConstantForce>;
+using Opposing = LoadKeys<OpposingForce>;
+using Medium = LoadKeys<MediumResistance>;
+using Table = LoadKeys<TableKeys>;
+using Compressor = LoadKeys<CompressorKeys>;
+using Cylinder = LoadKeys<CylinderKeys>;
+using LinearMotor = LoadKeys<LinearMotorForce>;
+}  // namespace load_keys
 using LoadReading =
-    std::variant<Reading<LoadKeys<PressKeys>>, Reading<LoadKeys<ConstantForce>>, Reading<LoadKeys<OpposingForce>>,
-                 Reading<LoadKeys<MediumResistance>>, Reading<LoadKeys<TableKeys>>, Reading<LoadKeys<CompressorKeys>>,
-                 Reading<LoadKeys<CylinderKeys>>, Reading<LoadKeys<LinearMotorForce>>>;
+    std::variant<Reading<load_keys::PressLoad>, Reading<load_keys::Constant>, Reading<load_keys::Opposing>,
+                 Reading<load_keys::Medium>, Reading<load_keys::Table>, Reading<load_keys::Compressor>,
+                 Reading<load_keys::Cylinder>, Reading<load_keys::LinearMotor>>;
 
 const Tables<LoadReading>& slider_loads();  // on sliding outputs
 const Tables<LoadReading>& rocker_loads();  // on rocking outputs

@@ -55,14 +55,15 @@ void build_mechanism(const Section& section, const MechanismData& data, const Mo
                      std::optional<MechanismJoints> joints = {}, Deformation deformation = {});
 // Registers the range of load tables over the travel; `component`: their component in the scene.
 void limit_loads(const Mechanism& mechanism, const std::string& component, int node, Network& net);
-// A kind of mechanism that is defined by its fields.
-template <const auto& fields>
+// A kind of mechanism by its fields alone.
+template <auto fields>
 Kind mounted_kind(std::string name, KeyDoc doc) {
-  return on_a_shaft(
-      std::move(name), std::move(doc), fields().keys(), [](const Section& section, Network& net, Messages& messages) {
-        const auto mechanism = fields().read(section, messages);
-        build_mechanism(section, mechanism.linkage, mechanism.mounting, faults_of(mechanism.linkage), net, messages);
-      });
+  return on_a_shaft(std::move(name), std::move(doc), made_once<fields>().keys(),
+                    [](const Section& section, Network& net, Messages& messages) {
+                      const auto mechanism = made_once<fields>().read(section, messages);
+                      build_mechanism(section, mechanism.linkage, mechanism.mounting, faults_of(mechanism.linkage), net,
+                                      messages);
+                    });
 }
 
 }  // namespace kurbel

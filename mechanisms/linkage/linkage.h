@@ -37,8 +37,6 @@ class Linkage {
   int turns() const { return turns_; }                         // turns of the driving link in a cycle
   // Poses of all links. Throws std::runtime_error with the group and φ if the linkage cannot be closed there.
   LinkPoses poses(long double phi) const;
-  // Whether some group has redundant joints; their reactions are undetermined.
-  bool is_redundant() const;
 
   SketchSpot spot_of(int point) const;      // a point of the sketch in the mechanism's axes [m]
   SketchSpot centre_of(int link) const;     // centre of mass [m]

@@ -14,13 +14,10 @@ struct DataFault {
 };
 using DataFaults = std::vector<DataFault>;
 
-// Collects faults of values.
+// Collects what is wrong with values together: of each alone the domain stands in its key (mechanisms/kinds).
 class DataChecks {
  public:
-  void finite(const char* key, double value, const char* unit);
-  void positive(const char* key, double value, const char* unit);
-  void not_negative(const char* key, double value, const char* unit);
-  // Mass, centre of mass and inertia; keys are name_mass, name_com, name_inertia.
+  // Of mass, centre of mass and inertia together; keys are name_mass, name_com, name_inertia.
   void pivoted(const std::string& name, const LinkBody& link);                            // inertia about its bearing
   void floating(const std::string& name, const LinkBody& link, double carried_mass = 0);  // central inertia
   void add(const std::string& key, std::string text) { faults_.push_back({key, std::move(text)}); }
@@ -43,7 +40,7 @@ void check_crank_rocker(const CrankRockerLoop& loop, DataChecks& checks);
 void check_loop_closes(const CrankRockerLoop& loop, DataChecks& checks);
 
 // Throws std::invalid_argument with the first fault.
-void throw_if_any(const char* mechanism, const DataFaults& faults);
+void throw_if_any(const std::string& mechanism, const DataFaults& faults);
 
 // "12.5 mm"
 std::string in_mm(double metres);

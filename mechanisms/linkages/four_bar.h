@@ -38,7 +38,6 @@ struct FourBarData {
 };
 
 DataFaults faults_of(const FourBarData& data);
-void validate(const FourBarData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const FourBarData& data);  // all of them
 LinkageDrawing drawing_of(const FourBarData& data);
 std::optional<CrankArc> arc_of(const FourBarData& data);  // range of a rocking crank

@@ -33,7 +33,6 @@ struct KnucklePressData {
 };
 
 DataFaults faults_of(const KnucklePressData& data);
-void validate(const KnucklePressData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const KnucklePressData& data);  // all of them
 LinkageDrawing drawing_of(const KnucklePressData& data);
 

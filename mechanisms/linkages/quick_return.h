@@ -40,7 +40,6 @@ struct QuickReturnData {
 };
 
 DataFaults faults_of(const QuickReturnData& data);
-void validate(const QuickReturnData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const QuickReturnData& data);  // all of them
 LinkageDrawing drawing_of(const QuickReturnData& data);
 

@@ -20,6 +20,7 @@
 #include <optional>
 #include <vector>
 
+#include "mechanisms/linkages/data_fault.h"
 #include "mechanisms/linkages/mechanism_bodies.h"
 #include "mechanisms/loops/loops.h"
 #include "mechanisms/loops/planar_linkage.h"
@@ -48,8 +49,8 @@ struct SliderCrankData {
   bool stands_still() const { return folds && offset == 0 && changes(); }
 };
 
-// Throws std::invalid_argument naming the first value outside its domain.
-void validate(const SliderCrankData& data);
+// The rod must reach the slider's line, and no body may have less inertia than its mass demands.
+DataFaults faults_of(const SliderCrankData& data);
 std::vector<double> values_of(const SliderCrankData& data);  // all of them
 LinkageDrawing drawing_of(const SliderCrankData& data);
 std::optional<CrankArc> arc_of(const SliderCrankData& data);  // range of a rocking crank

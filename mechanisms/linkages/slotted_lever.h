@@ -31,7 +31,6 @@ struct SlottedLeverData {
 };
 
 DataFaults faults_of(const SlottedLeverData& data);
-void validate(const SlottedLeverData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const SlottedLeverData& data);  // all of them
 LinkageDrawing drawing_of(const SlottedLeverData& data);
 

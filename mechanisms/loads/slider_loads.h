@@ -10,7 +10,6 @@
 #include <cmath>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "engine/elements/element.h"
 #include "engine/elements/event_kind.h"

@@ -6,12 +6,12 @@
 //     PlanarLinkage linkage_of(const D&, long double phi);      its bodies and joints, with their series in φ
 //     LinkageDrawing drawing_of(const D&);                      its drawing, and the type of its output
 //     double D::gravity                                         [m/s²]
-// optional:
-//     void validate(const D&);                                  throws std::invalid_argument with the fault
-//     std::vector<PlanePoint> places_of(const D&, double phi);  places of the drawing, if it does not name joints
-//     std::optional<CrankArc> arc_of(const D&);                 range of a rocking crank
-//     std::string locks_of(const D&);                           description of the ends of that range
-//     int turns_of(const D&);                                   turns of the crank in a cycle without change points
+// where there is something to say,
+//     DataFaults faults_of(const D&);                           what is wrong with it
+//     std::vector<PlanePoint> places_of(const D&, double phi);  by which it is drawn, of a drawing that names no joints
+//     std::optional<CrankArc> arc_of(const D&);                 within which angles its crank rocks
+//     std::string locks_of(const D&);                           what happens at their ends, in words
+//     int turns_of(const D&);                                   of the crank until the links come back without change points
 //     double drawn_at(const D&);                                φ of a position in which its lengths are exact
 //     std::vector<std::string> words_about(const D&);           its structure, its transmission angles
 //     std::string undetermined_reactions(const D&);             why reactions are undetermined; empty: they are not
@@ -55,7 +55,7 @@ class MechanismData {
     held.drawing = drawing_of(*d);
     held.gravity = d->gravity;
     held.linkage = [d](long double phi) { return linkage_of(*d, phi); };
-    if constexpr (requires { validate(*d); }) held.validate = [d] { validate(*d); };
+    if constexpr (requires { faults_of(*d); }) held.faults = [d] { return faults_of(*d); };
     if constexpr (requires { places_of(*d, 0.0); }) held.places = [d](double phi) { return places_of(*d, phi); };
     if constexpr (has_bodies && requires { own_bodies(*d); }) held.own_bodies = [d] { return own_bodies(*d); };
     if constexpr (requires { arc_of(*d); }) held.arc = arc_of(*d);
@@ -101,7 +101,7 @@ class MechanismData {
     LinkageDrawing drawing;
     double gravity = 0;
     std::function<PlanarLinkage(long double)> linkage;
-    std::function<void()> validate;
+    std::function<DataFaults()> faults;
     std::function<std::vector<PlanePoint>(double)> places;
     std::function<std::unique_ptr<MechanismBodies>()> own_bodies;
     std::optional<CrankArc> arc;

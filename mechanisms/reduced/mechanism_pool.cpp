@@ -1,6 +1,4 @@
 // mechanism_pool.cpp — gathers the crank's motion, applies the reduced functions, scatters torque and inertia.
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "mechanisms/reduced/mechanism.h"

@@ -117,10 +117,8 @@ std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& linkag
                                                      std::span<const FrictionPlace> friction,
                                                      std::span<const std::vector<AppliedForce>> applied = {});
 
-// For mechanisms with change points: φ, or, if it is nearer to one than a thousandth of the change of the sine per radian,
-// the angle at that distance on the same side. Reactions are proportional to the inverse of the distance.
-double beside_change_point(const MechanismData& data, double phi);
-// The linkage at that angle.
+// The linkage at φ; of a mechanism that passes change points: at φ itself, or if it lies nearer to one than a thousandth of what the sine there
+// changes by in a radian, the place at that distance on its side. Reactions go with the inverse of the distance.
 PlanarLinkage linkage_beside(const MechanismData& data, double& phi);
 
 // Reactions that are unbounded at change points, found from positions at two distances from each.

@@ -5,9 +5,7 @@
 // difference is the smallest error that is ever stated. Then each method runs through all tolerances.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>

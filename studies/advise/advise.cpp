@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
-#include "studies/advise/advise_screens.h"
 #include "studies/advise/settled.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/validity/idle_effects.h"

@@ -2,7 +2,6 @@
 // run.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

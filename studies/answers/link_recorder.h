@@ -1,7 +1,6 @@
 // link_recorder.h — an observer of the reduction link: its angle, when it last turned, whether it oscillates.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/run/run.h"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <stdexcept>
 
 #include "drivetrain/induction/induction_law.h"
 #include "engine/model/model.h"

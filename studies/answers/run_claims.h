@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "studies/findings/result.h"
 #include "studies/limits/verdicts.h"

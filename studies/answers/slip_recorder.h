@@ -1,7 +1,6 @@
 // slip_recorder.h — an observer of clutches, limiters and one-way clutches: when each slips, and under which command.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

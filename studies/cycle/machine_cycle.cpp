@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "engine/base/gauss.h"
 #include "engine/numerics/deadline.h"

@@ -1,9 +1,6 @@
 // motor_figures.cpp — quadratures of the motors' torques as figures.
 #include "studies/duty/motor_figures.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "drivetrain/induction/induction_law.h"
 #include "drivetrain/motors/motors.h"
 #include "engine/numerics/index.h"

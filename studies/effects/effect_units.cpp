@@ -9,7 +9,6 @@
 #include <set>
 
 #include "engine/events/equations.h"
-#include "engine/model/model.h"
 
 namespace kurbel {
 namespace {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/scene/messages.h"
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "engine/tables/table_file.h"
 
@@ -19,12 +20,6 @@ namespace {
 constexpr const char* variations =
     "write a range \"main_coupling.stiffness=500..1500 kN*m/rad\" or a list \"flywheel.inertia=200,400,800 kg*m2\"";
 constexpr std::size_t most_values = 1'000'000;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
-}
 
 // A number and what stands behind it.
 struct Numbered {

@@ -1,7 +1,6 @@
 // figure_changes.cpp — figures of two runs side by side.
 #include "studies/findings/figure_changes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #include "studies/findings/trace.h"
 
 #include <cmath>
-#include <optional>
 
 #include "engine/numerics/roots.h"
 #include "studies/findings/thin.h"

@@ -7,10 +7,7 @@
 // resolution, rounding, and, if the motion is simulated, the difference to a run with 30 × looser tolerance.
 #pragma once
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <functional>
 #include <optional>

@@ -1,7 +1,6 @@
 // spectrum.h — frequencies and orders of a simulated torque: over the whole run, and over speed along a run-up.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "engine/base/estimate.h"

@@ -9,7 +9,6 @@
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/follow_period.h"
-#include "engine/run/recorders.h"
 #include "engine/values/dense_tables.h"
 
 namespace kurbel {

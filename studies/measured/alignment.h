@@ -8,8 +8,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "studies/measured/measurement.h"

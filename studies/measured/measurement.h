@@ -1,7 +1,6 @@
 // measurement.h — a measured record: columns of a CSV file as channels of the machine, in SI.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "engine/linear/rest_place.h"
@@ -12,7 +11,6 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/kept_moment.h"
-#include "studies/history/torque_history.h"
 #include "studies/modes/critical_speeds.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/mode_list.h"

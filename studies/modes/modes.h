@@ -6,9 +6,7 @@
 // first order for |ν/2ω − 1| < ½ √(ε²/4 − 4ζ²), ν = r Ω: around the speeds 2 ω/r.       (Mathieu; theory 12.8)
 #pragma once
 
-#include <atomic>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>

@@ -7,12 +7,6 @@
 
 namespace kurbel {
 
-double Chain::total() const {
-  double sum = 0;
-  for (const ChainInertia& i : inertias) sum += i.reduced;
-  return sum;
-}
-
 Chain elastic_chain(const Model& model, int node) {
   const Network& net = model.network;
   const double target = model.node_ratio[at(node)];

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,7 +78,6 @@ struct ChainSpring {
 struct Chain {
   std::vector<ChainInertia> inertias;
   std::vector<ChainSpring> springs;
-  double total() const;
 };
 
 // A coupler curve: positions of a linkage's point at equal steps of its driving link's angle.

@@ -2,7 +2,6 @@
 #include "studies/report/write_output.h"
 
 #include "studies/files/result_set.h"
-#include "studies/report/render.h"
 
 namespace kurbel {
 

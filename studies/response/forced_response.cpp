@@ -8,6 +8,7 @@
 
 #include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
@@ -146,20 +147,6 @@ std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omeg
   for (Index j = 0; j < twist.size(); ++j) all.push_back({torque[j], twist[j]});
   for (const TorqueJoint& joint : drive_.model->torque_joints)
     if (joint.elastic >= 0) all[at(joint.elastic)].torque = joint.told(torque.data(), joint.elastic);
-  return all;
-}
-
-Eigen::VectorXcd FrequencyResponse::motion(double omega, const Eigen::VectorXcd& torque) {
-  Forcing f = Forcing::none(drive_);
-  f.torque = torque;
-  return motion(omega, f).q;
-}
-
-std::vector<Complex> FrequencyResponse::torques(double omega, const Eigen::VectorXcd& torque) {
-  Forcing f = Forcing::none(drive_);
-  f.torque = torque;
-  std::vector<Complex> all;
-  for (const JointSwing& swing : swings(omega, f)) all.push_back(swing.torque);
   return all;
 }
 

@@ -58,9 +58,6 @@ class FrequencyResponse {
   };
   std::vector<JointSwing> swings(double omega, const Forcing& forcing);
   std::vector<JointSwing> swings(double omega, const Forcing& forcing, const Motion& motion) const;
-  // Under torques on the coordinates alone.
-  Eigen::VectorXcd motion(double omega, const Eigen::VectorXcd& torque);
-  std::vector<Complex> torques(double omega, const Eigen::VectorXcd& torque);
 
  private:
   struct Solver;

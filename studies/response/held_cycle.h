@@ -10,7 +10,6 @@
 
 #include <atomic>
 #include <complex>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

@@ -35,11 +35,10 @@ std::string told(const EnergyBalance& energy);
 
 // "peak_torque.main_coupling" → "peak torque, main_coupling"
 std::string in_words(const Figure& figure);
-std::string sure(const Figure& figure);                          // value, error, unit in SI
-std::string sure(const Figure& figure, const SpeedUnit& speed);  // the same, of a speed in this unit
-SpeedUnit speed_unit_of(const Result& result);                   // of its scene
-std::string at_time(const Figure& figure);                       // "at 1.23 s"; empty: at none
-const Figure* largest_peak(const Result& result);                // of torque in any coupling
+std::string sure(const Figure& figure);            // value, error, unit in SI
+SpeedUnit speed_unit_of(const Result& result);     // of its scene
+std::string at_time(const Figure& figure);         // "at 1.23 s"; empty: at none
+const Figure* largest_peak(const Result& result);  // of torque in any coupling
 const Figure* first_of(const Result& result, const QuantityKind& what);
 
 // For cranks that cannot rotate fully.

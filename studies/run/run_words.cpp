@@ -59,10 +59,6 @@ std::string in_words(const Figure& f) {
 }
 
 std::string sure(const Figure& f) { return with_error(f, f.unit); }
-std::string sure(const Figure& f, const SpeedUnit& speed) {
-  if (f.unit != "rad/s") return sure(f);
-  return with_error(f / speed.size, speed.name);
-}
 SpeedUnit speed_unit_of(const Result& r) { return r.model ? r.model->scene.speed_unit : SpeedUnit{}; }
 std::string at_time(const Figure& f) { return f.at ? "at " + with_error({*f.at, f.at_error}, "s") : ""; }
 

@@ -2,9 +2,6 @@
 // accuracy.
 #pragma once
 
-#include <atomic>
-#include <functional>
-
 #include "engine/model/model.h"
 #include "studies/findings/result.h"
 #include "studies/findings/watch.h"

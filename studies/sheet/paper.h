@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <string>
-#include <vector>
 
 #include "studies/sheet/canvas.h"
 

@@ -1,7 +1,6 @@
 // table.h — a table of a sheet: one column per quantity, one row per position; digits according to its largest value.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // size.h — flywheel for a demanded δ: by Wittenbauer, Mertsalov and without I_em; with the actual motor; by steady motion.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

@@ -7,10 +7,7 @@
 #pragma once
 
 #include <atomic>
-#include <cmath>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

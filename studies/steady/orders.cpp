@@ -8,7 +8,6 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "engine/base/gauss.h"

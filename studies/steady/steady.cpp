@@ -5,11 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/kept_moment.h"

@@ -6,7 +6,6 @@
 
 #include "drivetrain/shared/rating_keys.h"
 #include "studies/limits/ratings.h"
-#include "studies/limits/verdicts.h"
 
 namespace kurbel {
 namespace {

@@ -1,7 +1,6 @@
 // limit.h — a limit on a figure, and whether a variant meets it: "delta.press <= 0.05", "peak_torque.c1 < 2 kN*m".
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

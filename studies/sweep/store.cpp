@@ -191,12 +191,6 @@ void SweepStore::each(const Visit& visit, std::size_t from, std::size_t to) cons
   }
 }
 
-std::vector<SweepRow> SweepStore::read(std::size_t from, std::size_t to) const {
-  std::vector<SweepRow> rows;
-  each([&](SweepRow&& row) { rows.push_back(std::move(row)); }, from, to);
-  return rows;
-}
-
 // --- merge: shards of one sweep become one file ---
 
 namespace {

@@ -55,7 +55,6 @@ class SweepStore {
   using Visit = std::function<void(SweepRow&& row)>;
   static constexpr std::size_t all = std::numeric_limits<std::size_t>::max() / 2;
   void each(const Visit& visit, std::size_t from = 0, std::size_t to = all) const;
-  std::vector<SweepRow> read(std::size_t from = 0, std::size_t to = all) const;
   const std::filesystem::path& file() const { return database_->file(); }
 
  private:

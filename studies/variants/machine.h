@@ -1,7 +1,6 @@
 // machine.h — a row of variants as a machine: the scene with the row's values, and the figures of a study.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
