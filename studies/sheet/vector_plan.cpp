@@ -180,7 +180,11 @@ void add_plans(Sheets& sheets, const PlansOnSheet& form, const std::vector<Vecto
   double common = 0;
   for (const VectorPlan& p : plans) common = std::max(common, finest(extent_of(p, form.direction), cell));
   const Scale shared = scale_for(form.scale, form.unit, common, 1);
-  const auto on_a_sheet = static_cast<std::size_t>(columns * rows);
+  auto on_a_sheet = static_cast<std::size_t>(columns * rows);
+  if (form.columns == 0) {  // as many on each, as near as may be
+    const std::size_t count = (plans.size() + on_a_sheet - 1) / on_a_sheet;
+    on_a_sheet = (plans.size() + count - 1) / std::max<std::size_t>(1, count);
+  }
   for (std::size_t from = 0; from < plans.size(); from += on_a_sheet) {
     Canvas& c = sheets.add(form.what, form.each_to_its_own ? "" : shared.words());
     for (std::size_t k = from; k < std::min(plans.size(), from + on_a_sheet); ++k) {
