@@ -40,7 +40,8 @@ const Definition* definition_of(std::string_view name);
 // Of a typed name, whose owner is known.
 const Definition* definition_of(const Name& name);
 
-// What a person may mean by it: its name as above, or its words: "mean speed", "speed fluctuation".
+// What a person may mean by it: its name as above, its words: "mean speed", a symbol: "R_12", "δ", or what a page calls it:
+// "peak torque, main_coupling".
 const Definition* meant_by(std::string_view asked);
 // Under which of these names a figure is told that is not told under the one asked for: δ of motion that does not
 // repeat, what is of a whole run and of a cycle; empty: under none.

@@ -65,28 +65,30 @@ class CuttingDrawing {
     plot.series.push_back(dashed(circle("base circle", Role::reference, w_.base_diameter)));
     plot.series.push_back(middle_rack());
     plot.series.push_back(dashed(datum_line()));
-    plot.equal_axes = plot.wide = true;
+    plot.equal_axes = true;
     plot.note = fmt::format(
-        "Generating: the rack rolls on the reference circle, its datum line {:.4g} mm {} of it (x_E m, x_E = {:.4g}); "
-        "drawn "
-        "every {:.3g}° of the wheel, transverse section. The envelope of its straight flanks is the involute, that of "
-        "its "
-        "rounded corners the fillet{}. A hob or a pinion cutter makes the same flank. Form cutting: a disc or end mill "
+        "Generating: the rack rolls on the reference circle, its datum line {}; drawn every {:.3g}° of the wheel, in "
+        "transverse section. The envelope of its straight flanks is the involute, that of its rounded corners the "
+        "fillet{}. A hob or a pinion cutter makes the same flank. Form cutting: a disc or end mill of the space's own "
+        "shape cuts one space after the other; it is right for one z and x alone, so a set of cutters shares the range "
         "of "
-        "the space's own shape cuts one space after the other; it is right for one z and x alone, so a set of cutters "
-        "shares the range of z and flanks between are approximate.",
-        in_millimetres * std::abs(w_.generating_shift) * w_.module, w_.generating_shift < 0 ? "inside" : "outside",
-        w_.generating_shift, step() * 180 / std::numbers::pi,
+        "z, and flanks between are approximate.",
+        datum_in_words(), step() * 180 / std::numbers::pi,
         w_.undercut ? "; here the corners go beyond the involute's begin and cut into it" : "");
     return plot;
   }
 
  private:
   std::string title() const {
-    return fmt::format(
-        "The rack's positions envelop the teeth of wheel {}: {} (z = {}, x_E = {:.4g}, without undercut from "
-        "x_E = {:.4g} on)",
-        number_, w_.undercut ? "undercut" : "no undercut", w_.teeth, w_.generating_shift, w_.least_shift_generated());
+    return fmt::format("How the rack cuts wheel {} (z = {}, x_E = {}): {}undercut, which begins below x_E = {}",
+                       number_, w_.teeth, read_as(w_.generating_shift, {.digits = 3}), w_.undercut ? "" : "no ",
+                       read_as(w_.least_shift_generated(), {.digits = 3}));
+  }
+  std::string datum_in_words() const {
+    const double by = w_.generating_shift * w_.module;
+    return by == 0 ? "touching it"
+                   : fmt::format("{:.4g} mm {} of it (x_E m)", in_millimetres * std::abs(by),
+                                 by < 0 ? "inside" : "outside");
   }
   double step() const { return 2 * rolled_pitches * pitch_ / (0.5 * w_.reference_diameter) / (positions - 1); }
 
@@ -95,9 +97,9 @@ class CuttingDrawing {
     Series s{.name = "rack, position by position", .role = Role::sky};
     for (int k = 0; k < positions; ++k) {
       std::vector<OutlinePoint> seen;
-      for (int space = -3; space <= 3; ++space)
+      for (int space = -5; space <= 5; ++space)
         for (const OutlinePoint& p : rack_at(w_, step() * (k - (positions - 1) / 2), space))
-          if (std::abs(p.y) < 1.3 * side_ && p.x < top_ + 3 * w_.module) seen.push_back(p);
+          if (std::abs(p.y) < 2.4 * side_ && p.x < top_ + 3 * w_.module) seen.push_back(p);
       if (seen.empty()) continue;
       const double above = top_ + 4 * w_.module;
       put(s, {above, seen.front().y});
@@ -108,18 +110,18 @@ class CuttingDrawing {
   }
   Series middle_rack() const {
     Series s{.name = "rack in its middle position", .role = Role::orange};
-    for (int space = -1; space <= 1; ++space)
+    for (int space = -2; space <= 2; ++space)
       for (const OutlinePoint& p : rack_at(w_, 0, space)) put(s, p);
     return s;
   }
   Series datum_line() const {
     Series s{.name = "its datum line", .role = Role::orange};
-    for (const double along : {-side_, side_}) put(s, in_wheel(w_, 0, 0, along));
+    for (const double along : {-2 * side_, 2 * side_}) put(s, in_wheel(w_, 0, 0, along));
     return s;
   }
   Series tooth(const GearWheel& w, const std::string& name, Role role) const {
     Series s{.name = name, .role = role};
-    for (int k = -1; k <= 1; ++k) {
+    for (int k = -2; k <= 2; ++k) {
       const double c = std::cos(2 * k * std::numbers::pi / w.teeth), d = std::sin(2 * k * std::numbers::pi / w.teeth);
       for (const OutlinePoint& p : tooth_outline(w, 24)) put(s, {c * p.x - d * p.y, d * p.x + c * p.y});
     }
@@ -138,18 +140,18 @@ class CuttingDrawing {
   Series involute_alone() const {
     Series s{.name = "involute down to the base circle", .role = Role::vermillion, .dashed = true};
     constexpr int points = 24;
-    for (int i = -points; i <= points; ++i) {
-      const double share = std::abs(i) / static_cast<double>(points);
+    for (int k = 0; k < 2 * points; ++k) {
+      const double share = std::abs(k - points + 0.5) / (points - 0.5), side = k < points ? 1 : -1;
       const double d = w_.tip_diameter + (w_.base_diameter - w_.tip_diameter) * share,
                    half = w_.thickness(std::max(d, w_.base_diameter)) / d;
-      put(s, {0.5 * d * std::cos(half), (i < 0 ? 0.5 : -0.5) * d * std::sin(half)});
+      put(s, {0.5 * d * std::cos(half), side * 0.5 * d * std::sin(half)});
     }
     return s;
   }
   Series circle(const std::string& name, Role role, double diameter) const {
     Series s{.name = name, .role = role};
     for (int i = -20; i <= 20; ++i) {
-      const double angle = i / 20.0 * std::min(1.5, 3 * side_ / diameter);
+      const double angle = i / 20.0 * std::min(1.5, 4 * side_ / diameter);
       put(s, {0.5 * diameter * std::cos(angle), 0.5 * diameter * std::sin(angle)});
     }
     return s;
