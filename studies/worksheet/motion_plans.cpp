@@ -62,6 +62,7 @@ class Points {
 
   const PlanarLinkage& linkage() const { return l_; }
   const std::vector<Slide>& slides() const { return slides_; }
+  std::size_t links() const { return of_link_.size(); }
   const std::vector<PointOfLink>& of_link(std::size_t i) const { return of_link_[i]; }
   Real omega(int body) const { return body == PlanarLinkage::frame ? 0 : turning(body).value() * w_; }
   Real alpha(int body) const { return turning(body).slope() * w_ * w_ + turning(body).value() * e_; }
@@ -71,30 +72,11 @@ class Points {
             w_ * w_ * Vector(p.x.curvature(), p.y.curvature()) + e_ * Vector(p.x.slope(), p.y.slope())};
   }
 
-  // Where each link's motion is told from: its fixed bearing, else what an earlier link leads to.
-  std::vector<std::size_t> bases(std::vector<std::size_t>& order) const {
-    std::vector<std::size_t> base(of_link_.size(), 0);
-    std::vector<bool> done(of_link_.size(), false);
-    std::vector<std::string> reached;
-    const auto found = [&](const PointOfLink& p) {
-      return p.fixed || std::find(reached.begin(), reached.end(), p.name) != reached.end();
-    };
-    while (order.size() < of_link_.size()) {
-      std::size_t next = of_link_.size();
-      for (std::size_t i = of_link_.size(); i-- > 0;)
-        if (!done[i] && (next == of_link_.size() || std::any_of(of_link_[i].begin(), of_link_[i].end(), found)))
-          next = i;
-      const std::vector<PointOfLink>& points = of_link_[next];
-      auto from = std::find_if(points.begin(), points.end(), [](const PointOfLink& p) { return p.fixed; });
-      if (from == points.end()) from = std::find_if(points.begin(), points.end(), found);
-      base[next] = from == points.end() ? 0 : static_cast<std::size_t>(from - points.begin());
-      for (const PointOfLink& p : points) reached.push_back(p.name);
-      for (const Slide& s : slides_)
-        if (std::find(reached.begin(), reached.end(), s.under) != reached.end()) reached.push_back(s.point);
-      done[next] = true;
-      order.push_back(next);
-    }
-    return base;
+  // Where a link's motion is told from: its fixed bearing, else its first joint.
+  const PointOfLink& base(std::size_t i) const {
+    const auto fixed =
+        std::find_if(of_link_[i].begin(), of_link_[i].end(), [](const PointOfLink& p) { return p.fixed; });
+    return fixed == of_link_[i].end() ? of_link_[i].front() : *fixed;
   }
 
  private:
@@ -170,9 +152,7 @@ VectorPlan plan_of(const MechanismOnSheet& m, const LinkAt& at, const std::strin
     plan.points.push_back({in_plan(name, prime), rounded(motion.*get)});
     plan.arrows.push_back({"", {0, 0}, rounded(motion.*get), pen});
   };
-  std::vector<std::size_t> order;
-  const std::vector<std::size_t> base = points.bases(order);
-  for (const std::size_t i : order)
+  for (std::size_t i = 0; i < points.links(); ++i)
     for (const PointOfLink& p : points.of_link(i))
       if (!p.fixed) add_point(p.name, p.motion, Pen::main);
   for (int i = 0; i < points.linkage().body_count; ++i) {
@@ -188,11 +168,9 @@ VectorPlan plan_of(const MechanismOnSheet& m, const LinkAt& at, const std::strin
   const auto put = [&](const std::string& name, Vector from, Vector part, Pen pen) {
     if (std::abs(part) > 1e-12L * largest) plan.arrows.push_back({name, rounded(from), rounded(from + part), pen});
   };
-  for (const std::size_t i : order) {
-    const std::vector<PointOfLink>& list = points.of_link(i);
-    for (std::size_t k = 0; k < list.size(); ++k)
-      if (k != base[i] && !list[k].fixed) parts(points, static_cast<int>(i), list[base[i]], list[k], put);
-  }
+  for (std::size_t i = 0; i < points.links(); ++i)
+    for (const PointOfLink& p : points.of_link(i))
+      if (!p.fixed && &p != &points.base(i)) parts(points, static_cast<int>(i), points.base(i), p, put);
   for (const Slide& s : points.slides()) parts(s, put);
   return plan;
 }
@@ -246,8 +224,8 @@ void add_motion_plans(Sheets& sheets, const MechanismOnSheet& m, const SheetMoti
   }
   const double direction = m.mechanism.data.drawing().direction;
   const std::string digits =
-      "A digit behind a letter: the point of that link which the slide's point covers. Parts under 1.2 mm bear no "
-      "name; ";
+      "A digit behind a letter: the point of that link which the slide's point covers. Parts under 1.2 mm are not "
+      "named; ";
   add_plans(
       sheets,
       {.what = m.mechanism.name + ": plans of velocity",

@@ -4,7 +4,7 @@
 // carrying link that it covers:
 //     v_P = v_B + ω × BP            a_P = a_B − ω² BP + ε × BP          normal, tangential
 //     v_P = v_Q + v_PQ              a_P = a_Q + 2 ω × v_PQ + aʳ_PQ      Coriolis, relative along the slide
-// B is the link's fixed bearing where it has one, else the point that the links before it lead to.
+// B is the link's fixed bearing where it has one, else its first joint.
 #pragma once
 
 #include <string>
