@@ -1,6 +1,6 @@
 // symbols.h — symbols of formulas, diagrams and worksheets, as they are written there: "R_12", "aⁿ_BA", "μ_v".
 //
-// A star stands for an index. What has several meanings tells all of them.
+// A star stands for an index. A symbol with several meanings has all of them.
 #pragma once
 
 #include "studies/dictionary/entries.h"
