@@ -40,7 +40,8 @@ const Definition* definition_of(std::string_view name);
 // Of a typed name with known owner.
 const Definition* definition_of(const Name& name);
 
-// By name as above, or by words: "mean speed", "speed fluctuation".
+// What a person may mean by it: its name as above, its words: "mean speed", a symbol: "R_12", "δ", or what a page calls it:
+// "peak torque, main_coupling".
 const Definition* meant_by(std::string_view asked);
 // The one of `names` that replaces a figure not given under `asked`: δ of motion that does not repeat; figures of a
 // whole run and of a cycle; empty: none.

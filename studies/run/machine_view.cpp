@@ -117,6 +117,11 @@ MachineView::Linkage linkage_of(const Mechanism& mechanism, const Model& model, 
   for (const JointClearance& c : mechanism.clearances)
     if (c.joint != JointClearance::Joint::guide) linkage.gaps.push_back({c.name(), c.contact.gap});
   for (const auto& [shape, joints] : drawing.links) linkage.links.push_back({shape, joints});
+  const auto slides_there = [&](const MachineView::Linkage::Link& link) {
+    return (link.shape == "slider" || link.shape == "point") && link.joints.front() == drawing.output;
+  };
+  if (!drawing.rocks && std::none_of(linkage.links.begin(), linkage.links.end(), slides_there))
+    linkage.links.push_back({"point", {drawing.output}});
   for (int i = 0; i <= places_of_turn * mechanism.reduced->cycle().turns(); ++i) {
     const double angle = 2 * std::numbers::pi * i / places_of_turn;
     const std::vector<PlanePoint> joints =

@@ -37,6 +37,7 @@ struct ForcesSheet {
   std::string author, title, scene_file, speed;
   Forces forces;
   std::vector<MechanismOnSheet> mechanisms;  // the one
+  bool weightless = false;                   // the effect gravity is off
   SheetMotion motion;
   std::vector<Joint> joints;
   std::vector<std::string> links;
