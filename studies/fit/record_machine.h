@@ -13,10 +13,11 @@
 
 namespace kurbel {
 
-// A signal of the machine. Over the angle time passes as 1/ω: `pace`.
+// A signal of the machine. Over the angle time passes as 1/ω: `pace`. Over time, of a speed with an encoder's pattern,
+// the `angle` of its shaft.
 struct ShownSignal {
   Signal signal;
-  std::optional<Signal> pace = {};
+  std::optional<Signal> pace = {}, angle = {};
   // ∫ y dt/∫ dt over x ± reach, by the midpoints of equal parts.
   double mean(double x, double reach) const;
 };

@@ -6,9 +6,10 @@
 //     gain of engine.load.pressure=0.9..1.1     factor on a table's values
 //     shift of engine.load.pressure=-2..2 deg   a table, delayed by this
 //     shift=-2..2 deg                           the record, simulated = measured + shift
-//     dead centre of engine.load.pressure=-2..2 deg   table and record, later together by this
+//     offset of engine.load.pressure=-0.1..0.1 bar    a table's values, more by this
+//     dead centre of engine.load.pressure=-2..2 deg   table and record, or table and angle of start, later by this
 //     gain of speed.engine=0.98..1.02, offset of speed.engine=-5..5 rpm    what a record shows = gain · simulated + offset
-//     pattern of speed.engine=1,2               Σ (a cos k φ + b sin k φ) of its mean, that an encoder adds each turn
+//     pattern of speed.engine=1,2               times 1 + Σ (a cos k φ + b sin k φ): an encoder's teeth, each turn
 #pragma once
 
 #include <optional>
@@ -21,7 +22,7 @@
 namespace kurbel {
 
 struct Unknown {
-  enum class Kind { key, table_gain, table_shift, record_shift, dead_centre, gain, offset, cosine, sine };
+  enum class Kind { key, table_gain, table_offset, table_shift, record_shift, dead_centre, gain, offset, cosine, sine };
   Kind kind = Kind::key;
   std::string name;                        // as reported: "rotor.inertia", "half: shift"
   SweptParameter range;                    // path, unit, ends
@@ -34,7 +35,11 @@ struct Unknown {
   double si(double u) const { return factor * at(u); }
   bool concerns(std::size_t r) const { return !record || *record == r; }
   bool moves_machine() const {
-    return kind == Kind::key || kind == Kind::table_gain || kind == Kind::table_shift || kind == Kind::dead_centre;
+    return kind == Kind::key || kind == Kind::table_gain || kind == Kind::table_offset || kind == Kind::table_shift ||
+           kind == Kind::dead_centre;
+  }
+  bool is_pattern_of(const std::string& channel) const {
+    return (kind == Kind::cosine || kind == Kind::sine) && of == channel;
   }
 };
 
