@@ -9,9 +9,6 @@
 namespace kurbel {
 namespace {
 
-// A guard that is this far below zero (of a scale of one) has fired; one this near above it stands at its root.
-constexpr double fired_below = -1e-11, at_root = 1e-13;
-
 // Guards of speeds and torques: those of angles cannot come back within a quarter turn.
 bool guards_beyond_angles(const Equations& equations) {
   std::size_t of_angle = 0;
@@ -21,6 +18,21 @@ bool guards_beyond_angles(const Equations& equations) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> fall_at_once(Equations& equations, double t, std::span<const double> y) {
+  constexpr double further = 1e-6;  // [s]
+  std::vector<double> guard(equations.guard_count()), moved(y.begin(), y.end()), slope(y.size());
+  std::vector<std::size_t> falling;
+  equations.guards(t, y, guard);
+  if (std::none_of(guard.begin(), guard.end(), [](double g) { return g <= at_root; })) return falling;
+  equations.flow(t, y, slope);
+  for (std::size_t i = 0; i < y.size(); ++i) moved[i] += further * slope[i];
+  std::vector<double> then(guard.size());
+  equations.guards(t + further, moved, then);
+  for (std::size_t i = 0; i < guard.size(); ++i)
+    if (guard[i] <= at_root && then[i] < fired_below) falling.push_back(i);
+  return falling;
+}
 
 EventLocation::EventLocation(Equations& equations, const RunOptions& options, std::size_t states)
     : equations_(equations),
