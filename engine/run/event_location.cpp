@@ -19,21 +19,6 @@ bool guards_beyond_angles(const Equations& equations) {
 
 }  // namespace
 
-std::vector<std::size_t> fall_at_once(Equations& equations, double t, std::span<const double> y) {
-  constexpr double further = 1e-6;  // [s]
-  std::vector<double> guard(equations.guard_count()), moved(y.begin(), y.end()), slope(y.size());
-  std::vector<std::size_t> falling;
-  equations.guards(t, y, guard);
-  if (std::none_of(guard.begin(), guard.end(), [](double g) { return g <= at_root; })) return falling;
-  equations.flow(t, y, slope);
-  for (std::size_t i = 0; i < y.size(); ++i) moved[i] += further * slope[i];
-  std::vector<double> then(guard.size());
-  equations.guards(t + further, moved, then);
-  for (std::size_t i = 0; i < guard.size(); ++i)
-    if (guard[i] <= at_root && then[i] < fired_below) falling.push_back(i);
-  return falling;
-}
-
 EventLocation::EventLocation(Equations& equations, const RunOptions& options, std::size_t states)
     : equations_(equations),
       options_(options),
@@ -221,6 +206,27 @@ void EventLocation::land_on(double t, std::size_t guard) {
     const double better = t - residual / slope;
     if (!(better > t0) || better > t1) return;
     t = better;
+  }
+}
+
+std::vector<std::size_t> fall_at_once(Equations& equations, double t, std::span<const double> y) {
+  constexpr double tolerance = 1e-9, longest = 1e-4;  // [s]
+  std::vector<double> guard(equations.guard_count());
+  equations.guards(t, y, guard);
+  if (std::none_of(guard.begin(), guard.end(), [](double g) { return g <= at_root; })) return {};
+  try {
+    const auto stepper = make_stepper(Method::dormand_prince_54, equations, equations.error_control(tolerance));
+    const RunOptions options;
+    EventLocation location(equations, options, equations.size());
+    location.watch(*stepper, false);
+    stepper->start(t, y);
+    location.begin(t, y);
+    stepper->step(std::min(t + longest, equations.next_edge(t)));
+    const std::vector<std::size_t> fired = location.find();
+    return location.take_at_begin() ? fired : std::vector<std::size_t>();
+  } catch (const std::runtime_error&) {  // there is no motion from here that could be told
+    equations.forget_jam();
+    return {};
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "library/fmi/component.h"
@@ -20,14 +19,7 @@ fmi2Status as2(Status status) { return static_cast<fmi2Status>(static_cast<int>(
 
 template <class Do>
 fmi2Status call2(fmi2Component component, const char* function, unsigned allowed, const Do& act) {
-  return as2(guarded(of2(component), function, allowed, [&] {
-    if constexpr (std::is_void_v<decltype(act(*of2(component)))>) {
-      act(*of2(component));
-      return Status::ok;
-    } else {
-      return act(*of2(component));
-    }
-  }));
+  return as2(guarded(of2(component), function, allowed, act));
 }
 fmi2Status all_are_real(fmi2Component component, const char* function, std::size_t count) {
   if (count == 0) return call2(component, function, anywhere, [](Component&) {});

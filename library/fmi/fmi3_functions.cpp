@@ -3,7 +3,6 @@
 #include <cstring>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "library/fmi/fmi3_call.h"

@@ -1,6 +1,6 @@
 # The run-time of exported components (library/fmi): rooms of the engine, drive and mechanisms once more, small (-Os) and
 # without what reads files, linked so that it needs libc and libstdc++ alone.
-set(rooms engine/base engine/scene engine/elements engine/model engine/equations engine/events engine/steppers engine/run engine/rigid
+set(rooms engine/base engine/scene engine/elements engine/model engine/equations engine/events engine/steppers engine/run
   engine/numerics engine/matrices engine/values engine/reading engine/tables "drivetrain(/[a-z_]+)?" mechanisms/linkage
   mechanisms/linkages mechanisms/bodies mechanisms/friction mechanisms/slider_crank mechanisms/loads mechanisms/reduced
   mechanisms/link_forces mechanisms/joints mechanisms/kinds)
