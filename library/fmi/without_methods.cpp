@@ -5,6 +5,7 @@
 #include <cstdio>  // which the headers take for granted
 
 #include <arkode/arkode_butcher.h>
+#include <arkode/arkode_butcher_dirk.h>
 #include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_mristep.h>
 #include <sundials/sundials_logger.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 
 #include "engine/rigid/work_stepper.h"
@@ -107,6 +109,39 @@ int SUNLogger_SetWarningFilename(SUNLogger, const char*) { return 0; }
 int SUNLogger_SetInfoFilename(SUNLogger, const char*) { return 0; }
 int SUNLogger_SetDebugFilename(SUNLogger, const char*) { return 0; }
 int SUNLogger_Destroy(SUNLogger*) { return 0; }
+
+// --- implicit pairs: those that a run takes (list_tables.cpp) ---
+
+namespace {
+const struct {
+  const char* name;
+  int id, stages, q, p;
+  double numbers[7 * 8 / 2 + 3 * 7];
+} pairs[] = {
+#include <kurbel_fmi_tables.h>
+};
+}  // namespace
+
+ARKodeButcherTable ARKodeButcherTable_LoadDIRK(ARKODE_DIRKTableID id) {
+  for (const auto& pair : pairs) {
+    if (pair.id != id) continue;
+    const ARKodeButcherTable table = ARKodeButcherTable_Alloc(pair.stages, 1);
+    if (!table) return nullptr;
+    table->q = pair.q, table->p = pair.p;
+    const double* number = pair.numbers;
+    for (int i = 0; i < pair.stages; ++i) {
+      for (int j = 0; j <= i; ++j) table->A[i][j] = *number++;
+      table->b[i] = *number++, table->c[i] = *number++, table->d[i] = *number++;
+    }
+    return table;
+  }
+  return nullptr;
+}
+ARKODE_DIRKTableID arkButcherTableDIRKNameToID(const char* name) {
+  for (const auto& pair : pairs)
+    if (std::strcmp(pair.name, name) == 0) return static_cast<ARKODE_DIRKTableID>(pair.id);
+  return ARKODE_DIRK_NONE;
+}
 
 // --- explicit pairs, and steps of several rates: there are none ---
 
