@@ -128,6 +128,13 @@ Status guarded(Component* c, const char* function, unsigned allowed, const Do& a
   });
 }
 
+inline Status rates_of(Component& c, std::span<double> rates) {
+  if (c.instance->derivatives(rates)) return Status::ok;
+  c.log(Status::discard, "logStatusError",
+        "states with which the rates are no finite numbers; a shorter step may help");
+  return Status::discard;
+}
+
 inline Status refused(Component* c, const char* function, const char* why) {
   if (c) c->log(Status::error, "logStatusError", fmt::format("{}: {}", function, why));
   return Status::error;

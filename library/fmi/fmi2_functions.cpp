@@ -271,7 +271,7 @@ static void check_count(std::size_t given, std::size_t count) {
 KURBEL_FMI2 fmi2GetDerivatives(fmi2Component component, fmi2Real rates[], std::size_t count) {
   return call2(component, "fmi2GetDerivatives", to_look, [&](Component& c) {
     check_count(count, c.instance->state_count());
-    return c.instance->derivatives({rates, count}) ? Status::ok : Status::discard;
+    return rates_of(c, {rates, count});
   });
 }
 KURBEL_FMI2 fmi2GetEventIndicators(fmi2Component component, fmi2Real indicators[], std::size_t count) {

@@ -278,7 +278,7 @@ KURBEL_FMI3 fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 sta
 KURBEL_FMI3 fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 rates[], std::size_t count) {
   return call3(instance, "fmi3GetContinuousStateDerivatives", to_look, [&](Component& c) {
     same_count(count, c.instance->state_count());
-    return c.instance->derivatives({rates, count}) ? Status::ok : Status::discard;
+    return rates_of(c, {rates, count});
   });
 }
 KURBEL_FMI3 fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[], std::size_t count) {

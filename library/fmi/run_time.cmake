@@ -13,7 +13,7 @@ get_target_property(loops kurbel_simbody SOURCES)
 list(FILTER loops INCLUDE REGEX "/mechanisms/loops/[a-z_]+\\.cpp$")
 add_library(kurbel_fmi SHARED ${run_time} ${loops} ${KURBEL_FMI_ALONE})
 set_target_properties(kurbel_fmi PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON LINKER_LANGUAGE CXX
-  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  BUILD_RPATH "$ORIGIN" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})  # the path that the standard asks for
 if(KURBEL_UNITY)
   set_target_properties(kurbel_fmi PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endif()
