@@ -291,4 +291,9 @@ std::span<const double> WorkStepper::slope(double t, std::span<const double> y, 
   return ydot;
 }
 
+std::unique_ptr<Stepper> make_work_stepper(Equations& equations, const ErrorControl& control,
+                                           std::shared_ptr<WorkTables> tables) {
+  return std::make_unique<WorkStepper>(equations, control, std::move(tables));
+}
+
 }  // namespace kurbel

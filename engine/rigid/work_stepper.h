@@ -94,4 +94,7 @@ class WorkStepper final : public Stepper {
   mutable std::vector<double> ydot_, ydot_previous_;
 };
 
+std::unique_ptr<Stepper> make_work_stepper(Equations& equations, const ErrorControl& control,
+                                           std::shared_ptr<WorkTables> tables);
+
 }  // namespace kurbel

@@ -9,9 +9,6 @@
 namespace kurbel {
 namespace {
 
-// A guard this far below zero (scale one) has fired; a guard this near above zero is at its root.
-constexpr double fired_below = -1e-11, at_root = 1e-13;
-
 // Guards of speeds and torques: those of angles cannot come back within a quarter turn.
 bool guards_beyond_angles(const Equations& equations) {
   std::size_t of_angle = 0;
@@ -209,6 +206,27 @@ void EventLocation::land_on(double t, std::size_t guard) {
     const double better = t - residual / slope;
     if (!(better > t0) || better > t1) return;
     t = better;
+  }
+}
+
+std::vector<std::size_t> fall_at_once(Equations& equations, double t, std::span<const double> y) {
+  constexpr double tolerance = 1e-9, longest = 1e-4;  // [s]
+  std::vector<double> guard(equations.guard_count());
+  equations.guards(t, y, guard);
+  if (std::none_of(guard.begin(), guard.end(), [](double g) { return g <= at_root; })) return {};
+  try {
+    const auto stepper = make_stepper(Method::dormand_prince_54, equations, equations.error_control(tolerance));
+    const RunOptions options;
+    EventLocation location(equations, options, equations.size());
+    location.watch(*stepper, false);
+    stepper->start(t, y);
+    location.begin(t, y);
+    stepper->step(std::min(t + longest, equations.next_edge(t)));
+    const std::vector<std::size_t> fired = location.find();
+    return location.take_at_begin() ? fired : std::vector<std::size_t>();
+  } catch (const std::runtime_error&) {  // there is no motion from here that could be told
+    equations.forget_jam();
+    return {};
   }
 }
 

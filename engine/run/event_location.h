@@ -13,6 +13,9 @@
 
 namespace kurbel {
 
+// A guard that is this far below zero (of a scale of one) has fired; one this near above it stands at its root.
+inline constexpr double fired_below = -1e-11, at_root = 1e-13;
+
 class EventLocation {
  public:
   // For the guards of the equations, followed by the end of the run.
@@ -56,5 +59,9 @@ class EventLocation {
   bool may_dip_;               // some guard may fall below zero and rise again within a step
   bool at_begin_ = false;
 };
+
+// Guards that stand at their root here and fall as soon as the motion goes on: what a run finds at the begin of its next
+// step, by a step as it takes them.
+std::vector<std::size_t> fall_at_once(Equations& equations, double t, std::span<const double> y);
 
 }  // namespace kurbel

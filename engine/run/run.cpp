@@ -104,11 +104,8 @@ class Loop {
     ErrorControl control = options_.extension ? options_.extension->error_control(options_.tolerance)
                                               : equations_.error_control(options_.tolerance);
     if (is_of_library(method)) control_quadratures(control);
-    if (method == Method::work_equation) {
-      stepper_ = std::make_unique<WorkStepper>(equations_, control, options_.work_tables);
-    } else {
-      stepper_ = make_stepper(method, system_, control);
-    }
+    stepper_ = method == Method::work_equation ? make_work_stepper(equations_, control, options_.work_tables)
+                                               : make_stepper(method, system_, control);
     method_ = method;
     view_.watch(*stepper_);
     location_.watch(*stepper_, is_of_library(method));

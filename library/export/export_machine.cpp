@@ -174,6 +174,21 @@ constexpr const char* licences =
     "be\n"
     "replaced: the sources that the run-time is built from are kurbel's, which builds it anew with other versions.\n";
 
+std::string in_html(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return safe;
+}
+
+std::string front_page(const ExportedMachine& machine) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title></head><body>\n<h1>{0}</h1>\n"
+      "<p>A machine of {1}, exported from {2}. Its variables with their units are in modelDescription.xml; speeds and "
+      "torques are positive in the positive sense of their shafts.</p>\n"
+      "<p><a href=\"licenses/license.txt\">Licences</a></p>\n</body></html>\n",
+      in_html(machine.title.empty() ? machine.name : machine.title), in_html(machine.version), in_html(machine.file));
+}
+
 }  // namespace
 
 ExportedComponent component_of(const Scene& given, const ExportAsked& asked) {
@@ -229,7 +244,8 @@ std::string packed(const ExportedComponent& given, int fmi, const std::string& s
       {"modelDescription.xml", model_description(component, fmi)},
       {binary + machine.name + ".so", std::string(run_time_image())},
       {"resources/machine.json", machine.text()},
-      {fmi == 3 ? "documentation/licenses/license.txt" : "documentation/licenses/license.txt", licences}};
+      {"documentation/index.html", front_page(machine)},
+      {"documentation/licenses/license.txt", licences}};
   for (const std::string& file : files_of(machine.document, scene_folder))
     files.emplace_back("resources/" + file, read_text_file(scene_folder + "/" + file, max_scene_bytes * 4));
   return zip_of(files);

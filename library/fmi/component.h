@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,7 @@ enum Phase : unsigned {
   configuration = 256,
   set_up = instantiated | initialisation,
   running = event_mode | continuous_time | step_mode,
+  to_look = initialisation | running | terminated | failed,  // values may be asked for
   anywhere = 511
 };
 inline const char* name_of(unsigned phase) {
@@ -91,28 +93,46 @@ struct Component {
   }
 };
 
-// Executes a function of the interface. Errors are logged, nothing is thrown. An error of the call leaves the
-// instance unchanged; an error of the machine ends its life (`failed`).
-template <class Do>
-Status guarded(Component* c, const char* function, unsigned allowed, const Do& act) {
+// Does what a function of the interface does; whatever is wrong is logged, and nothing is thrown. A fault of the call
+// leaves the instance as it was; one of the machine ends its life.
+inline Status guarded(Component* c, const char* function, unsigned allowed, const void* of,
+                      Status (*act)(const void* of, Component& c)) {
   if (!c) return Status::error;
   if (!(c->phase & allowed)) {
     c->log(Status::error, "logStatusError", fmt::format("{} cannot be called now: {}", function, name_of(c->phase)));
     return Status::error;
   }
   try {
-    return act();
+    return act(of, *c);
   } catch (const std::invalid_argument& fault) {
     c->log(Status::error, "logStatusError", fmt::format("{}: {}", function, fault.what()));
-    return Status::error;
   } catch (const std::exception& fault) {
     c->phase = failed;
     c->log(Status::error, "logStatusError", fmt::format("{}: {}", function, fault.what()));
-    return Status::error;
   } catch (...) {
     c->phase = failed;
-    return Status::error;
   }
+  return Status::error;
+}
+// What returns nothing is well when it ends.
+template <class Do>
+Status guarded(Component* c, const char* function, unsigned allowed, const Do& act) {
+  return guarded(c, function, allowed, &act, [](const void* of, Component& component) {
+    const Do& does = *static_cast<const Do*>(of);
+    if constexpr (std::is_void_v<decltype(does(component))>) {
+      does(component);
+      return Status::ok;
+    } else {
+      return does(component);
+    }
+  });
+}
+
+inline Status rates_of(Component& c, std::span<double> rates) {
+  if (c.instance->derivatives(rates)) return Status::ok;
+  c.log(Status::discard, "logStatusError",
+        "states with which the rates are no finite numbers; a shorter step may help");
+  return Status::discard;
 }
 
 inline Status refused(Component* c, const char* function, const char* why) {

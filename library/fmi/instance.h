@@ -85,7 +85,7 @@ class Instance {
   void compile();
   void start();
   void follow_parameters();
-  void apply_inputs(EventLog& log);
+  double apply_inputs();
   void put_commands(double until);
   void check_input(std::size_t k, double value) const;
   const ExportedVariable& variable(std::uint32_t reference) const;
