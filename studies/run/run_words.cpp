@@ -95,7 +95,8 @@ std::string figures_in_words(const Result& r) {
   const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
   constexpr double stands_within_the_cycle = 2;
   // Over a cycle the force is a datum; a mechanism without one turns kinetic energy into it.
-  if (const Figure* force = first_of(r, quantities::peak_force); force && force->at.value_or(0) > 0 && r.model->cycle == 0)
+  if (const Figure* force = first_of(r, quantities::peak_force);
+      force && force->at.value_or(0) > 0 && r.model->cycle == 0)
     more(fmt::format("the force on \"{}\" reaches {}{}", force->of,
                      told_shortly(std::abs(force->value), force->unit, speed),
                      force->at ? " at " + told_shortly(*force->at, "s") : ""));
