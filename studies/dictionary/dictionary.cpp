@@ -87,14 +87,11 @@ const Definition* find_symbol(std::string_view asked) {
   return nullptr;
 }
 
-// "peak torque, main_coupling"; "thermal use of motor": what a page calls a figure, with its owner.
+// What a page calls a figure.
 const Definition* find_label(std::string_view asked) {
   for (const entries::Label& l : entries::labels)
     if (asked.starts_with(l.begin) && asked.ends_with(l.end)) return find(l.name);
-  if (asked.starts_with("largest ") && asked.find(" on ") != std::string_view::npos) return find("reaction");
-  for (const std::string_view owned : {", ", " of "})
-    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) return meant_by(asked.substr(0, end));
-  return nullptr;
+  return asked.starts_with("largest ") && asked.find(" on ") != std::string_view::npos ? find("reaction") : nullptr;
 }
 
 }  // namespace
@@ -151,6 +148,7 @@ const Definition* definition_of(const Name& name) {
 const Definition* meant_by(std::string_view asked) {
   if (const Definition* named = definition_of(asked)) return named;
   if (const Definition* symbol = find_symbol(asked)) return symbol;
+  if (const Definition* label = find_label(asked)) return label;
   const std::string name = as_name(asked);
   if (const Definition* named = definition_of(name)) return named;
   for (const Definition& d : dictionary())
@@ -160,7 +158,10 @@ const Definition* meant_by(std::string_view asked) {
     const std::string words = as_name(d.words);
     if (!name.empty() && (words.starts_with(name + "_") || words.ends_with("_" + name))) return &d;
   }
-  return find_label(asked);
+  // "peak torque, main_coupling"; "thermal use of motor": with its owner.
+  for (const std::string_view owned : {", ", " of "})
+    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) return meant_by(asked.substr(0, end));
+  return nullptr;
 }
 
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {

@@ -160,6 +160,8 @@ struct Label {
 };
 inline constexpr Label labels[] = {
     {"largest reaction of ", "", "reaction"},
+    {"largest shaking force", "", "shaking_force"},
+    {"largest shaking moment", "", "shaking_moment"},
     {"largest ", ", moment", "reaction_moment"},
     {"largest amplitude at ", "", "largest_swing"},
     {"amplitude at ", "", "spot_swing"},
