@@ -60,10 +60,10 @@ const Definition* find_with_peaks(std::string_view name) {
   return nullptr;
 }
 
-// "I₀", "I_0"; "ω²" of a formula is ω.
+// "I₀", "I_0"; "ω²" and "I_r(φ)" of a formula are ω and I_r.
 std::string as_symbol(std::string_view text) {
   std::string symbol;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (std::size_t i = 0; i < text.size() && text[i] != '('; ++i) {
     constexpr std::string_view below = "₀", squared = "²";  // the digits' last bytes ascend
     if (text.substr(i).starts_with(squared)) {
       ++i;
@@ -78,13 +78,13 @@ std::string as_symbol(std::string_view text) {
   return symbol;
 }
 
-// One without a star goes first. Points of a plan are written with a prime, or as links are numbered.
+// One without a star goes first. Any small letter may be a point of a plan.
 const Definition* find_symbol(std::string_view asked) {
   const std::string symbol = as_symbol(asked);
   for (const bool starred : {false, true})
     for (const Definition& d : entries::of_symbols)
       if (has_star(d) == starred && fits(d.name, symbol)) return &d;
-  return nullptr;
+  return symbol.size() == 1 && std::islower(static_cast<unsigned char>(symbol[0])) ? find_symbol("*′") : nullptr;
 }
 
 // What a page calls a figure.

@@ -147,7 +147,8 @@ inline constexpr Definition of_symbols[] = {
     // drawn to scale
     {"e", "offset of a slider-crank", "m", "", "9", on_sheets,
      "of the crank's axis from the guide; small in a plan: the point of the pin E"},
-    {"*′", "point of a plan of accelerations", "", "", "9", on_sheets, "of the pin with that letter"},
+    {"*′", "point of a plan, or a position", "", "", "9", on_sheets,
+     "b: end of the velocity of the pin B, b′ of its acceleration; at a position, a letter is an edge of the load"},
     {"μ_*", "scale of a drawing", "", "", "9", on_sheets,
      "what a millimetre of the paper stands for: μ_l of lengths, μ_v, μ_a, μ_F, μ_M of velocities, accelerations, "
      "forces, "
