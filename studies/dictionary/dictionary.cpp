@@ -1,4 +1,4 @@
-// dictionary.cpp — the pages put together, and how a word is looked up.
+// dictionary.cpp — assembles the entries and looks up names and words.
 #include "studies/dictionary/dictionary.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace kurbel {
 namespace {
 
-// "bending_1" is "bending_*"; the star goes no farther than a point, behind which the owner stands.
+// "bending_1" matches "bending_*"; the star ends at a point, after which the owner follows.
 bool fits(std::string_view pattern, std::string_view name) {
   const std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return pattern == name;
@@ -30,7 +30,7 @@ bool fits(std::string_view pattern, std::string_view name) {
   return false;
 }
 
-// What is asked for, as names are written: "Mean speed" → "mean_speed".
+// Converts a request to the form of names: "Mean speed" → "mean_speed".
 std::string as_name(std::string_view text) {
   std::string name;
   for (const char c : text) name += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -52,7 +52,7 @@ const Definition* find(std::string_view name) {
   return nullptr;
 }
 
-// The same, and the peaks of what elements bring along.
+// The same, including the peaks of element-specific quantities.
 const Definition* find_with_peaks(std::string_view name) {
   if (const Definition* found = find(name)) return found;
   for (const std::string_view prefix : {"cycle_peak_", "peak_"})
@@ -153,7 +153,7 @@ const Definition* meant_by(std::string_view asked) {
   if (const Definition* named = definition_of(name)) return named;
   for (const Definition& d : dictionary())
     if (as_name(d.words) == name) return &d;
-  // "speed fluctuation", "δ": how the words begin, or the symbol at their end.
+  // "speed fluctuation", "δ": the begin of the words, or the symbol at their end.
   for (const Definition& d : dictionary()) {
     const std::string words = as_name(d.words);
     if (!name.empty() && (words.starts_with(name + "_") || words.ends_with("_" + name))) return &d;
@@ -189,7 +189,7 @@ std::vector<std::string> names_like(std::string_view asked, std::size_t most) {
   if (const auto near = nearest(name, names)) take(*near);
   for (const std::string& one : names)
     if (name.size() > 2 && (one.find(name) != std::string::npos || name.find(one) != std::string::npos)) take(one);
-  // A word of it: "torque", "speed".
+  // A word within the name: "torque", "speed".
   for (std::size_t at = 0; at < name.size();) {
     const std::size_t end = std::min(name.find('_', at), name.size());
     const std::string part = name.substr(at, end - at);
