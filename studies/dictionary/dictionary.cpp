@@ -60,10 +60,10 @@ const Definition* find_with_peaks(std::string_view name) {
   return nullptr;
 }
 
-// "I₀", "I_0"; "ω²" of a formula is ω.
+// "I₀", "I_0"; "ω²" and "I_r(φ)" of a formula are ω and I_r.
 std::string as_symbol(std::string_view text) {
   std::string symbol;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (std::size_t i = 0; i < text.size() && text[i] != '('; ++i) {
     constexpr std::string_view below = "₀", squared = "²";  // the digits' last bytes ascend
     if (text.substr(i).starts_with(squared)) {
       ++i;
@@ -78,23 +78,20 @@ std::string as_symbol(std::string_view text) {
   return symbol;
 }
 
-// One without a star goes first. Points of a plan are written with a prime, or as links are numbered.
+// One without a star goes first. Any small letter may be a point of a plan.
 const Definition* find_symbol(std::string_view asked) {
   const std::string symbol = as_symbol(asked);
   for (const bool starred : {false, true})
     for (const Definition& d : entries::of_symbols)
       if (has_star(d) == starred && fits(d.name, symbol)) return &d;
-  return nullptr;
+  return symbol.size() == 1 && std::islower(static_cast<unsigned char>(symbol[0])) ? find_symbol("*′") : nullptr;
 }
 
-// "peak torque, main_coupling"; "thermal use of motor": what a page calls a figure, with its owner.
+// What a page calls a figure.
 const Definition* find_label(std::string_view asked) {
   for (const entries::Label& l : entries::labels)
     if (asked.starts_with(l.begin) && asked.ends_with(l.end)) return find(l.name);
-  if (asked.starts_with("largest ") && asked.find(" on ") != std::string_view::npos) return find("reaction");
-  for (const std::string_view owned : {", ", " of "})
-    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) return meant_by(asked.substr(0, end));
-  return nullptr;
+  return asked.starts_with("largest ") && asked.find(" on ") != std::string_view::npos ? find("reaction") : nullptr;
 }
 
 }  // namespace
@@ -151,6 +148,7 @@ const Definition* definition_of(const Name& name) {
 const Definition* meant_by(std::string_view asked) {
   if (const Definition* named = definition_of(asked)) return named;
   if (const Definition* symbol = find_symbol(asked)) return symbol;
+  if (const Definition* label = find_label(asked)) return label;
   const std::string name = as_name(asked);
   if (const Definition* named = definition_of(name)) return named;
   for (const Definition& d : dictionary())
@@ -160,7 +158,10 @@ const Definition* meant_by(std::string_view asked) {
     const std::string words = as_name(d.words);
     if (!name.empty() && (words.starts_with(name + "_") || words.ends_with("_" + name))) return &d;
   }
-  return find_label(asked);
+  // "peak torque, main_coupling"; "thermal use of motor": with its owner.
+  for (const std::string_view owned : {", ", " of "})
+    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) return meant_by(asked.substr(0, end));
+  return nullptr;
 }
 
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {

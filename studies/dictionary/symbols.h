@@ -28,11 +28,8 @@ inline constexpr Definition of_symbols[] = {
     {"ψ̈", "angular acceleration of the output", "rad/s2", "", "9", on_sheets, "d²ψ/dt²"},
     {"v", "velocity", "m/s", "", "9", on_sheets, "of the output; with an index of that point, of a rim its speed"},
     {"v_*", "velocity of a point", "m/s", "", "9", on_sheets,
-     "of one letter the magnitude of the point's velocity; v_BA that of B against A of the same link, across BA; v_AA3 "
-     "that "
-     "of a slide's point A against the point of link 3 that it covers, along the slide; v_m of a rim's mean radius; "
-     "v_g "
-     "sliding speed of flanks"},
+     "of one letter its magnitude; v_BA of B against A of the same link, across BA; v_AA3 of a slide's point A against "
+     "the point of link 3 that it covers, along the slide; v_m of a rim's mean radius; v_g sliding speed of flanks"},
     {"a", "acceleration", "m/s2", "", "9", on_sheets,
      "of the output; in Wittenbauer's method ½ ω_max²; small in a plan: the point of the pin A"},
     {"a_*", "acceleration of a point", "m/s2", "", "9", on_sheets,
@@ -56,15 +53,13 @@ inline constexpr Definition of_symbols[] = {
     {"F", "load on the output", "N", "", "9", on_sheets,
      "of a mechanism, positive along +x; of a rocking one a torque"},
     {"F_*", "force on a link", "N", "", "9.6", on_sheets,
-     "F_2: inertia force −m a_S of link 2, F_x2 and F_y2 its parts along +x and +y; F_a: a spring or force within the "
-     "linkage"},
+     "F_2: inertia force −m a_S of link 2, F_x2, F_y2 its parts along +x, +y; F_a: a spring or force within it"},
     {"G_*", "weight of a link", "N", "", "9.6", on_sheets, "m g, downwards, in the centre of mass"},
     {"R_*", "reaction in a joint", "N", "", "9.6", on_sheets,
      "R_12: of link 1 on link 2, the opposite of R_21; the frame is 0; R_m of a rim its mean radius"},
     {"T_*", "friction along a slide", "N", "", "10", on_sheets, "numbered as the slide's reaction, R_"},
     {"α_*", "an angle", "rad", "", "9", "forces (--sheet), gears",
-     "with links' numbers the direction of the reaction R_ from +x; α_n, α_t, α_wt pressure angles of gears: normal, "
-     "transverse, working"},
+     "with links' numbers the direction of the reaction R_ from +x; α_n, α_t, α_wt pressure angles of gears"},
     {"M", "torque", "N*m", "", "2", on_sheets, "of the shaft on the crank, or of a load"},
     {"M_b", "balancing torque", "N*m", "", "9.7", "forces",
      "of the shaft on the crank, so that the links move as they do"},
@@ -147,11 +142,11 @@ inline constexpr Definition of_symbols[] = {
     // drawn to scale
     {"e", "offset of a slider-crank", "m", "", "9", on_sheets,
      "of the crank's axis from the guide; small in a plan: the point of the pin E"},
-    {"*′", "point of a plan of accelerations", "", "", "9", on_sheets, "of the pin with that letter"},
+    {"*′", "point of a plan, or a position", "", "", "9", on_sheets,
+     "b: end of the velocity of the pin B, b′ of its acceleration; at a position, a letter is an edge of the load"},
     {"μ_*", "scale of a drawing", "", "", "9", on_sheets,
-     "what a millimetre of the paper stands for: μ_l of lengths, μ_v, μ_a, μ_F, μ_M of velocities, accelerations, "
-     "forces, "
-     "torques, μ_φ, μ_s of angles and ways, μ_A, μ_T, μ_I of works, energies, inertias"},
+     "what a millimetre of the paper stands for: μ_l lengths, μ_v velocities, μ_a accelerations, μ_F forces, μ_M "
+     "torques, μ_φ angles, μ_s ways, μ_A works, μ_T energies, μ_I inertias"},
 };
 
 // What a page calls a figure beside its words: a beginning, an end, and the figure's name.
@@ -160,6 +155,8 @@ struct Label {
 };
 inline constexpr Label labels[] = {
     {"largest reaction of ", "", "reaction"},
+    {"largest shaking force", "", "shaking_force"},
+    {"largest shaking moment", "", "shaking_moment"},
     {"largest ", ", moment", "reaction_moment"},
     {"largest amplitude at ", "", "largest_swing"},
     {"amplitude at ", "", "spot_swing"},

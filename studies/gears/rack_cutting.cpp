@@ -66,15 +66,19 @@ class CuttingDrawing {
     plot.series.push_back(middle_rack());
     plot.series.push_back(dashed(datum_line()));
     plot.equal_axes = true;
-    plot.note = fmt::format(
-        "Generating: the rack rolls on the reference circle, its datum line {}; drawn every {:.3g}° of the wheel, in "
-        "transverse section. The envelope of its straight flanks is the involute, that of its rounded corners the "
-        "fillet{}. A hob or a pinion cutter makes the same flank. Form cutting: a disc or end mill of the space's own "
-        "shape cuts one space after the other; it is right for one z and x alone, so a set of cutters shares the range "
-        "of "
-        "z, and flanks between are approximate.",
-        datum_in_words(), step() * 180 / std::numbers::pi,
-        w_.undercut ? "; here the corners go beyond the involute's begin and cut into it" : "");
+    plot.note =
+        fmt::format("The rack rolls on the reference circle, its datum line {}; drawn every {:.3g}° of the wheel{}.",
+                    datum_in_words(), step() * 180 / std::numbers::pi,
+                    w_.undercut ? "; its corners go beyond the involute's begin and cut into it" : "");
+    if (number_ == 1)
+      plot.note +=
+          " Transverse section. The envelope of the straight flanks is the involute, that of the rounded corners the "
+          "fillet; a "
+          "hob or a pinion cutter makes the same flank. Form cutting: a disc or end mill of the space's own shape cuts "
+          "one "
+          "space after the other; it is right for one z and x alone, so a set of cutters shares the range of z, and "
+          "flanks "
+          "between are approximate.";
     return plot;
   }
 

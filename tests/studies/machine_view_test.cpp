@@ -45,6 +45,11 @@ TEST_P(MachineViewOf, DrawsEveryLinkInItsLengthAtEveryAngle) {
     ++line;
   }
   EXPECT_EQ(line, GetParam().lengths.size());
+  // The load is drawn on what slides at the output; a rocking one about its bearing.
+  const bool slides = std::any_of(drawn.links.begin(), drawn.links.end(), [&](const MachineView::Linkage::Link& link) {
+    return (link.shape == "slider" || link.shape == "point") && link.joints.front() == drawn.output;
+  });
+  EXPECT_NE(slides, std::find(drawn.fixed.begin(), drawn.fixed.end(), drawn.output) != drawn.fixed.end());
   int cranks = 0;
   for (const MachineView::Part& part : view.parts) cranks += part.crank;
   EXPECT_EQ(cranks, 1);
