@@ -70,7 +70,7 @@ VectorXd twists_in_the_middle(const VectorXd& x) {
 
 struct Made : LobattoElement {
   MatrixXd points;  // stiffness between the points
-  VectorXd held;    // x of the modes with both ends held
+  MatrixXd inner;   // the same between its ends, over the inertias of both
 
   explicit Made(int p) {
     degree = p;
@@ -96,8 +96,7 @@ struct Made : LobattoElement {
       middle.assign(torque.begin(), torque.end());
     }
     const VectorXd scale = w.segment(1, p - 1).cwiseSqrt().cwiseInverse();
-    const MatrixXd inner = scale.asDiagonal() * points.block(1, 1, p - 1, p - 1) * scale.asDiagonal();
-    held = symmetric_eigenvalues(inner).cwiseSqrt();
+    inner = scale.asDiagonal() * points.block(1, 1, p - 1, p - 1) * scale.asDiagonal();
   }
 };
 
@@ -148,8 +147,12 @@ double dispersion(int degree, double x) {
 
 int held_modes_below(double x) { return static_cast<int>(std::ceil(x / pi)) - 1; }
 int held_modes_below(int degree, double x) {
-  const VectorXd& held = made(degree).held;
-  return static_cast<int>((held.array() < x).count());
+  static const std::vector<VectorXd> all = [] {  // x of the modes with both ends held
+    std::vector<VectorXd> list(1);
+    for (int p = 2; p <= highest_lobatto_degree; ++p) list.push_back(symmetric_eigenvalues(made(p).inner).cwiseSqrt());
+    return list;
+  }();
+  return static_cast<int>((all.at(at(degree - 1)).array() < x).count());
 }
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// export_machine.cpp — what of a scene can be exported, and why the rest cannot; the archive of a component.
+// export_machine.cpp — checks whether a scene can be exported, with reasons; the archive of a component.
 #include "library/export/export_machine.h"
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ std::vector<std::string> files_of(const DocumentValue& document, const std::stri
   return files;
 }
 
-// A component takes these values, by trial.
+// Tries whether a component accepts these values.
 bool takes(ExportedMachine machine, const Scene& scene, std::size_t input, double value) {
   std::vector<double> values;
   for (const ExportedInput& one : machine.inputs) values.push_back(one.start);
@@ -137,7 +137,7 @@ void add_inputs(ExportedMachine& machine, const Scene& scene, const std::vector<
   }
 }
 
-// With another value the machine has the same states, and shafts turn together as before.
+// With another value the machine has the same states and the same rigidly connected shafts.
 bool is_tunable(ExportedMachine machine, const std::string& folder, std::size_t parameter, Equations& usual,
                 const std::vector<double>& inputs) {
   std::vector<double> values;
@@ -174,6 +174,21 @@ constexpr const char* licences =
     "be\n"
     "replaced: the sources that the run-time is built from are kurbel's, which builds it anew with other versions.\n";
 
+std::string in_html(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return safe;
+}
+
+std::string front_page(const ExportedMachine& machine) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title></head><body>\n<h1>{0}</h1>\n"
+      "<p>A machine of {1}, exported from {2}. Its variables with their units are in modelDescription.xml; speeds and "
+      "torques are positive in the positive sense of their shafts.</p>\n"
+      "<p><a href=\"licenses/license.txt\">Licences</a></p>\n</body></html>\n",
+      in_html(machine.title.empty() ? machine.name : machine.title), in_html(machine.version), in_html(machine.file));
+}
+
 }  // namespace
 
 ExportedComponent component_of(const Scene& given, const ExportAsked& asked) {
@@ -192,7 +207,7 @@ ExportedComponent component_of(const Scene& given, const ExportAsked& asked) {
   files_of(machine.document, folder);
   add_inputs(machine, scene, asked.inputs);
   add_parameters(machine, scene, asked.parameters);
-  // As the run-time makes it, of the document; so every table that it needs comes into the book.
+  // Made as in the run-time, from the document, so that every required table enters the book.
   std::vector<double> parameters, inputs;
   for (const ExportedParameter& one : machine.parameters) parameters.push_back(one.start);
   for (const ExportedInput& one : machine.inputs) inputs.push_back(one.start);
@@ -229,7 +244,8 @@ std::string packed(const ExportedComponent& given, int fmi, const std::string& s
       {"modelDescription.xml", model_description(component, fmi)},
       {binary + machine.name + ".so", std::string(run_time_image())},
       {"resources/machine.json", machine.text()},
-      {fmi == 3 ? "documentation/licenses/license.txt" : "documentation/licenses/license.txt", licences}};
+      {"documentation/index.html", front_page(machine)},
+      {"documentation/licenses/license.txt", licences}};
   for (const std::string& file : files_of(machine.document, scene_folder))
     files.emplace_back("resources/" + file, read_text_file(scene_folder + "/" + file, max_scene_bytes * 4));
   return zip_of(files);

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "library/fmi/component.h"
@@ -20,14 +19,7 @@ fmi2Status as2(Status status) { return static_cast<fmi2Status>(static_cast<int>(
 
 template <class Do>
 fmi2Status call2(fmi2Component component, const char* function, unsigned allowed, const Do& act) {
-  return as2(guarded(of2(component), function, allowed, [&] {
-    if constexpr (std::is_void_v<decltype(act(*of2(component)))>) {
-      act(*of2(component));
-      return Status::ok;
-    } else {
-      return act(*of2(component));
-    }
-  }));
+  return as2(guarded(of2(component), function, allowed, act));
 }
 fmi2Status all_are_real(fmi2Component component, const char* function, std::size_t count) {
   if (count == 0) return call2(component, function, anywhere, [](Component&) {});
@@ -145,7 +137,7 @@ KURBEL_FMI2 fmi2Reset(fmi2Component component) {
 
 KURBEL_FMI2 fmi2GetReal(fmi2Component component, const fmi2ValueReference references[], std::size_t count,
                         fmi2Real values[]) {
-  return call2(component, "fmi2GetReal", initialisation | running | terminated, [&](Component& c) {
+  return call2(component, "fmi2GetReal", to_look, [&](Component& c) {
     for (std::size_t k = 0; k < count; ++k) values[k] = c.instance->value(references[k]);
   });
 }
@@ -233,7 +225,7 @@ KURBEL_FMI2 fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte byte
 KURBEL_FMI2 fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference unknowns[],
                                          std::size_t unknown_count, const fmi2ValueReference knowns[],
                                          std::size_t known_count, const fmi2Real seed[], fmi2Real sensitivity[]) {
-  return call2(component, "fmi2GetDirectionalDerivative", initialisation | running, [&](Component& c) {
+  return call2(component, "fmi2GetDirectionalDerivative", to_look, [&](Component& c) {
     const auto found = c.instance->directional({unknowns, unknown_count}, {knowns, known_count}, {seed, known_count});
     std::copy(found.begin(), found.end(), sensitivity);
   });
@@ -242,7 +234,8 @@ KURBEL_FMI2 fmi2GetDirectionalDerivative(fmi2Component component, const fmi2Valu
 // --- model exchange (clause 3.2) ---
 
 KURBEL_FMI2 fmi2EnterEventMode(fmi2Component component) {
-  return call2(component, "fmi2EnterEventMode", continuous_time, [](Component& c) { c.phase = event_mode; });
+  return call2(component, "fmi2EnterEventMode", continuous_time | event_mode,
+               [](Component& c) { c.phase = event_mode; });
 }
 KURBEL_FMI2 fmi2NewDiscreteStates(fmi2Component component, fmi2EventInfo* info) {
   return call2(component, "fmi2NewDiscreteStates", event_mode, [&](Component& c) {
@@ -276,36 +269,35 @@ static void check_count(std::size_t given, std::size_t count) {
   if (given != count) throw std::invalid_argument(fmt::format("{} values wanted; there are {}", given, count));
 }
 KURBEL_FMI2 fmi2GetDerivatives(fmi2Component component, fmi2Real rates[], std::size_t count) {
-  return call2(component, "fmi2GetDerivatives", initialisation | continuous_time | event_mode, [&](Component& c) {
+  return call2(component, "fmi2GetDerivatives", to_look, [&](Component& c) {
     check_count(count, c.instance->state_count());
-    return c.instance->derivatives({rates, count}) ? Status::ok : Status::discard;
+    return rates_of(c, {rates, count});
   });
 }
 KURBEL_FMI2 fmi2GetEventIndicators(fmi2Component component, fmi2Real indicators[], std::size_t count) {
-  return call2(component, "fmi2GetEventIndicators", initialisation | continuous_time | event_mode, [&](Component& c) {
+  return call2(component, "fmi2GetEventIndicators", to_look, [&](Component& c) {
     check_count(count, c.instance->indicator_count());
     c.instance->indicators({indicators, count});
   });
 }
 KURBEL_FMI2 fmi2GetContinuousStates(fmi2Component component, fmi2Real states[], std::size_t count) {
-  return call2(component, "fmi2GetContinuousStates", initialisation | continuous_time | event_mode, [&](Component& c) {
+  return call2(component, "fmi2GetContinuousStates", to_look, [&](Component& c) {
     check_count(count, c.instance->state_count());
     c.instance->states({states, count});
   });
 }
 KURBEL_FMI2 fmi2GetNominalsOfContinuousStates(fmi2Component component, fmi2Real nominals[], std::size_t count) {
-  return call2(component, "fmi2GetNominalsOfContinuousStates", set_up | continuous_time | event_mode,
-               [&](Component& c) {
-                 check_count(count, c.instance->state_count());
-                 c.instance->nominals({nominals, count});
-               });
+  return call2(component, "fmi2GetNominalsOfContinuousStates", instantiated | to_look, [&](Component& c) {
+    check_count(count, c.instance->state_count());
+    c.instance->nominals({nominals, count});
+  });
 }
 
 // --- co-simulation (clause 4.2) ---
 
 KURBEL_FMI2 fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference references[],
                                         std::size_t count, const fmi2Integer orders[], const fmi2Real values[]) {
-  return call2(component, "fmi2SetRealInputDerivatives", step_mode, [&](Component& c) {
+  return call2(component, "fmi2SetRealInputDerivatives", set_up | step_mode, [&](Component& c) {
     for (std::size_t k = 0; k < count; ++k) {
       if (orders[k] != 1) throw std::invalid_argument("first derivatives of inputs alone are taken");
       c.instance->set_slope(references[k], values[k]);

@@ -1,7 +1,5 @@
-// fmi3_call.h — from a call of FMI 3.0 to its component.
+// fmi3_call.h — dispatches a call of FMI 3.0 to its component.
 #pragma once
-
-#include <type_traits>
 
 #include "library/fmi/component.h"
 #include "library/fmi/fmi3.h"
@@ -15,14 +13,7 @@ inline fmi3Status as3(Status status) { return static_cast<fmi3Status>(static_cas
 
 template <class Do>
 fmi3Status call3(fmi3Instance instance, const char* function, unsigned allowed, const Do& act) {
-  return as3(guarded(of3(instance), function, allowed, [&] {
-    if constexpr (std::is_void_v<decltype(act(*of3(instance)))>) {
-      act(*of3(instance));
-      return Status::ok;
-    } else {
-      return act(*of3(instance));
-    }
-  }));
+  return as3(guarded(of3(instance), function, allowed, act));
 }
 
 }  // namespace kurbel::fmi

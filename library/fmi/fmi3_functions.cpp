@@ -3,7 +3,6 @@
 #include <cstring>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "library/fmi/fmi3_call.h"
@@ -137,8 +136,7 @@ KURBEL_FMI3 fmi3Reset(fmi3Instance instance) {
 
 KURBEL_FMI3 fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference references[], std::size_t count,
                            fmi3Float64 values[], std::size_t value_count) {
-  const unsigned allowed = set_up | running | within_step | terminated;
-  return call3(instance, "fmi3GetFloat64", allowed, [&](Component& c) {
+  return call3(instance, "fmi3GetFloat64", instantiated | to_look | within_step, [&](Component& c) {
     same_count(count, value_count);
     for (std::size_t k = 0; k < count; ++k) values[k] = c.instance->value(references[k]);
   });
@@ -218,7 +216,7 @@ KURBEL_FMI3 fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueR
                                          std::size_t unknown_count, const fmi3ValueReference knowns[],
                                          std::size_t known_count, const fmi3Float64 seed[], std::size_t seed_count,
                                          fmi3Float64 sensitivity[], std::size_t sensitivity_count) {
-  return call3(instance, "fmi3GetDirectionalDerivative", initialisation | running, [&](Component& c) {
+  return call3(instance, "fmi3GetDirectionalDerivative", to_look, [&](Component& c) {
     same_count(known_count, seed_count), same_count(unknown_count, sensitivity_count);
     const auto found = c.instance->directional({unknowns, unknown_count}, {knowns, known_count}, {seed, seed_count});
     std::copy(found.begin(), found.end(), sensitivity);
@@ -228,7 +226,7 @@ KURBEL_FMI3 fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefer
                                      std::size_t unknown_count, const fmi3ValueReference knowns[],
                                      std::size_t known_count, const fmi3Float64 seed[], std::size_t seed_count,
                                      fmi3Float64 sensitivity[], std::size_t sensitivity_count) {
-  return call3(instance, "fmi3GetAdjointDerivative", initialisation | running, [&](Component& c) {
+  return call3(instance, "fmi3GetAdjointDerivative", to_look, [&](Component& c) {
     same_count(unknown_count, seed_count), same_count(known_count, sensitivity_count);
     const double one = 1;
     for (std::size_t k = 0; k < known_count; ++k) {
@@ -278,37 +276,35 @@ KURBEL_FMI3 fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 sta
   });
 }
 KURBEL_FMI3 fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 rates[], std::size_t count) {
-  return call3(instance, "fmi3GetContinuousStateDerivatives", initialisation | continuous_time | event_mode,
-               [&](Component& c) {
-                 same_count(count, c.instance->state_count());
-                 return c.instance->derivatives({rates, count}) ? Status::ok : Status::discard;
-               });
+  return call3(instance, "fmi3GetContinuousStateDerivatives", to_look, [&](Component& c) {
+    same_count(count, c.instance->state_count());
+    return rates_of(c, {rates, count});
+  });
 }
 KURBEL_FMI3 fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[], std::size_t count) {
-  return call3(instance, "fmi3GetEventIndicators", initialisation | continuous_time | event_mode, [&](Component& c) {
+  return call3(instance, "fmi3GetEventIndicators", to_look, [&](Component& c) {
     same_count(count, c.instance->indicator_count());
     c.instance->indicators({indicators, count});
   });
 }
 KURBEL_FMI3 fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 states[], std::size_t count) {
-  return call3(instance, "fmi3GetContinuousStates", initialisation | continuous_time | event_mode, [&](Component& c) {
+  return call3(instance, "fmi3GetContinuousStates", to_look, [&](Component& c) {
     same_count(count, c.instance->state_count());
     c.instance->states({states, count});
   });
 }
 KURBEL_FMI3 fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[], std::size_t count) {
-  return call3(instance, "fmi3GetNominalsOfContinuousStates", initialisation | continuous_time | event_mode,
-               [&](Component& c) {
-                 same_count(count, c.instance->state_count());
-                 c.instance->nominals({nominals, count});
-               });
+  return call3(instance, "fmi3GetNominalsOfContinuousStates", to_look, [&](Component& c) {
+    same_count(count, c.instance->state_count());
+    c.instance->nominals({nominals, count});
+  });
 }
 KURBEL_FMI3 fmi3GetNumberOfEventIndicators(fmi3Instance instance, std::size_t* count) {
-  return call3(instance, "fmi3GetNumberOfEventIndicators", set_up | running | terminated,
+  return call3(instance, "fmi3GetNumberOfEventIndicators", instantiated | to_look,
                [&](Component& c) { *count = c.instance->indicator_count(); });
 }
 KURBEL_FMI3 fmi3GetNumberOfContinuousStates(fmi3Instance instance, std::size_t* count) {
-  return call3(instance, "fmi3GetNumberOfContinuousStates", set_up | running | terminated,
+  return call3(instance, "fmi3GetNumberOfContinuousStates", instantiated | to_look,
                [&](Component& c) { *count = c.instance->state_count(); });
 }
 

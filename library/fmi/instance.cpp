@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/run/checkpoint.h"
+#include "engine/run/event_location.h"
 #include "library/fmi/ports.h"
 
 namespace kurbel {
@@ -17,7 +18,8 @@ namespace {
 // Of the scene's accuracy: local errors grow on the way.
 constexpr double tolerance_of_accuracy = 1e-3;
 // Indicators pass zero just below where guards do: what stands at its root is not one that has fired.
-constexpr double below_root = 2e-11, fired_below = -1e-11;
+constexpr double below_root = 2e-11;
+constexpr double same_time = 1e-9;  // of the time [s], at least of 1 s
 constexpr int most_events = 100, events_of_a_jam = 20, events_without_rest = 60;
 
 // A step goes over the time, and begins anew at every communication point, which multistep methods are made for least.
@@ -203,18 +205,24 @@ void Instance::put_commands(double until) {
   }
 }
 
-// Switches follow what was set, as at a step of the operating sequence.
-void Instance::apply_inputs(EventLog& log) {
+// Switches follow what was set, as at a step of the operating sequence. Importers stop at an edge but for round-off: one
+// that is ahead by no more than that is passed now. The time of what was passed.
+double Instance::apply_inputs() {
   State& state = s_.here.state;
-  equations_->pass_edge(state.t, state.y, log);
+  const double edge = equations_->next_edge(state.t);
+  const bool here = edge - state.t <= same_time * std::max(1.0, std::abs(state.t));
+  const double t = here ? std::max(edge, state.t) : state.t;
+  equations_->pass_edge(t, state.y, events_);
   equations_->wrap(state.y);
   state.modes = equations_->modes();
-  for (std::size_t k = 0; k < s_.inputs.size(); ++k) s_.applied[k] = s_.inputs[k];
+  s_.applied = s_.inputs;
+  return t;
 }
 
 double Instance::go(double step, const std::function<bool(double t)>& look) {
   made();
   const InstanceState before = s_;
+  const std::size_t events_before = events_.size();
   const double from = s_.here.state.t, until = from + step;
   RunOptions options;
   options.tolerance = std::max(
@@ -257,8 +265,7 @@ double Instance::go(double step, const std::function<bool(double t)>& look) {
     follow_parameters();
     equations_->bind(s_.here.state.modes);
     put_commands(until);
-    EventLog log;
-    apply_inputs(log);
+    apply_inputs();
     if (step > 0) {
       RunOutcome outcome = way(until, true);
       if (!outcome.complete && interrupted) {  // somebody has seen enough: exactly to there
@@ -270,6 +277,7 @@ double Instance::go(double step, const std::function<bool(double t)>& look) {
     }
   } catch (...) {
     moment_.reset();
+    events_.resize(events_before);
     restore(before);
     throw;
   }
@@ -326,13 +334,14 @@ Instance::Discrete Instance::pass_events() {
   State& state = s_.here.state;
   const std::vector<double> before = state.y;
   put_commands(state.t);
-  apply_inputs(events_);
+  const double passed = apply_inputs();
   std::vector<double> guard(equations_->guard_count());
   for (int round = 0;; ++round) {
     equations_->guards(state.t, state.y, guard);
     std::vector<std::size_t> fired;
     for (std::size_t k = 0; k < guard.size(); ++k)
       if (guard[k] < fired_below) fired.push_back(k);
+    if (fired.empty() && round < events_of_a_jam) fired = fall_at_once(*equations_, state.t, state.y);
     if (fired.empty()) break;
     if (round > most_events)
       throw std::runtime_error(
@@ -343,7 +352,7 @@ Instance::Discrete Instance::pass_events() {
   }
   equations_->wrap(state.y);
   state.modes = equations_->modes();
-  const double next = equations_->next_edge(state.t);
+  const double next = equations_->next_edge(passed);
   return {state.y != before, next < 1e299 ? std::optional(next) : std::nullopt};
 }
 

@@ -1,6 +1,6 @@
 # The run-time of exported components (library/fmi): rooms of the engine, drive and mechanisms once more, small (-Os) and
 # without what reads files, linked so that it needs libc and libstdc++ alone.
-set(rooms engine/base engine/scene engine/elements engine/model engine/equations engine/events engine/steppers engine/run engine/rigid
+set(rooms engine/base engine/scene engine/elements engine/model engine/equations engine/events engine/steppers engine/run
   engine/numerics engine/matrices engine/values engine/reading engine/tables "drivetrain(/[a-z_]+)?" mechanisms/linkage
   mechanisms/linkages mechanisms/bodies mechanisms/friction mechanisms/slider_crank mechanisms/loads mechanisms/reduced
   mechanisms/link_forces mechanisms/joints mechanisms/kinds)
@@ -13,16 +13,23 @@ get_target_property(loops kurbel_simbody SOURCES)
 list(FILTER loops INCLUDE REGEX "/mechanisms/loops/[a-z_]+\\.cpp$")
 add_library(kurbel_fmi SHARED ${run_time} ${loops} ${KURBEL_FMI_ALONE})
 set_target_properties(kurbel_fmi PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON LINKER_LANGUAGE CXX
-  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  BUILD_RPATH "$ORIGIN" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})  # the path that the standard asks for
 if(KURBEL_UNITY)
   set_target_properties(kurbel_fmi PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endif()
-target_compile_definitions(kurbel_fmi PRIVATE KURBEL_FMI_RUNTIME FMT_HEADER_ONLY=1)
-target_compile_options(kurbel_fmi PRIVATE $<$<CONFIG:Release>:-Os> -ffunction-sections -fdata-sections -fno-semantic-interposition)
+target_compile_definitions(kurbel_fmi PRIVATE KURBEL_FMI_RUNTIME FMT_HEADER_ONLY=1 EIGEN_DONT_VECTORIZE)
+target_compile_options(kurbel_fmi PRIVATE $<$<CONFIG:Release>:-Os> $<$<CXX_COMPILER_ID:GNU>:-fno-guess-branch-probability> -ffunction-sections -fdata-sections -fno-semantic-interposition)
 target_include_directories(kurbel_fmi PRIVATE ${PROJECT_SOURCE_DIR})
 target_include_directories(kurbel_fmi SYSTEM PRIVATE ${KLU_INCLUDE})
 set(archives ${SUNDIALS_ARCHIVES})
 list(FILTER archives EXCLUDE REGEX "cvode|sunnonlinsolfixedpoint")
+# SUNDIALS' own tables of coefficients are many.
+add_executable(kurbel_list_tables library/fmi/list_tables.cpp)
+target_link_libraries(kurbel_list_tables PRIVATE ${archives} ${CMAKE_DL_LIBS} m)
+add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h VERBATIM
+  COMMAND sh -c "$<TARGET_FILE:kurbel_list_tables> > ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h" DEPENDS kurbel_list_tables)
+target_sources(kurbel_fmi PRIVATE ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h)
+target_include_directories(kurbel_fmi PRIVATE ${PROJECT_BINARY_DIR})
 target_link_libraries(kurbel_fmi PRIVATE Eigen3::Eigen nlohmann_json::nlohmann_json kurbel_warnings ${archives})
 foreach(part klu amd colamd btf suitesparseconfig)
   find_library(STATIC_${part} lib${part}.a REQUIRED)

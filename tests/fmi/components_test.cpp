@@ -213,11 +213,7 @@ TEST(Inputs, ATorqueTurnsAWheelAsItsClosedFormSays) {
 
 TEST(Inputs, ACommandFromOutsideIsThatOfTheSequence) {
   const Folder folder;
-  std::ifstream file(scene("planetary_brake"));
-  std::string text((std::istreambuf_iterator<char>(file)), {});
-  const std::size_t begin = text.find("[sequence]"), end = text.find("[effects]");
-  text.replace(begin, end - begin, "");
-  const auto without = exported(written(folder, text), 3, "--input brake.command");
+  const auto without = exported(written(folder, without_sequence("planetary_brake")), 3, "--input brake.command");
   const auto with = exported(scene("planetary_brake"), 3);
   const Library library(without->library()), sequence(with->library());
   Slave own(*with, sequence, Kind::co_simulation), set(*without, library, Kind::co_simulation);

@@ -99,16 +99,35 @@ TEST_P(Events, OfCoSimulationAreAtTheTimesOfARun) {
   expect_alike(logged_events(slave), expected_, until_);
 }
 
-// Left open: of the planetary gear an importer that passes events by indicators sees the ring and the gear set off at 0 s, which a
-// run settles in its start and does not report.
 TEST_P(Events, OfModelExchangeAreAtTheTimesOfARun) {
-  if (std::get<0>(GetParam()).scene == std::string("planetary_brake"))
-    GTEST_SKIP() << "reports what sets off at 0 s, too";
   const Library library(unpacked_->library());
   Slave slave(*unpacked_, library, Kind::model_exchange);
   slave.initialise(0);
   integrate(slave, 0, {until_}, 1e-9, [](std::size_t) {});
   expect_alike(logged_events(slave), expected_, until_);
+}
+
+// A brake that the importer sets: both kinds say when, and what it does.
+TEST(Inputs, AreLoggedAlikeWhereTheySwitch) {
+  const Folder folder;
+  const std::string file = written(folder, without_sequence("planetary_brake"));
+  for (const int fmi : {2, 3}) {
+    const auto unpacked = exported(file, fmi, "--input brake.command");
+    const Library library(unpacked->library());
+    Slave stepped(*unpacked, library, Kind::co_simulation), other(*unpacked, library, Kind::model_exchange);
+    for (Slave* const slave : {&stepped, &other}) slave->set("brake.command", 0), slave->initialise(0);
+    stepped.step(0, 0.3);
+    integrate(other, 0, {0.3}, 1e-9, [](std::size_t) {});
+    other.enter_events();
+    for (Slave* const slave : {&stepped, &other}) slave->set("brake.command", 1);
+    stepped.step(0.3, 1);
+    integrate(other, 0.3, {1.3}, 1e-9, [](std::size_t) {});
+    const std::vector<Happened> events = logged_events(stepped);
+    ASSERT_GE(events.size(), 2u);
+    EXPECT_EQ(events[0].t, 0.3);
+    EXPECT_EQ(events[0].what, "brake: is set on");
+    expect_alike(logged_events(other), events, 1.3);
+  }
 }
 
 // The brake is released at exactly 0 s: nothing is left to do after the first event mode, and the next step is ahead.

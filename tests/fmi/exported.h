@@ -41,6 +41,13 @@ inline std::string scene(const std::string& name) {
   return std::string(KURBEL_SOURCE_DIR) + "/scenes/" + name + ".toml";
 }
 
+inline std::string without_sequence(const std::string& name) {
+  std::ifstream file(scene(name));
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t begin = text.find("[sequence]"), end = text.find("[effects]");
+  return text.replace(begin, end - begin, "");
+}
+
 // Exported by the program; each of the scenes once.
 inline std::shared_ptr<const Unpacked> exported(const std::string& file, int fmi, const std::string& options = "") {
   static std::map<std::string, std::shared_ptr<const Unpacked>> known;
