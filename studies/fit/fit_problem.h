@@ -80,6 +80,7 @@ class FitProblem {
   Watch watch_;
   double noise_ = 0;
   std::vector<Response> responses_;
+  Eigen::VectorXd responses_at_;  // u; empty: some are missing
   std::string failure_;
   std::size_t runs_ = 0;
 };
