@@ -129,13 +129,15 @@ TEST_F(Fit, ReadsTeethWithAGap) {
 
 // f = √(k (1/J₁ + 1/J₂))/2π, ζ = c ω/(2k).
 TEST_F(Fit, FindsStiffnessAndDampingByAMode) {
-  const double j1 = 0.2, j2 = 1.5, k = 5000, c = 3, omega = std::sqrt(k * (1 / j1 + 1 / j2));
-  const std::string text = fmt::format("mode,f [Hz],zeta [-]\n1,{},{}\n", omega / (2 * pi), c * omega / (2 * k));
+  const double j1 = 0.2, j2 = 1.5, k = 5000, c = 3, omega = std::sqrt(k * (1 / j1 + 1 / j2)),
+               ratio = c * omega / (2 * k);
+  const std::string text = fmt::format("mode,f [Hz],fd [Hz],zeta [-]\n1,{},{},{}\n", omega / (2 * pi),
+                                       omega / (2 * pi) * std::sqrt(1 - ratio * ratio), ratio);
   const FitStudy found = fit_machine(asked(
       "line = [\"a\", \"spring\", \"b\"]\na = { kind = \"inertia\", inertia = \"0.2 kg*m2\" }\nspring = { kind = "
       "\"coupling\", stiffness = \"4 kN*m/rad\", damping = \"5 N*m*s/rad\" }\nb = { kind = \"inertia\", inertia = "
       "\"1.5 kg*m2\" }\n[effects]\nelasticity = true\n[run]\nuntil = \"0.1 s\"\n",
-      file("modes.csv", text), Over::mode, {"f=natural_frequency", "zeta=damping_ratio"},
+      file("modes.csv", text), Over::mode, {"f=natural_frequency", "fd=damped_frequency", "zeta=damping_ratio"},
       {"spring.stiffness=3..8 kN*m/rad", "spring.damping=1..10 N*m*s/rad"}));
   ASSERT_TRUE(found.complete) << found.diagnosis;
   EXPECT_NEAR(found.unknowns[0].value, k / 1000, 1e-6 * k / 1000);
