@@ -1,8 +1,7 @@
 // bounded_fit.h — least squares within bounds, and how well the data determine the unknowns.
 //
 //     min ½ |r(u)|²,  0 ≤ u ≤ 1      Levenberg–Marquardt; unknowns that press against a bound are held there
-//                                    (Nocedal, Wright 2006, 10.3; Kelley 1999, 5.4);
-//                                    derivatives are renewed by Broyden 1965 between those that are computed
+//                                    (Nocedal, Wright 2006, 10.3; Kelley 1999, 5.4)
 //     Cov u = (Jᵀ J)⁻¹ s²            of residuals over their deviations; s² = |r|²/(m − p) where it exceeds 1
 //
 // Unknowns are scaled to their ranges, residuals to their deviations.

@@ -32,7 +32,8 @@ class FitWork {
 
   FitStudy run() {
     if (!problem_.choose_steps(problem_.given())) return without_fit();
-    state_.best = problem_.fit(problem_.given());
+    constexpr int roughly = 12;  // steps before the records are weighed
+    state_.best = problem_.fit(problem_.given(), options_.records.size() > 1 ? roughly : 40);
     if (options_.starts > 1) try_starts(problem_, options_, state_, study_);
     if (state_.best.r.size() == 0 || state_.best.jacobian.size() == 0) return without_fit();
     weigh();
@@ -65,7 +66,9 @@ class FitWork {
       for (std::size_t r = 0; r < count; ++r) {
         problem_.active.assign(count, false), problem_.active[r] = true;
         const bool enough = static_cast<std::size_t>(problem_.comparisons()[r].size()) > problem_.unknowns_of(r);
-        if (enough && (count > 1 || round > 0))
+        // Of one channel all weights change alike, and with them nothing of its fit.
+        const bool changes = round == 0 ? count > 1 : problem_.records()[r].channels.size() > 1;
+        if (enough && changes)
           if (const BoundedFit found = problem_.fit(alone[r], most_steps); found.r.size() > 0) alone[r] = found.u;
         if (problem_.residuals(alone[r])) problem_.weigh(r, alone[r]);
       }

@@ -129,13 +129,15 @@ TEST_F(Fit, ReadsTeethWithAGap) {
 
 // f = √(k (1/J₁ + 1/J₂))/2π, ζ = c ω/(2k).
 TEST_F(Fit, FindsStiffnessAndDampingByAMode) {
-  const double j1 = 0.2, j2 = 1.5, k = 5000, c = 3, omega = std::sqrt(k * (1 / j1 + 1 / j2));
-  const std::string text = fmt::format("mode,f [Hz],zeta [-]\n1,{},{}\n", omega / (2 * pi), c * omega / (2 * k));
+  const double j1 = 0.2, j2 = 1.5, k = 5000, c = 3, omega = std::sqrt(k * (1 / j1 + 1 / j2)),
+               ratio = c * omega / (2 * k);
+  const std::string text = fmt::format("mode,f [Hz],fd [Hz],zeta [-]\n1,{},{},{}\n", omega / (2 * pi),
+                                       omega / (2 * pi) * std::sqrt(1 - ratio * ratio), ratio);
   const FitStudy found = fit_machine(asked(
       "line = [\"a\", \"spring\", \"b\"]\na = { kind = \"inertia\", inertia = \"0.2 kg*m2\" }\nspring = { kind = "
       "\"coupling\", stiffness = \"4 kN*m/rad\", damping = \"5 N*m*s/rad\" }\nb = { kind = \"inertia\", inertia = "
       "\"1.5 kg*m2\" }\n[effects]\nelasticity = true\n[run]\nuntil = \"0.1 s\"\n",
-      file("modes.csv", text), Over::mode, {"f=natural_frequency", "zeta=damping_ratio"},
+      file("modes.csv", text), Over::mode, {"f=natural_frequency", "fd=damped_frequency", "zeta=damping_ratio"},
       {"spring.stiffness=3..8 kN*m/rad", "spring.damping=1..10 N*m*s/rad"}));
   ASSERT_TRUE(found.complete) << found.diagnosis;
   EXPECT_NEAR(found.unknowns[0].value, k / 1000, 1e-6 * k / 1000);
@@ -228,14 +230,17 @@ TEST_F(Fit, FindsGainAndOffsetOfAChannelAndOffsetOfATable) {
   EXPECT_NEAR(table.unknowns.at(0).value, 1, 1e-6);
 }
 
-// A torque over the angle drives a rotor: J (ω² − c)/2 = M₁ sin φ + M₂/2 sin 2φ; c by the mean speed 2π/∮dφ/ω.
+// A torque over the angle drives a rotor: J (ω² − c)/2 = M₁ sin φ + M₂/2 sin 2φ; c by the mean speed 2π/∮dφ/ω. Straight
+// between points h apart a harmonic k loses ((sin x)/x)², x = kh/2.
 constexpr double first = 15, second = 5;  // [N·m]
 std::string driven(double shift = 0) {
   std::string points, against;
-  for (int i = 0; i <= 720; ++i) {
-    const double angle = pi / 360 * i;
-    points += fmt::format("{}[{}, {}]", i ? ", " : "", 0.5 * i, 20 + first * std::cos(angle + shift));
-    against += fmt::format("{}[{}, {}]", i ? ", " : "", 0.5 * i, 20 - second * std::cos(2 * angle));
+  const double step = pi / 36;
+  const auto kept = [](double x) { return std::pow(std::sin(x) / x, 2); };
+  for (int i = 0; i <= 72; ++i) {
+    const std::string at = fmt::format("{}[{}, ", i ? ", " : "", 5 * i);
+    points += fmt::format("{}{}]", at, 21 + first / kept(step / 2) * std::cos(step * i + shift));
+    against += fmt::format("{}{}]", at, 20 - second / kept(step) * std::cos(2 * step * i));
   }
   const std::string table = "over = \"angle\", unit = [\"deg\", \"N*m\"], period = \"360 deg\", points = [";
   return "line = [\"rotor\", \"drive\", \"load\", \"brake\"]\nrotor = { kind = \"flywheel\", inertia = \"0.4 kg*m2\" "
@@ -286,21 +291,23 @@ TEST_F(Fit, FindsTheDeadCentreOfTableAndRecord) {
   EXPECT_NEAR(found.unknowns.at(1).value, 0.02, 1e-4);
 }
 
-// Order 2 repeats each half turn: from 0 a shift of 170 deg is not reached, among several starts it is.
+// The nearest of 170 ± 360 deg lies beyond the bound, where a fit from 0 ends; another start comes to −190 deg.
 TEST_F(Fit, OfSeveralStartsTheBestIsKept) {
   FitOptions options = of_driven(driven(), file("starts.csv", driven_record(100, 170 * pi / 180)),
-                                 {"shift=-100..200 deg", "gain of drive.table=0.01..1.2"});
+                                 {"shift=-300..60 deg", "rotor.inertia=0.3..0.7 kg*m2"});
   options.checks = false;
-  options.starts = 8;
+  EXPECT_EQ(fit_machine(options).unknowns.at(0).remark, "on its upper bound");
+  options.starts = 4;
   const FitStudy found = fit_machine(options);
-  EXPECT_NEAR(found.unknowns.at(0).value, 170, 0.1);
-  EXPECT_NE(found.notes.at(0).find("of 8 starts came to the best fit"), std::string::npos) << found.notes.at(0);
+  EXPECT_NEAR(found.unknowns.at(0).value, -190, 0.01);
+  EXPECT_NEAR(found.unknowns.at(1).value, inertia, 1e-3 * inertia);
+  EXPECT_NE(found.notes.at(0).find("of 4 starts came to the best fit"), std::string::npos) << found.notes.at(0);
 }
 
 // Fitted at 100 rad/s to sixteen cycles, predicted at 60: δ of the closed form within its interval, the curve by far
 // better than the fitted one taken for it; and what is written has the values, for the page and for the next fit.
 TEST_F(Fit, PredictsARecordWithItsIntervalAndWritesTheScene) {
-  FitOptions options = of_driven(driven(), file("cycles.csv", driven_record(100, 0, 16, 0.05)),
+  FitOptions options = of_driven(driven(), file("cycles.csv", driven_record(100, 0, 16, 0.02)),
                                  {"rotor.inertia=0.2..1 kg*m2", "offset of speed.rotor=-1..1 rad/s"});
   options.predictions = {{.given = "slower",
                           .scene = options.records[0].scene,
@@ -312,7 +319,7 @@ TEST_F(Fit, PredictsARecordWithItsIntervalAndWritesTheScene) {
   // 72 points, σ/√16 each: σ_J = J σ/(4 √Σ(ω − ω̄)²), as ω − ω̄ ~ 1/J.
   double squares = 0;
   for (int i = 0; i < 72; ++i) squares += std::pow(driven_speed(100, pi / 36 * i) - 100, 2);
-  EXPECT_NEAR(*j.error, inertia * 0.05 / 4 / std::sqrt(squares), 0.5 * *j.error);
+  EXPECT_NEAR(*j.error, inertia * 0.02 / 4 / std::sqrt(squares), 0.5 * *j.error);
   EXPECT_NEAR(j.value, inertia, 4 * *j.error);
   EXPECT_EQ(found.residuals.at(0).count, 72u);
   const Prediction& slower = found.predictions.at(0);
