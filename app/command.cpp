@@ -1,4 +1,4 @@
-// command.cpp — the parser of the command line, CLI11, and what is said of a mistyped one.
+// command.cpp — the command-line parser CLI11, and messages on mistyped commands.
 #include "app/command.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 
 #include "app/terminal.h"
 #include "engine/scene/keys.h"
-#include "engine/scene/units.h"
 
 namespace kurbel::app {
 
@@ -92,7 +91,7 @@ std::vector<OptionHelp> options_of(const std::function<void(OptionList&)>& set_u
 
 namespace {
 
-// " — did you mean "--quiet"?" for the first option that the command does not know.
+// " — did you mean "--quiet"?" for the first unknown option.
 std::string option_meant(const CLI::App& command, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
@@ -100,20 +99,18 @@ std::string option_meant(const CLI::App& command, int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
     if (!word.starts_with("--") || std::find(names.begin(), names.end(), word) != names.end()) continue;
-    const auto near = nearest(word, names);
-    return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+    return suggestion(word, names);
   }
   return "";
 }
 
-// CLI11 says little about a mistyped command.
+// Extends CLI11's short message on a mistyped command.
 void refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
-    const auto near = nearest(argv[1], names);
     complain(fmt::format("kurbel: unknown command \"{}\"{}; allowed: {}. See kurbel --help\n", argv[1],
-                         near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(names)));
+                         suggestion(argv[1], names), listed(names)));
   } else if (argc == 1) {
     complain(fmt::format("kurbel: no command given; allowed: {}. Begin with kurbel new press, or see kurbel --help\n",
                          listed(names)));
@@ -126,7 +123,7 @@ void refuse(const CLI::App& app, const CLI::ParseError& error, int argc, char** 
   }
 }
 
-// An option without its value is a mistake, as where a script's variable is empty.
+// An option with an empty value is an error, for example an empty variable in a script.
 void refuse_empty_values(CLI::App& app) {
   const CLI::Validator not_empty(
       [](std::string& value) { return value.empty() ? std::string("must not be empty") : std::string(); }, "");

@@ -1,12 +1,11 @@
-// command.h — the options of one command, declared without the parser of the command line: its header costs seconds in
-// every source that includes it, and stands in command.cpp alone.
+// command.h — the options of one command, declared without CLI11. Its header adds seconds to every source that
+// includes it and is included in command.cpp alone.
 //
 //     command.add_option("--until", until, "end of the simulated time, e.g. \"3 s\"");
 //     command.add_flag("--no-error", no_error, "skip the second run that measures the errors");
 //     command.action([&code, arguments] { code = run(*arguments); });
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,18 +18,18 @@ class Option;
 
 namespace kurbel::app {
 
-// An option that was declared; what is said of it further.
+// A declared option, for further settings.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
   Option& required(bool is = true);
-  Option& values(int least, int most);  // so many words behind it
+  Option& values(int least, int most);  // number of words that follow the option
   Option& values(int count) { return values(count, count); }
   Option& repeatable();           // one value each time it is given
-  Option& one_value_each_time();  // more words behind it are no values of it
+  Option& one_value_each_time();  // further words are not values of the option
   Option& split_at(char delimiter);
-  Option& hidden();  // taken, and told nowhere
-  // Why a value is none that it takes; empty: it is one.
+  Option& hidden();  // accepted, but shown nowhere
+  // `fault` returns why a value is not accepted; empty: it is accepted.
   Option& check(std::function<std::string(const std::string&)> fault);
 
  private:
@@ -42,7 +41,7 @@ class OptionList {
   explicit OptionList(CLI::App& app) : app_(app) {}
   std::string name() const;
 
-  // The value is left alone where the option is not given. A name without dashes is an argument by its place.
+  // The value is unchanged if the option is not given. A name without dashes is a positional argument.
   Option add_option(const std::string& name, std::string& value, const std::string& help = "");
   Option add_option(const std::string& name, double& value, const std::string& help);
   Option add_option(const std::string& name, int& value, const std::string& help);
@@ -54,28 +53,28 @@ class OptionList {
   Option add_option(const std::string& name, std::vector<int>& value, const std::string& help);
   Option add_flag(const std::string& name, bool& value, const std::string& help);
   Option add_flag(const std::string& name, std::function<void()> act, const std::string& help);
-  Option option(const std::string& name);  // that was declared before
+  Option option(const std::string& name);  // one declared before
   void action(std::function<void()> act);
 
  private:
   CLI::App& app_;
 };
 
-// An option as help, manual page and completion tell it.
+// An option as help, manual page and completion show it.
 struct OptionHelp {
   std::string name, help;               // "--until"
   std::vector<std::string> long_names;  // "until"
   bool by_place = false, hidden = false;
 };
-// What a command declares.
+// The options that a command declares.
 std::vector<OptionHelp> options_of(const std::function<void(OptionList&)>& set_up, const std::string& name);
 
 struct Subcommand {
   std::string name, help;
   std::function<void(OptionList&)> set_up;
 };
-// Does what the command line says: the action of its command, help, or a complaint. False: the command line is wrong, and
-// that has been said.
+// Executes the command line: the action of its command, help, or an error message. False: the command line is wrong,
+// and the message has been printed.
 bool parse(int argc, char** argv, const std::string& about, const std::string& version,
            const std::vector<Subcommand>& commands);
 

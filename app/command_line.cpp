@@ -5,12 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -28,8 +26,8 @@ namespace kurbel::app {
 namespace {
 
 std::atomic<bool> interrupt_seen{false};
-// The second time, at once. What comes right after the first is the same: timeout(1) signals its child and then the
-// child's group.
+// The second Ctrl-C ends the program at once. Signals in quick succession count as one: timeout(1) signals its child
+// and then the child's group.
 extern "C" void on_interrupt(int) {
   constexpr std::int64_t one_blow = 300'000'000;  // [ns]
   static std::atomic<std::int64_t> first{0};
@@ -92,7 +90,7 @@ std::string text_of_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Why a file is no logo; empty: it is one.
+// Why a file is not a logo; empty: it is one.
 std::string svg_fault(const std::string& path) {
   if (path.empty()) return "";  // told of every option
   std::error_code error;
@@ -105,7 +103,7 @@ std::string svg_fault(const std::string& path) {
   return "";
 }
 
-// Why a list names no formats; empty: it does.
+// Why a list contains no valid formats; empty: it does.
 std::string format_fault(const std::string& list) {
   if (list.empty()) return "must not be empty";
   try {
@@ -163,7 +161,7 @@ void Progress::operator()(const std::string& what, double fraction) {
 
 namespace {
 
-// Of the one scene that a command is about.
+// The scene of the current command.
 std::optional<SettledText>& scene_read() {
   static std::optional<SettledText> text;
   return text;
@@ -206,7 +204,7 @@ void add_former_name(OptionList& command, const std::string& name, std::string& 
 
 namespace {
 
-// Where the files are, said.
+// Writes the files and reports where they are.
 void write_files(const StudyOutput& output, const StudyOptions& options, bool stopped) {
   const WriteOptions how{
       .plots = options.plots,
@@ -229,16 +227,16 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
 }  // namespace
 
 int present(StudyOutput output, const StudyOptions& options) {
-  // What was set beside the scene stands in every summary.
+  // Settings are recorded in every summary.
   if (!options.set.empty()) output.tell("set", options.set);
-  // Asked once: what is decided here holds for the files as for the exit code.
+  // Read once: files and exit code must agree.
   const bool stopped = interrupt_seen;
   if (options.json)
     say(output.json() + "\n");
   else if (options.quiet)
     say(printable(output.conclusion()) + "\n");
   else if (options.all || !output.brief)
-    say_with_conclusion(output.text(options.all), output.conclusion());
+    say_with_conclusion(output.text(options.all), conclusion_text(output));
   else
     say_with_conclusion(brief_text(output), headline_text(output));
   if (!options.no_files) write_files(output, options, stopped);

@@ -1,10 +1,9 @@
-// command_line.h — what the commands share: their options, progress, where results go and how they are shown.
+// command_line.h — what the commands share: options, progress, results folder and presentation.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,31 +17,31 @@ struct StudyOutput;
 
 namespace kurbel::app {
 
-// What ran to the end, but not to the accuracy asked for, ends like a run that failed: its figures are not sure.
+// A study that ends without the requested accuracy exits like a run that failed: its figures are not confirmed.
 inline constexpr int exit_done = 0, exit_user_error = 2, exit_run_failed = 3, exit_not_confirmed = 3,
                      exit_interrupted = 130;
 
 // Set by Ctrl-C; runs end cleanly on it.
 const std::atomic<bool>& interrupted();
-// Ctrl-C ends the run, and at the second time the program; a reader that leaves and a file that may not grow are errors
-// of writing, not the end.
+// Ctrl-C ends the run, a second Ctrl-C the program. SIGPIPE and SIGXFSZ are ignored: a closed pipe and a file over
+// its size limit become write errors.
 void catch_signals();
 
-// Options that every study on a scene has.
+// Options common to all studies on a scene.
 struct StudyOptions {
-  std::string study;  // the command: its results go into a folder of this name within the scene's
+  std::string study;  // name of the command and of its results folder, within that of the scene
   std::string scene, out;
   std::string brand, author;   // of the page: a logo as SVG, a name
   std::string format = "csv";  // of the tables: "csv,mat,xlsx"
   bool all = false, json = false, quiet = false, no_files = false, open = false, plots = false, verbose = false;
   bool allow_files = false;
-  std::vector<std::string> set;  // beside the scene: "main_coupling.stiffness=1 MN*m/rad"
+  std::vector<std::string> set;  // changes to the scene: "main_coupling.stiffness=1 MN*m/rad"
 };
-// --out, or results/SCENE/STUDY: no study writes over another's results.
+// --out, or results/SCENE/STUDY, so that no study overwrites the results of another.
 std::filesystem::path results_of(const StudyOptions& options);
 void add_scene(OptionList& command, std::string& scene, bool& allow_files, std::vector<std::string>& set);
 void add_study_options(OptionList& command, StudyOptions& options);
-// On stderr. On a terminal a line that is written over, for work longer than a second; else a line every ten seconds.
+// Progress on stderr. On a terminal one line is rewritten, for work longer than a second; otherwise one line every ten seconds.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -55,22 +54,22 @@ class Progress {
   std::chrono::steady_clock::time_point begin_, last_{};
 };
 
-// Reads a scene; of data files those below its own folder, unless all are allowed. Throws SceneError.
+// Reads a scene. Data files must lie below the scene's folder, unless all are allowed. Throws SceneError.
 Scene read(const std::string& file, bool allow_files, const std::vector<std::string>& set);
 Scene read(const StudyOptions& options);  // and logs it
-// A fault found in the scene that was read last, however late: placed in its file, or in the setting that brought it.
+// An error found later in the scene read last, with its place in the file or in the setting that caused it.
 SceneError placed(const SceneError& error);
 
-// Before anything runs: hours of work must not end at a folder that cannot be written. Throws std::invalid_argument.
+// Called before any computation, so that no long run ends at a folder that is not writable. Throws std::invalid_argument.
 void check_folder(const StudyOptions& options);
 
-// Ctrl-C, the line of progress, and what --verbose says.
+// Ctrl-C, progress line and the log of --verbose.
 Watch watch_of(const StudyOptions& options, Progress& progress);
 
-// The name that an option once had: taken still, and told nowhere.
+// A former name of an option: still accepted, but shown nowhere.
 void add_former_name(OptionList& command, const std::string& name, std::string& value);
 
-// Prints, writes the files unless asked not to, and returns the exit code.
+// Prints the results, writes the files unless they are switched off, and returns the exit code.
 int present(StudyOutput output, const StudyOptions& options);
 
 }  // namespace kurbel::app

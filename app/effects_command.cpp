@@ -25,7 +25,7 @@ int list_effects() {
   return exit_done;
 }
 
-// The question, and without a scene the list.
+// The question; without a scene the list of effects.
 void set_up(OptionList& command, int& code) {
   const auto options = std::make_shared<StudyOptions>();
   add_study_options(command, *options);

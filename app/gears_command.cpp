@@ -25,7 +25,7 @@ struct GearsArguments {
   BasicRack rack;
 
   bool alone() const { return !teeth.empty(); }
-  // An option that only a pair alone takes.
+  // An option for single pairs only.
   std::string alone_option() const {
     if (!module.empty()) return "--module";
     if (!shift.empty()) return "--shift";
@@ -60,7 +60,7 @@ GearPairData pair_of(const GearsArguments& a) {
   return d;
 }
 
-// A bevel pair has a shaft angle, a worm pair a worm's diameter; else the shafts are parallel.
+// A bevel pair has a shaft angle, a worm pair a worm diameter; otherwise the shafts are parallel.
 StudyOutput alone(const GearsArguments& a, std::optional<double> speed) {
   const GearPairData d = pair_of(a);
   if (!a.shaft_angle.empty() && !a.worm_diameter.empty())

@@ -33,7 +33,7 @@ int run(int argc, char** argv) {
   return right ? code : exit_user_error;
 }
 
-// What went wrong, in words and as an exit code.
+// Runs the command; reports errors as a message and an exit code.
 int run_and_tell(int argc, char** argv) {
   using namespace kurbel::app;
   try {
@@ -64,8 +64,8 @@ int run_and_tell(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace kurbel::app;
-  // First of all: Ctrl-C may come at any time. Before this, while the system loads the program, it ends it as any
-  // other.
+  // First of all, since Ctrl-C may come at any time. Before this, while the system loads the program, it ends the
+  // program as usual.
   catch_signals();
   open_standard_streams();
   const int code = run_and_tell(argc, argv);

@@ -31,7 +31,7 @@ void DeclaredOptions::add_to(OptionList& command, const std::vector<DeclaredOpti
       Option added = command.add_option(name, storage.several, text.doc);
       if (text.count > 0)
         added.values(text.count);
-      else if (!text.words)  // a scene behind it is no value of it
+      else if (!text.words)  // a scene after it is not one of its values
         added.repeatable().one_value_each_time();
     }
   }

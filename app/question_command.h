@@ -1,9 +1,8 @@
-// question_command.h — commands that are questions: their options from the list that declares them.
+// question_command.h — questions as commands, with the options that each question declares.
 #pragma once
 
 #include <deque>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/command_line.h"
@@ -11,10 +10,10 @@
 
 namespace kurbel::app {
 
-// Options of a command line, as their declarations say.
+// Command-line options from their declarations.
 class DeclaredOptions {
  public:
-  // Adds them to the command; what is given stands here when it has been parsed. Must outlive the parsing.
+  // Adds them to the command and stores the values when it is parsed. Must outlive the parsing.
   void add_to(OptionList& command, const std::vector<DeclaredOption>& options);
   GivenOptions given() const;
 
@@ -26,10 +25,10 @@ class DeclaredOptions {
   std::deque<Storage> storage_;
 };
 
-// The scene as it is put to a question; `scene` and `progress` must outlive it.
+// The inquiry for a question; `scene` and `progress` must outlive it.
 Inquiry inquiry_of(const Scene& scene, const StudyOptions& options, Progress& progress);
 
-// Asks, and presents what is found: the exit code.
+// Answers the question and presents the result; returns the exit code.
 int answer(const Question& question, const StudyOptions& options, const GivenOptions& given);
 
 }  // namespace kurbel::app

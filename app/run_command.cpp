@@ -34,7 +34,7 @@ struct RunArguments {
   bool explain = false;
 };
 
-// Method and first tolerance by what an accuracy study of the same text measured, where the user names its file.
+// Method and first tolerance from an accuracy study of the same text, if the user names its file.
 void use_setting(const std::string& file, const Scene& scene, const Effects& effects, SimulateOptions& options) {
   if (file.empty()) return;
   if (options.method)
@@ -64,7 +64,7 @@ std::string text_of_state(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Read before anything runs; nothing: none was asked for.
+// Read before any computation; empty: not requested.
 std::optional<Measurement> measurement_of(const MeasurementRequest& request, bool from_start, const Model& model,
                                           SimulateOptions& options) {
   if (!request.asked()) return {};
@@ -79,7 +79,7 @@ std::optional<Measurement> measurement_of(const MeasurementRequest& request, boo
   return measurement;
 }
 
-// What is said of a run, with the record over it.
+// Findings of a run, compared with the record.
 template <class Study>
 int present(const Study& study, const std::optional<Overlay>& overlay, const RunArguments& arguments) {
   Findings findings = findings_of(study);

@@ -27,11 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& names) {
-  const auto near = nearest(word, names);
-  return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
-}
-
 // "press, pump, …"
 std::string names_of_templates() {
   std::string names;
@@ -49,8 +44,8 @@ const SceneTemplate& template_named(const std::string& kind) {
   if (kind.empty())
     throw std::invalid_argument(
         fmt::format("which kind of machine? Write e.g. kurbel new press; allowed: {}", listed(names)));
-  throw std::invalid_argument(fmt::format("no scene {} to start from{}; allowed: {}", in_quotes(kind),
-                                          did_you_mean(kind, names), listed(names)));
+  throw std::invalid_argument(
+      fmt::format("no scene {} to start from{}; allowed: {}", in_quotes(kind), suggestion(kind, names), listed(names)));
 }
 
 // The path as one word of a shell's line.
@@ -63,8 +58,8 @@ std::string as_word(const std::string& path) {
   return quoted + "'";
 }
 
-// Writes a scene to start from and, for editors, the schema beside it; refuses to overwrite. `again`: the command with which
-// another file is named.
+// Writes a scene to start from, with the schema for editors beside it; refuses to overwrite. `again`: the command for
+// another file name.
 int write_scene(std::string_view text, const std::string& doc, const fs::path& path, const std::string& again,
                 const std::string& first = "") {
   const fs::path schema = path.parent_path() / "scene.schema.json";
@@ -93,7 +88,7 @@ int new_scene(const std::string& kind, const std::string& file) {
   return write_scene(scene.text, scene.doc, file.empty() ? fs::path(kind + ".toml") : fs::path(file), kind);
 }
 
-// Of a mass–elastic sheet; what the scene's own reader and compiler refuse is told before anything is written.
+// From a mass–elastic sheet; errors of the scene reader and compiler are reported before anything is written.
 int new_from_sheet(const std::string& sheet, const std::string& file) {
   const std::string text = scene_of_sheet(sheet);
   const fs::path path = file.empty() ? fs::path(sheet).filename().replace_extension(".toml") : fs::path(file);
@@ -116,7 +111,7 @@ int print_keys(const std::string& kind, bool list_kinds) {
   const std::vector<std::string> names = names_of_keys();
   if (std::find(names.begin(), names.end(), kind) == names.end())
     throw std::invalid_argument(
-        fmt::format("no kind {}{}; allowed: {}", in_quotes(kind), did_you_mean(kind, names), listed(names)));
+        fmt::format("no kind {}{}; allowed: {}", in_quotes(kind), suggestion(kind, names), listed(names)));
   say(keys_of(kind));
   return exit_done;
 }
@@ -138,7 +133,7 @@ int figures(const std::string& file, bool allow_files, const std::vector<std::st
   return exit_done;
 }
 
-// Scene and what is set beside it.
+// A scene and its settings.
 struct SceneArguments {
   std::string file;
   bool allow_files = false;
@@ -191,7 +186,7 @@ void set_up_schema(OptionList& command, int& code) {
   });
 }
 
-// What completion, manual page, docs/commands.md and the Python module's stub are made of.
+// Input for completion, manual page, docs/commands.md and the Python module's stub.
 void set_up_commands(OptionList& command, int& code) {
   struct Wanted {
     std::string name;

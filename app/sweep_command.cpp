@@ -2,7 +2,6 @@
 // kurbel diff: two machines side by side.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <stdexcept>
@@ -24,7 +23,7 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-// Why a text is no number of threads; an empty one is told of every option.
+// Why a text is no number of threads; an empty text is accepted, as the check runs for every option.
 std::string thread_count(const std::string& text) {
   if (text.empty()) return "";
   int count = 0;
@@ -52,7 +51,7 @@ std::size_t errors_every(const std::string& errors) {
       fmt::format("--errors {}: must be measure, none or every:N, e.g. every:20", in_quotes(errors)));
 }
 
-// What is varied: of --variants with its values, else of --vary.
+// The varied parameters: --variants with its values, else --vary.
 VariantTable table_asked(const SweepArguments& a) {
   if (!a.variants.empty()) {
     if (!a.vary.empty() || !a.design.empty())
@@ -99,7 +98,7 @@ int sweep(const SweepArguments& a) {
   VariantTable table = table_asked(a);
   SweepJob job{.jobs = threads_of(a.jobs)};
   read_shard("--shard", a.shard, job);
-  // Whatever is wrong is told before anything is written.
+  // All errors are reported before anything is written.
   const Scene scene = read(a.study);
   Progress progress(a.study.quiet);
   const MachineQuestion question = question_of(a, inquiry_of(scene, a.study, progress));
@@ -213,7 +212,7 @@ int compare_scenes(const DifferenceArguments& a) {
   StudyOptions second = a.study;
   second.scene = a.other;
   second.set.insert(second.set.end(), a.other_set.begin(), a.other_set.end());
-  // What is wrong with either is told in its place.
+  // Errors in either scene are reported with their place.
   const Scene one = read(a.study), other = read(second);
   check_folder(a.study);
   Progress progress(a.study.quiet);

@@ -1,4 +1,4 @@
-// terminal.cpp — what is said, cleaned of what a terminal would obey; colours; log.
+// terminal.cpp — output without control characters; colours; log.
 #include "app/terminal.h"
 
 #include <fcntl.h>
@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <string_view>
 #include <system_error>
 
 #include "engine/scene/printable.h"
@@ -38,7 +37,7 @@ void wrap(std::string& text, std::string_view what, std::string_view code) {
 }  // namespace
 
 void open_standard_streams() {
-  // The wrong way round: what was closed stays a stream that cannot be read or written.
+  // Opened in the wrong mode: a closed stream stays unreadable or unwritable.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF)
       if (open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream) _exit(3);

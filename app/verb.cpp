@@ -1,4 +1,4 @@
-// verb.cpp — the list of commands, and what help, manual page and completion say of them.
+// verb.cpp — the list of commands, and their texts in help, manual page and completion.
 #include "app/verb.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace kurbel::app {
 namespace {
 
 std::vector<VerbText>& registered() {
-  static std::vector<VerbText> list;  // made when the first one comes, whichever that is
+  static std::vector<VerbText> list;  // made on first use
   return list;
 }
 
@@ -36,7 +36,7 @@ std::set<std::string> shared_options() {
   return names;
 }
 
-// roff: a hyphen that is one, and no line that begins with a request.
+// roff: protects hyphens, and lines that would begin with a request.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {

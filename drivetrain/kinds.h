@@ -1,4 +1,4 @@
-// kinds.h — the components of the drive as a scene may name them, each with its table of keys.
+// kinds.h — the kinds of components of the drive, each with its table of keys.
 #pragma once
 
 #include <vector>

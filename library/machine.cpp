@@ -1,4 +1,4 @@
-// machine.cpp — scenes from files and texts into machines that are sound.
+// machine.cpp — validated machines from scene files and texts.
 #include <kurbel/figures.h>
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ Machine Machine::from_text(const std::string& text, const std::string& file, con
 
 Machine Machine::with(const Settings& settings) const {
   std::vector<std::string> all = parts_->settings;
-  // The later one of a path holds.
+  // The last setting of a path holds.
   for (const std::string& line : as_lines(settings)) {
     const std::string path = line.substr(0, line.find('=') + 1);
     std::erase_if(all, [&](const std::string& there) { return there.starts_with(path); });

@@ -1,5 +1,5 @@
-// machine_parts.h — what stands behind the handles of <kurbel/…>: a machine as it was read, a study's output, and how
-// faults of a scene leave the library.
+// machine_parts.h — implementation behind the handles of <kurbel/…>: a machine as read, a study's output, and the
+// conversion of scene errors.
 #pragma once
 
 #include <kurbel/scene.h>
@@ -19,10 +19,10 @@ namespace kurbel {
 struct Inquiry;
 
 struct MachineParts {
-  std::string text, file;             // as they were given, without the settings
+  std::string text, file;             // as given, without the settings
   std::vector<std::string> settings;  // "main_coupling.stiffness=1 MN*m/rad"
   Scene scene;
-  std::function<SceneError(const SceneError&)> placed;  // a fault of what is built later, in the text as it was given
+  std::function<SceneError(const SceneError&)> placed;  // places an error found later in the text as given
 };
 
 struct StudyParts {
@@ -34,7 +34,7 @@ inline Study study_of(StudyOutput output) {
 
 BadScene bad_scene(const SceneError& error);
 
-// What `ask` answers; faults that it finds in the machine's scene as BadScene, placed in the text as it was given.
+// The result of `ask`; errors in the machine's scene become BadScene, placed in the text as given.
 template <class Ask>
 auto asked_of(const MachineParts& machine, const Ask& ask) {
   try {
@@ -46,10 +46,10 @@ auto asked_of(const MachineParts& machine, const Ask& ask) {
 
 Watch watch_of(const Watcher& watcher);
 
-// The machine as it is put to a question; it must outlive that.
+// The inquiry for a question; the machine must outlive it.
 Inquiry inquiry_of(const MachineParts& machine, const Watcher& watcher);
 
-// Throws std::out_of_range: `what` has no `name`, but names like it.
+// Throws std::out_of_range: `what` has no `name`; the message lists the nearest names.
 [[noreturn]] void refuse_name(const std::string& what, const std::string& name, const std::vector<std::string>& names);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// motion.cpp — a machine stepped by its user: each way is a run of its own from the checkpoint where the last one ended.
+// motion.cpp — a machine stepped by its user: each advance is a run from the checkpoint where the last one ended.
 #include <kurbel/state.h>
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ struct MotionParts {
     if (!outcome.complete) throw std::runtime_error(outcome.diagnosis);
   }
 
-  // The equations' modes are those of where it stands.
+  // Sets the equations' modes to those of the current state.
   void stand() { equations.bind(here.state.modes); }
 
   const Snapshot& now() { return equations.snapshot(here.state.t, here.state.y); }
@@ -99,7 +99,7 @@ SavedState Motion::state() const {
 }
 
 void Motion::restore(const SavedState& state) {
-  // By its text, which is checked against this machine.
+  // Through its text, which is checked against this machine.
   parts_->here = checkpoint_from(state.parts().text, parts_->equations);
   parts_->stand();
 }

@@ -1,4 +1,4 @@
-// own_coupling.cpp — a coupling whose law its user wrote: an element like any other. Also what own elements share.
+// own_coupling.cpp — a coupling with a user-defined law: an element like any other. Also what such elements share.
 #include <fmt/format.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -44,7 +44,7 @@ class OwnCoupling {
     const auto spring = [&](double at) { return spring_torque(at); };
     return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(spring, 0, twist, 8, 1e-13);
   }
-  // Outwards from rest until the law has risen so far.
+  // Outwards from rest until the law reaches this torque.
   double twist_at(double torque) const {
     if (torque == 0) return 0;
     const auto missing = [&](double twist) { return spring_torque(twist) - torque; };
@@ -73,7 +73,7 @@ void build_own_coupling(const Section& section, Network& net, Messages& messages
     const std::scoped_lock lock(own_couplings_mutex);
     return own_couplings().at(section.kind->name);
   }();
-  const auto inertia = side_inertia_fields().read(section, messages);
+  const SideInertias inertia = side_inertia_fields().read(section, messages);
   const auto [in, out] = two_shafts(section, inertia, net);
   net.connect(in, out, 1, section.name, OwnCoupling(kind.make(parameters_of(section, kind.parameters))));
 }

@@ -1,4 +1,4 @@
-// own_elements.h — what elements of one's own share: from declared parameters to the keys of a scene, and back.
+// own_elements.h — shared by user-defined elements: from declared parameters to the keys of a scene, and back.
 #pragma once
 
 #include <kurbel/elements.h>
@@ -10,11 +10,11 @@
 
 namespace kurbel {
 
-// Throws std::invalid_argument for a name that stands twice or among `others`, and for a unit that is none.
+// Throws std::invalid_argument for a name that is repeated or among `others`, and for an unknown unit.
 std::vector<Key> keys_of_parameters(const std::string& kind, const std::vector<Parameter>& parameters,
                                     const std::vector<Key>& others);
 
-// Of one component.
+// The parameters of one component.
 Parameters parameters_of(const Section& section, const std::vector<Parameter>& declared);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// own_mechanism.cpp — reduced functions, drawing and keys of a mechanism that its user wrote as a motion of links.
+// own_mechanism.cpp — reduced functions, drawing and keys of a mechanism defined by the user as a motion of links.
 #include "library/own_mechanism.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace kurbel {
 namespace {
 
-// What Simbody's bodies are to kurbel's mechanisms, by the sums over the links.
+// Replaces Simbody's bodies by sums over the links.
 class OwnBodies final : public MechanismBodies {
  public:
   explicit OwnBodies(OwnMechanismData data) : data_(std::move(data)) {}
@@ -67,7 +67,7 @@ const Fields<Mounted<OwnMechanismData>>& own_mechanism_fields() {
   return made;
 }
 
-// A motion that does not come back after a turn, or that no number tells, is refused before it is tabulated.
+// A motion that is not periodic over one turn, or not finite, is refused before it is tabulated.
 void check_motion(const OwnMechanismData& data) {
   for (const long double phi : {0.3L, 2.1L, 4.4L}) {
     const LinkagePosition at = data.motion(Taylor::variable(phi));
@@ -127,7 +127,7 @@ std::vector<PlanePoint> places_of(const OwnMechanismData& data, double phi) {
   return points;
 }
 
-// Joints are not known: two places stand for them, by which a cycle is seen to close.
+// Joints are unknown: two points replace them, by which the closing of a cycle is checked.
 PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi) {
   const LinkagePosition at = data.motion(Taylor::variable(phi));
   PlanarLinkage l;

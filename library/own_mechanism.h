@@ -1,4 +1,4 @@
-// own_mechanism.h — a mechanism whose motion its user wrote, as data like those of kurbel's own.
+// own_mechanism.h — a mechanism with user-defined motion, as data like kurbel's own mechanisms.
 #pragma once
 
 #include <kurbel/elements.h>
@@ -15,7 +15,7 @@ struct Scene;
 
 struct OwnMechanismData {
   std::string kind;
-  double number = 0;           // of the kind, in the order of their coming: with the values it tells one from another
+  double number = 0;           // number of the kind, by registration; identifies it together with values
   std::vector<double> values;  // of its parameters
   MechanismMotion motion;
   double gravity = 0;    // [m/s²]
@@ -28,8 +28,8 @@ std::vector<PlanePoint> places_of(const OwnMechanismData& data, double phi);
 std::unique_ptr<MechanismBodies> own_bodies(const OwnMechanismData& data);
 PlanarLinkage linkage_of(const OwnMechanismData& data, long double phi);
 
-// Throws std::invalid_argument where reactions are asked of a mechanism of this sort: `wanted` by its name, or, where that is
-// empty, as the scene has no other.
+// Throws std::invalid_argument if reactions are requested for a mechanism of this sort: `wanted` by name or, if
+// empty, because the scene has no other.
 void refuse_forces_of_own(const Scene& scene, const std::string& wanted);
 
 }  // namespace kurbel

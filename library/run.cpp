@@ -1,9 +1,8 @@
-// run.cpp — a run with what it recorded, handed out.
+// run.cpp — a run and its records for the caller.
 #include <kurbel/run.h>
 
 #include <stdexcept>
 
-#include "engine/run/checkpoint.h"
 #include "library/machine_parts.h"
 #include "studies/measured/overlay.h"
 #include "studies/run/run_findings.h"
@@ -22,7 +21,7 @@ struct RunParts {
 
 namespace {
 
-// A run, trials of it where they were wanted, a test's record over it.
+// A run, its trials if requested, and a measured record compared with it.
 struct ToldRun {
   WithTrials<Result> tried;
   bool has_trials = false;
@@ -34,7 +33,7 @@ Findings findings_of(const ToldRun& run) {
   return findings;
 }
 
-// Read before anything runs; nothing: none was asked for.
+// Read before any computation; empty: not requested.
 std::optional<Measurement> measurement_of(const RunChoices& choices, const Model& model) {
   const MeasurementRequest request{choices.measured, choices.map, choices.shift, choices.offset};
   if (!request.asked()) return {};

@@ -1,6 +1,5 @@
-// studies.cpp — the questions by their names: the machine asked, the findings handed out.
+// studies.cpp — the questions by name: asked of a machine, with their findings.
 #include <algorithm>
-#include <stdexcept>
 
 #include "library/machine_parts.h"
 #include "library/own_mechanism.h"

@@ -1,4 +1,4 @@
-// sweep.cpp — rows of machines and of functions of the caller's, by one and the same sweep.
+// sweep.cpp — rows of machines and of functions of the caller, by the same sweep.
 #include <kurbel/scene.h>
 #include <kurbel/sweep.h>
 
@@ -49,7 +49,7 @@ SweepRows held_rows_of(const SweepStore& store) {
   return all;
 }
 
-// The report asks the store again for rows that it does not hold.
+// The report reads rows that are not held from the store.
 struct KeptSweep {
   KeptSweep(const std::string& file, const std::vector<std::string>& limits)
       : store(file), study(study_of(store, limits)) {}

@@ -1,11 +1,11 @@
-// words.h — what words mean, for whoever asks: what a figure is, in sentences for a terminal.
+// words.h — the meaning of a figure, in sentences for a terminal.
 #pragma once
 
 #include <string>
 
 namespace kurbel {
 
-// Throws std::invalid_argument for a name that is none, with those like it.
+// Throws std::invalid_argument for an unknown name, with the nearest ones.
 std::string explained(const std::string& figure);
 
 }  // namespace kurbel

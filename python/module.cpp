@@ -1,5 +1,5 @@
-// module.cpp — kurbel._kurbel: the facade as Python's types. What is Python's own (dicts, pandas, sweeps) stands in the
-// package beside it.
+// module.cpp — kurbel._kurbel: the library as Python types. What is specific to Python (dicts, pandas, sweeps) is in
+// the package beside it.
 #include <fmt/format.h>
 #include <kurbel/kurbel.h>
 #include <pybind11/functional.h>
@@ -17,8 +17,8 @@ using namespace kurbel;  // NOLINT: this file is their rendering
 
 namespace {
 
-// Computes in a thread of its own, without Python's lock; the caller's thread looks for signals meanwhile, so that
-// Ctrl-C ends the study and is raised once it has ended.
+// Computes in a separate thread without Python's lock; the calling thread checks for signals, so that Ctrl-C ends the
+// study and is raised afterwards.
 template <class Ask>
 auto computed(const Ask& ask) {
   std::atomic<bool> interrupted{false};
@@ -44,10 +44,10 @@ auto computed(const Ask& ask) {
   return get();
 }
 
-// What is read and compiled at once: Python's other threads go on meanwhile.
+// For short calls that read and compile: other Python threads continue meanwhile.
 constexpr py::call_guard<py::gil_scoped_release> without_lock;
 
-// In the memory of the run, which the array keeps; nobody may write there.
+// Read-only array on the memory of the run, which it keeps alive.
 py::array_t<double> array_of(const TimeSeries& series) {
   auto* const kept = new std::shared_ptr<const void>(series.kept());
   const py::capsule owner(kept, [](void* held) { delete static_cast<std::shared_ptr<const void>*>(held); });
@@ -139,7 +139,7 @@ void bind_words(py::module_& m) {
   m.def("example_scene", &example_scene, py::arg("name"));
 }
 
-// Rows as the package has them: what is varied, the rows' parameters, and of each its figures and why it failed.
+// Rows for the package: varied parameters, their values per row, and each row's figures and reason of failure.
 py::tuple as_python(const SweepRows& rows) {
   py::list parameters, results;
   for (const SweepLine& line : rows.lines) {

@@ -1,9 +1,9 @@
-// backlash.h — an elastic contact with a gap b between the flanks, and two laws of contact that are published.
+// backlash.h — elastic contact with a gap b between the flanks; three contact laws, two of them published.
 //
 //     u = twist;  beyond the gap θ = u − ½ b sgn u, compression p = |θ|, ṗ = sgn(u) u̇     (theory 5.6, 5.7)
-//   no pulling    τ = sgn(u) (k p + min(k p, c ṗ)),  0 where k p + c ṗ ≤ 0: the damper never does more than the spring
-//                 and never pulls the flanks together (Modelica.Mechanics.Rotational.Components.ElastoBacklash)
-//   Hunt–Crossley τ = sgn(u) k pⁿ (1 + d ṗ), ≥ 0: damping grows with the compression, so the torque begins at nothing
+//   no pulling    τ = sgn(u) (k p + min(k p, c ṗ)),  0 where k p + c ṗ ≤ 0: the damper torque never exceeds the spring
+//                 torque and never pulls the flanks together (Modelica.Mechanics.Rotational.Components.ElastoBacklash)
+//   Hunt–Crossley τ = sgn(u) k pⁿ (1 + d ṗ), ≥ 0: damping grows with the compression, so the torque starts from zero
 //                 (Hunt, Crossley: J. Appl. Mech. 42 (1975), 440–445)
 //   clipped       τ = sgn(u) max(0, k p + c ṗ): jumps by c ṗ where the flanks touch
 // Modes: touching below (−1), free (0), touching above (+1). The law and the gap are stated in the report.
@@ -22,7 +22,7 @@ namespace kurbel {
 enum class ContactLaw { no_pulling, hunt_crossley, clipped };
 
 struct Backlash {
-  // The mode: a flank (−1, 0, +1) and what the law does there.
+  // The mode: the flank in contact (sign; 0: none) and the branch of the law there.
   enum Mode : int {
     below_cut = -3,
     below_limited = -2,
@@ -40,7 +40,7 @@ struct Backlash {
   double damping = 0;      // c [N·m·s/rad]; of Hunt–Crossley d [s/rad]
   double gap = 0;          // b, total [rad], ≥ 0
   double exponent = 1;     // n of Hunt–Crossley
-  double twist_scale = 1;  // [rad], of order of a working compression
+  double twist_scale = 1;  // [rad], of the order of the compression in operation
 
   template <class T>
   T torque(const Twist<T>& x) const {
@@ -64,7 +64,7 @@ struct Backlash {
     const double p = std::abs(twist) - 0.5 * gap;
     return p <= 0 ? 0 : std::copysign(power(p), twist);
   }
-  // In flight it is nothing, though a stage of a step may overshoot the flank.
+  // Zero while the flanks are apart, even if an integration stage overshoots the flank.
   double spring_torque(const Twist<double>& x) const { return x.mode == apart ? 0 : spring_torque(x.angle); }
   template <class T>
   T energy(const T& twist) const {
@@ -87,7 +87,7 @@ struct Backlash {
     const int side = x.angle > 0.5 * gap ? 1 : x.angle < -0.5 * gap ? -1 : 0;
     return side == 0 ? apart : within(side, side * x.angle - 0.5 * gap, side * x.rate);
   }
-  // Where the law changes: the gap's ends, and within the contact where damper and spring change places.
+  // Zeros where the law changes: at the ends of the gap, and in contact where the damper torque reaches the spring torque.
   void guard(const Twist<double>& x, double* g) const {
     if (x.mode == apart) {
       g[0] = (0.5 * gap - x.angle) / twist_scale;
@@ -107,11 +107,11 @@ struct Backlash {
         g[0] = (spring + damper) / torque_scale;
         g[1] = law == ContactLaw::no_pulling && damping > 0 ? (spring - damper) / torque_scale : 1;
         break;
-      case 2:  // the damper would do more than the spring
+      case 2:  // the damper torque is limited to the spring torque
         g[0] = p / twist_scale;
         g[1] = (damper - spring) / torque_scale;
         break;
-      default:  // they part faster than the spring follows
+      default:  // the flanks separate faster than the spring recovers
         g[0] = p / twist_scale;
         g[1] = -(spring + damper) / torque_scale;
     }
@@ -158,12 +158,12 @@ struct Backlash {
   }
 };
 
-// As a scene gives it; without the effect "backlash" the flanks always touch.
+// Data of the scene. Without the effect "backlash" the flanks always touch.
 struct BacklashData {
   using Element = Backlash;
   static constexpr bool other_forms = true;
   Backlash contact;
-  Damping given;  // in any of its forms; of Hunt–Crossley unused
+  Damping given;  // in any of its forms; unused by Hunt–Crossley
 
   bool damping_hangs_on_inertia() const { return contact.law != ContactLaw::hunt_crossley && given.hangs_on_inertia(); }
   Backlash settled(double inertia) const;

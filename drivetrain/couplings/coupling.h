@@ -10,10 +10,10 @@
 
 namespace kurbel {
 
-// Damping as engineers know it. Everything but `viscous` is turned into c at a reference frequency, by default the
-// natural frequency of the two inertias that the element joins, ω_ref = √(k/J_red), 1/J_red = 1/J_a + i²/J_b:
+// Damping in the customary measures. All except `viscous` are converted to c at a reference frequency, by default the
+// natural frequency of the two inertias on the element, ω_ref = √(k/J_red), 1/J_red = 1/J_a + i²/J_b:
 //   damping ratio ζ:         c = 2 ζ k/ω_ref
-//   relative damping ψ:      c = ψ k/(2π ω_ref)      (energy lost in a cycle over the greatest energy stored)
+//   relative damping ψ:      c = ψ k/(2π ω_ref)      (energy lost per cycle over the maximum stored energy)
 //   loss factor η:           c = η k/ω_ref
 struct Damping {
   enum class As { viscous, ratio, relative, loss_factor };
@@ -38,14 +38,14 @@ struct Coupling {
   double stiffness_at_rest() const { return stiffness; }
 };
 
-// A coupling as its data sheet gives it; viscous once the inertias that it joins are known.
+// A coupling by its data sheet; settled() gives the viscous damping once the inertias on both sides are known.
 struct CouplingData {
   using Element = Coupling;
   double stiffness = 0;  // k [N·m/rad], > 0
   Damping damping;
 
   bool damping_hangs_on_inertia() const { return damping.hangs_on_inertia(); }
-  // inertia: J_red [kg·m²]; 0: none is known (both ends held), and then only c or a given frequency define the damping.
+  // inertia: J_red [kg·m²]; 0: unknown (both ends held); the damping then needs c or a given frequency.
   Coupling settled(double inertia) const {
     if (damping.as == Damping::As::viscous) return {stiffness, damping.value};
     const double natural = inertia > 0 ? std::sqrt(stiffness / inertia) : HUGE_VAL;

@@ -1,4 +1,4 @@
-// coupling_keys.h — fields that everything with two halves shares.
+// coupling_keys.h — fields shared by all components with two shafts.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@ class Network;
 struct SideInertias {
   double in = 0, out = 0;  // [kg·m²]
 };
-const Fields<SideInertias>& side_inertia_fields();
+Fields<SideInertias> side_inertia_fields();
 // The two shafts of a component, each with its inertia.
 std::array<int, 2> two_shafts(const Section& section, const SideInertias& inertia, Network& net);
 
-const Fields<CouplingLimits>& coupling_limit_fields();
+Fields<CouplingLimits> coupling_limit_fields();
 Key application_factor_key();
 
-const Fields<ShaftRating>& shaft_rating_fields();
+Fields<ShaftRating> shaft_rating_fields();
 
-// A shaft's data as a scene gives them.
+// Data of a shaft in the scene.
 struct ShaftKeys {
   std::optional<double> stiffness, length, diameter;  // k [N·m/rad], L, D [m]
   double bore = 0, shear_modulus = 0, density = 0;    // d [m], G [Pa], ρ [kg/m³]
@@ -35,10 +35,10 @@ struct ShaftKeys {
   double application_factor = 1;
 
   bool judges_stress() const { return allowable_shear_stress || rating.any(); }
-  double polar_moment() const;   // J_p = π (D⁴ − d⁴)/32 [m⁴]; of one given by its diameter
+  double polar_moment() const;   // J_p = π (D⁴ − d⁴)/32 [m⁴]; only for shafts given by diameter
   double polar_modulus() const;  // W_p = 2 J_p/D [m³]
 };
 
-const Fields<Damping>& damping_fields();  // in its four forms
+Fields<Damping> damping_fields();  // in its four forms
 
 }  // namespace kurbel

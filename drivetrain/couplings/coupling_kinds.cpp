@@ -59,20 +59,17 @@ void check_coupling(const Reading<CouplingKeys>& c) {
       c.refuse(key, fmt::format("\"{}\" does not apply to Hunt–Crossley contact; give contact_damping", key));
 }
 
-const Fields<CouplingKeys>& coupling_fields() {
-  static const auto made =
-      Fields<CouplingKeys>()
-          .add(required("stiffness", "N*m/rad", positive, "torsional stiffness k"), &CouplingKeys::stiffness)
-          .add(side_inertia_fields(), &CouplingKeys::inertia)
-          .add(damping_fields(), &CouplingKeys::damping)
-          .add(contact_fields(), &CouplingKeys::contact)
-          .add(coupling_limit_fields(), &CouplingKeys::limits)
-          .check(check_coupling);
-  return made;
+Fields<CouplingKeys> coupling_fields() {
+  return Fields<CouplingKeys>()
+      .add(required("stiffness", "N*m/rad", positive, "torsional stiffness k"), &CouplingKeys::stiffness)
+      .add(side_inertia_fields(), &CouplingKeys::inertia)
+      .add(damping_fields(), &CouplingKeys::damping)
+      .add(contact_fields(), &CouplingKeys::contact)
+      .add(coupling_limit_fields(), &CouplingKeys::limits)
+      .check(check_coupling);
 }
 
-void build_coupling(const Section& s, Network& net, Messages& messages) {
-  const auto coupling = coupling_fields().read(s, messages);
+void build_coupling(const Section& s, const Reading<CouplingKeys>& coupling, Network& net) {
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
   net.data.add(s.name, coupling.limits);
   if (coupling.contact.gap > 0) net.data.add(s.name, StatedPlay{});
@@ -113,41 +110,36 @@ void check_shaft(const Reading<ShaftKeys>& shaft) {
   }
 }
 
-const Fields<ShaftKeys>& shaft_fields() {
-  static const auto made =
-      Fields<ShaftKeys>()
-          .add(quantity("stiffness", "N*m/rad", positive, "torsional stiffness k of the whole shaft"),
-               &ShaftKeys::stiffness)
-          .add(quantity("length", "m", positive, "length, in place of the stiffness"), &ShaftKeys::length)
-          .add(quantity("diameter", "m", positive,
-                        "outer diameter; beside a stiffness that of the section whose stress is judged"),
-               &ShaftKeys::diameter)
-          .add(defaulted("bore", "m", "0 m", not_negative, "inner diameter"), &ShaftKeys::bore)
-          .add(defaulted("shear_modulus", "Pa", "79.3 GPa", positive, "G; steel unless given"),
-               &ShaftKeys::shear_modulus)
-          .add(defaulted("density", "kg/m3", "7850 kg/m3", positive, "ρ; steel unless given"), &ShaftKeys::density)
-          .add(quantity("inertia", "kg*m2", not_negative, "of the whole shaft; default: from its dimensions, else 0"),
-               &ShaftKeys::inertia)
-          .add(quantity("segments", "", {.low = 1, .high = 100000},
-                        "number of equal springs that it is cut into; default: by dimensions it is continuous, by its "
-                        "stiffness one spring"),
-               &ShaftKeys::segments)
-          .add(quantity("allowable_shear_stress", "Pa", positive,
-                        "limit of the largest stress for kurbel modes, run, steady; needs the diameter"),
-               &ShaftKeys::allowable_shear_stress)
-          .add(shaft_rating_fields(), &ShaftKeys::rating)
-          .add(damping_fields(), &ShaftKeys::damping)
-          .add(application_factor_key(), &ShaftKeys::application_factor)
-          .check(check_shaft);
-  return made;
+Fields<ShaftKeys> shaft_fields() {
+  return Fields<ShaftKeys>()
+      .add(quantity("stiffness", "N*m/rad", positive, "torsional stiffness k of the whole shaft"),
+           &ShaftKeys::stiffness)
+      .add(quantity("length", "m", positive, "length, in place of the stiffness"), &ShaftKeys::length)
+      .add(quantity("diameter", "m", positive,
+                    "outer diameter; beside a stiffness that of the section whose stress is judged"),
+           &ShaftKeys::diameter)
+      .add(defaulted("bore", "m", "0 m", not_negative, "inner diameter"), &ShaftKeys::bore)
+      .add(defaulted("shear_modulus", "Pa", "79.3 GPa", positive, "G; steel unless given"), &ShaftKeys::shear_modulus)
+      .add(defaulted("density", "kg/m3", "7850 kg/m3", positive, "ρ; steel unless given"), &ShaftKeys::density)
+      .add(quantity("inertia", "kg*m2", not_negative, "of the whole shaft; default: from its dimensions, else 0"),
+           &ShaftKeys::inertia)
+      .add(quantity("segments", "", {.low = 1, .high = 100000},
+                    "number of equal springs that it is cut into; default: by dimensions it is continuous, by its "
+                    "stiffness one spring"),
+           &ShaftKeys::segments)
+      .add(quantity("allowable_shear_stress", "Pa", positive,
+                    "limit of the largest stress for kurbel modes, run, steady; needs the diameter"),
+           &ShaftKeys::allowable_shear_stress)
+      .add(shaft_rating_fields(), &ShaftKeys::rating)
+      .add(damping_fields(), &ShaftKeys::damping)
+      .add(application_factor_key(), &ShaftKeys::application_factor)
+      .check(check_shaft);
 }
 
 // k = G J_p/L, J = ρ J_p L. By its dimensions it is continuous; else, and where its segments are told, it is cut into
 // equal springs with the inertia between and at the ends.
-void build_shaft(const Section& s, Network& net, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  const auto shaft = shaft_fields().read(s, messages);
-  if (messages.all().size() > before) return;
+void build_shaft(const Section& s, const Reading<ShaftKeys>& shaft, Network& net) {
+  if (!shaft.sound()) return;
   net.data.add<ShaftKeys>(s.name, shaft);
   const double stiffness = shaft.length ? shaft.shear_modulus * shaft.polar_moment() / *shaft.length : *shaft.stiffness;
   const double inertia =
@@ -183,11 +175,11 @@ double ShaftKeys::polar_modulus() const { return 2 * polar_moment() / diameter.v
 
 std::vector<Kind> coupling_kinds() {
   return {
-      elastic_between_shafts("coupling",
-                             "spring and damper between two half inertias; rigid when its elasticity is off",
-                             coupling_fields().keys(), build_coupling),
-      elastic_between_shafts("shaft", "elastic shaft by stiffness, or by length, diameters and material",
-                             shaft_fields().keys(), build_shaft),
+      kind_of<coupling_fields, build_coupling>(
+          elastic_between_shafts, "coupling",
+          "spring and damper between two half inertias; rigid when its elasticity is off"),
+      kind_of<shaft_fields, build_shaft>(elastic_between_shafts, "shaft",
+                                         "elastic shaft by stiffness, or by length, diameters and material"),
   };
 }
 

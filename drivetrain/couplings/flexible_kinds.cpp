@@ -31,22 +31,19 @@ struct ProgressiveKeys {
   CouplingLimits limits;
 };
 
-const Fields<ProgressiveKeys>& progressive_fields() {
+Fields<ProgressiveKeys> progressive_fields() {
   using Keys = ProgressiveKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(required_curve("table", {"twist"}, "N*m",
-                              "torque over twist through [0, 0], rising; points of positive twist alone count for both "
-                              "senses; beyond the last one it goes on straight"),
-               &Keys::table)
-          .add(side_inertia_fields(), &Keys::inertia)
-          .add(damping_fields(), &Keys::damping)
-          .add(coupling_limit_fields(), &Keys::limits);
-  return made;
+  return Fields<Keys>()
+      .add(required_curve("table", {"twist"}, "N*m",
+                          "torque over twist through [0, 0], rising; points of positive twist alone count for both "
+                          "senses; beyond the last one it goes on straight"),
+           &Keys::table)
+      .add(side_inertia_fields(), &Keys::inertia)
+      .add(damping_fields(), &Keys::damping)
+      .add(coupling_limit_fields(), &Keys::limits);
 }
 
-void build_progressive(const Section& s, Network& net, Messages& messages) {
-  const auto coupling = progressive_fields().read(s, messages);
+void build_progressive(const Section& s, const Reading<ProgressiveKeys>& coupling, Network& net) {
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
   net.data.add(s.name, coupling.limits);
   const CurveData& table = coupling.table;
@@ -91,19 +88,17 @@ const Tables<MaxwellBranch>& branches() {
   return made;
 }
 
-const Fields<RubberKeys>& rubber_fields() {
+Fields<RubberKeys> rubber_fields() {
   using Keys = RubberKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(stiffness_key("static torsional stiffness k"), &Keys::stiffness)
-          .add({.name = "branches",
-                .doc = "1 … 4 Maxwell branches; with relaxation off their loss at ω_ref counts as viscous",
-                .effect = "relaxation"},
-               &Keys::branches, branches())
-          .add(side_inertia_fields(), &Keys::inertia)
-          .add(damping_fields(), &Keys::damping)
-          .add(coupling_limit_fields(), &Keys::limits);
-  return made;
+  return Fields<Keys>()
+      .add(stiffness_key("static torsional stiffness k"), &Keys::stiffness)
+      .add({.name = "branches",
+            .doc = "1 … 4 Maxwell branches; with relaxation off their loss at ω_ref counts as viscous",
+            .effect = "relaxation"},
+           &Keys::branches, branches())
+      .add(side_inertia_fields(), &Keys::inertia)
+      .add(damping_fields(), &Keys::damping)
+      .add(coupling_limit_fields(), &Keys::limits);
 }
 
 template <int branches>
@@ -113,8 +108,7 @@ void connect_rubber(const std::string& name, Network& net, int in, int out, cons
   net.connect(in, out, 1, name, data);
 }
 
-void build_rubber(const Section& s, Network& net, Messages& messages) {
-  const auto coupling = rubber_fields().read(s, messages);
+void build_rubber(const Section& s, const Reading<RubberKeys>& coupling, Network& net) {
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
   net.data.add(s.name, coupling.limits);
   if (!coupling.given(&RubberKeys::branches))
@@ -142,24 +136,20 @@ struct UniversalJointKeys : CouplingData, HookeJoint {
   CouplingLimits limits;
 };
 
-const Fields<UniversalJointKeys>& universal_joint_fields() {
+Fields<UniversalJointKeys> universal_joint_fields() {
   using Keys = UniversalJointKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(stiffness_key("torsional stiffness k of the joint and its shaft"), &Keys::stiffness)
-          .add(required("angle", "rad", {.low = 0, .high = 1.4}, "angle β between the shafts, up to 80 deg"),
-               &Keys::angle)
-          .add(defaulted("phase", "rad", "0 deg", any_number,
-                         "angle of the driving fork past its position in the plane of the shafts, at φ = 0"),
-               &Keys::phase)
-          .add(side_inertia_fields(), &Keys::inertia)
-          .add(damping_fields(), &Keys::damping)
-          .add(coupling_limit_fields(), &Keys::limits);
-  return made;
+  return Fields<Keys>()
+      .add(stiffness_key("torsional stiffness k of the joint and its shaft"), &Keys::stiffness)
+      .add(required("angle", "rad", {.low = 0, .high = 1.4}, "angle β between the shafts, up to 80 deg"), &Keys::angle)
+      .add(defaulted("phase", "rad", "0 deg", any_number,
+                     "angle of the driving fork past its position in the plane of the shafts, at φ = 0"),
+           &Keys::phase)
+      .add(side_inertia_fields(), &Keys::inertia)
+      .add(damping_fields(), &Keys::damping)
+      .add(coupling_limit_fields(), &Keys::limits);
 }
 
-void build_universal_joint(const Section& s, Network& net, Messages& messages) {
-  const auto coupling = universal_joint_fields().read(s, messages);
+void build_universal_joint(const Section& s, const Reading<UniversalJointKeys>& coupling, Network& net) {
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
   net.data.add(s.name, coupling.limits);
   net.connect(in, out, 1, s.name, UniversalJointData{coupling, coupling, coupling.phase});
@@ -169,17 +159,15 @@ void build_universal_joint(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> flexible_kinds() {
   return {
-      elastic_between_shafts("progressive coupling",
-                             "spring by a table of torque over twist, and damper; rigid when its elasticity is off",
-                             progressive_fields().keys(), build_progressive),
-      elastic_between_shafts(
-          "rubber coupling",
-          "static spring and damper, with Maxwell branches that relax; rigid when its elasticity is off",
-          rubber_fields().keys(), build_rubber),
-      elastic_between_shafts(
-          "universal joint",
-          "Hooke's joint at an angle, on an elastic shaft; when its elasticity is off its ratio is the mean, 1",
-          universal_joint_fields().keys(), build_universal_joint),
+      kind_of<progressive_fields, build_progressive>(
+          elastic_between_shafts, "progressive coupling",
+          "spring by a table of torque over twist, and damper; rigid when its elasticity is off"),
+      kind_of<rubber_fields, build_rubber>(
+          elastic_between_shafts, "rubber coupling",
+          "static spring and damper, with Maxwell branches that relax; rigid when its elasticity is off"),
+      kind_of<universal_joint_fields, build_universal_joint>(
+          elastic_between_shafts, "universal joint",
+          "Hooke's joint at an angle, on an elastic shaft; when its elasticity is off its ratio is the mean, 1"),
   };
 }
 

@@ -1,13 +1,13 @@
-// fluid_coupling.h — what transmits by a fluid and has no spring: hydrodynamic coupling, viscous film.
+// fluid_coupling.h — couplings that transmit by a fluid and have no spring: hydrodynamic coupling, viscous film.
 //
 //     fluid coupling:  M = λ(ν) ρ D⁵ ω_p |ω_p|, from the faster side (p, by |ω|) to the slower, ν = ω_slower/ω_faster
 //     viscous film:    τ = c (ω_a − i ω_b)
-// λ over −1 ≤ ν ≤ 1 with λ(1) = 0; for ν below its first point it keeps its first value. The law is symmetric: a driven
-// side that runs ahead drives back. Smooth through ν = 1; at ω_b = −ω_a (countercurrent braking) its slope jumps.
-// (Föttinger's law of similarity; VDI 2153, Hydrodynamische Leistungsübertragung.) A ring that hangs on a shaft by a
-// viscous film is the untuned damper of Houdaille. On a shaft of inertia J on a spring k to the frame, μ = J_ring/J:
-// least peak M₀/k · (1 + 2/μ) at ω² = (k/J) 2/(2 + μ), with c = 2 J_ring √(k/J)/√(2 (1 + μ)(2 + μ)) (Den Hartog,
-// Mechanical Vibrations, 4th ed., ch. 3.3).
+// λ is given over −1 ≤ ν ≤ 1 with λ(1) = 0; below its first point it is constant. The law is symmetric: if the driven
+// side is faster, it drives back. It is smooth through ν = 1; at ω_b = −ω_a (countercurrent braking) its slope jumps.
+// (Föttinger's law of similarity; VDI 2153, Hydrodynamische Leistungsübertragung.) A ring joined to a shaft by a viscous
+// film is an untuned (Houdaille) damper. With shaft inertia J on a spring k to the frame, μ = J_ring/J, the least peak is
+// M₀/k · (1 + 2/μ) at ω² = (k/J) 2/(2 + μ), with c = 2 J_ring √(k/J)/√(2 (1 + μ)(2 + μ)) (Den Hartog, Mechanical
+// Vibrations, 4th ed., ch. 3.3).
 #pragma once
 
 #include <cmath>

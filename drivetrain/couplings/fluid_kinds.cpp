@@ -19,21 +19,18 @@ struct FluidCouplingKeys {
   SideInertias inertia;
 };
 
-const Fields<FluidCouplingKeys>& fluid_coupling_fields() {
+Fields<FluidCouplingKeys> fluid_coupling_fields() {
   using Keys = FluidCouplingKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(required("diameter", "m", positive, "profile diameter D"), &Keys::diameter)
-          .add(defaulted("density", "kg/m3", "870 kg/m3", positive, "ρ of the fluid; oil unless given"), &Keys::density)
-          .add(required_curve("lambda", {"speed ratio"}, "1",
-                              "λ over ν = ω_slower/ω_faster, ending in [1, 0]; M = λ ρ D⁵ ω²"),
-               &Keys::lambda)
-          .add(side_inertia_fields(), &Keys::inertia);
-  return made;
+  return Fields<Keys>()
+      .add(required("diameter", "m", positive, "profile diameter D"), &Keys::diameter)
+      .add(defaulted("density", "kg/m3", "870 kg/m3", positive, "ρ of the fluid; oil unless given"), &Keys::density)
+      .add(required_curve("lambda", {"speed ratio"}, "1",
+                          "λ over ν = ω_slower/ω_faster, ending in [1, 0]; M = λ ρ D⁵ ω²"),
+           &Keys::lambda)
+      .add(side_inertia_fields(), &Keys::inertia);
 }
 
-void build_fluid_coupling(const Section& s, Network& net, Messages& messages) {
-  const auto coupling = fluid_coupling_fields().read(s, messages);
+void build_fluid_coupling(const Section& s, const Reading<FluidCouplingKeys>& coupling, Network& net) {
   const auto [in, out] = two_shafts(s, coupling.inertia, net);
   const CurveData& table = coupling.lambda;
   const auto refuse = [&](const std::string& text) { coupling.refuse(&FluidCouplingKeys::lambda, "lambda: " + text); };
@@ -63,18 +60,15 @@ struct ViscousDamperKeys : ViscousFilm {
   double ring_inertia = 0, inertia = 0;  // [kg·m²]
 };
 
-const Fields<ViscousDamperKeys>& viscous_damper_fields() {
+Fields<ViscousDamperKeys> viscous_damper_fields() {
   using Keys = ViscousDamperKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(required("ring_inertia", "kg*m2", positive, "of the free ring"), &Keys::ring_inertia)
-          .add(required("damping", "N*m*s/rad", positive, "c of the film between ring and hub"), &Keys::damping)
-          .add(own_inertia_key(), &Keys::inertia);
-  return made;
+  return Fields<Keys>()
+      .add(required("ring_inertia", "kg*m2", positive, "of the free ring"), &Keys::ring_inertia)
+      .add(required("damping", "N*m*s/rad", positive, "c of the film between ring and hub"), &Keys::damping)
+      .add(own_inertia_key(), &Keys::inertia);
 }
 
-void build_viscous_damper(const Section& s, Network& net, Messages& messages) {
-  const auto damper = viscous_damper_fields().read(s, messages);
+void build_viscous_damper(const Section& s, const Reading<ViscousDamperKeys>& damper, Network& net) {
   const int hub = single_shaft(s, damper.inertia, net);
   const int ring = net.add_node(s.name, "ring", damper.ring_inertia);
   net.ports[s.name].others = {{"ring", ring}};
@@ -85,11 +79,11 @@ void build_viscous_damper(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> fluid_kinds() {
   return {
-      between_shafts("fluid coupling",
-                     "hydrodynamic coupling by its performance coefficient over the speed ratio; slips always",
-                     fluid_coupling_fields().keys(), build_fluid_coupling),
-      on_a_shaft("viscous damper", "ring that is driven by the shaft through a viscous film (Houdaille)",
-                 viscous_damper_fields().keys(), build_viscous_damper),
+      kind_of<fluid_coupling_fields, build_fluid_coupling>(
+          between_shafts, "fluid coupling",
+          "hydrodynamic coupling by its performance coefficient over the speed ratio; slips always"),
+      kind_of<viscous_damper_fields, build_viscous_damper>(
+          on_a_shaft, "viscous damper", "ring that is driven by the shaft through a viscous film (Houdaille)"),
   };
 }
 

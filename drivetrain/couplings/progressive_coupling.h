@@ -1,11 +1,10 @@
-// progressive_coupling.h — coupling whose torque over its twist is given by points ("graphically"), with a damper.
+// progressive_coupling.h — coupling with a tabulated torque over twist, and a damper.
 //     τ = M(θ) + c θ̇,   E = ∫ M dθ from 0 to θ                                           (theory 5.8)
-// M(0) = 0, M rises strictly; straight between the points, a monotone cubic or a formula (curve.h). Points for θ ≥ 0 alone count
-// for both senses: M(−θ) = −M(θ). Beyond the last point it goes on straight. The pieces are modes: points are events.
+// M(0) = 0, M rises strictly; linear between the points, a monotone cubic or a formula (curve.h). If only points θ ≥ 0 are
+// given, M(−θ) = −M(θ). Beyond the last point M is continued linearly. The pieces are modes: passing a point is an event.
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,7 +21,7 @@ class ProgressiveCoupling {
   static constexpr ConnectionTraits is{.guards = 2, .regularised_mode = regularised, .described = true};
 
   ProgressiveCoupling() = default;
-  // Torques in N·m over twists in rad, with the damping c [N·m·s/rad]. Throws std::invalid_argument in words.
+  // Torques in N·m over twists in rad, with the damping c [N·m·s/rad]. Throws std::invalid_argument with a message.
   ProgressiveCoupling(const std::vector<double>& twist, const std::vector<double>& torque, Curve::Form form,
                       double damping = 0);
 
@@ -65,10 +64,10 @@ class ProgressiveCoupling {
   std::vector<double> energy_;  // at the points [J]
   double damping_ = 0, rest_stiffness_ = 0;
   double twist_scale_ = 1;                     // of the points [rad]
-  double given_twist_ = 0, given_torque_ = 0;  // last point, for people
+  double given_twist_ = 0, given_torque_ = 0;  // last point, for describe()
 };
 
-// As a data sheet gives it: relative damping refers to the stiffness at rest.
+// Data of a data sheet; relative damping refers to the stiffness at rest.
 struct ProgressiveCouplingData {
   using Element = ProgressiveCoupling;
   ProgressiveCoupling spring;

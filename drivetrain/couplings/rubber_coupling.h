@@ -1,9 +1,9 @@
-// rubber_coupling.h — coupling of rubber: spring and damper (Kelvin–Voigt), and Maxwell branches that relax.
+// rubber_coupling.h — rubber coupling: spring and damper (Kelvin–Voigt) in parallel with Maxwell branches, which relax.
 //     τ = k θ + c θ̇ + Σ k_j (θ − z_j),   ż_j = (θ − z_j)/T_j                               (generalised Maxwell model)
 //     under θ e^{iωt}:  k*(ω) = k + i ω c + Σ k_j i ω T_j/(1 + i ω T_j)
-// k is the static stiffness, k + Σ k_j the one in fast motion; z_j is what branch j has crept [rad]. Loss factor of the
-// material: Im k*/Re k*. Source: Christensen, Theory of Viscoelasticity, 2nd ed. 1982, ch. 1. At the start the branches
-// have relaxed.
+// k is the static stiffness, k + Σ k_j the stiffness in fast motion; z_j is the creep of branch j [rad]. Loss factor of
+// the material: Im k*/Re k*. Source: Christensen, Theory of Viscoelasticity, 2nd ed. 1982, ch. 1. The branches are
+// relaxed at the start.
 #pragma once
 
 #include <array>
@@ -62,8 +62,8 @@ struct RubberCoupling {
   double stiffness_at_rest() const { return stiffness; }
 };
 
-// Its form without relaxation: the static spring, and the damper that loses at ω_ref what the branches lose there,
-// c + Σ k_j T_j/(1 + ω_ref² T_j²), ω_ref = √(k/J_red) unless damping_frequency says otherwise.
+// The form without relaxation: the static spring, and a damper with the same loss at ω_ref as the branches,
+// c + Σ k_j T_j/(1 + ω_ref² T_j²); ω_ref = √(k/J_red) unless damping_frequency is given.
 struct StaticRubberData {
   using Element = Coupling;
   CouplingData spring;
@@ -80,7 +80,7 @@ struct StaticRubberData {
   }
 };
 
-// As a scene gives it; without the effect "relaxation" it is static.
+// Data of the scene. Without the effect "relaxation" the coupling has its static form.
 template <int branches>
 struct RubberCouplingData {
   using Element = RubberCoupling<branches>;

@@ -95,51 +95,48 @@ double ShaftRating::transient(double diameter, double speed_ratio) const {
 
 BarredAround barred_around(double speed_ratio) { return {16 / (18 - speed_ratio), (18 - speed_ratio) / 16}; }
 
-const Fields<ShaftRating>& shaft_rating_fields() {
-  static const auto made =
-      Fields<Rating>()
-          .add(
-              quantity("allowable_vibratory_stress", "Pa", positive,
-                       "limit of the stress's amplitude (τ_max − τ_min)/2 by the maker, for kurbel modes, run, steady"),
-              &Rating::vibratory)
-          .add(quantity("tensile_strength", "Pa", positive, "σ_B, specified minimum; for Goodman and UR M68"),
-               &Rating::tensile)
-          .add(quantity("yield_strength", "Pa", positive, "σ_S: the largest stress is held against 0.577 σ_S"),
-               &Rating::yield)
-          .add(quantity("endurance_limit", "Pa", positive,
-                        "τ_W of the smooth shaft, size and surface included, in reversed torsion: Goodman"),
-               &Rating::endurance)
-          .add(defaulted("notch_factor", "", "1", {.low = 1}, "K_f in torsion, for Goodman"), &Rating::notch)
-          .add(defaulted("safety", "", "1", {.low = 1}, "S that Goodman and yield must leave"), &Rating::safety)
-          .add({.name = "role",
-                .doc = "in a ship's propulsion: judged by IACS UR M68, continuous, passing, barred ranges; crankshafts "
-                       "and shafts of gears, motors, generators, turbines have no role there"},
-               &Rating::role,
-               {{"intermediate shaft", Rating::Role::intermediate},
-                {"thrust shaft", Rating::Role::thrust},
-                {"propeller shaft", Rating::Role::propeller},
-                {"stern tube shaft", Rating::Role::stern_tube}})
-          .add(choice("detail", "flange", "of an intermediate shaft, for its c_K: 1, 1, 0.6, 0.45, 0.5, 0.3"),
-               &Rating::detail,
-               {{"flange", Rating::Detail::flange},
-                {"shrink fit", Rating::Detail::shrink_fit},
-                {"tapered keyway", Rating::Detail::tapered_keyway},
-                {"cylindrical keyway", Rating::Detail::cylindrical_keyway},
-                {"radial hole", Rating::Detail::radial_hole},
-                {"longitudinal slot", Rating::Detail::slot}})
-          .add(choice("steel", "carbon",
-                      "how much of σ_B counts in UR M68: up to 600 MPa; of alloy steel forward of the stern tube 800 "
-                      "MPa"),
-               &Rating::steel, {{"carbon", Rating::Steel::carbon}, {"alloy", Rating::Steel::alloy}})
-          .add(quantity("design_factor", "", {.low = 0, .high = 1, .low_open = true},
-                        "c_K in place of that of role and detail"),
-               &Rating::stated_design)
-          .add(quantity("rated_speed", "rad/s", positive, "of this shaft at rated power: λ = 1"), &Rating::rated_speed)
-          .check([](const Reading<Rating>& r) {
-            check_fatigue(r);
-            check_propulsion(r);
-          });
-  return made;
+Fields<ShaftRating> shaft_rating_fields() {
+  return Fields<Rating>()
+      .add(quantity("allowable_vibratory_stress", "Pa", positive,
+                    "limit of the stress's amplitude (τ_max − τ_min)/2 by the maker, for kurbel modes, run, steady"),
+           &Rating::vibratory)
+      .add(quantity("tensile_strength", "Pa", positive, "σ_B, specified minimum; for Goodman and UR M68"),
+           &Rating::tensile)
+      .add(quantity("yield_strength", "Pa", positive, "σ_S: the largest stress is held against 0.577 σ_S"),
+           &Rating::yield)
+      .add(quantity("endurance_limit", "Pa", positive,
+                    "τ_W of the smooth shaft, size and surface included, in reversed torsion: Goodman"),
+           &Rating::endurance)
+      .add(defaulted("notch_factor", "", "1", {.low = 1}, "K_f in torsion, for Goodman"), &Rating::notch)
+      .add(defaulted("safety", "", "1", {.low = 1}, "S that Goodman and yield must leave"), &Rating::safety)
+      .add({.name = "role",
+            .doc = "in a ship's propulsion: judged by IACS UR M68, continuous, passing, barred ranges; crankshafts "
+                   "and shafts of gears, motors, generators, turbines have no role there"},
+           &Rating::role,
+           {{"intermediate shaft", Rating::Role::intermediate},
+            {"thrust shaft", Rating::Role::thrust},
+            {"propeller shaft", Rating::Role::propeller},
+            {"stern tube shaft", Rating::Role::stern_tube}})
+      .add(choice("detail", "flange", "of an intermediate shaft, for its c_K: 1, 1, 0.6, 0.45, 0.5, 0.3"),
+           &Rating::detail,
+           {{"flange", Rating::Detail::flange},
+            {"shrink fit", Rating::Detail::shrink_fit},
+            {"tapered keyway", Rating::Detail::tapered_keyway},
+            {"cylindrical keyway", Rating::Detail::cylindrical_keyway},
+            {"radial hole", Rating::Detail::radial_hole},
+            {"longitudinal slot", Rating::Detail::slot}})
+      .add(choice("steel", "carbon",
+                  "how much of σ_B counts in UR M68: up to 600 MPa; of alloy steel forward of the stern tube 800 "
+                  "MPa"),
+           &Rating::steel, {{"carbon", Rating::Steel::carbon}, {"alloy", Rating::Steel::alloy}})
+      .add(quantity("design_factor", "", {.low = 0, .high = 1, .low_open = true},
+                    "c_K in place of that of role and detail"),
+           &Rating::stated_design)
+      .add(quantity("rated_speed", "rad/s", positive, "of this shaft at rated power: λ = 1"), &Rating::rated_speed)
+      .check([](const Reading<Rating>& r) {
+        check_fatigue(r);
+        check_propulsion(r);
+      });
 }
 
 }  // namespace kurbel

@@ -2,13 +2,12 @@
 //
 //     tan φ₂ = tan φ₁/cos β,   ω₂/ω₁ = g′(φ₁) = cos β/(1 − sin² β cos² φ₁),   φ₂ = g(φ₁) = φ₁ + δ(φ₁)
 //     u = g(φ_a) − φ_b = θ + δ,  τ = k u + c u̇ on b,  −g′ τ on a: power in = power out + loss
-// δ has the period π, at most tan δ = ½ (1/√cos β − √cos β); φ₁ = φ_a + phase, and φ_b = 0 at φ_a = 0
-// unloaded. At φ₁ = 0 the driven shaft is fastest, ω₂ = ω₁/cos β.
+// δ has the period π and the maximum tan δ = ½ (1/√cos β − √cos β). φ₁ = φ_a + phase; without load φ_b = 0 at φ_a = 0.
+// The driven shaft is fastest at φ₁ = 0: ω₂ = ω₁/cos β.
 // Source: Shigley, Uicker: Theory of Machines and Mechanisms, "Universal joints"; Dubbel, G3.
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "drivetrain/couplings/coupling.h"
@@ -35,7 +34,7 @@ struct HookeJoint {
   Dual<N> advance(const Dual<N>& phi) const {
     return phi.chain(advance(phi.value), ratio(phi.value) - 1);
   }
-  double ratio_slope(double phi) const {  // g″; the driven shaft's acceleration is g″ ω₁² + g′ ε₁
+  double ratio_slope(double phi) const {  // g″; the driven shaft has the acceleration g″ ω₁² + g′ ε₁
     const double s2 = std::pow(std::sin(angle), 2), c = std::cos(phi);
     return -std::cos(angle) * s2 * std::sin(2 * phi) / std::pow(1 - s2 * c * c, 2);
   }
@@ -84,7 +83,7 @@ struct UniversalJoint {
   }
 };
 
-// As a scene gives it.
+// Data of the scene.
 struct UniversalJointData {
   using Element = UniversalJoint;
   CouplingData spring;

@@ -2,14 +2,14 @@
 //
 //     M(ω) = −g(|ω|) sgn ω − b ω,   g(v) = M_c + (M_s − M_c) exp(−(v/ω_s)ⁿ)                 (theory 8.6; Stribeck)
 //     M_c  kinetic (Coulomb) torque [N·m], M_s static torque [N·m], ≥ M_c
-//     ω_s  Stribeck speed [rad/s], where mixed friction has fallen to 1/e; n its exponent, 0.5 … 10
+//     ω_s  Stribeck speed [rad/s], at which the mixed friction has decreased to 1/e; n its exponent, 0.5 … 10
 //     b    viscous friction [N·m·s/rad]
-// Three models of one curve:
+// Three models of the same curve:
 //   exact        sticks and slips: at standstill it holds up to M_s (engine/events/contacts.h)
-//   regularised  g tanh(ω/ω_c) in place of g sgn ω: smooth, holds nothing: it creeps
-//   LuGre        bristles bend by z before they slip: ż = ω − σ₀ |ω| z/g(|ω|), M = −(σ₀ z + σ₁ ż + b ω); at constant
-//                speed it is the curve above. |ω| has a kink at standstill, where ż stays continuous; the many
-//                crossings of presliding would be no events worth telling
+//   regularised  g tanh(ω/ω_c) instead of g sgn ω: smooth, without a static torque, so that it creeps
+//   LuGre        bristles deflect by z before they slip: ż = ω − σ₀ |ω| z/g(|ω|), M = −(σ₀ z + σ₁ ż + b ω); at constant
+//                speed M is the curve above. |ω| has a kink at standstill, but ż is continuous there, so that the many
+//                reversals of presliding are not treated as events
 // Sources: Armstrong-Hélouvry, Dupont, Canudas de Wit: A survey of models … for machines with friction, Automatica 30
 // (1994), 1083–1138; Canudas de Wit, Olsson, Åström, Lischinsky: A new model for control of systems with friction,
 // IEEE Trans. Automatic Control 40 (1995), 419–425.
@@ -31,14 +31,14 @@ struct StribeckCurve {
   double exponent = 2;        // n [1]
   double viscous = 0;         // b [N·m·s/rad], ≥ 0
 
-  // g(v), v = |ω|; constant for v ≤ 0, where trial steps come.
+  // g(v), v = |ω|; constant for v ≤ 0, which trial steps may reach.
   template <class T>
   T dry(const T& v) const {
     if (!falls()) return T(kinetic);
     if (value_of(v) <= 0) return T(breakaway);
     return stribeck(v, kinetic, breakaway, stribeck_speed, exponent);
   }
-  // Over a speed; at ω_s = 0 it falls as soon as the bearing moves.
+  // Whether g decreases over the speed; with ω_s = 0 it drops to M_c at the first motion.
   bool falls() const { return breakaway != kinetic && stribeck_speed > 0; }
   bool uses_speed() const { return viscous != 0 || falls(); }
   Rated rated() const { return {breakaway, 0}; }
@@ -63,7 +63,7 @@ struct CreepingBearing {
   static constexpr ShaftTraits is{.account = Account::harmful, .described = true, .other_forms = true};
   StribeckCurve curve;
   double creep_speed = 0;  // ω_c [rad/s], > 0
-  std::string name = {};   // of the component, for what is said of it
+  std::string name = {};   // of the component, for describe()
 
   template <class T>
   T torque(const ShaftState<T>& x) const {
@@ -95,7 +95,7 @@ struct BristleBearing {
     const T speed = abs(x.rate);
     rate[0] = x.rate - stiffness * speed * x.own[0] / curve.dry(speed);
   }
-  // Bent as in steady sliding at the speed of the start, straight at rest.
+  // Deflection of steady sliding at the initial speed; zero at rest.
   void first_states(const ShaftState<double>& x, double* own) const {
     own[0] = x.rate == 0 ? 0 : std::copysign(curve.dry(std::abs(x.rate)) / stiffness, x.rate);
   }
@@ -111,7 +111,7 @@ struct BristleBearing {
   Rated rated() const { return curve.rated(); }
 };
 
-// Without the effect "bearing_friction" none of them is there.
+// Without the effect "bearing_friction" they are omitted.
 ShaftForm under(const StickingBearing&, const Effects& effects);
 ShaftForm under(const CreepingBearing&, const Effects& effects);
 ShaftForm under(const BristleBearing&, const Effects& effects);

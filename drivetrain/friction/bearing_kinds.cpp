@@ -46,30 +46,25 @@ struct BearingKeys {
   double inertia = 0;                                                     // [kg·m²]
 };
 
-const Fields<BearingKeys>& bearing_fields() {
+Fields<BearingKeys> bearing_fields() {
   using Keys = BearingKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(required("torque", "N*m", not_negative, "kinetic friction torque M_c", "bearing_friction"),
-               &Keys::torque)
-          .add(quantity("static_torque", "N*m", not_negative, "M_s that it holds at standstill; default: M_c"),
-               &Keys::static_torque)
-          .add(quantity("stribeck_speed", "rad/s", positive,
-                        "ω_s, over which friction falls from M_s to M_c; default: at once"),
-               &Keys::stribeck_speed)
-          .add(defaulted("stribeck_exponent", "", "2", {.low = 0.5, .high = 10}, "n in exp(−(ω/ω_s)ⁿ)"),
-               &Keys::exponent)
-          .add(defaulted("damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "viscous part b"), &Keys::damping)
-          .add(choice("model", "exact",
-                      "exact: sticks and slips; regularised: smooth, creeps; LuGre: bristles bend before they slip"),
-               &Keys::model, models())
-          .add(quantity("creep_speed", "rad/s", positive, "ω_c of the regularised model, M = −g tanh(ω/ω_c)"),
-               &Keys::creep_speed)
-          .add(quantity("bristle_stiffness", "N*m/rad", positive, "σ₀ of LuGre"), &Keys::bristle_stiffness)
-          .add(quantity("bristle_damping", "N*m*s/rad", not_negative, "σ₁ of LuGre; default: 0"),
-               &Keys::bristle_damping)
-          .add(own_inertia_key(), &Keys::inertia);
-  return made;
+  return Fields<Keys>()
+      .add(required("torque", "N*m", not_negative, "kinetic friction torque M_c", "bearing_friction"), &Keys::torque)
+      .add(quantity("static_torque", "N*m", not_negative, "M_s that it holds at standstill; default: M_c"),
+           &Keys::static_torque)
+      .add(quantity("stribeck_speed", "rad/s", positive,
+                    "ω_s, over which friction falls from M_s to M_c; default: at once"),
+           &Keys::stribeck_speed)
+      .add(defaulted("stribeck_exponent", "", "2", {.low = 0.5, .high = 10}, "n in exp(−(ω/ω_s)ⁿ)"), &Keys::exponent)
+      .add(defaulted("damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "viscous part b"), &Keys::damping)
+      .add(choice("model", "exact",
+                  "exact: sticks and slips; regularised: smooth, creeps; LuGre: bristles bend before they slip"),
+           &Keys::model, models())
+      .add(quantity("creep_speed", "rad/s", positive, "ω_c of the regularised model, M = −g tanh(ω/ω_c)"),
+           &Keys::creep_speed)
+      .add(quantity("bristle_stiffness", "N*m/rad", positive, "σ₀ of LuGre"), &Keys::bristle_stiffness)
+      .add(quantity("bristle_damping", "N*m*s/rad", not_negative, "σ₁ of LuGre; default: 0"), &Keys::bristle_damping)
+      .add(own_inertia_key(), &Keys::inertia);
 }
 
 // Without a Stribeck speed the exact model falls from M_s to M_c at once; the smooth ones need the way between.
@@ -91,9 +86,8 @@ StribeckCurve curve_of(const Reading<BearingKeys>& b) {
   return curve;
 }
 
-void build_bearing(const Section& s, Network& net, Messages& messages) {
+void build_bearing(const Section& s, const Reading<BearingKeys>& b, Network& net) {
   using Keys = BearingKeys;
-  const auto b = bearing_fields().read(s, messages);
   const int node = single_shaft(s, b.inertia, net);
   const StribeckCurve curve = curve_of(b);
   const std::pair<std::optional<double> Keys::*, Model> owners[] = {{&Keys::creep_speed, Model::regularised},
@@ -123,8 +117,9 @@ void build_bearing(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> bearing_kinds() {
   return {
-      on_a_shaft("bearing", "friction against the frame: Coulomb, Stribeck and viscous part; sticks at standstill",
-                 bearing_fields().keys(), build_bearing),
+      kind_of<bearing_fields, build_bearing>(
+          on_a_shaft, "bearing",
+          "friction against the frame: Coulomb, Stribeck and viscous part; sticks at standstill"),
   };
 }
 

@@ -1,4 +1,4 @@
-// belt.h — belt drive that slips: an elastic belt in series with the friction on the pulley that it wraps less.
+// belt.h — belt drive that can slip: an elastic belt in series with the friction on the pulley with the smaller wrap.
 //
 //     r₁ φ_a ≈ r₂ φ_b:  i = d₂/d₁,   θ = φ_a − i φ_b,  all referred to pulley 1 (a)
 //     grips:  τ = k (θ − s) + c θ̇,  ṡ = 0,  |τ| ≤ M
@@ -7,7 +7,7 @@
 // Capacity by Euler and Eytelwein, T₁/T₂ = e^{μα} at the limit, with T₁ + T₂ = 2 F₀ (fixed centres):
 //     F_u = T₁ − T₂ = 2 F₀ tanh(μα/2),   M = r₁ F_u;   V-belt in a groove of angle γ: μ counts as μ/sin(γ/2)
 // (Decker, Maschinenelemente, ch. "Riementriebe"; Firbank, Int. J. Mech. Sci. 12 (1970) 1053, for the elastic creep
-// F_u/EA, which is stated but left out of the motion.) Centrifugal tension is not counted: F₀ is that at speed.
+// F_u/EA, which is stated but neglected in the motion.) Centrifugal tension is neglected: F₀ is the value at speed.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@
 
 namespace kurbel {
 
-// Greatest difference of the strands' tensions [N].
+// Maximum difference of the tensions of the strands [N].
 inline double eytelwein_force(double pretension, double friction, double wrap) {
   return 2 * pretension * std::tanh(0.5 * friction * wrap);
 }
@@ -93,7 +93,7 @@ struct Belt {
   }
 };
 
-// The belt that does not stretch: grips until the limit, then slips.
+// The inextensible belt: grips up to the limit, then slips.
 struct RigidBelt {
   static constexpr ConnectionTraits is{.slips = true, .described = true};
   double limit = 0;  // M [N·m], > 0
@@ -108,14 +108,14 @@ struct RigidBelt {
   const std::string& describe() const { return words; }
 };
 
-// As a scene gives it; rigid where its elasticity is off.
+// Data of the scene. The belt is rigid where its elasticity is off.
 struct BeltData {
   using Element = Belt;
   static constexpr bool other_forms = true;
   std::string name;                 // of the component
   double ratio = 1, radius = 1;     // i; r₁ [m]
   double stiffness = 0, limit = 0;  // k [N·m/rad], M [N·m], both > 0
-  double axial_stiffness = 0;       // EA [N], 0: not known
+  double axial_stiffness = 0;       // EA [N], 0: unknown
   Damping damping;
 
   bool damping_hangs_on_inertia() const { return damping.hangs_on_inertia(); }
@@ -127,14 +127,14 @@ struct BeltData {
 };
 ConnectionForm under(const BeltData& given, const Effects& effects);
 
-// What a belt may bear, beside the data that its forces follow from (Network::data).
+// Allowable loads of a belt, and the data for its forces (Network::data).
 struct BeltRating {
   double pretension = 0, radius = 1;  // F₀ [N]; r₁ of the driving pulley [m]
   double limit = 0;                   // M at which it slips [N·m]
   std::optional<double> tension;      // allowable force in a strand [N]
-  std::optional<double> reserve;      // demanded M/|τ|, ≥ 1
+  std::optional<double> reserve;      // required M/|τ|, ≥ 1
 
-  // Of the tight strand at a torque on the driving pulley, fixed centres: T₁ + T₂ = 2 F₀, T₁ − T₂ = |τ|/r₁ [N].
+  // Tension of the tight strand [N] at a torque τ on the driving pulley; fixed centres: T₁ + T₂ = 2 F₀, T₁ − T₂ = |τ|/r₁.
   double tight_strand(double torque) const { return pretension + 0.5 * (torque < 0 ? -torque : torque) / radius; }
 };
 

@@ -52,32 +52,30 @@ struct BeltKeys {
   }
 };
 
-const Fields<BeltKeys>& belt_fields() {
+Fields<BeltKeys> belt_fields() {
   using Keys = BeltKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(required("diameter_in", "m", positive, "d₁ of the driving pulley"), &Keys::diameter_in)
-          .add(required("diameter_out", "m", positive, "d₂ of the driven pulley"), &Keys::diameter_out)
-          .add(required("pretension", "N", positive, "F₀ in each strand, unloaded and at speed"), &Keys::pretension)
-          .add(required("friction_coefficient", "", positive, "μ between belt and pulley"), &Keys::friction)
-          .add(quantity("wrap_angle", "rad", {.low = 0, .high = 2 * std::numbers::pi, .low_open = true},
-                        "α on the pulley that the belt wraps less; default: of the open drive, by centre_distance"),
-               &Keys::wrap_angle)
-          .add(quantity("centre_distance", "m", positive, "of the pulleys"), &Keys::centre_distance)
-          .add(quantity("groove_angle", "rad", {.low = 0, .high = std::numbers::pi, .low_open = true},
-                        "γ of a V-belt's groove: μ counts as μ/sin(γ/2); default: flat belt"),
-               &Keys::groove_angle)
-          .add(quantity("stiffness", "N*m/rad", positive, "k, referred to the driving pulley"), &Keys::stiffness)
-          .add(quantity("axial_stiffness", "N", positive, "EA of the belt, in place of the stiffness: k = 2 EA r₁²/L"),
-               &Keys::axial_stiffness)
-          .add(quantity("allowable_tension", "N", positive, "allowable force of a strand, limit for kurbel run"),
-               &Keys::allowable_tension)
-          .add(quantity("slip_reserve", "", {.low = 1},
-                        "demanded: torque at which it slips over the largest one, for kurbel run"),
-               &Keys::slip_reserve)
-          .add(side_inertia_fields(), &Keys::inertia)
-          .add(damping_fields(), &Keys::damping);
-  return made;
+  return Fields<Keys>()
+      .add(required("diameter_in", "m", positive, "d₁ of the driving pulley"), &Keys::diameter_in)
+      .add(required("diameter_out", "m", positive, "d₂ of the driven pulley"), &Keys::diameter_out)
+      .add(required("pretension", "N", positive, "F₀ in each strand, unloaded and at speed"), &Keys::pretension)
+      .add(required("friction_coefficient", "", positive, "μ between belt and pulley"), &Keys::friction)
+      .add(quantity("wrap_angle", "rad", {.low = 0, .high = 2 * std::numbers::pi, .low_open = true},
+                    "α on the pulley that the belt wraps less; default: of the open drive, by centre_distance"),
+           &Keys::wrap_angle)
+      .add(quantity("centre_distance", "m", positive, "of the pulleys"), &Keys::centre_distance)
+      .add(quantity("groove_angle", "rad", {.low = 0, .high = std::numbers::pi, .low_open = true},
+                    "γ of a V-belt's groove: μ counts as μ/sin(γ/2); default: flat belt"),
+           &Keys::groove_angle)
+      .add(quantity("stiffness", "N*m/rad", positive, "k, referred to the driving pulley"), &Keys::stiffness)
+      .add(quantity("axial_stiffness", "N", positive, "EA of the belt, in place of the stiffness: k = 2 EA r₁²/L"),
+           &Keys::axial_stiffness)
+      .add(quantity("allowable_tension", "N", positive, "allowable force of a strand, limit for kurbel run"),
+           &Keys::allowable_tension)
+      .add(quantity("slip_reserve", "", {.low = 1},
+                    "demanded: torque at which it slips over the largest one, for kurbel run"),
+           &Keys::slip_reserve)
+      .add(side_inertia_fields(), &Keys::inertia)
+      .add(damping_fields(), &Keys::damping);
 }
 
 bool fits(const Reading<BeltKeys>& b) {
@@ -101,8 +99,7 @@ bool fits(const Reading<BeltKeys>& b) {
   return true;
 }
 
-void build_belt(const Section& s, Network& net, Messages& messages) {
-  const auto b = belt_fields().read(s, messages);
+void build_belt(const Section& s, const Reading<BeltKeys>& b, Network& net) {
   const auto [in, out] = two_shafts(s, b.inertia, net);
   if (!fits(b)) return;
   BeltData data{.name = s.name,
@@ -122,9 +119,9 @@ void build_belt(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> belt_kinds() {
   return {
-      elastic_between_shafts(
-          "belt", "belt drive that slips at the limit of Euler and Eytelwein; elastic where a stiffness is given",
-          belt_fields().keys(), build_belt),
+      kind_of<belt_fields, build_belt>(
+          elastic_between_shafts, "belt",
+          "belt drive that slips at the limit of Euler and Eytelwein; elastic where a stiffness is given"),
   };
 }
 

@@ -69,26 +69,23 @@ void check_capacity(const Reading<CapacityKeys>& c) {
                          c.breakaway, c.kinetic));
 }
 
-const Fields<CapacityKeys>& capacity_fields() {
+Fields<CapacityKeys> capacity_fields() {
   using Keys = CapacityKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(quantity("torque", "N*m", positive, "torque M_k that it transmits while it slips"), &Keys::torque)
-          .add(quantity("static_torque", "N*m", positive, "torque M_s that it holds without slipping; default: M_k"),
-               &Keys::static_torque)
-          .add(defaulted("slope", "N*m*s/rad", "0 N*m*s/rad", any_number,
-                         "change of M_k with the speed of slip; negative: falling"),
-               &Keys::slope)
-          .add(quantity("force", "N", positive, "axial force, with radii and friction, in place of torque"),
-               &Keys::force)
-          .add(defaulted("plates", "", "2", {.low = 1, .high = 200}, "number of friction faces"), &Keys::plates)
-          .add(quantity("friction_coefficient", "", positive, "μ while slipping"), &Keys::friction)
-          .add(quantity("static_friction_coefficient", "", positive, "μ₀ at rest; default: μ"), &Keys::static_friction)
-          .add(quantity("outer_radius", "m", positive, "of the friction faces"), &Keys::outer_radius)
-          .add(quantity("inner_radius", "m", not_negative, "of the friction faces"), &Keys::inner_radius)
-          .derive(settle)
-          .check(check_capacity);
-  return made;
+  return Fields<Keys>()
+      .add(quantity("torque", "N*m", positive, "torque M_k that it transmits while it slips"), &Keys::torque)
+      .add(quantity("static_torque", "N*m", positive, "torque M_s that it holds without slipping; default: M_k"),
+           &Keys::static_torque)
+      .add(defaulted("slope", "N*m*s/rad", "0 N*m*s/rad", any_number,
+                     "change of M_k with the speed of slip; negative: falling"),
+           &Keys::slope)
+      .add(quantity("force", "N", positive, "axial force, with radii and friction, in place of torque"), &Keys::force)
+      .add(defaulted("plates", "", "2", {.low = 1, .high = 200}, "number of friction faces"), &Keys::plates)
+      .add(quantity("friction_coefficient", "", positive, "μ while slipping"), &Keys::friction)
+      .add(quantity("static_friction_coefficient", "", positive, "μ₀ at rest; default: μ"), &Keys::static_friction)
+      .add(quantity("outer_radius", "m", positive, "of the friction faces"), &Keys::outer_radius)
+      .add(quantity("inner_radius", "m", not_negative, "of the friction faces"), &Keys::inner_radius)
+      .derive(settle)
+      .check(check_capacity);
 }
 
 struct ClutchKeys {
@@ -96,12 +93,11 @@ struct ClutchKeys {
   HeatRating heat;
   SideInertias inertia;
 };
-const Fields<ClutchKeys>& clutch_fields() {
-  static const auto made = Fields<ClutchKeys>()
-                               .add(capacity_fields(), &ClutchKeys::capacity)
-                               .add(heat_rating_fields(), &ClutchKeys::heat)
-                               .add(side_inertia_fields(), &ClutchKeys::inertia);
-  return made;
+Fields<ClutchKeys> clutch_fields() {
+  return Fields<ClutchKeys>()
+      .add(capacity_fields(), &ClutchKeys::capacity)
+      .add(heat_rating_fields(), &ClutchKeys::heat)
+      .add(side_inertia_fields(), &ClutchKeys::inertia);
 }
 
 struct LimiterKeys {
@@ -109,27 +105,23 @@ struct LimiterKeys {
   HeatRating heat;
   SideInertias inertia;
 };
-const Fields<LimiterKeys>& limiter_fields() {
-  static const auto made =
-      Fields<LimiterKeys>()
-          .add(required("torque", "N*m", positive, "limit M_s"), &LimiterKeys::torque)
-          .add(defaulted("slipping_part", "", "1", {.low = 0, .high = 1}, "torque while it slips over the limit"),
-               &LimiterKeys::slipping_part)
-          .add(heat_rating_fields(), &LimiterKeys::heat)
-          .add(side_inertia_fields(), &LimiterKeys::inertia);
-  return made;
+Fields<LimiterKeys> limiter_fields() {
+  return Fields<LimiterKeys>()
+      .add(required("torque", "N*m", positive, "limit M_s"), &LimiterKeys::torque)
+      .add(defaulted("slipping_part", "", "1", {.low = 0, .high = 1}, "torque while it slips over the limit"),
+           &LimiterKeys::slipping_part)
+      .add(heat_rating_fields(), &LimiterKeys::heat)
+      .add(side_inertia_fields(), &LimiterKeys::inertia);
 }
 
 struct OneWayKeys : OneWayClutch {
   SideInertias inertia;
 };
-const Fields<OneWayKeys>& one_way_fields() {
-  static const auto made =
-      Fields<OneWayKeys>()
-          .add(defaulted("drag", "N*m", "0 N*m", not_negative, "torque while the driven side runs ahead"),
-               &OneWayKeys::drag)
-          .add(side_inertia_fields(), &OneWayKeys::inertia);
-  return made;
+Fields<OneWayKeys> one_way_fields() {
+  return Fields<OneWayKeys>()
+      .add(defaulted("drag", "N*m", "0 N*m", not_negative, "torque while the driven side runs ahead"),
+           &OneWayKeys::drag)
+      .add(side_inertia_fields(), &OneWayKeys::inertia);
 }
 
 struct BrakeKeys {
@@ -138,13 +130,12 @@ struct BrakeKeys {
   double inertia = 0;  // [kg·m²]
   Window window;
 };
-const Fields<BrakeKeys>& brake_fields() {
-  static const auto made = Fields<BrakeKeys>()
-                               .add(capacity_fields(), &BrakeKeys::capacity)
-                               .add(heat_rating_fields(), &BrakeKeys::heat)
-                               .add(own_inertia_key(), &BrakeKeys::inertia)
-                               .add(window_fields(), &BrakeKeys::window);
-  return made;
+Fields<BrakeKeys> brake_fields() {
+  return Fields<BrakeKeys>()
+      .add(capacity_fields(), &BrakeKeys::capacity)
+      .add(heat_rating_fields(), &BrakeKeys::heat)
+      .add(own_inertia_key(), &BrakeKeys::inertia)
+      .add(window_fields(), &BrakeKeys::window);
 }
 
 template <class Element>
@@ -153,24 +144,20 @@ void join_by(const Section& s, const SideInertias& inertia, Network& net, Elemen
   net.connect(in, out, 1, s.name, element);
 }
 
-void build_clutch(const Section& s, Network& net, Messages& messages) {
-  const auto clutch = clutch_fields().read(s, messages);
+void build_clutch(const Section& s, const Reading<ClutchKeys>& clutch, Network& net) {
   const Capacity& c = clutch.capacity;
   net.data.add(s.name, clutch.heat);
   join_by(s, clutch.inertia, net, FrictionClutch{c.kinetic, c.breakaway, c.slope});
 }
-void build_limiter(const Section& s, Network& net, Messages& messages) {
-  const auto limiter = limiter_fields().read(s, messages);
+void build_limiter(const Section& s, const Reading<LimiterKeys>& limiter, Network& net) {
   net.data.add(s.name, limiter.heat);
   join_by(s, limiter.inertia, net, FrictionClutch{limiter.torque * limiter.slipping_part, limiter.torque, 0});
 }
-void build_one_way(const Section& s, Network& net, Messages& messages) {
-  const auto clutch = one_way_fields().read(s, messages);
+void build_one_way(const Section& s, const Reading<OneWayKeys>& clutch, Network& net) {
   join_by(s, clutch.inertia, net, static_cast<const OneWayClutch&>(clutch));
 }
 
-void build_brake(const Section& s, Network& net, Messages& messages) {
-  const auto brake = brake_fields().read(s, messages);
+void build_brake(const Section& s, const Reading<BrakeKeys>& brake, Network& net) {
   const Capacity& c = brake.capacity;
   net.data.add(s.name, brake.heat);
   net.put(single_shaft(s, brake.inertia, net), s.name, FrictionBrake{c.kinetic, c.breakaway, c.slope}, brake.window);
@@ -180,14 +167,15 @@ void build_brake(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> clutch_kinds() {
   return {
-      between_shafts("clutch",
-                     "friction clutch between two half inertias; an operating sequence engages and releases it",
-                     clutch_fields().keys(), build_clutch),
-      between_shafts("torque limiter", "slips at its limit, holds below it", limiter_fields().keys(), build_limiter),
-      between_shafts("one-way clutch", "drives forwards only; the driven side may run ahead", one_way_fields().keys(),
-                     build_one_way),
-      on_a_shaft("brake", "friction against the frame; an operating sequence applies it, without one it always brakes",
-                 brake_fields().keys(), build_brake),
+      kind_of<clutch_fields, build_clutch>(
+          between_shafts, "clutch",
+          "friction clutch between two half inertias; an operating sequence engages and releases it"),
+      kind_of<limiter_fields, build_limiter>(between_shafts, "torque limiter", "slips at its limit, holds below it"),
+      kind_of<one_way_fields, build_one_way>(between_shafts, "one-way clutch",
+                                             "drives forwards only; the driven side may run ahead"),
+      kind_of<brake_fields, build_brake>(
+          on_a_shaft, "brake",
+          "friction against the frame; an operating sequence applies it, without one it always brakes"),
   };
 }
 

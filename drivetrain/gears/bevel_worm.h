@@ -11,10 +11,10 @@
 
 namespace kurbel {
 
-// Straight bevel pair. Pitch cones: tan δ₁ = sin Σ/(u + cos Σ), δ₂ = Σ − δ₁; on the outer end d = m z.
+// Straight bevel pair. Pitch cones: tan δ₁ = sin Σ/(u + cos Σ), δ₂ = Σ − δ₁; at the outer end d = m z.
 struct BevelPair {
   std::array<int, 2> teeth;
-  double module;                              // on the outer end [m]
+  double module;                              // at the outer end [m]
   double shaft_angle = std::numbers::pi / 2;  // Σ [rad]
 
   double ratio() const { return static_cast<double>(teeth[1]) / teeth[0]; }
@@ -23,7 +23,7 @@ struct BevelPair {
     return i == 0 ? first : shaft_angle - first;
   }
   double reference_diameter(int i) const { return module * teeth[static_cast<std::size_t>(i)]; }
-  // R_e = d/(2 sin δ), the same for both.
+  // R_e = d/(2 sin δ), equal for both wheels.
   double cone_distance() const { return 0.5 * reference_diameter(0) / std::sin(cone_angle(0)); }
   // Tredgold: the teeth are those of a spur wheel with z_v = z/cos δ; a crown wheel (δ = 90°) is a rack.
   double virtual_teeth(int i) const {
@@ -47,7 +47,7 @@ struct WormPair {
   InclinedPlane thread() const { return {lead_angle(), friction_angle()}; }
   // Worm drives: η = tan γ/tan(γ + ρ′).
   double efficiency() const { return thread().efficiency(); }
-  // Wheel drives: η = tan(γ − ρ′)/tan γ; negative: it locks itself, and this much must be helped.
+  // Wheel drives: η = tan(γ − ρ′)/tan γ; negative: self-locking; the worm must be driven with |η| of the load torque.
   double efficiency_back() const { return thread().efficiency_back(); }
   bool self_locking() const { return thread().self_locking(); }
   // v_g = ω₁ d₁/(2 cos γ).

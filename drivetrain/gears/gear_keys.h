@@ -1,4 +1,4 @@
-// gear_keys.h — fields of a gear stage that is given by its teeth's geometry.
+// gear_keys.h — fields of a gear stage given by the geometry of its teeth.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace kurbel {
 
-// A list, where it is given, holds a value for each wheel; another number of them is refused.
+// A list, if given, must have one value for each wheel; other lengths are rejected.
 std::string two_wanted(const std::string& key, std::size_t count);
 template <class D, class B, class List>
 bool has_two(const Reading<D>& reading, List B::*member) {
@@ -26,17 +26,17 @@ bool has_two(const Reading<D>& reading, List B::*member) {
 Key teeth_key();  // of both wheels, driving wheel first
 
 struct GearGeometryKeys : GearPairData {
-  double width_of_both = 0;         // b [m]; 0: not known
+  double width_of_both = 0;         // b [m]; 0: unknown
   std::optional<double> allowance;  // j_bn [m]
   bool is_internal = false;         // the driven wheel
   std::optional<std::vector<double>> shifts, tip_diameters, bores;
 
   bool is_given() const { return module > 0; }
 };
-// `gap_effect`: that the allowance of the flanks gives the parameters for, where it is a gap in the motion.
+// `gap_effect`: name of the effect that uses the backlash allowance as a gap in the motion; empty: none.
 Fields<GearGeometryKeys> gear_geometry_fields(const std::string& gap_effect = "");
 
-// The pair of a stage with a module; nothing where the stage has none, or one that cannot be. `refuse` is told why.
+// The gear pair of a stage; empty if the stage has no module or the geometry is invalid. `refuse` receives the reason.
 std::optional<GearPair> gear_pair_of(const GearGeometryKeys& geometry, const std::vector<int>& teeth,
                                      const std::function<void(const std::string&)>& refuse);
 

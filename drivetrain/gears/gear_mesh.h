@@ -1,8 +1,8 @@
-// gear_mesh.h — two wheels whose teeth are elastic, with a stiffness that varies as pairs of teeth come and go.
+// gear_mesh.h — elastic gear mesh whose stiffness varies with the number of tooth pairs in contact.
 //
 //     θ = φ_a − i φ_b, i = z₂/z₁, referred to wheel 1 (a);  f(φ_a) = 1 + Σ a_n cos(n z₁ φ_a + ψ_n) > 0
-//     τ = f τ₀(θ, θ̇),  E = f E₀(θ),  and on a besides −τ:  −∂E/∂φ_a = −f′ E₀
-// τ₀, E₀ are those of the mean mesh: spring and damper, or flanks with a gap (backlash.h). Damping varies with the
+//     τ = f τ₀(θ, θ̇),  E = f E₀(θ),  and on a in addition to −τ:  −∂E/∂φ_a = −f′ E₀
+// τ₀, E₀ belong to the mean mesh: spring and damper, or flanks with a gap (backlash.h). Damping varies in proportion to
 // stiffness. From the line of action: k = k_m r_b1², k_m the mean stiffness along it [N/m]; b = j_bn/r_b1.
 // Source: Blankenship, Singh: J. Sound Vib. 149 (1992), 475–498 (parametric stiffness); ISO 6336-1 for k_m.
 #pragma once
@@ -82,7 +82,7 @@ struct VaryingMesh : Contact {
   std::string describe() const;
 };
 
-// The contact as a scene gives it (CouplingData or BacklashData), and how its stiffness varies.
+// Data of the contact in the scene (CouplingData or BacklashData), and the variation of its stiffness.
 template <class Data>
 struct MeshData {
   using Element = VaryingMesh<typename Data::Element>;

@@ -22,31 +22,29 @@ struct MeshKeys {
   GearGeometryKeys geometry;
 };
 
-const Fields<MeshKeys>& mesh_fields() {
+Fields<MeshKeys> mesh_fields() {
   using Keys = MeshKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(teeth_key(), &Keys::teeth)
-          .add(quantity("stiffness", "N*m/rad", positive,
-                        "mean stiffness about the driving wheel; default: ISO 6336-1 method B from module and width"),
-               &Keys::stiffness)
-          .add(quantity("mesh_stiffness", "N/m", positive,
-                        "mean stiffness along the line of action, in its place; needs the module"),
-               &Keys::mesh_stiffness)
-          .add(quantity("mesh_variation", "", {.low = -1, .high = 1},
-                        "amplitudes a_n of the stiffness's harmonics of the tooth frequency, over its mean",
-                        "mesh_variation"),
-               &Keys::mesh_variation)
-          .add(quantity("mesh_phase", "rad", any_number, "their phases ψ_n; default: 0"), &Keys::mesh_phase)
-          .add(choice("contact", "no pulling", "law of contact of the flanks where a backlash is given (backlash.h)"),
-               &Keys::contact, {{"no pulling", ContactLaw::no_pulling}, {"clipped", ContactLaw::clipped}})
-          .add(quantity("inertia", "kg*m2", not_negative,
-                        "of the driving and of the driven wheel, each on its own shaft; default: from module and "
-                        "width, else 0"),
-               &Keys::inertia)
-          .add(damping_fields(), &Keys::damping)
-          .add(gear_geometry_fields("backlash"), &Keys::geometry);  // an effect here; in an ideal stage only stated
-  return made;
+  return Fields<Keys>()
+      .add(teeth_key(), &Keys::teeth)
+      .add(quantity("stiffness", "N*m/rad", positive,
+                    "mean stiffness about the driving wheel; default: ISO 6336-1 method B from module and width"),
+           &Keys::stiffness)
+      .add(quantity("mesh_stiffness", "N/m", positive,
+                    "mean stiffness along the line of action, in its place; needs the module"),
+           &Keys::mesh_stiffness)
+      .add(quantity("mesh_variation", "", {.low = -1, .high = 1},
+                    "amplitudes a_n of the stiffness's harmonics of the tooth frequency, over its mean",
+                    "mesh_variation"),
+           &Keys::mesh_variation)
+      .add(quantity("mesh_phase", "rad", any_number, "their phases ψ_n; default: 0"), &Keys::mesh_phase)
+      .add(choice("contact", "no pulling", "law of contact of the flanks where a backlash is given (backlash.h)"),
+           &Keys::contact, {{"no pulling", ContactLaw::no_pulling}, {"clipped", ContactLaw::clipped}})
+      .add(quantity("inertia", "kg*m2", not_negative,
+                    "of the driving and of the driven wheel, each on its own shaft; default: from module and "
+                    "width, else 0"),
+           &Keys::inertia)
+      .add(damping_fields(), &Keys::damping)
+      .add(gear_geometry_fields("backlash"), &Keys::geometry);  // an effect here; in an ideal stage only stated
 }
 
 // Mean stiffness about the driving wheel: as it is, along the line of action, or estimated from the teeth.
@@ -100,13 +98,11 @@ void connect_mesh(const Section& s, Network& net, int in, int out, double ratio,
     net.connect(in, out, ratio, s.name, MeshData<Data>{contact, variation});
 }
 
-void build_gear_mesh(const Section& s, Network& net, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  const auto m = mesh_fields().read(s, messages);
+void build_gear_mesh(const Section& s, const Reading<MeshKeys>& m, Network& net) {
   if (!has_two(m, &MeshKeys::teeth) || !has_two(m, &MeshKeys::inertia)) return;
   const std::optional<GearPair> pair =
       gear_pair_of(m.geometry, m.teeth, [&](const std::string& text) { m.refuse(&MeshKeys::geometry, text); });
-  if (messages.all().size() > before) return;
+  if (!m.sound()) return;
   std::array<double, 2> inertia{};
   if (m.inertia)
     inertia = {m.inertia->at(0), m.inertia->at(1)};
@@ -132,10 +128,9 @@ void build_gear_mesh(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> gear_mesh_kinds() {
   return {
-      elastic_between_shafts(
-          "gear mesh",
-          "pair of wheels with elastic teeth, mean and tooth-frequency stiffness; ideal when its elasticity is off",
-          mesh_fields().keys(), build_gear_mesh),
+      kind_of<mesh_fields, build_gear_mesh>(
+          elastic_between_shafts, "gear mesh",
+          "pair of wheels with elastic teeth, mean and tooth-frequency stiffness; ideal when its elasticity is off"),
   };
 }
 

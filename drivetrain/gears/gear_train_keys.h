@@ -1,4 +1,4 @@
-// gear_train_keys.h — what gears share: efficiencies, and how a gear without an elastic mesh joins its shafts.
+// gear_train_keys.h — fields shared by gears: efficiencies; connection of the shafts by a gear without an elastic mesh.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct EfficiencyKeys : GearEfficiency {
 };
 const Fields<EfficiencyKeys>& efficiency_fields();
 
-// φ_a = ratio φ_b: a joint, or with losses a relation that the effect gear_losses switches.
+// φ_a = ratio φ_b: a joint, or with losses a relation controlled by the effect gear_losses.
 void join_gear(Network& net, int a, int b, double ratio, const std::string& component, const GearEfficiency* losses);
 
 }  // namespace kurbel

@@ -200,11 +200,6 @@ double least_teeth(const BasicRack& rack, double helix, double shift) {
   return 2 * (rack.addendum - shift) * std::cos(helix) / squared(std::sin(transverse));
 }
 
-double least_shift(const BasicRack& rack, int teeth, double helix) {
-  const double transverse = std::atan(std::tan(rack.pressure_angle) / std::cos(helix));
-  return rack.addendum - teeth * squared(std::sin(transverse)) / (2 * std::cos(helix));
-}
-
 double GearWheel::profile_angle(double diameter) const {
   const double cosine = base_diameter / diameter;
   return cosine < 1 ? std::acos(cosine) : 0.0;

@@ -75,26 +75,24 @@ struct GearboxKeys {
   std::optional<bool> reversing;
 };
 
-const Fields<GearboxKeys>& gearbox_fields() {
+Fields<GearboxKeys> gearbox_fields() {
   using Keys = GearboxKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add({.name = "stages", .doc = "stages from the driving side", .required = true}, &Keys::stages, stages())
-          .add(efficiency_fields(), &Keys::losses)
-          .add(quantity("support_stiffness", "N*m/rad", positive,
-                        "of the housing against the frame, about the input shaft; the housing is the frame unless "
-                        "given"),
-               &Keys::support_stiffness)
-          .add(defaulted("support_damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "viscous damping of the support"),
-               &Keys::support_damping)
-          .add(defaulted("housing_inertia", "kg*m2", "0 kg*m2", not_negative,
-                         "of the housing; needed where its support is elastic"),
-               &Keys::housing_inertia)
-          .add({.name = "reversing",
-                .doc = "the output turns against the input, which the reaction on the housing depends on; default: by "
-                       "the number of external stages"},
-               &Keys::reversing);
-  return made;
+  return Fields<Keys>()
+      .add({.name = "stages", .doc = "stages from the driving side", .required = true}, &Keys::stages, stages())
+      .add(efficiency_fields(), &Keys::losses)
+      .add(quantity("support_stiffness", "N*m/rad", positive,
+                    "of the housing against the frame, about the input shaft; the housing is the frame unless "
+                    "given"),
+           &Keys::support_stiffness)
+      .add(defaulted("support_damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "viscous damping of the support"),
+           &Keys::support_damping)
+      .add(defaulted("housing_inertia", "kg*m2", "0 kg*m2", not_negative,
+                     "of the housing; needed where its support is elastic"),
+           &Keys::housing_inertia)
+      .add({.name = "reversing",
+            .doc = "the output turns against the input, which the reaction on the housing depends on; default: by "
+                   "the number of external stages"},
+           &Keys::reversing);
 }
 
 // One stage as it stands in the chain.
@@ -216,9 +214,8 @@ bool reverses(const GearboxKeys& box) {
 
 // Stages, i = z₂/z₁. Each shaft counts its angle positive in its own direction of drive. Losses or a housing of the
 // whole box tie its input to its output; the wheels between then turn with the input.
-void build_gearbox(const Section& s, Network& net, Messages& messages) {
+void build_gearbox(const Section& s, const Reading<GearboxKeys>& box, Network& net) {
   using Keys = GearboxKeys;
-  const auto box = gearbox_fields().read(s, messages);
   const std::vector<Stage> stages = stages_of(box);
   const bool housed = box.support_stiffness.has_value();
   const auto needs_support = [&](auto member) {
@@ -264,10 +261,9 @@ void build_gearbox(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> gearbox_kinds() {
   return {
-      elastic_between_shafts(
-          "gearbox",
-          "gear stages by tooth numbers: ideal, or with losses, elastic flanks, an elastic support of the housing",
-          gearbox_fields().keys(), build_gearbox),
+      kind_of<gearbox_fields, build_gearbox>(
+          elastic_between_shafts, "gearbox",
+          "gear stages by tooth numbers: ideal, or with losses, elastic flanks, an elastic support of the housing"),
   };
 }
 

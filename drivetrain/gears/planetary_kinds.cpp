@@ -65,9 +65,9 @@ Fields<PlanetaryKeys> planets(Fields<PlanetaryKeys> fields) {
            &Keys::planet_distance);
 }
 
-const Fields<PlanetaryKeys>& planetary_fields() {
+Fields<PlanetaryKeys> planetary_fields() {
   using Keys = PlanetaryKeys;
-  static const auto made = planets(
+  return planets(
       Fields<Keys>()
           .add(teeth_key("sun", "teeth of the sun z_s", true), &Keys::sun)
           .add(teeth_key("ring", "teeth of the ring z_r", true), &Keys::ring)
@@ -87,7 +87,6 @@ const Fields<PlanetaryKeys>& planetary_fields() {
           .add(inertia_of_key("ring_inertia", "of the ring"), &Keys::ring_inertia)
           .add(inertia_of_key("carrier_inertia", "of the carrier, without the planets unless they have no planet_mass"),
                &Keys::carrier_inertia));
-  return made;
 }
 
 // Where the planets' inertia about their own axes counts: on sun, ring and carrier, as pure squares, exactly, whatever
@@ -146,8 +145,7 @@ bool fits(const Reading<PlanetaryKeys>& g) {
   return true;
 }
 
-void build_planetary(const Section& s, Network& net, Messages& messages) {
-  const auto g = planetary_fields().read(s, messages);
+void build_planetary(const Section& s, const Reading<PlanetaryKeys>& g, Network& net) {
   if (!fits(g)) return;
   const PlanetaryTrain train{-g.planet_teeth() / g.sun * g.ring / g.second_teeth()};
   std::array<int, 3> nodes{};
@@ -175,21 +173,18 @@ struct DifferentialKeys {
   double inertia_in = 0, cage_inertia = 0, output_inertia = 0;  // [kg·m²]
 };
 
-const Fields<DifferentialKeys>& differential_fields() {
+Fields<DifferentialKeys> differential_fields() {
   using Keys = DifferentialKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(defaulted("ratio", "", "1", positive, "of pinion and crown wheel, ω_in/ω_cage"), &Keys::ratio)
-          .add(basic_efficiency_key("η₀ with the cage held: what the bevel wheels inside lose"), &Keys::efficiency)
-          .add(inertia_of_key("inertia_in", "of the pinion and its shaft"), &Keys::inertia_in)
-          .add(inertia_of_key("cage_inertia", "of the cage with the crown wheel"), &Keys::cage_inertia)
-          .add(inertia_of_key("output_inertia", "of either output shaft with its bevel wheel"), &Keys::output_inertia);
-  return made;
+  return Fields<Keys>()
+      .add(defaulted("ratio", "", "1", positive, "of pinion and crown wheel, ω_in/ω_cage"), &Keys::ratio)
+      .add(basic_efficiency_key("η₀ with the cage held: what the bevel wheels inside lose"), &Keys::efficiency)
+      .add(inertia_of_key("inertia_in", "of the pinion and its shaft"), &Keys::inertia_in)
+      .add(inertia_of_key("cage_inertia", "of the cage with the crown wheel"), &Keys::cage_inertia)
+      .add(inertia_of_key("output_inertia", "of either output shaft with its bevel wheel"), &Keys::output_inertia);
 }
 
 // Crown wheel and pinion onto the cage, and two output shafts: ω₁ + ω₂ = 2 ω_cage.
-void build_differential(const Section& s, Network& net, Messages& messages) {
-  const auto g = differential_fields().read(s, messages);
+void build_differential(const Section& s, const Reading<DifferentialKeys>& g, Network& net) {
   const int in = net.add_node(s.name, "in", g.inertia_in);
   const int cage = net.add_node(s.name, "cage", g.cage_inertia);
   const int first = net.add_node(s.name, "out", g.output_inertia);
@@ -210,40 +205,36 @@ struct WormKeys {
   SideInertias inertia;
 };
 
-const Fields<SideInertias>& worm_inertia_fields() {
-  static const auto made = Fields<SideInertias>()
-                               .add(inertia_of_key("inertia_in", "of the worm and its shaft"), &SideInertias::in)
-                               .add(inertia_of_key("inertia_out", "of the wheel and its shaft"), &SideInertias::out);
-  return made;
+Fields<SideInertias> worm_inertia_fields() {
+  return Fields<SideInertias>()
+      .add(inertia_of_key("inertia_in", "of the worm and its shaft"), &SideInertias::in)
+      .add(inertia_of_key("inertia_out", "of the wheel and its shaft"), &SideInertias::out);
 }
 
-const Fields<WormKeys>& worm_fields() {
+Fields<WormKeys> worm_fields() {
   using Keys = WormKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(defaulted("starts", "", "1", {.low = 1, .high = 20}, "starts of the worm z₁"), &Keys::starts)
-          .add(teeth_key("teeth", "teeth of the wheel z₂", true), &Keys::teeth)
-          .add(quantity("lead_angle", "rad", {.low = 0, .high = 1.4, .low_open = true, .high_open = true},
-                        "γ on the reference diameter of the worm"),
-               &Keys::lead_angle)
-          .add(quantity("module", "m", positive, "axial; with worm_diameter gives γ"), &Keys::module)
-          .add(quantity("worm_diameter", "m", positive, "d₁; tan γ = z₁ m/d₁"), &Keys::worm_diameter)
-          .add(quantity("friction_coefficient", "", {.low = 0, .high = 1},
-                        "μ of the flanks: ρ′ = atan(μ/cos α_n), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ",
-                        "gear_losses"),
-               &Keys::friction)
-          .add(defaulted("pressure_angle", "rad", "20 deg", any_number, "α_n of the flanks"), &Keys::pressure_angle)
-          .add(quantity("bearing_torque", "N*m", not_negative, "friction of the bearings, on the worm's shaft",
-                        "gear_losses"),
-               &Keys::bearing_torque)
-          .add(worm_inertia_fields(), &Keys::inertia);
-  return made;
+  return Fields<Keys>()
+      .add(defaulted("starts", "", "1", {.low = 1, .high = 20}, "starts of the worm z₁"), &Keys::starts)
+      .add(teeth_key("teeth", "teeth of the wheel z₂", true), &Keys::teeth)
+      .add(quantity("lead_angle", "rad", {.low = 0, .high = 1.4, .low_open = true, .high_open = true},
+                    "γ on the reference diameter of the worm"),
+           &Keys::lead_angle)
+      .add(quantity("module", "m", positive, "axial; with worm_diameter gives γ"), &Keys::module)
+      .add(quantity("worm_diameter", "m", positive, "d₁; tan γ = z₁ m/d₁"), &Keys::worm_diameter)
+      .add(
+          quantity("friction_coefficient", "", {.low = 0, .high = 1},
+                   "μ of the flanks: ρ′ = atan(μ/cos α_n), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ", "gear_losses"),
+          &Keys::friction)
+      .add(defaulted("pressure_angle", "rad", "20 deg", any_number, "α_n of the flanks"), &Keys::pressure_angle)
+      .add(quantity("bearing_torque", "N*m", not_negative, "friction of the bearings, on the worm's shaft",
+                    "gear_losses"),
+           &Keys::bearing_torque)
+      .add(worm_inertia_fields(), &Keys::inertia);
 }
 
 // η₁ = tan γ/tan(γ + ρ′), η₂ = tan(γ − ρ′)/tan γ (theory 6.15).
-void build_worm(const Section& s, Network& net, Messages& messages) {
+void build_worm(const Section& s, const Reading<WormKeys>& g, Network& net) {
   using Keys = WormKeys;
-  const auto g = worm_fields().read(s, messages);
   const auto refuse = [&](auto member, const std::string& text) { g.refuse(member, text); };
   if (g.lead_angle && (g.module || g.worm_diameter))
     return refuse(&Keys::lead_angle, "\"lead_angle\" and module with worm_diameter both given; keep one");
@@ -270,27 +261,30 @@ void build_worm(const Section& s, Network& net, Messages& messages) {
   join_gear(net, in, out, pair.ratio(), s.name, g.friction || g.bearing_torque ? &losses : nullptr);
 }
 
+Kind with_further(Kind kind, std::vector<std::string> shafts) {
+  kind.further_shafts = std::move(shafts);
+  return kind;
+}
+
 }  // namespace
 
 std::vector<Kind> planetary_kinds() {
   return {
-      {.name = "planetary gear",
-       .doc = "sun, planets on a carrier, ring; all three central shafts are free unless one is fixed. A branch may "
-              "begin at \"NAME.ring\" (sun, carrier). The three count the same sense of rotation as positive",
-       .placement = Placement::inline_two,
-       .keys = planetary_fields().keys(),
-       .build = build_planetary,
-       .further_shafts = central_shafts()},
-      {.name = "differential",
-       .doc = "divides the torque of its cage between two output shafts that may turn at different speeds; the second "
-              "branch begins at \"NAME.second\"",
-       .placement = Placement::inline_two,
-       .keys = differential_fields().keys(),
-       .build = build_differential,
-       .further_shafts = {"second"}},
-      between_shafts("worm gear",
-                     "worm and wheel; with a friction coefficient its efficiencies follow, and whether it locks itself",
-                     worm_fields().keys(), build_worm),
+      with_further(
+          kind_of<planetary_fields, build_planetary>(
+              between_shafts, "planetary gear",
+              "sun, planets on a carrier, ring; all three central shafts are free unless one is fixed. A branch may "
+              "begin at \"NAME.ring\" (sun, carrier). The three count the same sense of rotation as positive"),
+          central_shafts()),
+      with_further(
+          kind_of<differential_fields, build_differential>(
+              between_shafts, "differential",
+              "divides the torque of its cage between two output shafts that may turn at different speeds; the second "
+              "branch begins at \"NAME.second\""),
+          {"second"}),
+      kind_of<worm_fields, build_worm>(
+          between_shafts, "worm gear",
+          "worm and wheel; with a friction coefficient its efficiencies follow, and whether it locks itself"),
   };
 }
 

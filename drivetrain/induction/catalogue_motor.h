@@ -1,17 +1,17 @@
 // catalogue_motor.h — induction motor by the points of its catalogue: starting (locked rotor), pull-up, breakdown,
-// rated, synchronous. A cage motor starts with far more torque than Kloss gives it (theory 4.1: deep bars, double
+// rated, synchronous. Kloss' formula underrates the starting torque of cage motors (theory 4.1: deep bars, double
 // cages), so starts are computed with these points.
 //
 //     M
 //     |          .-B.                 S  starting      (0, M_st)
-//     S.       .'    '.               P  pull-up       slope zero, the least torque on the way up
-//     | '-.P.-'        R              B  breakdown     slope zero, the greatest
+//     S.       .'    '.               P  pull-up       slope zero, minimum during run-up
+//     | '-.P.-'        R              B  breakdown     slope zero, maximum
 //     |                 \             R  rated
 //     +------------------O---- ω      O  synchronous   (ω_s, 0)
 //
-// Between the points a monotone cubic (Fritsch & Carlson 1980): no extreme but at P and B, the slope is continuous.
+// Between the points a monotone cubic (Fritsch & Carlson 1980): extrema only at P and B, continuous slope.
 // Command c of an operating sequence: M = sgn c · c² M(ω sgn c); 0 is off.
-// Generating, ω > ω_s: odd about O, M(2 ω_s − ω) = −M(ω). Plugging, ω < 0, and beyond 2 ω_s: M_st is held.
+// Generating, ω > ω_s: odd about O, M(2 ω_s − ω) = −M(ω). Plugging, ω < 0, and beyond 2 ω_s: constant, ±M_st.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ struct CataloguePoints {
 };
 
 inline Curve CataloguePoints::curve() const {
-  // Up to the synchronous speed; the point before standstill gives S the slope zero.
+  // Up to the synchronous speed; the point below standstill makes the slope at S zero.
   std::vector<Point> half = {{-synchronous_speed, starting_torque}, {0, starting_torque}};
   if (pull_up) half.push_back(*pull_up);
   half.push_back(breakdown);
@@ -61,7 +61,7 @@ inline Curve CataloguePoints::curve() const {
 
 struct CatalogueMotor {
   static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true, .guards = 2};
-  static constexpr int pieces = 16;  // numbers that a mode needs for them, at most
+  static constexpr int pieces = 16;  // maximum number of pieces in a mode
   Curve curve;                       // [rad/s] → [N·m]
   double synchronous_speed = 0;      // ω_s [rad/s]
   double rated_torque = 0;           // M_n [N·m]
@@ -88,7 +88,7 @@ struct CatalogueMotor {
   void guard(const ShaftState<double>& x, double* g) const { guard_piece(x.mode, sense(x) * x.rate, g); }
   int first_mode(const ShaftState<double>& x) const { return piece_at(sense(x) * x.rate); }
   int next_mode(const ShaftState<double>& x, int which) const { return next_piece(x.mode, which); }
-  std::string mode_name(int) const { return {}; }  // a table's points are no events worth telling
+  std::string mode_name(int) const { return {}; }  // passing a point of the table is not reported
 
  private:
   template <class T>

@@ -2,22 +2,20 @@
 //
 //     u = R_s i_s + dψ_s/dt + j ω_f ψ_s             ψ_s = L_s i_s + L_m i_r
 //     0 = R_r i_r + dψ_r/dt + j (ω_f − p ω) ψ_r     ψ_r = L_m i_s + L_r i_r        M = 3/2 p L_m Im(i_s i_r*)
-//     u        voltage, along the d axis: √(2/3) U c [V], U line to line; c the command of the operating sequence
-//     ω_f      speed of the frame [rad/s]: that of the field, 2π f, negative while reversed (c < 0)
+//     u        voltage, along the d axis: √(2/3) U c [V], U line to line; c: command of the operating sequence
+//     ω_f      speed of the reference frame [rad/s]: that of the field, 2π f, negative while reversed (c < 0)
 //     R, L     of stator and rotor (referred to the stator) [Ω], [H]; L_s = L_σs + L_m, L_r = L_σr + L_m
 //     p        pole pairs
-// In the frame of the field a steady state is a rest point. Phasors are peak values, power 3/2 Re(u i_s*).
+// In the frame of the field a steady state is an equilibrium. Phasors are peak values, power 3/2 Re(u i_s*).
 // Source: Krause, Wasynczuk, Sudhoff: Analysis of Electric Machinery, 2nd ed. 2002, ch. 4; Leonhard ch. 10.
-// Its steady torque is Kloss' curve with Thévenin's equivalent of the stator, Z = jX_m (R_s + jX_s)/(R_s + j(X_s +
-// X_m)):
+// Its steady torque is Kloss' curve with Thévenin's equivalent of the stator, Z = jX_m (R_s + jX_s)/(R_s + j(X_s + X_m)):
 //     s_b = R_r/√(R² + X²), a = R/R_r, M_b = 3 U_Th²/(2 ω_s (R + √(R² + X²))),  R = Re Z, X = Im Z + X_r, ω_s = 2πf/p
-// Off the stator's current ceases at once, while the rotor keeps its flux, which decays as L_r/R_r; switched on again
-// the motor meets what is left of it. Reversed, the field turns round where both phase sequences have the same voltage,
-// and the currents go on from where they are. At the start: at rest it is just being switched on, no currents; turning,
-// the currents are those of steady motion at that speed.
+// Switched off, the stator current is zero at once, while the rotor flux decays with the time constant L_r/R_r; switched
+// on again, the motor starts with the remaining flux. On reversal the field reverses where both phase sequences have the
+// same voltage, and the currents are continuous. Initial currents: zero at rest (the motor is just switched on), those of
+// steady motion when turning.
 #pragma once
 
-#include <algorithm>
 #include <complex>
 #include <string>
 
@@ -29,7 +27,7 @@ namespace kurbel {
 
 // Equivalent circuit of one phase, referred to the stator; reactances at the frequency f.
 struct EquivalentCircuit {
-  double voltage = 0;                                  // U, line to line, effective [V]
+  double voltage = 0;                                  // U, line to line, RMS [V]
   double frequency = 0;                                // f [Hz]
   int pole_pairs = 1;                                  // p
   double stator_resistance = 0, rotor_resistance = 0;  // R_s ≥ 0, R_r > 0 [Ω]
@@ -39,15 +37,15 @@ struct EquivalentCircuit {
   double field_speed() const;  // 2π f [rad/s]
   double synchronous_speed() const { return field_speed() / pole_pairs; }
   std::complex<double> thevenin_impedance() const;  // of the stator
-  double thevenin_voltage() const;                  // of one phase, effective [V]
-  // Its steady characteristic, exactly. rated_torque is for error scales; 0: half of the breakdown torque.
+  double thevenin_voltage() const;                  // of one phase, RMS [V]
+  // The exact steady characteristic. rated_torque: for error scales; 0: half of the breakdown torque.
   InductionMotor characteristic(double rated_torque = 0) const;
-  // A circuit with a given characteristic. Torques leave open the level of voltage and how the reactances share:
-  // stated assumptions are U = 400 V, X_s = X_r = X, and X_m = magnetising_ratio X.
+  // A circuit with a given characteristic. Torques do not determine the voltage or the ratios of the reactances;
+  // assumptions: U = 400 V, X_s = X_r = X, X_m = magnetising_ratio X.
   static EquivalentCircuit of(const InductionMotor& characteristic, double frequency, double magnetising_ratio);
 };
 
-// Effective current of a line at a slip, and cos φ there.
+// RMS line current and cos φ at a slip.
 struct LineCurrent {
   double current = 0, power_factor = 0;  // [A], [1]
 };
@@ -64,7 +62,7 @@ struct TwoAxisMotor {
                                   .other_forms = true};
   EquivalentCircuit circuit;
   InductionMotor line;    // its steady characteristic
-  double rated_slip = 0;  // s_n, to describe it; 0: not known
+  double rated_slip = 0;  // s_n, for describe(); 0: unknown
 
   template <class T>
   T torque(const ShaftState<T>& x) const {
@@ -80,7 +78,7 @@ struct TwoAxisMotor {
   bool uses_speed() const { return true; }
   Rated rated() const { return line.rated(); }
 
-  // The mode: sense of the field, 0 as the mains, 1 reversed.
+  // The mode: sense of the field; 0: as the mains, 1: reversed.
   void guard(const ShaftState<double>& x, double* g) const { g[0] = 1e-9 + sense(x.mode) * x.command; }
   int first_mode(const ShaftState<double>& x) const { return x.command < 0 ? 1 : 0; }
   int next_mode(const ShaftState<double>& x, int) const { return 1 - x.mode; }
@@ -96,7 +94,7 @@ struct TwoAxisMotor {
  private:
   static double sense(int mode) { return mode == 0 ? 1 : -1; }
 };
-// Its steady characteristic without the effect "transients", with the lag of its fluxes by the effect "torque_lag".
+// Without the effect "transients": the steady characteristic; with the effect "torque_lag" it lags.
 ShaftForm under(const TwoAxisMotor& motor, const Effects& effects);
 ShaftForm lagging_form(const TwoAxisMotor& motor);
 

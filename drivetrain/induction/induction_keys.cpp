@@ -104,8 +104,8 @@ void add_starting(Fields<Keys>& fields) {
 
 }  // namespace
 
-const Fields<InductionKeys>& induction_fields() {
-  static const auto made = [] {
+Fields<InductionKeys> induction_fields() {
+  return [] {
     Fields<Keys> fields = catalogue_fields();
     add_nameplate(fields);
     add_circuit(fields);
@@ -114,7 +114,6 @@ const Fields<InductionKeys>& induction_fields() {
         .add(window_fields(), &Keys::window)
         .add(duty_rating_fields(), &Keys::duty);
   }();
-  return made;
 }
 
 const Words<Starting>& starting_methods() {

@@ -1,5 +1,5 @@
-// induction_keys.h — the keys of an induction motor: what its catalogue, its nameplate, its circuit say of it, and how
-// it is started.
+// induction_keys.h — the keys of an induction motor: data of catalogue, nameplate and equivalent circuit, and the method
+// of starting.
 #pragma once
 
 #include <optional>
@@ -13,20 +13,20 @@ namespace kurbel {
 // From a catalogue: ratios are torques over the rated torque.
 struct CatalogueKeys {
   std::optional<double> rated_power, rated_speed, breakdown_ratio;  // [W], [rad/s]
-  std::optional<double> synchronous_speed;                          // [rad/s]; else by the number of poles
+  std::optional<double> synchronous_speed;                          // [rad/s]; default by the number of poles
   std::optional<int> poles;                                         // 2 p
   double mains = 50;                                                // [Hz], for the poles
-  std::optional<double> breakdown_torque, breakdown_slip;           // of Kloss' curve itself [N·m], [1]
+  std::optional<double> breakdown_torque, breakdown_slip;           // of Kloss' curve [N·m], [1]
   double resistance_ratio = 0;                                      // a = R_s/R_r′
   double voltage_factor = 1;                                        // over the rated voltage
   std::optional<double> starting_ratio, pull_up_ratio, pull_up_speed, breakdown_speed;
 };
-// What the nameplate says of the currents; two of the three are enough.
+// Nameplate data for the currents; two of the three are sufficient.
 struct NameplateKeys {
   std::optional<double> rated_current, power_factor, efficiency;  // [A]
-  double stator_share = 0.5;                                      // copper of the stator, of all losses but the rotor's
+  double stator_share = 0.5;  // stator copper loss over all losses except the rotor's
 };
-// Of the two-axis model: X in Ω at the frequency, of one phase.
+// Data of the two-axis model, per phase; X in Ω at the frequency.
 struct CircuitKeys {
   std::optional<double> frequency;  // [Hz]
   double magnetising_ratio = 30;    // X_m over X_s = X_r
@@ -51,6 +51,6 @@ struct InductionKeys : CatalogueKeys, NameplateKeys, CircuitKeys, StartingKeys {
 
 const Words<Starting>& starting_methods();
 const char* name_of(Starting method);
-const Fields<InductionKeys>& induction_fields();
+Fields<InductionKeys> induction_fields();
 
 }  // namespace kurbel

@@ -129,15 +129,14 @@ MotorRating rating_of(const InductionKeys& m) {
   return rating;
 }
 
-void build_induction(const Section& s, Network& net, Messages& messages) {
-  const auto motor = induction_fields().read(s, messages);
+void build_induction(const Section& s, const Reading<InductionKeys>& motor, Network& net) {
   const int node = single_shaft(s, motor.inertia, net);
-  const std::size_t before = messages.all().size();
+  const std::size_t before = motor.messages().all().size();
   const auto law = induction_law(motor);
   std::optional<double> speed;
   if (law) speed = std::visit([](const auto& m) { return synchronous_speed_of(m); }, *law);
   check_start(motor, speed);
-  if (!law || messages.all().size() > before) return;
+  if (!law || motor.messages().all().size() > before) return;
   const InductionData data = data_of(motor, *law);
   net.data.add(s.name, data);
   net.data.add(s.name, rating_of(motor));
@@ -155,13 +154,12 @@ void build_induction(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> induction_kinds() {
   return {
-      on_a_shaft(
-          "induction motor",
+      kind_of<induction_fields, build_induction>(
+          on_a_shaft, "induction motor",
           "induction motor from its catalogue or nameplate: after Kloss (theory 4.1), or through its starting, "
           "pull-up, "
           "breakdown and rated points; with its frequency, its nameplate's currents or its circuit by the two-axis "
-          "model",
-          induction_fields().keys(), build_induction),
+          "model"),
   };
 }
 

@@ -10,8 +10,8 @@ namespace kurbel {
 
 // Induction motor after Kloss, written without dividing by the slip:
 //   M = 2 M_b (1 + a s_b) s s_b/(s² + s_b² + 2 a s_b² s),   s = (ω_s − ω)/ω_s              (theory 4.1)
-// M_b scales with the square of the voltage factor, and with that of the command of an operating sequence; a negative
-// one turns the field round: M = sgn c · c² M(ω sgn c). 0 is off.
+// M_b scales with the squares of the voltage factor and of the command c of an operating sequence; c < 0 reverses the
+// field: M = sgn c · c² M(ω sgn c). 0 is off.
 struct InductionMotor {
   static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true};
   double breakdown_torque = 0;   // M_b [N·m], > 0
@@ -41,7 +41,7 @@ struct InductionMotor {
   bool uses_speed() const { return true; }
   Rated rated() const { return {rated_torque, synchronous_speed}; }
 
-  // The denominator, s² + 2 a s_b² s + s_b², has no root: a s_b < 1.
+  // The denominator s² + 2 a s_b² s + s_b² has no real root: a s_b < 1.
   bool has_no_pole() const { return breakdown_slip > 0 && resistance_ratio * breakdown_slip < 1; }
 
   // Catalogue data: M_n = P_n/ω_n, s_n = (ω_s − ω_n)/ω_s, s_b = s_n (ν + √(ν² − 1)), ν = M_b/M_n (exact for a = 0).

@@ -1,14 +1,14 @@
-// lagging_motor.h — an induction motor on its static curve whose torque follows the curve with the lag of its fluxes
-// (effect "torque_lag", in machines in which something is elastic).
+// lagging_motor.h — an induction motor whose torque follows its static curve with the lag of the fluxes
+// (effect "torque_lag", in machines with elastic elements).
 //
 //     T_e dM/dt + M = M_static(ω),   T_e = 1/(s_b ω_s)         (theory 4.21)
 //     s_b      breakdown slip of the curve
-//     ω_s      2π f, f the mains' frequency: the electrical synchronous angular frequency, not the shaft's
+//     ω_s      2π f, f the mains frequency: the electrical synchronous angular frequency, not that of the shaft
 //
-// T_e is the rotor's transient time constant X/(ω_s R_r). Neither voltage nor frequency of the supply changes it, so that
-// a motor on any starter has that of the mains. How far it holds against the two-axis model: theory 4.21, and the tests.
-// Switched off the torque ceases at once, and what the fluxes would give decays with T_e; switched on again the motor
-// meets what is left of it. At the start: at rest it is just being switched on, no torque; turning, the curve's.
+// T_e is the rotor's transient time constant X/(ω_s R_r). It does not depend on voltage or frequency of the supply, so a
+// motor on any starter has the value of the mains. Accuracy against the two-axis model: theory 4.21, and the tests.
+// Switched off, the torque is zero at once and the lagging torque decays with T_e; switched on again, the motor starts
+// with the rest of it. Initial torque: zero at rest (the motor is just switched on), that of the curve when turning.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ struct FluxLag {
   double time() const { return 1 / (2 * std::numbers::pi * breakdown_slip * mains); }  // T_e [s]
 };
 
-// Motor: an element without states of its own.
+// Motor: an element without internal states.
 template <class Motor>
 struct LaggingMotor : Motor {
   static constexpr ShaftTraits is = [] {
@@ -64,7 +64,7 @@ struct LaggingMotor : Motor {
   }
 };
 
-// Its static curve without the effect.
+// Without the effect: the static curve.
 template <class Motor>
 ShaftForm under(const LaggingMotor<Motor>& motor, const Effects& effects);
 

@@ -1,16 +1,16 @@
 // nameplate.h — an induction motor's two-axis circuit, estimated from its nameplate and catalogue.
 //
-//     P_1 = √3 U I_n cos φ = P_n/η                        power taken from the mains
-//     R_s = κ (P_1 − M_n ω_s)/(3 I_n²)                    all losses but the rotor's, of which the stator's copper has κ
+//     P_1 = √3 U I_n cos φ = P_n/η                        input power
+//     R_s = κ (P_1 − M_n ω_s)/(3 I_n²)                    κ: stator copper loss over all losses except the rotor's
 //     M(s_n) = M_n,  max M = M_b,  |I(s_n)| = I_n         → R_r, X_s = X_r = X, X_m
 //
 // with M by Thévenin's equivalent of the stator (induction_circuit.h) and the line's current
 //
 //     I = U/√3/|Z|,   Z = R_s + jX + jX_m ∥ (R_r/s + jX)
 //
-// It is an estimate: what the circuit has no place for (iron, air and bearings, stray losses) is left out, the leakage is
-// shared equally, and deep bars are not seen, so that torque and current at standstill are those of the running motor's
-// rotor. Speeds near the rated one and ringing about them are what it is for.
+// It is an estimate: iron, windage, bearing and stray losses are neglected, the leakage is shared equally, and deep bars
+// are neglected, so that torque and current at standstill are those of the rotor resistance at rated speed. It is meant
+// for speeds near the rated one and oscillations about them.
 #pragma once
 
 #include <string>
@@ -33,10 +33,10 @@ struct Nameplate {
   double rated_slip() const { return 1 - rated_speed / synchronous_speed(); }
 };
 
-// The circuit, or in words why there is none.
+// The circuit, or the reason why there is none.
 struct NameplateCircuit {
   EquivalentCircuit circuit;
-  std::string fault;  // empty: there is one
+  std::string fault;  // empty: the circuit is valid
 };
 NameplateCircuit circuit_of(const Nameplate& plate);
 

@@ -1,6 +1,6 @@
-// started_motor.h — an induction motor on its starter, with a limit of torque:
-//     M = factor · M_c(ω + lag), cut off at ± limit          (factor, lag: starters.h)
-// Whenever it is switched on its start begins anew.
+// started_motor.h — an induction motor on its starter, with a torque limit:
+//     M = factor · M_c(ω + lag), limited to ± limit          (factor, lag: starters.h)
+// Each time it is switched on, it starts from the first stage.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace kurbel {
 
 template <class Motor, class Starter>
 struct StartedMotor {
-  // Two ends of the characteristic's piece, two limits of torque, end of the stage.
+  // Guards: two ends of the piece of the characteristic, two torque limits, end of the stage.
   static constexpr ShaftTraits is{.account = Account::driving, .settles = true, .guards = 5, .starts_anew = true};
   Motor motor;
   Starter starter;
@@ -37,7 +37,7 @@ struct StartedMotor {
     const Mode m = unpacked(x.mode);
     std::fill(g, g + is.guards, 1.0);
     g[4] = std::min(1.0, starter.guard(m.stage, since(x), x.rate));
-    if (m.stage < 0) return;  // switched off for a moment
+    if (m.stage < 0) return;  // contacts open between star and delta
     motor.guard_piece(m.piece, x.rate + starter.supply(m.stage, since(x)).lag, g);
     if (std::isinf(torque_limit)) return;
     const double over = unlimited(m, since(x), x.rate) / torque_limit;
@@ -70,9 +70,9 @@ struct StartedMotor {
   }
 
  private:
-  static double since(const ShaftState<double>& x) { return x.t - x.on_since; }  // it went on [s]
+  static double since(const ShaftState<double>& x) { return x.t - x.on_since; }  // time since switching on [s]
   enum Limit { free, upper, lower };
-  enum Told { nothing, new_stage, torque_limited };  // what the last event was
+  enum Told { nothing, new_stage, torque_limited };  // kind of the last event
   struct Mode {
     int stage = 0, piece = 0;
     Limit limit = free;
@@ -92,7 +92,7 @@ struct StartedMotor {
     const Supply now = starter.supply(m.stage, t);
     return now.factor * motor.torque_in(m.piece, speed + now.lag);
   }
-  // The stage with the piece and the limit that hold at this moment.
+  // The mode at entry into a stage: piece and torque limit by the present state.
   Mode entered(int stage, const ShaftState<double>& x) const {
     Mode m{stage, 0, free, nothing};
     if (stage < 0) return m;

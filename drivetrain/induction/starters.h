@@ -1,7 +1,7 @@
-// starters.h — how an induction motor is brought up to speed: star–delta, soft start, frequency converter.
+// starters.h — starters of an induction motor: star–delta, soft start, frequency converter.
 //
-// Each says at any time t since the motor was switched on by which factor the motor's torque is scaled and by how much its synchronous speed lies lower:
-//     M(t, ω) = factor · M_c(ω + lag),   M_c the motor's own characteristic at rated voltage and frequency
+// At a time t after switching on, a starter gives the factor of the torque and the reduction (lag) of the synchronous speed:
+//     M(t, ω) = factor · M_c(ω + lag),   M_c: the characteristic at rated voltage and frequency
 // Stages are fixed between events; a stage ends where its guard reaches zero. Sources: Dubey, Fundamentals of
 // Electrical Drives, ch. 6 (starting, variable frequency control); Leonhard, Control of Electrical Drives.
 #pragma once
@@ -18,8 +18,8 @@ struct Supply {
   double lag = 0;     // ω_s at rated frequency − ω_s now [rad/s]
 };
 
-// Star–delta: in star each winding has 1/√3 of the line voltage, M ∝ U², so a third of the torque; then all contacts
-// are open for a pause; then delta. Switched at a time or at a speed.
+// Star–delta: in star each winding has 1/√3 of the line voltage and, with M ∝ U², a third of the torque; then all
+// contacts are open during a pause; then delta. Switched at a time or at a speed.
 struct StarDelta {
   double switch_time = -1;  // [s]; < 0: by speed
   double switch_speed = 0;  // [rad/s]
@@ -36,7 +36,7 @@ struct StarDelta {
     return (by_time() ? switch_time : since(stage)) + pause - t;
   }
   int next_stage(int stage, double t) const { return stage == star && pause > 0 ? waiting(t) : delta; }
-  // From the moment alone: a machine that starts above the switching speed starts in delta.
+  // Depends on the present time and speed only: above the switching speed the motor starts in delta.
   int first_stage(double t, double speed) const {
     if (!by_time()) return speed >= switch_speed ? delta : star;
     return t < switch_time ? star : t < switch_time + pause ? waiting(switch_time) : delta;
@@ -46,7 +46,7 @@ struct StarDelta {
   }
 
  private:
-  // A mode is all that is remembered: negative, it holds when the pause began, to 24 bits (6e-8 of the time).
+  // Only the mode is stored: a negative one holds the start of the pause, to 24 bits (relative error 6e-8).
   static int waiting(double t) { return -1 - std::bit_cast<int>(static_cast<float>(std::max(t, 0.0))); }
   static double since(int stage) { return static_cast<double>(std::bit_cast<float>(-1 - stage)); }
 };
@@ -69,10 +69,10 @@ struct SoftStart {
   std::string name(int stage) const { return stage == full ? "full voltage" : "voltage rises"; }
 };
 
-// Frequency converter: the synchronous speed rises from zero to its target over the ramp, in proportion to time.
-// Up to the rated frequency U/f is constant, and so is the flux (the converter makes up for the drop in the stator's
-// resistance): the curve shifts parallel, breakdown torque and the slip speed of each torque stay. Above it U stays,
-// and the torque falls with the square of the flux, (f_n/f)².
+// Frequency converter: the synchronous speed rises linearly from zero to its target over the ramp.
+// Up to the rated frequency U/f and the flux are constant (the converter compensates for the voltage drop at the stator
+// resistance): the curve is shifted, with the same breakdown torque and the same slip speed at each torque. Above it U
+// is constant, and the torque decreases with the square of the flux, (f_n/f)².
 struct FrequencyConverter {
   double ramp = 0;               // [s], > 0
   double target_speed = 0;       // synchronous speed at its end [rad/s], > 0

@@ -14,15 +14,13 @@ struct DragKeys {
   double damping = 0;  // b [N·m·s/rad]
   double inertia = 0;  // [kg·m²]
 };
-const Fields<DragKeys>& drag_fields() {
-  static const auto made = Fields<DragKeys>()
-                               .add(required("damping", "N*m*s/rad", not_negative, "b in M = −b ω"), &DragKeys::damping)
-                               .add(own_inertia_key(), &DragKeys::inertia);
-  return made;
+Fields<DragKeys> drag_fields() {
+  return Fields<DragKeys>()
+      .add(required("damping", "N*m*s/rad", not_negative, "b in M = −b ω"), &DragKeys::damping)
+      .add(own_inertia_key(), &DragKeys::inertia);
 }
 
-void build_drag(const Section& s, Network& net, Messages& messages) {
-  const auto drag = drag_fields().read(s, messages);
+void build_drag(const Section& s, const Reading<DragKeys>& drag, Network& net) {
   net.put(single_shaft(s, drag.inertia, net), s.name, SpeedLoad{Account::harmful, drag.damping, 0});
 }
 
@@ -46,29 +44,25 @@ void check_load(const Reading<LoadKeys>& load) {
                                                load.torque));
 }
 
-const Fields<LoadKeys>& load_fields() {
+Fields<LoadKeys> load_fields() {
   using Keys = LoadKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(quantity("torque", "N*m", any_number, "constant part M₀"), &Keys::torque)
-          .add(choice("acts", "against motion",
-                      "the constant part opposes motion and holds at standstill, or acts always backwards (a weight)"),
-               &Keys::always_backwards, {{"against motion", false}, {"always", true}})
-          .add(defaulted("damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "b in b ω"), &Keys::viscous)
-          .add(defaulted("quadratic", "N*m*s2/rad2", "0 N*m*s2/rad2", not_negative,
-                         "q in q ω |ω|: fan, centrifugal pump"),
-               &Keys::quadratic)
-          .add(curve("table", any_abscissa(), "N*m", "resisting torque over time, angle or speed"), &Keys::table)
-          .add(choice("work", "useful", "line of the energy balance"), &Keys::work,
-               {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
-          .add(own_inertia_key(), &Keys::inertia)
-          .add(window_fields(), &Keys::window)
-          .check(check_load);
-  return made;
+  return Fields<Keys>()
+      .add(quantity("torque", "N*m", any_number, "constant part M₀"), &Keys::torque)
+      .add(choice("acts", "against motion",
+                  "the constant part opposes motion and holds at standstill, or acts always backwards (a weight)"),
+           &Keys::always_backwards, {{"against motion", false}, {"always", true}})
+      .add(defaulted("damping", "N*m*s/rad", "0 N*m*s/rad", not_negative, "b in b ω"), &Keys::viscous)
+      .add(defaulted("quadratic", "N*m*s2/rad2", "0 N*m*s2/rad2", not_negative, "q in q ω |ω|: fan, centrifugal pump"),
+           &Keys::quadratic)
+      .add(curve("table", any_abscissa(), "N*m", "resisting torque over time, angle or speed"), &Keys::table)
+      .add(choice("work", "useful", "line of the energy balance"), &Keys::work,
+           {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
+      .add(own_inertia_key(), &Keys::inertia)
+      .add(window_fields(), &Keys::window)
+      .check(check_load);
 }
 
-void build_load(const Section& s, Network& net, Messages& messages) {
-  const auto load = load_fields().read(s, messages);
+void build_load(const Section& s, const Reading<LoadKeys>& load, Network& net) {
   const int node = single_shaft(s, load.inertia, net);
   const bool with_speed = load.viscous > 0 || load.quadratic > 0;
   const SpeedLoad by_speed{load.work, load.viscous, load.quadratic};
@@ -89,9 +83,9 @@ void build_load(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> load_kinds() {
   return {
-      on_a_shaft("bearing drag", "viscous friction against the frame", drag_fields().keys(), build_drag),
-      on_a_shaft("load", "resistance on a shaft: constant, viscous, quadratic, table; several may be given",
-                 load_fields().keys(), build_load),
+      kind_of<drag_fields, build_drag>(on_a_shaft, "bearing drag", "viscous friction against the frame"),
+      kind_of<load_fields, build_load>(
+          on_a_shaft, "load", "resistance on a shaft: constant, viscous, quadratic, table; several may be given"),
   };
 }
 

@@ -1,16 +1,14 @@
-// loads.h — resistances on a shaft: constant or against the motion, viscous, quadratic.
+// loads.h — resistances on a shaft: dry, viscous, quadratic.
 #pragma once
 
 #include <cmath>
-#include <string>
-#include <string_view>
 
 #include "engine/elements/element.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
 
-// M = −(M₀ sgn ω + b ω + q ω |ω|). The dry part opposes motion and holds at standstill up to M₀.
+// M = −(M₀ sgn ω + b ω + q ω |ω|). The dry part opposes the motion and holds at standstill up to M₀.
 struct OpposingLoad {
   static constexpr ShaftTraits is{.directional = true};
   Account work_account = Account::useful;
@@ -29,7 +27,7 @@ struct OpposingLoad {
   Rated rated() const { return {dry, rated_speed}; }
 };
 
-// M = −(b ω + q ω |ω|): smooth through standstill, holds nothing. For q > 0 the sign is that of ω itself.
+// M = −(b ω + q ω |ω|): smooth through standstill, no static torque. The sign of q ω |ω| is that of ω itself, not a mode.
 struct SpeedLoad {
   static constexpr ShaftTraits is{};
   Account work_account = Account::useful;

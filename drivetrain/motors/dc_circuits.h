@@ -1,16 +1,16 @@
-// dc_circuits.h — DC motors with their circuits: the current is a state (effect "transients").
+// dc_circuits.h — DC motors with their electric circuits: the current is a state (effect "transients").
 //
 //     shunt   L di/dt = c U − R i − k ω,         M = k i                                (theory 4.7, 4.9)
 //     series  L di/dt = |c| U − R i − s κ ω i,   M = s κ i²,  s = sgn c
-//     U, c    voltage [V] and the command of the operating sequence: its part, < 0 reversed (of a series motor its
-//             armature alone, so that the torque turns round)
+//     U, c    voltage [V]; command of the operating sequence: the part of U, < 0: reversed (in a series motor only the
+//             armature, so that the torque changes its sign)
 //     R, L    resistance [Ω], inductance [H] of armature circuit; series: of armature and field together
 //     k, κ    motor constants [N·m/A], [N·m/A²]
-// Off (command 0, or outside its window) the circuit is open: the current ceases at once, the energy ½ L i² goes into
+// Off (command 0, or outside its window) the circuit is open: the current is zero at once, the energy ½ L i² is lost in
 // the arc. A shunt motor with a braking resistance R_b is closed over it at command 0 (dynamic braking) and reversed
-// through it (plugging): R + R_b in place of R. Which resistance, which sense: modes, so that ramps pass them as
-// events. At the start: a machine at rest is just being switched on, i = 0; one that turns has the current of its
-// static line.
+// through it (plugging): R + R_b instead of R. Resistance and sense are modes, so that ramps cross their changes as
+// events. Initial current: i = 0 at rest (the motor is just switched on), that of the static characteristic when
+// turning.
 #pragma once
 
 #include <cmath>
@@ -32,7 +32,7 @@ struct BrakingResistor {
   double added(int mode) const { return mode == braking ? resistance : 0; }
   int mode_at(double command) const { return resistance > 0 && command <= 0 ? braking : driving; }
   double guard(int mode, double command) const {
-    constexpr double zero = 1e-9;  // one way at this, back at twice this
+    constexpr double zero = 1e-9;  // brakes below this, drives above twice this
     if (resistance == 0) return 1;
     return mode == driving ? command - zero : 2 * zero - command;
   }
@@ -41,7 +41,7 @@ struct BrakingResistor {
   }
 };
 
-// The shunt motor's static line where it has a braking resistance: M = k (c U − k ω)/(R + R_b).
+// Static characteristic of a shunt motor with a braking resistance: M = k (c U − k ω)/(R + R_b).
 struct BrakedShuntMotor {
   static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true, .guards = 1};
   double voltage = 0, resistance = 0, constant = 0;  // U [V], R [Ω], k [N·m/A], > 0
@@ -111,7 +111,7 @@ struct DcSeriesCircuit {
   static constexpr ShaftTraits is{.account = Account::driving,
                                   .commanded = true,
                                   .reversible = true,
-                                  .guards = 3,  // runs away; current beyond all bounds; sense of the armature
+                                  .guards = 3,  // overspeed; unbounded current; sense of the armature
                                   .states = 1,
                                   .feels_switching = true,
                                   .other_forms = true};
@@ -130,7 +130,7 @@ struct DcSeriesCircuit {
                          inductance
                    : T(0.0);
   }
-  // Driven backwards beyond −R/κ it has no steady current: it then begins without one.
+  // Driven backwards beyond −R/κ there is no steady current; the initial current is then zero.
   void first_states(const ShaftState<double>& x, double* own) const {
     const double total = line.resistance + sense(x.mode) * line.constant * x.rate;
     const double steady = x.rate == 0 || total <= 0 ? 0 : std::abs(x.command) * line.voltage / total;
@@ -146,7 +146,7 @@ struct DcSeriesCircuit {
   bool uses_speed() const { return true; }
   Rated rated() const { return line.rated(); }
 
-  // Mode: sense of the armature, and whether it ran away (2), told as an event before the run ends.
+  // Mode: sense of the armature, and whether it ran away (2), reported as an event before the run ends.
   void guard(const ShaftState<double>& x, double* g) const;
   int first_mode(const ShaftState<double>& x) const { return x.command < 0 ? reversed : 0; }
   int next_mode(const ShaftState<double>& x, int which) const;
@@ -154,11 +154,11 @@ struct DcSeriesCircuit {
 
  private:
   enum Mode : int { reversed = 1, ran_away = 2 };
-  static constexpr double most_current = 50;  // of the stall current: nothing bears that
+  static constexpr double most_current = 50;  // limit, over the stall current; no motor withstands it
   static double sense(int mode) { return mode & reversed ? -1 : 1; }
 };
 
-// Their static laws without the effect "transients".
+// Without the effect "transients": their static laws.
 ShaftForm under(const DcShuntCircuit& circuit, const Effects& effects);
 ShaftForm under(const DcSeriesCircuit& circuit, const Effects& effects);
 

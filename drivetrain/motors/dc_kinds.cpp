@@ -172,35 +172,33 @@ void check_shunt(const Reading<ShuntKeys>& m) {
     needs_circuit(m);
 }
 
-const Fields<ShuntKeys>& shunt_fields() {
+Fields<ShuntKeys> shunt_fields() {
   using Keys = ShuntKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(quantity("stall_torque", "N*m", positive, "torque at standstill M_stall"), &Keys::stall_torque)
-          .add(quantity("no_load_speed", "rad/s", positive, "speed without torque ω₀"), &Keys::no_load_speed)
-          .add(quantity("voltage", "V", positive,
-                        "armature voltage U, with resistance and constant in place of the two above"),
-               &Keys::voltage)
-          .add(quantity("resistance", "Ohm", positive, "armature resistance R: M_stall = k U/R"), &Keys::resistance)
-          .add(quantity("constant", "N*m/A", positive, "motor constant k: ω₀ = U/k"), &Keys::constant)
-          .add(quantity("rated_torque", "N*m", positive,
-                        "M_N: scale of errors, and what duty is stated for; default: stall torque"),
-               &Keys::rated_torque)
-          .add(quantity("braking_resistance", "Ohm", positive,
-                        "closes the armature while an operating sequence sets it 0, in series with it while reversed; "
-                        "default: 0 opens the circuit"),
-               &Keys::braking_resistance)
-          .add(curve("field", {"time", "speed"}, "1",
-                     "flux over the rated one, over the time or the speed (of either sense): weakened below 1 the "
-                     "motor runs up to U/(f k)"),
-               &Keys::field)
-          .add(inertia_key("", "rotor inertia"), &Keys::inertia)
-          .add(circuit_fields("L of the armature circuit"), &Keys::circuit)
-          .add(rheostat_fields(), &Keys::rheostat)
-          .add(window_fields(), &Keys::window)
-          .add(duty_rating_fields(), &Keys::duty)
-          .check(check_shunt);
-  return made;
+  return Fields<Keys>()
+      .add(quantity("stall_torque", "N*m", positive, "torque at standstill M_stall"), &Keys::stall_torque)
+      .add(quantity("no_load_speed", "rad/s", positive, "speed without torque ω₀"), &Keys::no_load_speed)
+      .add(quantity("voltage", "V", positive,
+                    "armature voltage U, with resistance and constant in place of the two above"),
+           &Keys::voltage)
+      .add(quantity("resistance", "Ohm", positive, "armature resistance R: M_stall = k U/R"), &Keys::resistance)
+      .add(quantity("constant", "N*m/A", positive, "motor constant k: ω₀ = U/k"), &Keys::constant)
+      .add(quantity("rated_torque", "N*m", positive,
+                    "M_N: scale of errors, and what duty is stated for; default: stall torque"),
+           &Keys::rated_torque)
+      .add(quantity("braking_resistance", "Ohm", positive,
+                    "closes the armature while an operating sequence sets it 0, in series with it while reversed; "
+                    "default: 0 opens the circuit"),
+           &Keys::braking_resistance)
+      .add(curve("field", {"time", "speed"}, "1",
+                 "flux over the rated one, over the time or the speed (of either sense): weakened below 1 the "
+                 "motor runs up to U/(f k)"),
+           &Keys::field)
+      .add(inertia_key("", "rotor inertia"), &Keys::inertia)
+      .add(circuit_fields("L of the armature circuit"), &Keys::circuit)
+      .add(rheostat_fields(), &Keys::rheostat)
+      .add(window_fields(), &Keys::window)
+      .add(duty_rating_fields(), &Keys::duty)
+      .check(check_shunt);
 }
 
 template <FieldOver over>
@@ -221,11 +219,9 @@ void put_weakened(const Reading<ShuntKeys>& m, const std::string& name, Network&
     net.put(node, name, line, m.window);
 }
 
-void build_dc_shunt(const Section& s, Network& net, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  const auto m = shunt_fields().read(s, messages);
+void build_dc_shunt(const Section& s, const Reading<ShuntKeys>& m, Network& net) {
   const int node = single_shaft(s, m.inertia, net);
-  if (messages.all().size() > before) return;
+  if (!m.sound()) return;
   MotorRating rating{.duty = m.duty};
   if (m.rated_torque > 0) rating.torque = m.rated_torque;
   net.data.add(s.name, rating);
@@ -271,33 +267,30 @@ struct SeriesKeys : DcSeriesMotor {
 // a hundredth of U/R and the torque 10⁻⁴ of the stall torque: no load of its size lets it come there.
 double speed_limit(const SeriesKeys& m) { return m.rated_speed ? 5 * *m.rated_speed : 100 * m.base_speed(); }
 
-const Fields<SeriesKeys>& series_fields() {
+Fields<SeriesKeys> series_fields() {
   using Keys = SeriesKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(required("voltage", "V", positive, "supply voltage U"), &Keys::voltage)
-          .add(required("resistance", "Ohm", positive, "R of armature and field together"), &Keys::resistance)
-          .add(required("constant", "N*m/A2", positive, "κ: torque over current squared"), &Keys::constant)
-          .add(quantity("rated_speed", "rad/s", positive, "for the default of max_speed"), &Keys::rated_speed)
-          .add(quantity("max_speed", "rad/s", positive,
-                        "beyond it the motor ran away; default: 5 rated_speed, without it 100 R/κ, where the current "
-                        "is a hundredth of U/R"),
-               &Keys::max_speed, speed_limit)
-          .add(inertia_key("", "rotor inertia"), &Keys::inertia)
-          .add(circuit_fields("L of armature and field together"), &Keys::circuit)
-          .add(rheostat_fields(), &Keys::rheostat)
-          .add(window_fields(), &Keys::window)
-          .check([](const Reading<Keys>& m) {
-            constexpr double in_rpm = 30 / std::numbers::pi;
-            if (m.rated_speed && m.max_speed <= *m.rated_speed)
-              m.refuse(&Keys::max_speed, fmt::format("max_speed = {:.6g} rpm; must be above rated_speed = {:.6g} rpm",
-                                                     m.max_speed * in_rpm, *m.rated_speed * in_rpm));
-          });
-  return made;
+  return Fields<Keys>()
+      .add(required("voltage", "V", positive, "supply voltage U"), &Keys::voltage)
+      .add(required("resistance", "Ohm", positive, "R of armature and field together"), &Keys::resistance)
+      .add(required("constant", "N*m/A2", positive, "κ: torque over current squared"), &Keys::constant)
+      .add(quantity("rated_speed", "rad/s", positive, "for the default of max_speed"), &Keys::rated_speed)
+      .add(quantity("max_speed", "rad/s", positive,
+                    "beyond it the motor ran away; default: 5 rated_speed, without it 100 R/κ, where the current "
+                    "is a hundredth of U/R"),
+           &Keys::max_speed, speed_limit)
+      .add(inertia_key("", "rotor inertia"), &Keys::inertia)
+      .add(circuit_fields("L of armature and field together"), &Keys::circuit)
+      .add(rheostat_fields(), &Keys::rheostat)
+      .add(window_fields(), &Keys::window)
+      .check([](const Reading<Keys>& m) {
+        constexpr double in_rpm = 30 / std::numbers::pi;
+        if (m.rated_speed && m.max_speed <= *m.rated_speed)
+          m.refuse(&Keys::max_speed, fmt::format("max_speed = {:.6g} rpm; must be above rated_speed = {:.6g} rpm",
+                                                 m.max_speed * in_rpm, *m.rated_speed * in_rpm));
+      });
 }
 
-void build_dc_series(const Section& s, Network& net, Messages& messages) {
-  const auto m = series_fields().read(s, messages);
+void build_dc_series(const Section& s, const Reading<SeriesKeys>& m, Network& net) {
   const int node = single_shaft(s, m.inertia, net);
   net.data.add(s.name, ArmatureCurrent{.by_mean = 1 / m.constant});
   DcSeriesMotor motor = m;
@@ -326,14 +319,13 @@ void build_dc_series(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> dc_kinds() {
   return {
-      on_a_shaft("dc shunt motor",
-                 "straight characteristic M = M_stall (1 − ω/ω₀); with its inductance the armature current is a state",
-                 shunt_fields().keys(), build_dc_shunt),
-      on_a_shaft(
-          "dc series motor",
+      kind_of<shunt_fields, build_dc_shunt>(
+          on_a_shaft, "dc shunt motor",
+          "straight characteristic M = M_stall (1 − ω/ω₀); with its inductance the armature current is a state"),
+      kind_of<series_fields, build_dc_series>(
+          on_a_shaft, "dc series motor",
           "M = κ U²/(R + κ ω)², or with its inductance L di/dt = U − R i − κ ω i, M = κ i²; runs away where no load "
-          "holds it, which ends the run",
-          series_fields().keys(), build_dc_series),
+          "holds it, which ends the run"),
   };
 }
 

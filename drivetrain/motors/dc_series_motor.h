@@ -1,13 +1,13 @@
-// dc_series_motor.h — DC series motor, static: armature and field carry the same current, flux in proportion to it.
+// dc_series_motor.h — DC series motor, static: armature and field carry the same current, the flux is proportional to it.
 //     M = κ i²,  U = (R + κ ω) i   ⇒   M = κ U²/(R + κ ω)²                                  (theory 4.8)
 //
-// A command c of the operating sequence sets the voltage to |c| U; c < 0 reverses the armature against the field, and
-// with it the torque: M = sgn c · κ (c U)²/(R + κ ω sgn c)². 0 opens the circuit.
+// A command c of the operating sequence sets the voltage to |c| U; c < 0 reverses the armature relative to the field and
+// thus the torque: M = sgn c · κ (c U)²/(R + κ ω sgn c)². 0 opens the circuit.
 //
-// Its torque never reaches zero: where no load holds it, it **runs away**. At `max_speed` it says so and ends the run.
-// Driven backwards it brakes, U and the induced voltage add, and the current grows without bound as ω → −R/κ (in a
-// machine iron saturates first and a fuse melts). The law is taken down to half of that speed, where the current is
-// twice the stall current U/R; there the run ends in words, too.
+// The torque never reaches zero: without load the motor **runs away**. At `max_speed` the run ends with a message.
+// Driven backwards it brakes, U and the induced voltage add, and the current grows without bound as ω → −R/κ (in a real
+// motor the iron saturates first and a fuse blows). The law is valid down to half of that speed, where the current is
+// twice the stall current U/R; there the run ends with a message as well.
 #pragma once
 
 #include <fmt/format.h>
@@ -28,8 +28,8 @@ struct DcSeriesMotor {
   double resistance = 0;      // R of armature and field [Ω], > 0
   double constant = 0;        // κ, torque over current squared [N·m/A²], > 0
   double max_speed = 0;       // [rad/s], > 0
-  std::string name = {};      // of the component, for what is said of it
-  std::string limit_by = {};  // where max_speed comes from, if not from the scene
+  std::string name = {};      // of the component, for messages
+  std::string limit_by = {};  // origin of max_speed, if not the scene
 
   // R/κ: the speed at which the torque is a quarter of the stall torque [rad/s].
   double base_speed() const { return resistance / constant; }
@@ -40,7 +40,7 @@ struct DcSeriesMotor {
   T torque(const ShaftState<T>& x) const {
     const double stall = sense(x) * x.command * x.command * stall_torque();
     const T speed = sense(x) * x.rate;
-    if (value_of(speed) < least_speed()) {  // no motion comes here, trial steps may: a parabola with value and slopes
+    if (value_of(speed) < least_speed()) {  // reached only by trial steps: a parabola, continuous with two derivatives
       const double at = 0.5;
       const T below = (speed - least_speed()) / base_speed();
       return stall / (at * at) * (1.0 - 2.0 / at * below + 3.0 / (at * at) * below * below);
@@ -48,7 +48,7 @@ struct DcSeriesMotor {
     const T over_stall = 1.0 + speed / base_speed();
     return stall / (over_stall * over_stall);
   }
-  // Of steady motion at this speed, as far as the law reaches [A].
+  // Current of steady motion at this speed [A]; constant outside the range of the law.
   double current(const ShaftState<double>& x) const {
     return std::abs(x.command) * voltage / (resistance * std::max(0.5, 1 + sense(x) * x.rate / base_speed()));
   }
@@ -58,7 +58,7 @@ struct DcSeriesMotor {
   bool uses_speed() const { return true; }
   Rated rated() const { return {stall_torque(), base_speed()}; }
 
-  // Mode 0: all is well. Mode 1: ran away; told as an event, and then the reason why the run ends.
+  // Mode 0: normal. Mode 1: ran away; reported as an event, after which the run ends with a message.
   void guard(const ShaftState<double>& x, double* g) const {
     const double speed = sense(x) * x.rate;
     g[0] = x.mode == 0 ? std::min(1.0, (max_speed - speed) / max_speed) : -1.0;

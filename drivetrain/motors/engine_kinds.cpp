@@ -38,48 +38,43 @@ struct EngineKeys {
   double cycle() const { return strokes * std::numbers::pi; }
 };
 
-const Fields<EngineKeys>& engine_fields() {
+Fields<EngineKeys> engine_fields() {
   using Keys = EngineKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add({.name = "firing_order",
-                .doc = "numbers of the cylinders in the order in which they fire",
-                .required = true},
-               &Keys::firing_order)
-          .add(quantity("firing_intervals", "rad", not_negative,
-                        "crank angle from each firing to the next, the last back to the first; default: equal"),
-               &Keys::firing_intervals)
-          .add(defaulted("phase", "rad", "0 deg", any_number, "shaft angle where the first cylinder fires"),
-               &Keys::phase)
-          .add(choice("strokes", "four", "of a cycle: four take two turns, two take one"), &Keys::strokes,
-               {{"four", 4}, {"two", 2}})
-          .add(choice("zero", "firing",
-                      "top dead centre that the diagrams count from. Where it is not given, diagrams are refused "
-                      "whose peak or whose work speaks against it"),
-               &Keys::zero, {{"firing", Zero::firing}, {"gas exchange", Zero::gas_exchange}})
-          .add(curve("torque", {"angle"}, "N*m",
-                     "of one cylinder over the crank angle, from `zero` on: tangential force times radius"),
-               &Keys::torque)
-          .add(curve("pressure", {"angle"}, "Pa",
-                     "of one cylinder over the same angle, absolute (indicator diagram), in place of torque"),
-               &Keys::pressure)
-          .add({.name = "misfire", .fallback = "[]", .doc = "numbers of the cylinders that do not fire"},
-               &Keys::misfire)
-          .add(curve("motored_torque", {"angle"}, "N*m",
-                     "of a cylinder that does not fire; default: its compression, mirrored about top dead centre"),
-               &Keys::motored_torque)
-          .add(curve("motored_pressure", {"angle"}, "Pa",
-                     "of a cylinder that does not fire, with pressure; default: its compression, mirrored about top "
-                     "dead centre"),
-               &Keys::motored_pressure)
-          .add(quantity("bore", "m", positive, "diameter of a piston, with pressure"), &Keys::bore)
-          .add(quantity("radius", "m", positive, "of the crank, with pressure"), &Keys::radius)
-          .add(quantity("rod", "m", positive, "length of the rod, with pressure"), &Keys::rod)
-          .add(defaulted("outside_pressure", "Pa", "1.013 bar", not_negative, "under the pistons, absolute"),
-               &Keys::outside_pressure)
-          .add(inertia_key("", "crankshaft with what rotates, and the mean of what oscillates"), &Keys::inertia)
-          .add(window_fields(), &Keys::window);
-  return made;
+  return Fields<Keys>()
+      .add(
+          {.name = "firing_order", .doc = "numbers of the cylinders in the order in which they fire", .required = true},
+          &Keys::firing_order)
+      .add(quantity("firing_intervals", "rad", not_negative,
+                    "crank angle from each firing to the next, the last back to the first; default: equal"),
+           &Keys::firing_intervals)
+      .add(defaulted("phase", "rad", "0 deg", any_number, "shaft angle where the first cylinder fires"), &Keys::phase)
+      .add(choice("strokes", "four", "of a cycle: four take two turns, two take one"), &Keys::strokes,
+           {{"four", 4}, {"two", 2}})
+      .add(choice("zero", "firing",
+                  "top dead centre that the diagrams count from. Where it is not given, diagrams are refused "
+                  "whose peak or whose work speaks against it"),
+           &Keys::zero, {{"firing", Zero::firing}, {"gas exchange", Zero::gas_exchange}})
+      .add(curve("torque", {"angle"}, "N*m",
+                 "of one cylinder over the crank angle, from `zero` on: tangential force times radius"),
+           &Keys::torque)
+      .add(curve("pressure", {"angle"}, "Pa",
+                 "of one cylinder over the same angle, absolute (indicator diagram), in place of torque"),
+           &Keys::pressure)
+      .add({.name = "misfire", .fallback = "[]", .doc = "numbers of the cylinders that do not fire"}, &Keys::misfire)
+      .add(curve("motored_torque", {"angle"}, "N*m",
+                 "of a cylinder that does not fire; default: its compression, mirrored about top dead centre"),
+           &Keys::motored_torque)
+      .add(curve("motored_pressure", {"angle"}, "Pa",
+                 "of a cylinder that does not fire, with pressure; default: its compression, mirrored about top "
+                 "dead centre"),
+           &Keys::motored_pressure)
+      .add(quantity("bore", "m", positive, "diameter of a piston, with pressure"), &Keys::bore)
+      .add(quantity("radius", "m", positive, "of the crank, with pressure"), &Keys::radius)
+      .add(quantity("rod", "m", positive, "length of the rod, with pressure"), &Keys::rod)
+      .add(defaulted("outside_pressure", "Pa", "1.013 bar", not_negative, "under the pistons, absolute"),
+           &Keys::outside_pressure)
+      .add(inertia_key("", "crankshaft with what rotates, and the mean of what oscillates"), &Keys::inertia)
+      .add(window_fields(), &Keys::window);
 }
 
 // Angles at which the cylinders fire, one after the other; empty: what is given does not fit.
@@ -248,8 +243,7 @@ bool let_misfire(const Reading<EngineKeys>& e, Diagram fired, const CylinderGeom
   return true;
 }
 
-void build_engine(const Section& s, Network& net, Messages& messages) {
-  const auto e = engine_fields().read(s, messages);
+void build_engine(const Section& s, const Reading<EngineKeys>& e, Network& net) {
   const int node = single_shaft(s, e.inertia, net);
   const std::vector<double> angles = firing_angles(e);
   const std::optional<CylinderGeometry> geometry = geometry_of(e);
@@ -276,11 +270,10 @@ void build_engine(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> engine_kinds() {
   return {
-      on_a_shaft(
-          "engine",
+      kind_of<engine_fields, build_engine>(
+          on_a_shaft, "engine",
           "piston engine of equal cylinders on a rigid crankshaft, from the diagram of one cylinder and the firing "
-          "order",
-          engine_fields().keys(), build_engine),
+          "order"),
   };
 }
 

@@ -1,14 +1,13 @@
-// engine_torque.h — a piston engine of several equal cylinders on one rigid crankshaft, from the diagram of one of
-// them.
-//     M(φ) = Σ_k M₁(φ − φ_k),   φ_k where cylinder k fires; M₁ repeats after two turns (four-stroke) or one
+// engine_torque.h — piston engine of several equal cylinders on a rigid crankshaft, by the diagram of one cylinder.
+//     M(φ) = Σ_k M₁(φ − φ_k),   φ_k: firing angle of cylinder k; the period of M₁ is two turns (four-stroke) or one
 //     (two-stroke)
 // M₁ is given over the crank angle, 0 = top dead centre at firing, either
 //     as torque: the tangential force (tangential-pressure diagram times piston area) times the crank's radius r, or
 //     from the indicator diagram p: M₁ = (p − p_out) A r (sin φ + λ sin φ cos φ/√(1 − λ² sin² φ)), λ = r/l.
-// A cylinder that misfires has a diagram of its own, the motored one; M₁ then stands for that of each cylinder.
-// With n equal intervals and equal diagrams all harmonics cancel but multiples of the n-th of the cycle: orders n/2, n, 3n/2, … of a
-// four-stroke engine. Source: e.g. W. Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2.
-// Masses: what rotates is the engine's inertia; for oscillating masses take slider-cranks.
+// A misfiring cylinder has its own diagram, the motored one; M₁ is then the diagram of each cylinder.
+// With n equal firing intervals and equal diagrams only multiples of the n-th harmonic of the cycle remain: orders n/2, n,
+// 3n/2, … of a four-stroke engine. Source: e.g. W. Ker Wilson, Practical Solution of Torsional Vibration Problems, vol. 2.
+// Masses: the engine has only its rotating inertia; for reciprocating masses use slider-cranks.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +22,7 @@
 
 namespace kurbel {
 
-// From gas pressure to torque; area 0: the diagram is a torque already.
+// From gas pressure to torque; area 0: the diagram is a torque.
 struct CylinderGeometry {
   double area = 0;              // A [m²]
   double radius = 0, rod = 0;   // r, l [m], r < l
@@ -45,11 +44,11 @@ class EngineTorque {
 
   struct Cylinder {
     double fires_at = 0;      // φ_k [rad]
-    std::size_t diagram = 0;  // which of those given
+    std::size_t diagram = 0;  // index of its diagram
   };
 
-  // diagrams: of one cylinder each, with the engine's cycle as their period. substitute: what stands for one that the
-  // scene does not give, in words.
+  // diagrams: each of one cylinder, with the cycle of the engine as period. substitute: description of a default diagram
+  // used where the scene gives none.
   EngineTorque(std::vector<Curve> diagrams, CylinderGeometry geometry, std::vector<Cylinder> cylinders,
                std::string substitute = {})
       : diagrams_(std::move(diagrams)),
@@ -82,7 +81,7 @@ class EngineTorque {
   void guard(const ShaftState<double>& x, double* g) const { PieceGuard::guard(edges_, x.mode, x.angle, 1.0, g); }
   int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(edges_, x.angle); }
   int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(edges_, x.mode, which); }
-  std::string mode_name(int) const { return {}; }  // a diagram's points are no events worth telling
+  std::string mode_name(int) const { return {}; }  // passing a point of a diagram is not reported
   std::string describe() const { return substitute_; }
   Rated rated() const {
     double most = 0;
@@ -99,7 +98,7 @@ class EngineTorque {
         diagram.value_in(piece, phi + (PieceGuard::near_piece(diagram, piece, value_of(phi)) - value_of(phi)));
     return geometry_.area > 0 ? geometry_.torque(read, phi) : read;
   }
-  // The points of all cylinders within one cycle; those that fall together count once.
+  // The points of all cylinders within one cycle; coinciding points count once.
   std::vector<double> edges() const {
     const double cycle = this->cycle(), together = 1e-9 * cycle;
     std::vector<double> all;
@@ -120,7 +119,7 @@ class EngineTorque {
   std::vector<Cylinder> cylinders_;
   std::string substitute_;
   Curve edges_;
-  std::vector<int> piece_;  // of each cylinder's diagram in each piece between edges
+  std::vector<int> piece_;  // piece of each cylinder's diagram between each two edges
 };
 
 }  // namespace kurbel

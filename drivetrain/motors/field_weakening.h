@@ -1,10 +1,10 @@
-// field_weakening.h — a DC motor excited by itself whose field is weakened, by a command over time or by its speed.
+// field_weakening.h — separately excited DC motor with field weakening, prescribed over the time or the speed.
 //
 //     M = f k (c U − f k ω)/R,      ω₀ = U/(f k)                                        (theory 4.20)
 //     L di/dt = c U − R i − f k ω,  M = f k i
-//     f       flux over the rated one, > 0: by table or formula over the time, or over |ω|
-// The field follows at once: its own circuit, slower than the armature's, has no state; give its lag in the table.
-// Off, the armature's circuit is open. Source: G. K. Dubey, Fundamentals of Electrical Drives, ch. 5.
+//     f       flux over rated flux, > 0: by table or formula over the time, or over |ω|
+// The field has no lag: its circuit, slower than the armature's, has no state; include the lag in the table.
+// Switched off, the armature circuit is open. Source: G. K. Dubey, Fundamentals of Electrical Drives, ch. 5.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace kurbel {
 
 enum class FieldOver { time, speed };
 
-// What the pieces of f ask of a motor: edges in time, or guards over the speed.
+// Members of a motor required by the pieces of f: edges in time, or guards over the speed.
 template <FieldOver over>
 struct FieldPart {
   Curve curve;  // [s] → [1]
@@ -60,7 +60,7 @@ constexpr ShaftTraits weakened_traits() {
   return is;
 }
 
-// The static line.
+// The static characteristic.
 template <FieldOver over>
 struct WeakenedShuntMotor : FieldPart<over> {
   static constexpr ShaftTraits is = weakened_traits<over>();
@@ -80,7 +80,7 @@ struct WeakenedShuntMotor : FieldPart<over> {
   }
 };
 
-// With its armature's circuit.
+// With the armature circuit.
 template <FieldOver over>
 struct WeakenedShuntCircuit : FieldPart<over> {
   static constexpr ShaftTraits is = [] {
@@ -116,7 +116,7 @@ struct WeakenedShuntCircuit : FieldPart<over> {
   Rated rated() const { return line.rated(); }
 };
 
-// Its static law without the effect "transients".
+// Without the effect "transients": the static law.
 template <FieldOver over>
 ShaftForm under(const WeakenedShuntCircuit<over>& circuit, const Effects& effects);
 

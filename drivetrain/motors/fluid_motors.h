@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "engine/elements/element.h"
 #include "engine/numerics/curve.h"
@@ -14,21 +13,21 @@
 namespace kurbel {
 
 // Hydraulic motor of displacement V (per radian) on a pump of constant flow Q with a relief valve set to Δp_r:
-//     M = η_hm Δp V,    Q = V ω + G Δp + Q_relief,    G Δp_r = (1 − η_v) Q   (leakage, in proportion to the pressure)
+//     M = η_hm Δp V,    Q = V ω + G Δp + Q_relief,    G Δp_r = (1 − η_v) Q   (leakage, proportional to the pressure)
 //
-//     M |----.____                  ω₁ = η_v Q/V   flow-limited speed: up to here the relief valve takes the surplus
-//       |         '\                ω₂ = Q/V       the motor takes the whole flow: no pressure is left
+//     M |----.____                  ω₁ = η_v Q/V   flow-limited speed: up to here the relief valve is open
+//       |         '\                ω₂ = Q/V       the motor takes the whole flow: zero pressure
 //       +-----------\________ ω     between them Δp = Δp_r (ω₂ − ω)/(ω₂ − ω₁)
 //                 ω₁ ω₂
-// The relief line: a valve that needs the pressure rise δp to pass the whole flow, Q_relief = (Δp − Δp_r) Q/δp, gives
+// Relief line: for a valve with the pressure rise δp at the whole flow, Q_relief = (Δp − Δp_r) Q/δp,
 //     Δp = (Q (1 + Δp_r/δp) − V ω)/(G + Q/δp)  below ω₁, also where the motor is driven backwards.
-// Above ω₂ an anti-cavitation valve keeps Δp at zero. η_hm is that of driving everywhere. Sources: ISO 4391
+// Above ω₂ an anti-cavitation valve keeps Δp at zero. η_hm is that of motoring everywhere. Sources: ISO 4391
 // (efficiencies); Findeisen, Ölhydraulik.
 struct HydraulicMotor {
   double displacement = 0;                // V [m³/rad], > 0
   double relief_pressure = 0;             // Δp_r [Pa], > 0
   double flow = 0;                        // Q [m³/s], > 0
-  double volumetric_efficiency = 0;       // η_v at Δp_r and ω₁, 0 … 1, both open
+  double volumetric_efficiency = 0;       // η_v at Δp_r and ω₁, 0 < η_v < 1
   double hydromechanical_efficiency = 1;  // η_hm, 0 … 1
   double relief_rise = 0;                 // δp [Pa], ≥ 0
 
@@ -40,7 +39,7 @@ struct HydraulicMotor {
     const double over = relief_pressure / relief_rise;
     return (1 + over - displacement * speed / flow) / ((1 - volumetric_efficiency) / relief_pressure + 1 / relief_rise);
   }
-  Curve curve() const {  // straight lines; beyond −ω₂ the torque is held
+  Curve curve() const {  // linear between the points; constant below −ω₂
     const double far = -no_load_speed();
     return Curve({far, flow_limited_speed(), no_load_speed()},
                  {torque_at(pressure_on_relief_line(far)), torque_at(relief_pressure), 0}, Curve::Form::linear);
@@ -50,7 +49,7 @@ struct HydraulicMotor {
 // Pneumatic (vane or piston) motor at constant supply pressure: nearly a straight line from the stall torque to the
 // free speed, with x = ω/ω₀
 //     M = M_s (1 − x)(1 + b x),  P = M ω: for b = 0 greatest at half the free speed, P_max = M_s ω₀/4
-// b bends the line (−1 … 1) so that P_max, M_s and ω₀ of the catalogue agree. Outside 0 … ω₀ its tangents go on.
+// b (−1 … 1) is the curvature that fits P_max, M_s and ω₀ of the catalogue. Outside 0 … ω₀ the tangents continue the line.
 // Source: Atlas Copco, Pocket Guide to Air Motors (performance curves).
 struct PneumaticMotor {
   static constexpr ShaftTraits is{.account = Account::driving, .guards = 2};
@@ -58,14 +57,14 @@ struct PneumaticMotor {
   double free_speed = 0;    // ω₀ [rad/s], > 0
   double bend = 0;          // b, −1 … 1
 
-  // Greatest x (1 − x)(1 + b x): P_max over M_s ω₀. From 4/27 (b = −1) to 2/√27 (b = 1).
+  // Maximum of x (1 − x)(1 + b x): P_max/(M_s ω₀). From 4/27 (b = −1) to 2/√27 (b = 1).
   static double power_number(double b) {
     const double x = speed_of_greatest_power(b);
     return x * (1 - x) * (1 + b * x);
   }
   // Root of 1 + 2 (b − 1) x − 3 b x² in 0 … 1, without cancellation.
   static double speed_of_greatest_power(double b) { return 1 / ((1 - b) + std::sqrt((1 - b) * (1 - b) + 3 * b)); }
-  // b that gives this power number, by bisection.
+  // b for a given power number, by bisection.
   static double bend_for(double power_number_wanted) {
     return halved({-1, 1}, 60, [&](double b) { return power_number(b) < power_number_wanted; }).middle();
   }

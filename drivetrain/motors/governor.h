@@ -1,14 +1,14 @@
 // governor.h — speed governor: proportional–integral on torque, with limits.
 //
-//     u = (K_p (c ω_ref − ω) + I)/(1 + K_p d),   e = c ω_ref − ω − d u,   M = u cut off at M_min, M_max
+//     u = (K_p (c ω_ref − ω) + I)/(1 + K_p d),   e = c ω_ref − ω − d u,   M = u limited to M_min … M_max
 //     dI/dt = K_i e + (M − u)/T_t
-//     ω_ref, c  reference speed [rad/s] and the command of the operating sequence: its part
+//     ω_ref, c  reference speed [rad/s]; command of the operating sequence: the part of ω_ref
 //     K_p, K_i  proportional and integral gain [N·m·s/rad], [N·m/rad]
-//     d         droop: by how much the steady speed falls per torque [rad/(s·N·m)]; 0: no steady error
-//     T_t       tracking time [s]: at a limit the integral follows M, so that it does not wind up (back-calculation;
+//     d         droop: decrease of the steady speed per torque [rad/(s·N·m)]; 0: no steady-state error
+//     T_t       tracking time [s]: at a limit the integral tracks M, which prevents windup (back-calculation;
 //               Åström, Hägglund: PID Controllers, 2nd ed. 1995, sect. 3.5)
-// The integral is a state; at which limit it stands, a mode. M and dI/dt pass the limits continuously. Off (command 0)
-// it exerts nothing and forgets its integral.
+// The integral is a state; the active limit is a mode. M and dI/dt are continuous at the limits. Off (command 0) the
+// torque is zero and the integral is reset.
 #pragma once
 
 #include <algorithm>

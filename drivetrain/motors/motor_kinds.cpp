@@ -11,17 +11,14 @@ struct MotorKeys {
   double inertia = 0;  // [kg·m²]
   Window window;
 };
-const Fields<MotorKeys>& motor_fields() {
-  static const auto made =
-      Fields<MotorKeys>()
-          .add(required_curve("torque", {"speed"}, "N*m", "characteristic over speed"), &MotorKeys::torque)
-          .add(inertia_key("", "rotor inertia"), &MotorKeys::inertia)
-          .add(window_fields(), &MotorKeys::window);
-  return made;
+Fields<MotorKeys> motor_fields() {
+  return Fields<MotorKeys>()
+      .add(required_curve("torque", {"speed"}, "N*m", "characteristic over speed"), &MotorKeys::torque)
+      .add(inertia_key("", "rotor inertia"), &MotorKeys::inertia)
+      .add(window_fields(), &MotorKeys::window);
 }
 
-void build_table_motor(const Section& s, Network& net, Messages& messages) {
-  const auto motor = motor_fields().read(s, messages);
+void build_table_motor(const Section& s, const Reading<MotorKeys>& motor, Network& net) {
   put_curve(net, single_shaft(s, motor.inertia, net), s.name, {motor.torque, 1, Account::driving, motor.window},
             [&](const std::string& text) { motor.refuse(&MotorKeys::torque, text); });
 }
@@ -30,7 +27,7 @@ void build_table_motor(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> motor_kinds() {
   return {
-      on_a_shaft("motor", "motor, turbine or hydraulic drive by table M(ω)", motor_fields().keys(), build_table_motor),
+      kind_of<motor_fields, build_table_motor>(on_a_shaft, "motor", "motor, turbine or hydraulic drive by table M(ω)"),
   };
 }
 

@@ -1,12 +1,12 @@
-// motors.h — DC shunt motor by its static characteristic M(ω) (theory 4); the currents of DC motors by their torques.
+// motors.h — DC shunt motor by its static characteristic M(ω) (theory 4); armature currents of DC motors by their torques.
 #pragma once
 
 #include "engine/elements/element.h"
 
 namespace kurbel {
 
-// DC shunt (separately excited) motor, static line: M = M_stall (c − ω/ω₀), c the voltage over the rated one: 1 unless
-// the operating sequence says otherwise; −1 reversed (plugging); 0 off, the circuit is open.
+// DC shunt (separately excited) motor, static: M = M_stall (c − ω/ω₀). c: voltage over rated voltage, set by the operating
+// sequence; default 1; −1: reversed (plugging); 0: off, the circuit is open.
 struct DcShuntMotor {
   static constexpr ShaftTraits is{.account = Account::driving, .commanded = true, .reversible = true};
   double stall_torque = 0;   // M_stall [N·m], > 0
@@ -23,7 +23,7 @@ struct DcShuntMotor {
   Rated rated() const { return {rated_torque > 0 ? rated_torque : stall_torque, no_load_speed}; }
 };
 
-// The mean square of an armature's current over the torque's integrals per time (Network::data).
+// Mean square of the armature current from mean torque and mean square torque (Network::data).
 struct ArmatureCurrent {
   double by_mean = 0;    // A² for a mean torque of 1 N·m: a series motor, M = κ i²
   double by_square = 0;  // A² for a mean square of 1 N²·m²: a shunt motor under its full field, M = k i

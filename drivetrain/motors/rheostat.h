@@ -1,11 +1,11 @@
-// rheostat.h — a DC motor that is started over resistances in its armature circuit, cut out one after another.
+// rheostat.h — DC motor started with resistances in its armature circuit, cut out one after another.
 //
-//     stage k: the motor's own law with R + R_k in place of R,   R_1 > R_2 > … > 0, last R alone
-// The next stage comes when the armature current has fallen to the current of switching, or at given times. By current:
-// with an inductance it rises after each switching to its peak first (where di/dt = 0: it meets the current of steady
-// motion at that speed), then falls; a stage whose peak stays below the current of switching is left at once. A machine
-// that starts turning is already past its peak. Like an induction motor on its starter it is merely on or off; switched
-// on again it has all its resistances again, and no current.
+//     stage k: the law of the motor with R + R_k instead of R,   R_1 > R_2 > … > 0; last stage: R
+// The next stage begins when the armature current has fallen to the switching current, or at given times. With an
+// inductance the current first rises after each switching to its peak (di/dt = 0: it equals the current of steady motion
+// at that speed), then falls; a stage whose peak stays below the switching current is left at the peak. If the motor
+// turns at the start, it is past the peak. Like an induction motor on its starter, the motor is only on or off; switched
+// on again, it has all its resistances again and no current.
 // Source: G. K. Dubey, Fundamentals of Electrical Drives, ch. 5 (starting of DC motors); theory 4.18.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace kurbel {
 
 enum class CutOut { by_current, by_time };
 
-// The stages, and a mode's parts: which stage it is, and the motor's own mode in it.
+// The stages, and the parts of a mode: the stage, and the mode of the motor in it.
 template <class Motor>
 struct RheostatStages {
   std::vector<Motor> stages;    // with R + R_1, R + R_2, …, R
@@ -33,7 +33,7 @@ struct RheostatStages {
   static constexpr int most_own = 4;  // modes of a motor
   struct Mode {
     int stage = 0, own = 0;
-    bool past_peak = false, told = false;  // told: the last event was one of the stages
+    bool past_peak = false, told = false;  // told: the last event was a change of stage
   };
   static Mode unpacked(int mode) {
     return {mode / (4 * most_own), mode / 4 % most_own, (mode & 2) != 0, (mode & 1) != 0};
@@ -52,7 +52,7 @@ struct RheostatStages {
   }
 };
 
-// What only a motor with a current of its own has.
+// Members that only a motor with its current as a state has.
 template <class Motor, bool has_states>
 struct RheostatCurrent : RheostatStages<Motor> {};
 template <class Motor>
@@ -68,7 +68,7 @@ struct RheostatCurrent<Motor, true> : RheostatStages<Motor> {
   OwnState state(int k) const { return this->stages.back().state(k); }
 };
 
-// What only stages by time have.
+// Members that only stages by time have.
 template <class Motor, CutOut when>
 struct RheostatTimes : RheostatCurrent<Motor, (Motor::is.states > 0)> {};
 template <class Motor>
@@ -80,7 +80,7 @@ template <class Motor, CutOut when>
 struct OnRheostat : RheostatTimes<Motor, when> {
   using Stages = RheostatStages<Motor>;
   using Stages::stages, Stages::switch_current, Stages::times;
-  static constexpr int own_guards = Motor::is.guards;  // then the end of the stage
+  static constexpr int own_guards = Motor::is.guards;  // the next guard is the end of the stage
   static constexpr ShaftTraits is = [] {
     ShaftTraits traits = Motor::is;
     traits.guards += 1;
@@ -124,7 +124,7 @@ struct OnRheostat : RheostatTimes<Motor, when> {
       m.past_peak = true;
       return packed(m);
     }
-    // What would not rise above the current of switching any more is passed over.
+    // Stages in which the current would not rise above the switching current are skipped.
     do {
       ++m.stage;
     } while (when == CutOut::by_current && m.stage < last() && steady(m, x) <= switch_current);
@@ -144,7 +144,7 @@ struct OnRheostat : RheostatTimes<Motor, when> {
       Stages::unpacked;
   using Mode = typename Stages::Mode;
 
-  // The first stage that is still to last at this moment.
+  // The mode at the start: the first stage that has not ended yet.
   int begun(const ShaftState<double>& x, bool past_peak) const {
     Mode m;
     if (when == CutOut::by_time) {
@@ -158,7 +158,7 @@ struct OnRheostat : RheostatTimes<Motor, when> {
   }
 };
 
-// Their static laws without the effect "transients".
+// Without the effect "transients": their static laws.
 template <class Circuit, CutOut when>
 ShaftForm under(const OnRheostat<Circuit, when>& motor, const Effects& effects) requires(Circuit::is.states > 0);
 

@@ -31,28 +31,25 @@ void check_rises(const Reading<SourceKeys>& s) {
 
 // --- torque source ---
 
-const Fields<SourceKeys>& torque_source_fields() {
+Fields<SourceKeys> torque_source_fields() {
   using Keys = SourceKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(defaulted("torque", "N*m", "0 N*m", any_number, "constant part M₀"), &Keys::constant)
-          .add(quantity("ramp", "s", positive, "time over which the constant part rises from 0"), &Keys::ramp)
-          .add(defaulted("amplitude", "N*m", "0 N*m", any_number, "of M₁ sin(2π f t + ψ)"), &Keys::amplitude)
-          .add(defaulted("frequency", "Hz", "0 Hz", not_negative, "f"), &Keys::frequency)
-          .add(defaulted("phase", "rad", "0 rad", any_number, "ψ"), &Keys::phase)
-          .add(curve("table", any_abscissa(), "N*m", "torque over time, angle or speed"), &Keys::table)
-          .add(own_inertia_key(), &Keys::inertia)
-          .add(window_fields(), &Keys::window)
-          .check([](const Reading<Keys>& s) {
-            if (!s.given(&Keys::constant) && !s.given(&Keys::amplitude) && !s.table)
-              s.refuse("nothing given; allowed: \"torque\", \"amplitude\" with \"frequency\", \"table\"");
-          })
-          .check(check_rises);
-  return made;
+  return Fields<Keys>()
+      .add(defaulted("torque", "N*m", "0 N*m", any_number, "constant part M₀"), &Keys::constant)
+      .add(quantity("ramp", "s", positive, "time over which the constant part rises from 0"), &Keys::ramp)
+      .add(defaulted("amplitude", "N*m", "0 N*m", any_number, "of M₁ sin(2π f t + ψ)"), &Keys::amplitude)
+      .add(defaulted("frequency", "Hz", "0 Hz", not_negative, "f"), &Keys::frequency)
+      .add(defaulted("phase", "rad", "0 rad", any_number, "ψ"), &Keys::phase)
+      .add(curve("table", any_abscissa(), "N*m", "torque over time, angle or speed"), &Keys::table)
+      .add(own_inertia_key(), &Keys::inertia)
+      .add(window_fields(), &Keys::window)
+      .check([](const Reading<Keys>& s) {
+        if (!s.given(&Keys::constant) && !s.given(&Keys::amplitude) && !s.table)
+          s.refuse("nothing given; allowed: \"torque\", \"amplitude\" with \"frequency\", \"table\"");
+      })
+      .check(check_rises);
 }
 
-void build_torque_source(const Section& s, Network& net, Messages& messages) {
-  const auto source = torque_source_fields().read(s, messages);
+void build_torque_source(const Section& s, const Reading<SourceKeys>& source, Network& net) {
   const int node = single_shaft(s, source.inertia, net);
   const auto put_sine = [&](double mean) {
     if (mean != 0 || source.amplitude != 0)
@@ -74,22 +71,19 @@ void build_torque_source(const Section& s, Network& net, Messages& messages) {
 
 // --- prescribed speed ---
 
-const Fields<SourceKeys>& prescribed_speed_fields() {
+Fields<SourceKeys> prescribed_speed_fields() {
   using Keys = SourceKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(quantity("speed", "rad/s", any_number, "constant speed"), &Keys::constant)
-          .add(quantity("ramp", "s", positive, "time over which it rises from 0"), &Keys::ramp)
-          .add(defaulted("amplitude", "rad/s", "0 rad/s", any_number, "of an added sine"), &Keys::amplitude)
-          .add(defaulted("frequency", "Hz", "0 Hz", not_negative, "of the sine"), &Keys::frequency)
-          .add(defaulted("phase", "rad", "0 rad", any_number, "of the sine"), &Keys::phase)
-          .add(curve("table", {"time"}, "rad/s", "speed over time"), &Keys::table)
-          .add(own_inertia_key(), &Keys::inertia);
-  return made;
+  return Fields<Keys>()
+      .add(quantity("speed", "rad/s", any_number, "constant speed"), &Keys::constant)
+      .add(quantity("ramp", "s", positive, "time over which it rises from 0"), &Keys::ramp)
+      .add(defaulted("amplitude", "rad/s", "0 rad/s", any_number, "of an added sine"), &Keys::amplitude)
+      .add(defaulted("frequency", "Hz", "0 Hz", not_negative, "of the sine"), &Keys::frequency)
+      .add(defaulted("phase", "rad", "0 rad", any_number, "of the sine"), &Keys::phase)
+      .add(curve("table", {"time"}, "rad/s", "speed over time"), &Keys::table)
+      .add(own_inertia_key(), &Keys::inertia);
 }
 
-void build_prescribed_speed(const Section& s, Network& net, Messages& messages) {
-  const auto source = prescribed_speed_fields().read(s, messages);
+void build_prescribed_speed(const Section& s, const Reading<SourceKeys>& source, Network& net) {
   const int node = single_shaft(s, source.inertia, net);
   const bool constant = source.given(&SourceKeys::constant);
   if (source.table && constant) {
@@ -137,10 +131,10 @@ void build_prescribed_speed(const Section& s, Network& net, Messages& messages) 
 
 std::vector<Kind> source_kinds() {
   return {
-      on_a_shaft("torque source", "torque as constant, ramp, sine or table", torque_source_fields().keys(),
-                 build_torque_source),
-      on_a_shaft("prescribed speed", "speed as constant, ramp, sine or table, whatever torque that takes",
-                 prescribed_speed_fields().keys(), build_prescribed_speed),
+      kind_of<torque_source_fields, build_torque_source>(on_a_shaft, "torque source",
+                                                         "torque as constant, ramp, sine or table"),
+      kind_of<prescribed_speed_fields, build_prescribed_speed>(
+          on_a_shaft, "prescribed speed", "speed as constant, ramp, sine or table, whatever torque that takes"),
   };
 }
 

@@ -1,4 +1,4 @@
-// kinds.h — the families of components of the drive, as a scene may name them: each stands in its room's NAME_kinds.cpp.
+// kinds.h — the kinds of components of the drive by family; each is defined in NAME_kinds.cpp of its folder.
 #pragma once
 
 #include <vector>

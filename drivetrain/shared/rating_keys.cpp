@@ -5,38 +5,34 @@
 
 namespace kurbel {
 
-const Fields<HeatRating>& heat_rating_fields() {
-  static const auto made = Fields<HeatRating>()
-                               .add(quantity("allowable_heat", "J", positive,
-                                             "heat that it may take in one engagement, limit for kurbel run"),
-                                    &HeatRating::engagement)
-                               .add(quantity("allowable_heat_power", "W", positive,
-                                             "heat that it may take on the mean of the time run, limit for kurbel run"),
-                                    &HeatRating::power);
-  return made;
+Fields<HeatRating> heat_rating_fields() {
+  return Fields<HeatRating>()
+      .add(quantity("allowable_heat", "J", positive, "heat that it may take in one engagement, limit for kurbel run"),
+           &HeatRating::engagement)
+      .add(quantity("allowable_heat_power", "W", positive,
+                    "heat that it may take on the mean of the time run, limit for kurbel run"),
+           &HeatRating::power);
 }
 
-const Fields<RimRating>& rim_rating_fields() {
+Fields<RimRating> rim_rating_fields() {
   using Rim = RimRating;
-  static const auto made =
-      Fields<Rim>()
-          .add(quantity("rim_radius", "m", positive, "mean radius r of the rim"), &Rim::radius)
-          .add(quantity("allowable_rim_speed", "m/s", positive, "limit of r ω for kurbel run; needs rim_radius"),
-               &Rim::speed)
-          .add(quantity("rim_density", "kg/m3", positive, "ρ of the rim"), &Rim::density)
-          .add(quantity("allowable_rim_stress", "Pa", positive,
-                        "limit of ρ (r ω)², hoop stress of a thin free ring, for kurbel run; needs rim_radius, "
-                        "rim_density"),
-               &Rim::stress)
-          .check([](const Reading<Rim>& rim) {
-            for (const auto member : {&Rim::speed, &Rim::stress})
-              if (rim.*member && !rim.radius)
-                rim.refuse(member, fmt::format("\"{}\" needs \"rim_radius\"; give that, too", rim.key(member)));
-            if (rim.stress && !rim.density)
-              rim.refuse(&Rim::stress, "\"allowable_rim_stress\" needs \"rim_density\"; give that, too");
-            rim.drop_without(&Rim::stress, &Rim::density);
-          });
-  return made;
+  return Fields<Rim>()
+      .add(quantity("rim_radius", "m", positive, "mean radius r of the rim"), &Rim::radius)
+      .add(quantity("allowable_rim_speed", "m/s", positive, "limit of r ω for kurbel run; needs rim_radius"),
+           &Rim::speed)
+      .add(quantity("rim_density", "kg/m3", positive, "ρ of the rim"), &Rim::density)
+      .add(quantity("allowable_rim_stress", "Pa", positive,
+                    "limit of ρ (r ω)², hoop stress of a thin free ring, for kurbel run; needs rim_radius, "
+                    "rim_density"),
+           &Rim::stress)
+      .check([](const Reading<Rim>& rim) {
+        for (const auto member : {&Rim::speed, &Rim::stress})
+          if (rim.*member && !rim.radius)
+            rim.refuse(member, fmt::format("\"{}\" needs \"rim_radius\"; give that, too", rim.key(member)));
+        if (rim.stress && !rim.density)
+          rim.refuse(&Rim::stress, "\"allowable_rim_stress\" needs \"rim_density\"; give that, too");
+        rim.drop_without(&Rim::stress, &Rim::density);
+      });
 }
 
 const Fields<DutyRating>& duty_rating_fields() {

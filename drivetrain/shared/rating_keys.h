@@ -1,5 +1,5 @@
-// rating_keys.h — what a component states that is no part of its motion: heat that what slips may take, speed of a rim,
-// torque and duty of a motor, inertia of a flywheel. Ratings are judged in studies/limits.
+// rating_keys.h — ratings that do not influence the motion: allowable heat of slipping components, rim speed, torque and
+// duty of a motor, inertia of a flywheel. studies/limits compares the loads with them.
 #pragma once
 
 #include <optional>
@@ -8,41 +8,40 @@
 
 namespace kurbel {
 
-// Of what slips, by its maker's data; empty: not stated.
+// Rating of a slipping component by its maker; empty: not stated.
 struct HeatRating {
-  std::optional<double> engagement;  // of one engagement [J]
-  std::optional<double> power;       // mean over a run [W]
+  std::optional<double> engagement;  // allowable heat of one engagement [J]
+  std::optional<double> power;       // allowable mean power over a run [W]
 };
-const Fields<HeatRating>& heat_rating_fields();
+Fields<HeatRating> heat_rating_fields();
 
-// Of a flywheel; empty: not stated.
+// Rating of a flywheel; empty: not stated.
 struct RimRating {
   std::optional<double> radius;   // mean radius of the rim r [m]
   std::optional<double> speed;    // allowable r ω [m/s]
   std::optional<double> density;  // ρ [kg/m³]
   std::optional<double> stress;   // allowable hoop stress of the free thin ring, σ = ρ (r ω)² [Pa]
 };
-const Fields<RimRating>& rim_rating_fields();
+Fields<RimRating> rim_rating_fields();
 
-// Of a motor: the duty that its rated torque is stated for (IEC 60034-1); empty: not stated.
+// The duty for which the rated torque of a motor is stated (IEC 60034-1); empty: not stated.
 struct DutyRating {
   enum class Duty { none, continuous, short_time, intermittent };  // —, S1, S2, S3
   Duty duty = Duty::none;
-  std::optional<double> time;   // S2: M_N may act so long [s]
-  std::optional<double> share;  // S3: of the time, in which M_N may act
+  std::optional<double> time;   // S2: allowable duration of M_N [s]
+  std::optional<double> share;  // S3: duty cycle, the part of the time with M_N
 };
 const Fields<DutyRating>& duty_rating_fields();
 
 struct MotorRating {
-  std::optional<double> torque = {};  // M_n, as it is or by the rated power and speed [N·m]
-  std::optional<double> breakdown =
-      {};  // M_b of an induction motor by its catalogue, at the voltage that it runs on [N·m]
+  std::optional<double> torque = {};     // M_n, given or from rated power and speed [N·m]
+  std::optional<double> breakdown = {};  // M_b of an induction motor, at its supply voltage [N·m]
   DutyRating duty;
 
   bool states_duty() const { return duty.duty != DutyRating::Duty::none; }
 };
 
-// A body that the scene calls a flywheel.
+// A component declared as a flywheel in the scene.
 struct Flywheel {
   double inertia = 0;  // [kg·m²]
 };

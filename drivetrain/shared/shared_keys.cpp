@@ -22,16 +22,14 @@ Key inertia_key(const char* fallback, const char* doc) {
 
 Key own_inertia_key() { return inertia_key("\"0 kg*m2\"", "inertia of its own shaft"); }
 
-const Fields<Window>& window_fields() {
-  static const auto made =
-      Fields<Window>()
-          .add(quantity("start", "s", any_number, "acts from this time on; default: always"), &Window::start)
-          .add(quantity("stop", "s", any_number, "acts until this time; default: always"), &Window::stop)
-          .check([](const Reading<Window>& w) {
-            if (w.given(&Window::start) && w.given(&Window::stop) && w.stop <= w.start)
-              w.refuse(&Window::stop, fmt::format("stop = {:g} s; must be later than start = {:g} s", w.stop, w.start));
-          });
-  return made;
+Fields<Window> window_fields() {
+  return Fields<Window>()
+      .add(quantity("start", "s", any_number, "acts from this time on; default: always"), &Window::start)
+      .add(quantity("stop", "s", any_number, "acts until this time; default: always"), &Window::stop)
+      .check([](const Reading<Window>& w) {
+        if (w.given(&Window::start) && w.given(&Window::stop) && w.stop <= w.start)
+          w.refuse(&Window::stop, fmt::format("stop = {:g} s; must be later than start = {:g} s", w.stop, w.start));
+      });
 }
 
 const std::vector<std::string>& any_abscissa() {

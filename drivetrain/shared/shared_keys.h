@@ -1,4 +1,4 @@
-// shared_keys.h — keys and fields that several kinds of components share.
+// shared_keys.h — keys and fields shared by several kinds of components.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ class Network;
 
 Key inertia_key(const char* fallback, const char* doc);  // required where the fallback is empty
 Key own_inertia_key();                                   // "0 kg*m2" unless given
-const Fields<Window>& window_fields();                   // start, stop
+Fields<Window> window_fields();                          // start, stop
 const std::vector<std::string>& any_abscissa();          // time, angle, speed
 
-// A torque over time, angle or speed as the element that suits it, and what is wrong with it goes to `refuse`.
+// Adds a torque over time, angle or speed as the matching element; `refuse` receives the faults of its data.
 struct TorqueCurve {
   const CurveData& data;
   double sign = 1;
@@ -28,7 +28,7 @@ struct TorqueCurve {
 void put_curve(Network& net, int node, const std::string& component, const TorqueCurve& torque,
                const std::function<void(const std::string&)>& refuse);
 
-// One shaft that passes through.
+// One continuous shaft.
 int single_shaft(const Section& section, double inertia, Network& net);
 
 }  // namespace kurbel

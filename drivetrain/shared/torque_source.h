@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "engine/elements/element.h"
@@ -71,11 +70,11 @@ struct TorqueOverAngle {
   void guard(const ShaftState<double>& x, double* g) const { PieceGuard::guard(curve, x.mode, x.angle, 1.0, g); }
   int first_mode(const ShaftState<double>& x) const { return PieceGuard::first(curve, x.angle); }
   int next_mode(const ShaftState<double>& x, int which) const { return PieceGuard::next(curve, x.mode, which); }
-  std::string mode_name(int) const { return {}; }  // a table's knots are no events worth telling
+  std::string mode_name(int) const { return {}; }  // passing a point of a table is not reported
   Rated rated() const { return {curve.max_abs(), 0}; }
 };
 
-// M = sign · f(ω): a characteristic given "graphically"; motors by table, hydraulic drives, turbines, brakes.
+// M = sign · f(ω): a tabulated characteristic of a motor, hydraulic drive, turbine or brake.
 struct TorqueOverSpeed {
   static constexpr ShaftTraits is{.guards = 2};
   Account work_account = Account::driving;

@@ -112,35 +112,32 @@ void check_slide(const Reading<SlideKeys>& s) {
 
 }  // namespace
 
-const Fields<SlideKeys>& slide_fields() {
+Fields<SlideKeys> slide_fields() {
   using Keys = SlideKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(defaulted("mass", "kg", "0 kg", not_negative, "of all that moves along: m k² on the shaft"), &Keys::mass)
-          .add(defaulted("inclination", "rad", "0 deg", {.low = -1.5707963267948968, .high = 1.5707963267948968},
-                         "of the direction of drive above the horizontal: 90 deg lifts, -90 deg presses downwards"),
-               &Keys::inclination)
-          .add(defaulted("gravity", "m/s2", "9.80665 m/s2", not_negative, "its weight is m g", "gravity"),
-               &Keys::gravity)
-          .add(defaulted("guide_friction", "", "0", {.low = 0, .high = 10},
-                         "μ of the guide under the weight: μ m g cos β against the motion; holds at standstill"),
-               &Keys::friction)
-          .add(defaulted("force", "N", "0 N", any_number, "constant resistance F₀"), &Keys::force)
-          .add(choice("acts", "against motion",
-                      "the constant force opposes motion and holds at standstill, or acts always backwards"),
-               &Keys::always_backwards, {{"against motion", false}, {"always", true}})
-          .add(defaulted("damping", "N*s/m", "0 N*s/m", not_negative, "c in c v"), &Keys::viscous)
-          .add(defaulted("quadratic", "N*s2/m2", "0 N*s2/m2", not_negative, "q in q v |v|"), &Keys::quadratic)
-          .add(curve("table", {"time", "travel"}, "N",
-                     "resisting force over time, or over the travel (return_points: on the way back)"),
-               &Keys::table)
-          .add(choice("work", "useful", "line of the energy balance of these forces"), &Keys::work,
-               {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
-          .add(defaulted("start_travel", "m", "0 m", any_number,
-                         "travel at the start; without a table over travel, where the shaft's angle is 0"),
-               &Keys::start)
-          .check(check_slide);
-  return made;
+  return Fields<Keys>()
+      .add(defaulted("mass", "kg", "0 kg", not_negative, "of all that moves along: m k² on the shaft"), &Keys::mass)
+      .add(defaulted("inclination", "rad", "0 deg", {.low = -1.5707963267948968, .high = 1.5707963267948968},
+                     "of the direction of drive above the horizontal: 90 deg lifts, -90 deg presses downwards"),
+           &Keys::inclination)
+      .add(defaulted("gravity", "m/s2", "9.80665 m/s2", not_negative, "its weight is m g", "gravity"), &Keys::gravity)
+      .add(defaulted("guide_friction", "", "0", {.low = 0, .high = 10},
+                     "μ of the guide under the weight: μ m g cos β against the motion; holds at standstill"),
+           &Keys::friction)
+      .add(defaulted("force", "N", "0 N", any_number, "constant resistance F₀"), &Keys::force)
+      .add(choice("acts", "against motion",
+                  "the constant force opposes motion and holds at standstill, or acts always backwards"),
+           &Keys::always_backwards, {{"against motion", false}, {"always", true}})
+      .add(defaulted("damping", "N*s/m", "0 N*s/m", not_negative, "c in c v"), &Keys::viscous)
+      .add(defaulted("quadratic", "N*s2/m2", "0 N*s2/m2", not_negative, "q in q v |v|"), &Keys::quadratic)
+      .add(curve("table", {"time", "travel"}, "N",
+                 "resisting force over time, or over the travel (return_points: on the way back)"),
+           &Keys::table)
+      .add(choice("work", "useful", "line of the energy balance of these forces"), &Keys::work,
+           {{"useful", Account::useful}, {"harmful", Account::harmful}, {"driving", Account::driving}})
+      .add(defaulted("start_travel", "m", "0 m", any_number,
+                     "travel at the start; without a table over travel, where the shaft's angle is 0"),
+           &Keys::start)
+      .check(check_slide);
 }
 
 void put_slide(const SlideKeys& s, const std::string& name, int node, double k, Network& net) {

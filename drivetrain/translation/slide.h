@@ -1,4 +1,4 @@
-// slide.h — what a shaft moves in a straight line: its mass, the line that it moves along, the forces on it.
+// slide.h — a slide moved in a straight line by a shaft: its mass, its direction, the forces on it.
 #pragma once
 
 #include <optional>
@@ -23,10 +23,10 @@ struct SlideKeys {
   Account work = Account::useful;
   double start = 0;  // s at the start [m]
 };
-const Fields<SlideKeys>& slide_fields();
+Fields<SlideKeys> slide_fields();
 
-// Puts mass and forces on the node, whose shaft moves the slide by so much in a radian [m/rad], and the channels that
-// tell of it: position, velocity, acceleration, force, in m, s and N.
+// Puts mass and forces on the node whose shaft moves the slide by `per_radian` [m/rad], and adds the channels position,
+// velocity, acceleration and force, in m, s and N.
 void put_slide(const SlideKeys& slide, const std::string& component, int node, double per_radian, Network& net);
 
 }  // namespace kurbel

@@ -1,7 +1,7 @@
-// slide_forces.h — forces on what a shaft moves in a straight line, as torques on that shaft.
+// slide_forces.h — forces on a slide, as torques on the shaft that moves it.
 //
 //     s = k φ,   M = k F,   J = m k²;   k [m/rad]: P/(2π) of a screw of lead P, r of a pinion or drum       (theory 7.12)
-// s counts in the direction of drive, F [N] is positive along it.
+// s and the force F [N] are positive in the direction of drive.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace kurbel {
 
-// F = −m g sin β on a line that rises at β. Gone with the effect "gravity".
+// F = −m g sin β, β: inclination of the direction of drive. Needs the effect "gravity".
 struct SlideWeight {
   static constexpr ShaftTraits is{.account = Account::weight, .other_forms = true};
   double torque_back = 0;  // k m g sin β [N·m]
@@ -27,7 +27,7 @@ struct SlideWeight {
   Rated rated() const { return {std::abs(torque_back), 0}; }
 };
 
-// F = −μ m g cos β sgn v, and holds as much at standstill. Gone with the effect "gravity".
+// F = −μ m g cos β sgn v, and the same static friction. Needs the effect "gravity".
 struct SlideFriction {
   static constexpr ShaftTraits is{.account = Account::harmful, .directional = true, .other_forms = true};
   double dry = 0;  // k μ m g cos β [N·m], ≥ 0
@@ -42,9 +42,9 @@ struct SlideFriction {
   Rated rated() const { return {dry, 0}; }
 };
 
-// F = −f(s), and on the way back −f_back(s) where that is given. What has been travelled since the start is a state of
-// its own, so that s counts every turn. At standstill it has the value of the way back and holds what the way forwards resists more: the true
-// force then lies anywhere between the branches.
+// F = −f(s), and in backward motion −f_back(s) if given. The travel since the start is an internal state, so that s
+// counts full turns. At standstill the force is that of the backward branch plus a static friction up to the difference of
+// the branches: the actual force lies between the branches.
 struct ForceOverTravel {
   static constexpr ShaftTraits is{.directional = true, .guards = 2, .states = 1};
   Account work_account = Account::useful;
@@ -80,7 +80,7 @@ struct ForceOverTravel {
   int next_mode(const ShaftState<double>& x, int which) const {
     return PieceGuard::next(branch(x.direction), x.mode, which);
   }
-  std::string mode_name(int) const { return {}; }  // a table's knots are no events worth telling
+  std::string mode_name(int) const { return {}; }  // passing a point of a table is not reported
   bool uses_time() const { return false; }
   bool uses_speed() const { return false; }
   Rated rated() const { return {per_radian * forwards.max_abs(), 0}; }

@@ -70,37 +70,33 @@ void check_screw(const Reading<ScrewKeys>& g) {
                          degrees(thread.angle), degrees(thread.friction_angle)));
 }
 
-const Fields<ScrewKeys>& screw_fields() {
+Fields<ScrewKeys> screw_fields() {
   using Keys = ScrewKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(required("lead", "m", positive, "travel of the nut in a turn: pitch times starts"), &Keys::lead)
-          .add(quantity("mean_diameter", "m", positive, "d₂; tan γ = lead/(π d₂)"), &Keys::diameter)
-          .add(defaulted("thread_angle", "rad", "30 deg", {.low = 0, .high = 2, .high_open = true},
-                         "between the flanks: 30 deg trapezoidal, 60 deg metric, 0 square"),
-               &Keys::thread_angle)
-          .add(quantity("friction_coefficient", "", {.low = 0, .high = 10},
-                        "μ of the flanks: tan ρ′ = μ/cos(thread_angle/2), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ; "
-                        "in place of efficiencies",
-                        "gear_losses"),
-               &Keys::friction)
-          .add(quantity("collar_diameter", "m", positive, "mean diameter of the thrust collar, with collar_friction",
-                        "gear_losses"),
-               &Keys::collar)
-          .add(quantity("collar_friction", "", {.low = 0, .high = 10},
-                        "μ_c of that collar: adds μ_c d_c/d₂ to tan(γ ± ρ′)", "gear_losses"),
-               &Keys::collar_friction)
-          .add(efficiency_fields(), &Keys::losses)
-          .add(inertia_key("\"0 kg*m2\"", "of the spindle"), &Keys::inertia)
-          .add(slide_fields(), &Keys::slide)
-          .check(check_screw);
-  return made;
+  return Fields<Keys>()
+      .add(required("lead", "m", positive, "travel of the nut in a turn: pitch times starts"), &Keys::lead)
+      .add(quantity("mean_diameter", "m", positive, "d₂; tan γ = lead/(π d₂)"), &Keys::diameter)
+      .add(defaulted("thread_angle", "rad", "30 deg", {.low = 0, .high = 2, .high_open = true},
+                     "between the flanks: 30 deg trapezoidal, 60 deg metric, 0 square"),
+           &Keys::thread_angle)
+      .add(quantity("friction_coefficient", "", {.low = 0, .high = 10},
+                    "μ of the flanks: tan ρ′ = μ/cos(thread_angle/2), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ; "
+                    "in place of efficiencies",
+                    "gear_losses"),
+           &Keys::friction)
+      .add(quantity("collar_diameter", "m", positive, "mean diameter of the thrust collar, with collar_friction",
+                    "gear_losses"),
+           &Keys::collar)
+      .add(quantity("collar_friction", "", {.low = 0, .high = 10}, "μ_c of that collar: adds μ_c d_c/d₂ to tan(γ ± ρ′)",
+                    "gear_losses"),
+           &Keys::collar_friction)
+      .add(efficiency_fields(), &Keys::losses)
+      .add(inertia_key("\"0 kg*m2\"", "of the spindle"), &Keys::inertia)
+      .add(slide_fields(), &Keys::slide)
+      .check(check_screw);
 }
 
-void build_screw(const Section& s, Network& net, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  const auto g = screw_fields().read(s, messages);
-  if (messages.all().size() > before) {
+void build_screw(const Section& s, const Reading<ScrewKeys>& g, Network& net) {
+  if (!g.sound()) {
     single_shaft(s, g.inertia, net);
     return;
   }
@@ -138,37 +134,32 @@ void check_wedge(const Reading<WedgeKeys>& g) {
                     degrees(plane.angle), degrees(plane.friction_angle), plane.guide > 0 ? " and that guide" : ""));
 }
 
-const Fields<WedgeKeys>& wedge_fields() {
+Fields<WedgeKeys> wedge_fields() {
   using Keys = WedgeKeys;
-  static const auto made =
-      Fields<Keys>()
-          .add(required("wedge_angle", "rad", {.low = 0, .high = 1.57, .low_open = true, .high_open = true},
-                        "γ: pushed by s, the wedge lifts the slide by s tan γ"),
-               &Keys::angle)
-          .add(required("radius", "m", positive,
-                        "of the pinion on the shaft that pushes the wedge by its rack; of a screw lead/(2 π)"),
-               &Keys::radius)
-          .add(quantity("friction_coefficient", "", {.low = 0, .high = 10},
-                        "μ of the slope: the push is V (tan(γ ± ρ) ± μ_b), ρ = atan μ", "gear_losses"),
-               &Keys::friction)
-          .add(quantity("base_friction", "", {.low = 0, .high = 10},
-                        "μ_b of the wedge on its base; default: friction_coefficient", "gear_losses"),
-               &Keys::base)
-          .add(quantity("side_friction", "", {.low = 0, .high = 10},
-                        "μ_g of the slide in its guide, which the wedge pushes it against; default: none",
-                        "gear_losses"),
-               &Keys::guide)
-          .add(inertia_key("\"0 kg*m2\"", "of the shaft with its pinion"), &Keys::inertia)
-          .add(defaulted("wedge_mass", "kg", "0 kg", not_negative, "of the wedge"), &Keys::wedge_mass)
-          .add(slide_fields(), &Keys::slide)
-          .check(check_wedge);
-  return made;
+  return Fields<Keys>()
+      .add(required("wedge_angle", "rad", {.low = 0, .high = 1.57, .low_open = true, .high_open = true},
+                    "γ: pushed by s, the wedge lifts the slide by s tan γ"),
+           &Keys::angle)
+      .add(required("radius", "m", positive,
+                    "of the pinion on the shaft that pushes the wedge by its rack; of a screw lead/(2 π)"),
+           &Keys::radius)
+      .add(quantity("friction_coefficient", "", {.low = 0, .high = 10},
+                    "μ of the slope: the push is V (tan(γ ± ρ) ± μ_b), ρ = atan μ", "gear_losses"),
+           &Keys::friction)
+      .add(quantity("base_friction", "", {.low = 0, .high = 10},
+                    "μ_b of the wedge on its base; default: friction_coefficient", "gear_losses"),
+           &Keys::base)
+      .add(quantity("side_friction", "", {.low = 0, .high = 10},
+                    "μ_g of the slide in its guide, which the wedge pushes it against; default: none", "gear_losses"),
+           &Keys::guide)
+      .add(inertia_key("\"0 kg*m2\"", "of the shaft with its pinion"), &Keys::inertia)
+      .add(defaulted("wedge_mass", "kg", "0 kg", not_negative, "of the wedge"), &Keys::wedge_mass)
+      .add(slide_fields(), &Keys::slide)
+      .check(check_wedge);
 }
 
-void build_wedge(const Section& s, Network& net, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  const auto g = wedge_fields().read(s, messages);
-  if (messages.all().size() > before) {
+void build_wedge(const Section& s, const Reading<WedgeKeys>& g, Network& net) {
+  if (!g.sound()) {
     single_shaft(s, g.inertia, net);
     return;
   }
@@ -186,17 +177,14 @@ struct RackKeys {
   SlideKeys slide;
 };
 
-const Fields<RackKeys>& rack_fields() {
-  static const auto made =
-      Fields<RackKeys>()
-          .add(required("radius", "m", positive, "of the pinion, chain wheel or drum: s = r φ"), &RackKeys::radius)
-          .add(own_inertia_key(), &RackKeys::inertia)
-          .add(slide_fields(), &RackKeys::slide);
-  return made;
+Fields<RackKeys> rack_fields() {
+  return Fields<RackKeys>()
+      .add(required("radius", "m", positive, "of the pinion, chain wheel or drum: s = r φ"), &RackKeys::radius)
+      .add(own_inertia_key(), &RackKeys::inertia)
+      .add(slide_fields(), &RackKeys::slide);
 }
 
-void build_rack(const Section& s, Network& net, Messages& messages) {
-  const auto g = rack_fields().read(s, messages);
+void build_rack(const Section& s, const Reading<RackKeys>& g, Network& net) {
   put_slide(g.slide, s.name, single_shaft(s, g.inertia, net), g.radius, net);
 }
 
@@ -204,18 +192,16 @@ void build_rack(const Section& s, Network& net, Messages& messages) {
 
 std::vector<Kind> translation_kinds() {
   return {
-      on_a_shaft(
-          "screw",
+      kind_of<screw_fields, build_screw>(
+          on_a_shaft, "screw",
           "spindle and nut (jack, spindle press, lead screw): turns into travel, with the friction of thread and "
-          "collar; mass and forces of what the nut moves",
-          screw_fields().keys(), build_screw),
-      on_a_shaft(
-          "wedge",
+          "collar; mass and forces of what the nut moves"),
+      kind_of<wedge_fields, build_wedge>(
+          on_a_shaft, "wedge",
           "a wedge that a pinion pushes under a slide: friction on slope, base and guide; mass and forces of the "
-          "slide",
-          wedge_fields().keys(), build_wedge),
-      on_a_shaft("slide", "a body on a line, level or inclined, that a pinion, chain or drum moves",
-                 rack_fields().keys(), build_rack),
+          "slide"),
+      kind_of<rack_fields, build_rack>(on_a_shaft, "slide",
+                                       "a body on a line, level or inclined, that a pinion, chain or drum moves"),
   };
 }
 

@@ -1,4 +1,4 @@
-// enumerators.h — enumerators by their names, as they stand in the source: nobody writes them a second time.
+// enumerators.h — names of enumerators as texts, taken from the source.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace kurbel {
 namespace enumerators_detail {
 
-// "at_rest" of Orbit::Kind::at_rest, as characters that end in a zero, with what stands for its underscores.
+// "at_rest" of Orbit::Kind::at_rest, zero-terminated, with `underscore` in place of its underscores.
 template <auto value, char underscore>
 constexpr auto text() {
   constexpr std::string_view told = __PRETTY_FUNCTION__;  // "… [with auto value = kurbel::Method::bdf; char …]"
@@ -31,7 +31,7 @@ inline constexpr auto names = []<std::size_t... k>(std::index_sequence<k...>) {
 
 }  // namespace enumerators_detail
 
-// Of an enum whose enumerators count from 0 to `last`: "at_rest", and in words "at rest".
+// For an enum with enumerators from 0 to `last`: "at_rest", and in words "at rest".
 template <auto last>
 constexpr const char* enumerator_name(decltype(last) value) {
   return enumerators_detail::names<last, '_'>[static_cast<std::size_t>(value)];

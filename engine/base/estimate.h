@@ -1,13 +1,13 @@
-// estimate.h — a number with its error, the one form of a value that is stated with ±.
+// estimate.h — a number with its error, the type of all values stated with ±.
 //
-// Both are in SI. The unit stands where the number is named (a figure, a column, a key): within the program nothing is
-// converted, and a vector of estimates has one unit.
+// Both are in SI. The unit is stated where the number is named (a figure, a column, a key); nothing is converted within the
+// program, and a vector of estimates has one unit.
 //
-// Errors are bounds: sums add them, a factor scales them, products and quotients carry them to first order,
+// Errors are bounds: sums add them, a factor scales them, products and quotients propagate them to first order,
 //
 //     Δ(a ± b) = Δa + Δb,   Δ(k a) = |k| Δa,   Δ(a b) = |b| Δa + |a| Δb,   Δ(a/b) = (Δa + |a/b| Δb)/|b|,   Δf(a) = |f′| Δa
 //
-// and what is made of an unknown error has an unknown error. Plain numbers are exact.
+// and the result of an unknown error has an unknown error. Plain numbers are exact.
 #pragma once
 
 #include <algorithm>
@@ -20,18 +20,18 @@ struct Estimate {
   double value = 0;
   std::optional<double> error = {};  // ≥ 0, of the value; empty: unknown
 
-  // Adds a contribution to the error; an unknown error begins with it.
+  // Adds a contribution to the error; an unknown error counts as 0.
   void widen(double by) { error = error.value_or(0) + by; }
-  // By `times` the difference to the same quantity of another run or extraction.
+  // Adds `times` the difference from the same quantity of another run or extraction.
   void widen_to(const Estimate& other, double times = 1) { widen(times * std::abs(value - other.value)); }
 };
 
-// Of a quantity found by two runs or extractions: the finer one's value, with their difference and `rounding` as its error.
+// A quantity from two runs or extractions: the value of the finer one; error: their difference plus `rounding`.
 inline Estimate estimate_from(double fine, double loose, double rounding = 0) {
   return {fine, std::abs(fine - loose) + rounding};
 }
 
-// The larger error of two that are stated as one; unknown where either is.
+// The larger error of two values stated as one; unknown if one of them is.
 inline std::optional<double> larger_error(const Estimate& a, const Estimate& b) {
   return a.error && b.error ? std::optional(std::max(*a.error, *b.error)) : std::nullopt;
 }
@@ -46,7 +46,7 @@ inline std::optional<double> linear(double of_a, const Estimate& a) {
 }
 }  // namespace estimate
 
-// f(a), by its value there and its derivative.
+// f(a), by its value and derivative at a.
 inline Estimate function_of(const Estimate& a, double value, double slope) {
   return {value, estimate::linear(slope, a)};
 }

@@ -1,4 +1,4 @@
-// gauss.h — quadrature by Gauss and Legendre: nodes and weights by their number.
+// gauss.h — Gauss–Legendre quadrature: nodes and weights of the rule with n nodes.
 //
 //     ∫f dx ≈ Σ w_i f(x_i),   P_n(x_i) = 0,   w_i = 2/((1 − x_i²) P′_n(x_i)²)      exact up to degree 2n − 1
 //

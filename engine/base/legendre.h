@@ -1,4 +1,4 @@
-// legendre.h — polynomials on [−1, 1] as sums of Legendre's: coefficients from values at Gauss's nodes, sums, integrals.
+// legendre.h — polynomials on [−1, 1] as Legendre series: coefficients from values at Gauss nodes, values, integrals.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// any_connection.h — a connection of any type, as a network holds it: what a model needs to know of it, as data computed
-// once from its traits, and the few laws that it is asked for outside of its pool.
+// any_connection.h — type-erased connection of a network: the data that a model needs, computed once from its traits, and
+// the laws that are evaluated outside its pool.
 #pragma once
 
 #include <memory>
@@ -16,21 +16,20 @@ namespace kurbel {
 
 struct SpringRow;
 
-// Never changes after it is made: networks that are compiled several times share it.
+// Immutable; shared by networks that are compiled several times.
 class AnyConnection {
  public:
   virtual ~AnyConnection() = default;
 
-  // --- facts; of a specification only `is`, the others once it is settled ---
+  // --- data; a specification has only `is`, the others once it is settled ---
   ConnectionTraits is;
   double stiffness = 0;            // at rest [N·m/rad]; 0 without a spring
-  double damping = 0;              // dτ/dθ̇ at rest [N·m·s/rad]; 0 where it slips or has states
-  double capacity = 0;             // of one that slips [N·m]
-  bool knows_torque_rate = false;  // the torque hangs on the twist and its mode alone
+  double damping = 0;              // dτ/dθ̇ at rest [N·m·s/rad]; 0 if it slips or has states
+  double capacity = 0;             // of a slipping connection [N·m]
+  bool knows_torque_rate = false;  // the torque depends only on twist and mode
   std::vector<OwnState> own_states = {};
-  std::shared_ptr<const SpringRow> row =
-      {};            // of springs in a row that hang on each other (coupled_springs.h), else null
-  int row_part = 0;  // which of them
+  std::shared_ptr<const SpringRow> row = {};  // of coupled springs in a row (coupled_springs.h), else null
+  int row_part = 0;                           // index in the row
 
   // --- laws ---
   virtual double twist_at(double torque, double turn = 0) const = 0;                     // 0 without a spring
@@ -38,15 +37,15 @@ class AnyConnection {
   virtual double rest_twist(double turn) const = 0;                                      // unloaded at φ_a,
   virtual double rest_ratio(double turn) const = 0;                                      // and i ω_b/ω_a
   virtual double rest_ratio_slope(double turn) const = 0;                                // by φ_a
-  virtual double share_of_a(double torque, double turn) const = 0;                       // on a over τ, at rest
-  virtual std::string describe() const = 0;                                              // empty: nothing to say
+  virtual double share_of_a(double torque, double turn) const = 0;                       // torque on a over τ, at rest
+  virtual std::string describe() const = 0;                                              // may be empty
   virtual ConnectionForm settled(double inertia) const = 0;                              // J_red [kg·m²]
-  virtual bool damping_hangs_on_inertia() const = 0;  // of a specification: settled(0) has no damping, and should
+  virtual bool damping_hangs_on_inertia() const = 0;            // of a specification: settled(0) would lack the damping
   virtual ConnectionForm form_under(const Effects&) const = 0;  // null: this one
   virtual void place(PoolSet&, const ConnectionPorts&, const ConnectionExtras&) const = 0;
 };
 
-// Lists what an element says about its own states.
+// List of the internal states of an element.
 template <class E>
 std::vector<OwnState> own_states_of(const E& element) {
   std::vector<OwnState> states;
@@ -55,7 +54,7 @@ std::vector<OwnState> own_states_of(const E& element) {
   return states;
 }
 
-// Of an element that is final, or of a specification that becomes one when the inertias are known.
+// For a final element, or a specification that becomes one when the inertias are known.
 template <class E, class Given = E>
 class ConnectionOf final : public AnyConnection {
   static_assert(demand_sound_connection<E>());

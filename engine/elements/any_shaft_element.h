@@ -1,5 +1,5 @@
-// any_shaft_element.h — a shaft element of any type, as a network holds it: what a model needs to know of it, as data
-// computed once from its traits.
+// any_shaft_element.h — type-erased shaft element of a network: the data that a model needs, computed once from its
+// traits.
 #pragma once
 
 #include <cmath>
@@ -15,26 +15,25 @@
 
 namespace kurbel {
 
-// Never changes after it is made. Mechanisms have forms of their own (mechanisms/reduced).
+// Immutable. Mechanisms have their own classes (mechanisms/reduced).
 class AnyShaftElement {
  public:
   virtual ~AnyShaftElement() = default;
 
-  // --- facts ---
+  // --- data ---
   ShaftTraits is;
   Account account = Account::harmful;  // of its own work
   Rated rated = {};
-  bool uses_time = true, uses_speed = true;    // its torque does
-  double angle_period = 2 * std::numbers::pi;  // its torque repeats after this angle of its own shaft [rad]
-  double time_period = 0;                      // its law over time repeats after this [s]; 0: it does not
-  double settled_from =
-      -HUGE_VAL;  // a law over time without a period holds still from here on, or so long after it went on [s]
-  bool opens_at_zero = false;  // told 0 it is off
+  bool uses_time = true, uses_speed = true;    // dependence of its torque
+  double angle_period = 2 * std::numbers::pi;  // period of its torque over the angle of its own shaft [rad]
+  double time_period = 0;                      // period of its law over time [s]; 0: not periodic
+  double settled_from = -HUGE_VAL;  // time from which a law without period is constant, or time after switching on [s]
+  bool opens_at_zero = false;       // command 0 switches it off
   std::vector<OwnState> own_states = {};
-  int modes = 1;                               // slots for them
+  int modes = 1;                               // number of mode slots
   double mean_inertia = 0, least_inertia = 0;  // of a mechanism over a turn, on its own shaft [kg·m²]
-  double cycle = 0;                            // angle of one cycle of a mechanism [rad]; 0: it is none, ∞: it rocks
-  // Work accounts beyond its own ("press.load"); the pool uses the indices that follow.
+  double cycle = 0;  // angle of a cycle of a mechanism [rad]; 0: no mechanism, ∞: its crank rocks
+  // Work accounts in addition to its own ("press.load"); the pool uses the subsequent indices.
   std::vector<std::pair<std::string, Account>> further_accounts = {};
 
   // --- laws ---
@@ -43,7 +42,7 @@ class AnyShaftElement {
     double value = 0, slope = 0;
   };
   virtual InertiaAt inertia_at(double /*angle*/) const { return {}; }
-  virtual std::string describe() const = 0;                // empty: nothing to say
+  virtual std::string describe() const = 0;                // may be empty
   virtual ShaftForm form_under(const Effects&) const = 0;  // null: this one
   virtual void place(PoolSet&, const ShaftPorts&, const ShaftElementLabel&) const = 0;
 };

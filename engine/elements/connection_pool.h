@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -15,7 +14,7 @@
 
 namespace kurbel {
 
-// Where a connection stands.
+// Indices of a connection in the model.
 struct ConnectionPorts {
   int id = 0;  // index of the twist
   int shaft_a = 0, shaft_b = 0;
@@ -23,10 +22,10 @@ struct ConnectionPorts {
   int loss_account = 0;
 };
 
-// What only some connections need: modes, states of their own, a command, the angle of a.
+// Indices needed by some connections only: modes, internal states, a command, the angle of a.
 struct ConnectionExtras {
   int mode = 0;
-  int own = 0;       // first of its own states
+  int own = 0;       // first of its internal states
   int command = -1;  // −1: none
   int angle = -1;    // tracked angle of a
   std::string component = {};
@@ -41,7 +40,7 @@ class ConnectionPool final : public ElementPool {
   using Extras = std::conditional_t<needs_extras, ConnectionExtras, Nothing>;
 
  public:
-  // Long chains are bound by memory: what every step needs stands close together, Jacobian slots apart.
+  // Long chains are limited by memory bandwidth: data of every step are contiguous, Jacobian slots are separate.
   struct Placed {
     E element;
     ConnectionPorts at;
@@ -173,7 +172,7 @@ class ConnectionPool final : public ElementPool {
   }
 
  private:
-  // θ, θ̇, own states, the angle, the speed of a.
+  // Derivatives by θ, θ̇, internal states, the angle, the speed of a.
   static constexpr int derivatives = 2 + own_states + (UsesAngle<E> ? 1 : 0) + (UsesSpeeds<E> ? 1 : 0);
   using Number = Dual<derivatives>;
   // A connection's motion with unit derivatives.
@@ -191,7 +190,7 @@ class ConnectionPool final : public ElementPool {
     std::array<Number, own_states + 1> own;
     Twist<Number> dual;
   };
-  // The columns: θ, ω_a, ω_b, own states, the angle.
+  // Columns: θ, ω_a, ω_b, internal states, the angle.
   static constexpr std::size_t inputs = 3 + own_states + (UsesAngle<E> ? 1 : 0);
   struct Slots {
     std::array<int, inputs> a, b;

@@ -1,4 +1,4 @@
-// coupled_springs.cpp — torques, derivatives and energy of springs in a row that hang on each other.
+// coupled_springs.cpp — torques, derivatives and energy of coupled springs in a row.
 #include "engine/elements/coupled_springs.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ void SpringRowPool::place(const std::shared_ptr<const SpringRow>& law, int part,
 
 template <class Do>
 void SpringRowPool::for_parts(const Placed& row, const Instant& now, Do&& action) {
-  // Twists of a row stand side by side in the state.
+  // Twists of a row are contiguous in the state.
   const double* const twist = now.twist + row.at.front().id;
   const std::size_t n = row.at.size();
   constexpr std::size_t most = 32;

@@ -1,7 +1,7 @@
-// coupled_springs.h — connections in a row whose torques hang on the twists of all of them: the parts of a shaft that is
+// coupled_springs.h — connections in a row whose torques depend on the twists of all of them: the parts of a shaft that is
 // one spectral element.
 //     τ_k = Σ_l S_kl (θ_l + T θ̇_l),   E = ½ θᵀ S θ
-// Where all carry the same torque τ at rest, each is a spring of its own: θ_k = τ/k_k.
+// If all carry the same torque τ at rest, each acts as a separate spring: θ_k = τ/k_k.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace kurbel {
 
-// The law of a row; never changes.
+// The law of a row; immutable.
 struct SpringRow {
   int size = 1;
   std::vector<double> stiffness;   // S, by rows [N·m/rad]
@@ -30,7 +30,7 @@ struct SpringRow {
   }
 };
 
-// All rows of a model. The parts of a row come one after the other.
+// All rows of a model. The parts of a row are consecutive.
 class SpringRowPool final : public ElementPool {
  public:
   void place(const std::shared_ptr<const SpringRow>& law, int part, const ConnectionPorts& ports);
@@ -55,8 +55,8 @@ class SpringRowPool final : public ElementPool {
   std::vector<Placed> rows_;
 };
 
-// One part of a row, as a network holds it. `whole` is the shaft as one spring between its ends, share[k] how much of its
-// compliance is that of part k, stiffness and compliance those of a whole of 1 N·m/rad.
+// One part of a row, for a network. `whole`: the shaft as one spring between its ends; share[k]: the part of its compliance
+// in part k; stiffness, compliance: the matrices for a whole of 1 N·m/rad.
 ConnectionForm spring_row_part(ConnectionForm whole, int part, std::vector<double> share, std::vector<double> stiffness,
                                std::vector<double> compliance);
 

@@ -1,5 +1,5 @@
-// element_pool.h — what a pool of elements is to the equations: one loop behind one virtual call. No element, no pool,
-// no cost. Pools of connections and of shaft elements: connection_pool.h, shaft_pool.h.
+// element_pool.h — interface of a pool of elements to the equations: one loop behind one virtual call. Without elements
+// there is no pool and no cost. Pools of connections and of shaft elements: connection_pool.h, shaft_pool.h.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace kurbel {
 
-// Where the machine is. Arrays belong to the equations.
+// State of the machine at an instant. The equations own the arrays.
 struct Instant {
   double t = 0;
   const double* angle = nullptr;     // per tracked angle
@@ -23,27 +23,27 @@ struct Instant {
   const int* mode = nullptr;         // per element
   const int* direction = nullptr;    // per shaft
   const char* active = nullptr;      // per element: within its window of time
-  const int* slip = nullptr;         // per elastic connection: sense of slip, 0 = stuck
+  const int* slip = nullptr;         // per elastic connection: sign of the slip speed, 0 = stuck
   const double* command = nullptr;   // per command of the operating sequence
-  const double* own = nullptr;       // the elements' own states
-  const double* on_since = nullptr;  // per element: it went on last [s]
+  const double* own = nullptr;       // internal states of the elements
+  const double* on_since = nullptr;  // per element: time of the last switching on [s]
 };
 
-// What the elements do to the machine at that instant.
+// Sums over the elements at that instant.
 struct Sums {
   double* torque = nullptr;             // per shaft: sum of torques
   double* inertia = nullptr;            // per shaft: variable inertias are added to the constant ones
   double* twist_rate = nullptr;         // per elastic connection
   double* connection_torque = nullptr;  // per elastic connection: transmitted torque k θ + c θ̇
-  double* spring_torque = nullptr;      // per elastic connection: spring torque k θ; only when work_rate is wanted
+  double* spring_torque = nullptr;      // per elastic connection: spring torque k θ; only with work_rate
   double* element_torque = nullptr;     // per shaft element
   double* element_inertia = nullptr;    // per shaft element: its variable inertia
-  double* work_rate = nullptr;          // per work account, or null where nobody asks
-  double* own_rate = nullptr;           // per own state: its derivative
-  double* turning_torque = nullptr;     // per elastic connection: further torque on a, of those that use the angle
+  double* work_rate = nullptr;          // per work account; null: not needed
+  double* own_rate = nullptr;           // per internal state: its derivative
+  double* turning_torque = nullptr;     // per elastic connection that uses the angle: additional torque on a
 };
 
-// Registers the places of a sparse Jacobian; a column or row of −1 is a motion that is no state.
+// Registers the entries of a sparse Jacobian; column or row −1: not a state.
 class JacobianPattern {
  public:
   virtual ~JacobianPattern() = default;
@@ -51,21 +51,21 @@ class JacobianPattern {
   virtual int angle(int tracked) const = 0;    // state indices
   virtual int twist(int connection) const = 0;
   virtual int speed(int shaft) const = 0;  // −1: prescribed
-  virtual int own(int slot) const = 0;     // an element's own state
-  // The rate in this row moves with the acceleration of a shaft, too: slot for ∂rate/∂alpha.
+  virtual int own(int slot) const = 0;     // internal state of an element
+  // The rate in this row also depends on the acceleration of a shaft: slot for ∂rate/∂alpha.
   virtual int follower(int row, int shaft) = 0;
 };
 
-// Everything that can be asked of the machine at one instant. Pointers are valid until the next evaluation.
+// All quantities of the machine at one instant. Pointers are valid until the next evaluation.
 struct Snapshot {
   Instant now;
   Sums sums;
   const double* alpha;            // per shaft [rad/s²]
-  const double* joint_torque;     // per joint of the network: torque that it transmits [N·m]
-  const double* reaction;         // per node whose motion is prescribed: torque that this takes [N·m]
+  const double* joint_torque;     // per joint of the network: transmitted torque [N·m]
+  const double* reaction;         // per node with prescribed motion: the torque for it [N·m]
   const double* relation_torque;  // per relation: torque λ that it takes from its first node [N·m]
-  const double* relation_loss;    // per relation: what of it is lost [N·m]
-  const double* node_angle;       // per node, turns counted [rad]
+  const double* relation_loss;    // per relation: the lost part of it [N·m]
+  const double* node_angle;       // per node, including full turns [rad]
   const double* quadrature;       // null without an audit
 };
 
@@ -76,7 +76,7 @@ struct Channel {
   std::function<double(const Snapshot&)> value;
 };
 
-// Torques that depend on the accelerations: added to what the elements do without them.
+// Torques that depend on the accelerations, added to the sums.
 struct Reactions {
   double* torque;          // per shaft [N·m]
   double* slope;           // per shaft: −∂torque/∂alpha, counts as inertia [kg·m²]
@@ -84,9 +84,9 @@ struct Reactions {
   double* work_rate;       // per work account, or null
 };
 
-// How the torque τ that a connection transmits changes with what it reads.
+// Derivative of the transmitted torque τ of a connection by one of its inputs.
 struct TorqueSlope {
-  enum class By { twist, rate, own, angle, speed_of_a };  // θ, θ̇, own state `index`, tracked angle `index`, gain_a ω_a
+  enum class By { twist, rate, own, angle, speed_of_a };  // θ, θ̇, state or tracked angle `index`, gain_a ω_a
   int connection = 0;
   By by = By::twist;
   int index = -1;
@@ -94,7 +94,7 @@ struct TorqueSlope {
 };
 
 struct GuardLabel {
-  std::string component, what;  // what happens when it fires
+  std::string component, what;  // description of the event
   EventKind kind = EventKind::law;
 };
 
@@ -106,13 +106,13 @@ class ElementPool {
   // Adds ∂(sum of torques − inertia · alpha)/∂(state) to the slots, at the accelerations alpha per shaft.
   virtual void add_jacobian(const Instant& now, const double* alpha, double* slots) const = 0;
 
-  // Those of all connections in motion; one that sticks has none.
+  // For all connections that do not stick.
   virtual void add_torque_slopes(const Instant&, std::vector<TorqueSlope>&) const {}
 
-  // Joint friction and the like: torques at the accelerations alpha per shaft; the equations find both together.
+  // Torques that depend on the accelerations alpha per shaft, such as joint friction; the equations solve for both.
   virtual bool reacts() const { return false; }
-  // Where that takes a search, what it found may be kept from one alpha to the next at the same instant: memory of
-  // whoever computes, one per pool. begin(): another instant.
+  // Results of an iteration that are kept from one alpha to the next at the same instant: memory of the caller, one per
+  // pool. begin(): a new instant.
   class Memory {
    public:
     virtual ~Memory() = default;
@@ -121,43 +121,43 @@ class ElementPool {
   virtual std::unique_ptr<Memory> make_memory() const { return nullptr; }
   virtual void add_reactions(const Instant&, const double* /*alpha*/, Reactions&, Memory*) const {}
 
-  // Further degrees of freedom, coupled to a shaft by inertia: add() gives the shaft what is left of inertia and torque
-  // when they follow freely, and their own rates come from the acceleration that the shaft then has (per shaft).
+  // Additional degrees of freedom, coupled to a shaft by inertia: add() gives the shaft the effective inertia and torque,
+  // follow() their rates from the acceleration of the shaft (per shaft).
   virtual bool follows() const { return false; }
   virtual void follow(const Instant&, const double* /*alpha*/, double* /*own_rate*/) const {}
   // Kinetic energy beyond ½ (variable inertia) ω².
   virtual double further_kinetic_energy(const Instant&) const { return 0; }
-  // Own states at rest relative to the shaft under what acts, where the machine starts in equilibrium.
+  // Internal states in equilibrium relative to the shaft, for starts in equilibrium.
   virtual void balance(const Instant&, const double* /*alpha*/, double* /*own*/) const {}
 
   virtual int guard_count() const { return 0; }
-  // Every law of the pool changes at fixed angles of its shaft alone, for either direction: load edges.
+  // All laws of the pool change only at fixed angles of their shaft, in both directions: load edges.
   virtual bool guards_are_of_angle() const { return guard_count() == 0; }
   // Positive while the present modes hold, of order one.
   virtual void guards(const Instant&, double*) const {}
   virtual void fire(const Instant&, int /*guard*/, int* /*mode*/) const {}
-  // Names the mode that holds, or the edge that was just passed.
+  // Names the present mode, or the edge just passed.
   virtual GuardLabel label(int /*guard*/, const Instant&) const { return {}; }
   virtual void first_modes(const Instant&, int* /*mode*/) const {}
-  // Modes that hang on the sense of motion, after that has changed.
+  // Updates the modes that depend on the direction of motion after a change.
   virtual void follow_directions(const Instant&, int* /*mode*/) const {}
-  // Gives the element of this guard its law without events; false where it has none.
+  // Gives the element of this guard its law without events; false: it has none.
   virtual bool regularise(int /*guard*/, int* /*mode*/) const { return false; }
   virtual void first_states(const Instant&, double* /*own*/) const {}
-  // States of the elements whose `active` is no longer what it was before.
+  // Updates the states of the elements whose `active` has changed.
   virtual void switched(const Instant&, const char* /*before*/, double* /*own*/) const {}
-  // Modes of those that went on and start anew.
+  // Sets the modes of elements that were switched on and repeat their start.
   virtual void start_anew(const Instant&, const char* /*before*/, int* /*mode*/) const {}
-  // Torques at standstill: what the opposing elements of each shaft can hold.
+  // Ranges of torque at standstill of the opposing elements of each shaft.
   virtual void add_holds(const Instant&, Hold* /*per shaft*/, Hold* /*per element*/) const {}
-  // What the slipping connections can carry without slipping, and what they carry while they slip.
+  // Ranges of torque that the slipping connections transmit without slip.
   virtual void add_slip_holds(const Instant&, Hold* /*per elastic connection*/) const {}
-  // Edges at known times.
+  // Changes of laws at known times.
   virtual double next_edge(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
   virtual void set_timed_modes(double /*t*/, int* /*mode*/, char* /*active*/) const {}
   // Energy stored in the elements.
   virtual double energy(const Instant&) const { return 0; }
-  // Kinetic energy of the variable inertias, found in another way than from I_r: a check of the reduction.
+  // Kinetic energy of the variable inertias, computed without I_r: a check of the reduction.
   virtual double kinetic_energy_of_bodies(const Instant&) const { return 0; }
   virtual void add_channels(std::vector<Channel>&) const {}
 };

@@ -1,4 +1,4 @@
-// event_kind.h — what kinds of things happen in a run, for programs; words are for people.
+// event_kind.h — kinds of events of a run, for programs; the texts are for users.
 #pragma once
 
 #include "engine/base/enumerators.h"
@@ -6,20 +6,20 @@
 namespace kurbel {
 
 enum class EventKind {
-  law,        // an element's law changes its piece
-  load_edge,  // of those, a load's over the stroke or the angle
-  flight,     // of those, joints with clearance: apart …
+  law,        // the law of an element changes to another piece
+  load_edge,  // the same, for a load over the stroke or the angle
+  flight,     // the same, for joints with clearance: apart …
   touch,      // … and in contact
   impact,     // contact after flight
   rest,       // a shaft comes to rest and is held
   held,       // a gear is held by its own losses
-  motion,     // it moves on
+  motion,     // it moves again
   lock,       // a clutch locks
   slip,       // it slips
-  shares,     // who holds how much
-  command,    // the operating sequence sets something
-  window,     // something goes on or off at a time
-  jam,        // friction stops a motion that has no way on
+  shares,     // shares of the elements in a holding torque
+  command,    // the operating sequence sets a command
+  window,     // an element is switched on or off at a time
+  jam,        // friction stops a motion that cannot continue
   note        // about the run itself
 };
 

@@ -1,10 +1,10 @@
-// gear_loss.h — the law of what a gear loses, by the direction of power.
+// gear_loss.h — law of the losses of a gear by direction of power.
 #pragma once
 
 namespace kurbel {
 
-// What a gear loses: a torque L on its driving side against its motion, proportional to the torque λ that it takes up
-// there, L = slope λ + offset, by the sense of motion and the sign of λ. At standstill anything between holds.
+// Losses of a gear: a torque L on its driving side against its motion, linear in the torque λ taken there,
+// L = slope λ + offset, by the direction of motion and the sign of λ. At standstill any value between them is possible.
 struct GearLoss {
   struct Line {
     double slope = 0, offset = 0;  // 1, [N·m]

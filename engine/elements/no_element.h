@@ -1,4 +1,4 @@
-// no_element.h — what a shaft element becomes that is gone without its effect: compile leaves it out.
+// no_element.h — placeholder for a shaft element that is absent without its effect; compile() omits it.
 #pragma once
 
 #include "engine/elements/any_shaft_element.h"
@@ -16,7 +16,7 @@ struct NoElement {
   Rated rated() const { return {}; }
 };
 
-// One that stands for every element left out.
+// One shared instance for all omitted elements.
 inline ShaftForm no_element() {
   static const ShaftForm one = shaft_form(NoElement{});
   return one;

@@ -1,4 +1,4 @@
-// piece_guard.h — which piece of a curve is in force, as guards and modes: for laws given by points.
+// piece_guard.h — guards and modes for the active piece of a curve: for laws given by points.
 #pragma once
 
 #include <algorithm>
@@ -8,16 +8,16 @@
 
 namespace kurbel {
 
-// Guards of a law given by a curve over a quantity q: positive while q lies in the piece that is the mode.
+// Guards of a law given by a curve over a quantity q: positive while q lies in the piece given by the mode.
 struct PieceGuard {
-  // q brought near the piece by whole periods.
+  // q shifted by whole periods to lie near the piece.
   static double near_piece(const Curve& curve, int piece, double q) {
     if (curve.period() == 0) return q;
     const double middle = 0.5 * (curve.piece_begin(piece) + curve.piece_end(piece));
     return q - curve.period() * std::round((q - middle) / curve.period());
   }
   static void guard(const Curve& curve, int piece, double q, double scale, double* g) {
-    if (curve.period() > 0 && piece + 1 >= static_cast<int>(curve.x().size())) {  // of a curve with more pieces
+    if (curve.period() > 0 && piece + 1 >= static_cast<int>(curve.x().size())) {  // piece of a curve with more pieces
       g[0] = g[1] = -1;
       return;
     }
@@ -34,9 +34,9 @@ struct PieceGuard {
   static int first(const Curve& curve, double q) { return curve.piece(q); }
 };
 
-// The same of a law over time, whose edges are known beforehand.
+// The same for a law over time, whose edges are known beforehand.
 struct TimedPiece {
-  // A time this close before a knot is on it: k · period rounds to either side.
+  // A time so close before a knot counts as on it, because of rounding in k · period.
   static double slack(const Curve& curve, double t) {
     return 1e-12 * (curve.x().back() - curve.x().front()) + 1e-15 * std::abs(t);
   }
@@ -45,9 +45,9 @@ struct TimedPiece {
     const double here = t + slack(curve, t), past = here - curve.within(here);  // whole periods
     return past + curve.piece_end(at(curve, t));
   }
-  // t near the piece in force, so that a period's end does not jump within a step.
+  // t shifted near the active piece, so that there is no jump at the end of a period within a step.
   static double near(const Curve& curve, int piece, double t) { return PieceGuard::near_piece(curve, piece, t); }
-  // When it holds still.
+  // Time from which the law is constant.
   static double settled_from(const Curve& curve) { return curve.period() > 0 ? -HUGE_VAL : curve.x().back(); }
 };
 

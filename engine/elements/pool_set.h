@@ -12,7 +12,7 @@
 
 namespace kurbel {
 
-// The pools of a model, one per type of element, made when its first element comes.
+// The pools of a model, one per type of element, made with the first element of the type.
 class PoolSet {
  public:
   template <class Pool>

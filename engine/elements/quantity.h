@@ -1,7 +1,7 @@
-// quantity.h — what channels and figures tell of, functional ∘ channel ∘ window, and the names that are made of it.
+// quantity.h — quantities of channels and figures, functional ∘ channel ∘ window, and the names made of them.
 //
-// A name is "what.whose", as peak_torque.main_coupling. Programs that look for one ask for the quantity and its owner;
-// no name is ever taken apart.
+// A name is "what.whose", such as peak_torque.main_coupling. Programs search by quantity and owner; names are never
+// parsed.
 #pragma once
 
 #include <algorithm>
@@ -13,26 +13,26 @@
 
 namespace kurbel {
 
-// What is made of a channel.
+// Functional of a channel.
 enum class Functional {
-  none,        // the channel itself, or a figure whose word says all
+  none,        // the channel itself, or a figure defined by its word
   peak,        // its value of greatest magnitude, with its sign
   greatest,    // its largest value
   least,       // its smallest
-  mid,         // the middle of those two
+  mid,         // midpoint of these two
   mean,        // over time
   rms,         // root of the mean square over time
   last,        // at the end
-  order,       // amplitude of what swings so many times in a turn of the reduction link
-  order_phase  // and its phase there
+  order,       // amplitude of the harmonic with this number of periods per turn of the reduction link
+  order_phase  // its phase
 };
 
-// What a name begins with for it.
+// Prefix of the name.
 inline const char* prefix_of(Functional functional) {
   constexpr const char* prefixes[] = {"", "peak_", "max_", "min_", "mid_", "mean_", "rms_", "final_", "", ""};
   return prefixes[static_cast<std::size_t>(functional)];
 }
-// And what its quantity ends with; behind it stands which order: "torque_order.0.5.main_coupling".
+// Suffix of the quantity; it is followed by the order: "torque_order.0.5.main_coupling".
 inline const char* suffix_of(Functional functional) {
   return functional == Functional::order ? "_order" : functional == Functional::order_phase ? "_order_phase" : "";
 }
@@ -41,21 +41,21 @@ struct QuantityKind {
   enum class Window {
     moment,       // a channel
     run,          // from the start of a run to its end
-    cycle,        // the steady one, or a run's last whole one before it runs down
-    steady_cycle  // the steady one, of what is told of a whole run, too
+    cycle,        // the steady cycle, or the last whole cycle of a run before it runs down
+    steady_cycle  // the steady cycle, for quantities that also exist for a whole run
   };
-  std::string_view channel = {};  // "torque"; empty: an element's own, which its name's text has
+  std::string_view channel = {};  // "torque"; empty: an element's own, named in the text of the name
   Functional functional = Functional::none;
   Window window = Window::moment;
 
   friend constexpr bool operator==(const QuantityKind&, const QuantityKind&) = default;
 };
 
-// All of them that programs look for, each once; all others are told under words of their own.
+// All quantities that programs search for; others have their own words.
 namespace quantities {
 using enum Functional;
 using enum QuantityKind::Window;
-inline constexpr QuantityKind other{};  // an element's own state or output
+inline constexpr QuantityKind other{};  // an internal state or output of an element
 // channels
 inline constexpr QuantityKind angle{"angle"};
 inline constexpr QuantityKind speed{"speed"};
@@ -101,8 +101,8 @@ inline constexpr QuantityKind mean_drive_torque{"drive_torque", mean, cycle};
 inline constexpr QuantityKind rms_drive_torque{"drive_torque", rms, cycle};
 inline constexpr QuantityKind mid_speed{"speed", mid, cycle};
 inline constexpr QuantityKind mean_speed{"speed", mean, cycle};
-inline constexpr QuantityKind delta{"delta", none, cycle};                          // of motion that repeats
-inline constexpr QuantityKind cycle_fluctuation{"cycle_fluctuation", none, cycle};  // the same of motion that does not
+inline constexpr QuantityKind delta{"delta", none, cycle};                          // of periodic motion
+inline constexpr QuantityKind cycle_fluctuation{"cycle_fluctuation", none, cycle};  // the same for non-periodic motion
 inline constexpr QuantityKind cycle_time{"cycle_time", none, cycle};
 inline constexpr QuantityKind period{"period", none, cycle};
 inline constexpr QuantityKind vibration_frequency{"vibration_frequency", none, cycle};
@@ -118,7 +118,7 @@ inline constexpr QuantityKind torque_order{"torque", order, cycle};
 inline constexpr QuantityKind torque_order_phase{"torque", order_phase, cycle};
 }  // namespace quantities
 
-// "cycle_peak_torque"; empty: of an element's own.
+// "cycle_peak_torque"; empty for an element's own quantity.
 inline std::string word(const QuantityKind& what) {
   if (what.channel.empty()) return {};
   std::string text = what.window == QuantityKind::Window::steady_cycle ? "cycle_" : "";
@@ -129,18 +129,18 @@ inline bool is_one_of(const QuantityKind& what, std::initializer_list<QuantityKi
   return std::find(kinds.begin(), kinds.end(), what) != kinds.end();
 }
 
-// A largest magnitude: of two equal ones of opposite sign either may be taken.
+// Largest magnitude; of two equal ones with opposite signs, either may be taken.
 inline bool is_peak(const QuantityKind& what) { return what.functional == Functional::peak; }
 
-// Whether a figure is among those that are asked for: by its whole name, or by its quantity ("delta": of whatever has one).
+// Whether a figure is requested: by its full name, or by its quantity ("delta": of all owners).
 inline bool is_asked_for(std::string_view name, std::string_view asked) {
   return name.starts_with(asked) && (name.size() == asked.size() || name[asked.size()] == '.');
 }
 
-// A quantity and whose it is.
+// A quantity and its owner.
 struct Name {
   QuantityKind what = {};
-  std::string of;    // component or part of it: "main_coupling", "gearbox.in"; empty: of the whole machine
+  std::string of;    // component or its part: "main_coupling", "gearbox.in"; empty: the whole machine
   std::string text;  // "peak_torque.main_coupling"
 
   static Name make(const QuantityKind& what, std::string of = {}) {
@@ -148,21 +148,21 @@ struct Name {
     if (!of.empty()) text.append(".").append(of);
     return {what, std::move(of), std::move(text)};
   }
-  // An element's own: "current", "motor".
+  // An element's own quantity: "current", "motor".
   static Name own(std::string_view words, const std::string& of) {
     return {quantities::other, of, std::string(words).append(".").append(of)};
   }
-  // One of several of its kind: "torque_order", "0.5", "main_coupling".
+  // One of several of the same kind: "torque_order", "0.5", "main_coupling".
   static Name numbered(const QuantityKind& what, std::string_view number, const std::string& of) {
     return {what, of, word(what).append(".").append(number).append(".").append(of)};
   }
   friend bool operator==(const Name& a, const Name& b) { return a.text == b.text; }
   friend bool operator==(const Name& a, std::string_view text) { return a.text == text; }
-  // Of a channel, the figure that tells its peak over a whole run.
+  // For a channel, the figure of its peak over a whole run.
   Name peak() const {
     return {{what.channel, Functional::peak, QuantityKind::Window::run}, of, prefix_of(Functional::peak) + text};
   }
-  // Of an extreme or an RMS value of a whole run, the like of one steady cycle; others are what they were.
+  // For an extreme or RMS value of a whole run, the same of a steady cycle; others are unchanged.
   Name of_cycle() const {
     if (what.window != QuantityKind::Window::run) return *this;
     if (what.functional == Functional::none || what.functional == Functional::last) return *this;

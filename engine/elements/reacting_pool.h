@@ -1,8 +1,8 @@
-// reacting_pool.h — a pool of elements whose torques hang on the accelerations by laws with kinks: on which side of a
-// kink they are is a mode.
+// reacting_pool.h — a pool of elements whose torques depend on the accelerations by laws with kinks; the side of each kink
+// is a mode.
 //
-// Kinks lie where a reaction changes its sign, which only who knows the accelerations can tell. Until it is told the
-// side counts as it comes: the law is the same, but has a kink.
+// Kinks are where a reaction changes its sign, which depends on the accelerations. As long as the side is not set, it
+// follows from the state: the law is the same, but has a kink.
 #pragma once
 
 #include <vector>
@@ -13,18 +13,18 @@ namespace kurbel {
 
 class ReactingPool : public ElementPool {
  public:
-  // Places in `mode` of all sides: ±1; 0: as it comes; without_events: so for good.
+  // Indices in `mode` of all sides: ±1; 0: by the state; without_events: permanently by the state.
   static constexpr int without_events = 2;
   virtual const std::vector<int>& side_modes() const = 0;
-  // Guards of the sides alone, in the order of side_modes(), each times its mode; of order one.
-  virtual const std::vector<int>& side_guards() const = 0;  // their places among guards()
-  // How far the reactions are from the kinks at the accelerations alpha per shaft, with their signs; of order one.
+  // Guards of the sides, in the order of side_modes(), each times its mode; of order one.
+  virtual const std::vector<int>& side_guards() const = 0;  // their indices in guards()
+  // Signed distances of the reactions from the kinks at the accelerations alpha per shaft; of order one.
   virtual void find_sides(const Instant& now, const double* alpha, double* side) const = 0;
 
-  // Shafts of the elements that react, one entry an element.
+  // Shafts of the reacting elements, one entry per element.
   virtual const std::vector<int>& reacting_shafts() const = 0;
-  // Of a pool with one that reacts: its reaction M_r where its shaft has the acceleration alpha + response M_r, both found
-  // at once. response: what a unit of torque on the shaft adds to its acceleration, ≥ 0 [1/(kg·m²)].
+  // For a pool with one reacting element: its reaction M_r at the shaft acceleration alpha + response M_r, both solved
+  // together. response: acceleration of the shaft per unit torque, ≥ 0 [1/(kg·m²)].
   virtual void add_answered(const Instant& now, double alpha, double response, Reactions& sums) const = 0;
 };
 

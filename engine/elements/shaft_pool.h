@@ -13,7 +13,7 @@
 
 namespace kurbel {
 
-// Where a shaft element stands.
+// Indices of a shaft element in the model.
 struct ShaftPorts {
   int id = 0;    // index among shaft elements
   int mode = 0;  // first of its mode slots
@@ -22,19 +22,19 @@ struct ShaftPorts {
   int angle = -1;    // tracked angle
   double phase = 0;  // added to the tracked angle [rad]
   int account = 0;
-  int own = 0;       // first of its own states
+  int own = 0;       // first of its internal states
   int command = -1;  // −1: none
 
-  // Sign of the element's own speed: its shaft may turn against the merged one.
+  // Sign of the element's speed; its shaft may turn opposite to the merged one.
   int direction(const Instant& now) const { return gain < 0 ? -now.direction[shaft] : now.direction[shaft]; }
-  // Adds what the element can hold to what its shaft can.
+  // Adds the element's range of torque at standstill to that of its shaft.
   void add_hold(const Hold& own, Hold* of_shaft) const {
     of_shaft[shaft].low += gain * (gain < 0 ? own.high : own.low);
     of_shaft[shaft].high += gain * (gain < 0 ? own.low : own.high);
   }
 };
 
-// What a pool needs of an element only now and then.
+// Data of an element that a pool rarely needs.
 struct ShaftElementLabel {
   Window window;
   std::string component;
@@ -44,7 +44,7 @@ template <class E>
 class ShaftPool final : public ElementPool {
   static_assert(demand_sound_shaft_element<E>());
   static constexpr int own_states = E::is.states;
-  // Columns of its derivatives: ω, own states, the angle.
+  // Columns of the derivatives: ω, internal states, the angle.
   static constexpr std::size_t inputs = 1 + own_states + (UsesAngle<E> ? 1 : 0);
 
  public:
@@ -52,7 +52,7 @@ class ShaftPool final : public ElementPool {
     E element;
     ShaftPorts at;
     std::array<int, inputs> slot{};                              // of the torque
-    std::array<std::array<int, inputs>, own_states> own_slot{};  // of the own states' rates
+    std::array<std::array<int, inputs>, own_states> own_slot{};  // of the rates of the internal states
   };
   void place(E element, const ShaftPorts& at, ShaftElementLabel label) {
     placed_.push_back({std::move(element), at});

@@ -1,13 +1,11 @@
-// sound.h — whether an element has the members that its traits promise, in their forms, and no others that a trait gives
-// a meaning to.
+// sound.h — checks that an element has exactly the members required by its traits, with the right signatures.
 //
-// So a member that is misspelt is missing, one whose trait was forgotten is found, and a misspelt trait is no member of
-// ConnectionTraits or ShaftTraits. What no trait knows (an element's own helpers) is free: C++20 cannot list members.
-// Where an element comes into a pool its type is checked; -fconcepts-diagnostics-depth=3 shows what is missing.
+// A misspelt member is missing, a member without its trait is found, and a misspelt trait is no member of ConnectionTraits
+// or ShaftTraits. Members unknown to all traits (an element's own helpers) are allowed, as C++20 cannot list members.
+// The type of an element is checked when it is put into a pool; -fconcepts-diagnostics-depth=3 shows what is missing.
 #pragma once
 
 #include <concepts>
-#include <memory>
 #include <string>
 #include <type_traits>
 
@@ -17,8 +15,8 @@
 namespace kurbel {
 namespace sound {
 
-// Every name that belongs to a trait. A member of E with that name, whatever it is (function, overload, template, data,
-// private), makes &Free<E>::name ambiguous.
+// All names of members of traits. A member of E with such a name (function, overload, template, data, private) makes
+// &Free<E>::name ambiguous.
 struct Names {
   int hold, capacity, spring_torque, energy, twist_at, stiffness_at_rest, turning_torque, rest_twist, rest_ratio,
       rest_ratio_slope;
@@ -26,7 +24,7 @@ struct Names {
   int work_account, angle_period, next_edge, mode_at, time_period, settled_from, stored, switched, mode_anew,
       opens_at_zero;
   int turned_mode;  // of a load on a mechanism's output
-  // Traits are said in `is`; a member of that name says nothing.
+  // Traits are declared in `is`; a member with such a name would have no effect.
   int slips, springless, commanded, uses_angle, uses_speeds, turns_unevenly, spring_takes_motion, tells_loss;
   int guards, regularised_mode, states, described, other_forms;
   int account, directional, reversible, timed, periodic, settles, stores, feels_switching, starts_anew;
@@ -59,7 +57,7 @@ concept SaysTraitsInIs = requires {
   &Free<E>::feels_switching;
 };
 
-// --- of either; X: its local motion, D: the same in dual numbers ---
+// --- for both; X: local motion, D: the same in dual numbers ---
 template <class E, class X, class D>
 concept Torque = requires(const E& e, const X& x, const D& dual) {
   { e.torque(x) } -> std::same_as<double>;
@@ -286,7 +284,7 @@ concept SoundShaftElement = sound::SaysWhatItIs<E, ShaftTraits> && sound::SaysTr
     sound::States<E, ShaftState<double>, ShaftState<Dual<1>>> && sound::Stores<E> && sound::FeelsSwitching<E> &&
     sound::StartsAnew<E> && sound::Described<E> && sound::OtherForms<E, ShaftForm> && sound::OfNoConnection<E>;
 
-// What settles into a connection.
+// A specification that becomes a connection.
 template <class S>
 concept SoundSpecification = requires(const S& given) {
   typename S::Element;
@@ -295,7 +293,7 @@ concept SoundSpecification = requires(const S& given) {
 }
 &&sound::FindsForms<S, ConnectionForm> == requires { requires S::other_forms; };
 
-// What both kinds are told, in words.
+// Checks of both kinds with messages.
 template <class E, class X, class D>
 consteval void demand_common() {
   static_assert(sound::SaysTraitsInIs<E>, "a trait stands beside `is`: say it in `is`, as .slips = true");

@@ -1,4 +1,4 @@
-// constraint_system.h — the rows of the constraints and what was made of them: the matrices behind constraints.h.
+// constraint_system.h — constraint rows and their factorisations: the matrices behind constraints.h.
 #pragma once
 
 #include "engine/equations/constraints.h"
@@ -39,25 +39,25 @@ class Constraints::System {
 
   std::size_t free_;
   std::vector<ConstraintRow> rows_;
-  std::vector<int> tied_, given_, loose_;  // free shafts in rows, prescribed ones in rows, the other free ones
-  std::vector<int> place_;                 // of every shaft in its list
+  std::vector<int> tied_, given_, loose_;  // free shafts in rows, prescribed shafts in rows, other free shafts
+  std::vector<int> place_;                 // index of every shaft in its list
   Matrix motion_, torque_;                 // G over the tied, then the given shafts; −T over the tied ones; by rows
-  std::vector<double> lossy_, strength_;   // per row: how far T is from −Gᵀ; capacity as a torque on its shafts
+  std::vector<double> lossy_, strength_;   // per row: deviation of T from −Gᵀ; capacity as a torque on its shafts
 
-  // By the magnitudes of the inertias. Places among the tied shafts:
+  // Depending on the magnitudes of the inertias. Indices among the tied shafts:
   std::vector<int> magnitude_;                  // of each inertia, in steps of 2⁸
-  std::vector<std::size_t> basic_, repeating_;  // rows that say something new, and the others
-  std::vector<std::size_t> follow_, lead_;      // shafts, in the rows' motion
+  std::vector<std::size_t> basic_, repeating_;  // independent rows, redundant rows
+  std::vector<std::size_t> follow_, lead_;      // dependent and independent shafts of the motion
   std::vector<std::size_t> bear_, free_of_;     // equations of motion that give λ, and the others: Yᵀ's unit part
   Matrix allowed_, torque_free_;                // Z, Y: by tied shafts
-  Matrix by_given_;                             // what accelerations of the given shafts add to α
+  Matrix by_given_;                             // ∂α by the accelerations of the given shafts
   Matrix follow_inverse_, bear_inverse_;  // G⁻¹ and (−T)⁻¹ of basic rows and those shafts: by shafts, basic rows
 
-  // By the inertias:
+  // Depending on the inertias:
   std::vector<double> inertia_;  // of the tied shafts; empty: unknown
   Matrix reduced_inverse_;       // (Yᵀ I Z)⁻¹
-  bool locked_ = false;          // there is none
-  // λ of the repeating rows from that of the basic ones without them; what their λ = 1 then does to basic λ and to α.
+  bool locked_ = false;          // Yᵀ I Z is singular
+  // λ of the redundant rows from that of the basic ones alone; effect of their λ = 1 on the basic λ and on α.
   Matrix shares_, share_multiplier_, share_alpha_;
 
   std::optional<Trouble> trouble_;

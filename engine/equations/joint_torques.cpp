@@ -14,7 +14,7 @@ JointTorques::JointTorques(const Model& model) : model_(&model) {
   list_places();
 }
 
-// What is read at every step stands close together.
+// Data read at every step are contiguous.
 void JointTorques::list_places() {
   const Model& m = *model_;
   for (std::size_t n = 0; n < m.network.nodes.size(); ++n)
@@ -46,7 +46,7 @@ void JointTorques::list_trees() {
   if (loops_.any()) lock_in_twists_of_the_start();
 }
 
-// A loop that is rigid all round keeps what it is clamped with.
+// A completely rigid loop keeps its initial preload.
 void JointTorques::lock_in_twists_of_the_start() {
   const Network& net = model_->network;
   const auto& start = model_->scene.run.start.components;
@@ -64,7 +64,7 @@ void JointTorques::find(const Given& given, std::span<const Held> held, const Ho
   add_inertia_and_elements(given);
   add_connections(given);
   for (const Held& one : held) add_held(one, shaft_hold[one.shaft], element_hold);
-  // What closes a loop is no step of the walk: it passes nothing until the loops share, whatever it passed before.
+  // Links that close loops are no steps of the trees: their torques are zero until the loops share.
   for (const auto& loop : loops_.loops())
     for (const auto& [link, part] : loop) torque_[at(link)] = 0;
   walk_to_the_roots();
@@ -73,7 +73,7 @@ void JointTorques::find(const Given& given, std::span<const Held> held, const Ho
 }
 
 void JointTorques::add_inertia_and_elements(const Given& given) {
-  // Names of this function alone, which what is written cannot change: the compiler need not fetch them anew.
+  // Local copies that are not changed by writes, so that the compiler need not reload them.
   const double *const alpha = given.alpha, *const torque = given.element_torque, *const inertia = given.element_inertia;
   double* const need = balance_.data();
   const NodeInertia* const node = nodes_.data();
@@ -132,7 +132,7 @@ JointTorques::Open JointTorques::open(const Given& given) const {
     for (int k = 0; k < relation.members(); ++k)
       meet(relation.node[at(k)], relation.gain[at(k)] * given.relation_torque[r]);
   }
-  constexpr double small = 1e-3;  // of the torque scale: beside less, rounding would count
+  constexpr double small = 1e-3;  // of the torque scale: relative to less, rounding would matter
   Open worst;
   for (std::size_t s = 0; s < m.free_shafts; ++s) {
     const double left = std::abs(balance_[at(m.shafts[s].reference)]);
@@ -147,7 +147,7 @@ void JointTorques::walk_to_the_roots() {
   for (const LoadStep& step : std::span<const LoadStep>(steps_)) pass_on(step, balance, torque);
 }
 
-// Gears that became joints of two shafts still push on the third, which stands: their torque flows on to the frame.
+// Gears that became joints of two shafts still load the third one at rest: their torque is passed to the frame.
 void JointTorques::bear_reactions() {
   const Model& m = *model_;
   for (const GearTorque& gear : m.gear_torques) {

@@ -1,12 +1,12 @@
-// joint_torques.h — what the joints within merged shafts transmit, found back by d'Alembert's principle.
+// joint_torques.h — torques of the joints within merged shafts, computed by d'Alembert's principle.
 //
-// Where a joint is rigid its two nodes are one shaft, and its torque has gone from the equations of motion. It is what
-// the nodes on the side away from the shaft's reference need beyond their own torques:
-//     need = J ε − Σ τ of the elements − what elastic joints and relations bring;
-//     a joint passes the need of its child on to its parent, times the ratio, from the leaves to the root.
-// At the root nothing is left, unless its motion is prescribed: that rest is the reaction there. Anything left elsewhere
-// means that the two free bodies of a cut joint disagree (open()). Rigid loops share what they
-// pass by the stiffnesses that are given (load_paths.h).
+// The two nodes of a rigid joint are one shaft, and the torque of the joint does not appear in the equations of motion. It is
+// the torque that the nodes on the side away from the shaft's reference need in addition to their own torques:
+//     need = J ε − Σ τ of the elements − torques of elastic joints and relations;
+//     a joint passes the need of its child to its parent, times the ratio, from the leaves to the root.
+// At the root the need is zero, unless its motion is prescribed: it is then the reaction there. Any other remainder means
+// that the two free bodies of a cut joint disagree (open()). Rigid loops share the torque by the given stiffnesses
+// (load_paths.h).
 #pragma once
 
 #include <span>
@@ -26,24 +26,24 @@ class JointTorques {
     const double* element_torque = nullptr;     // per element, on its own node [N·m]
     const double* element_inertia = nullptr;    // per element: its variable inertia [kg·m²]
     const double* connection_torque = nullptr;  // per elastic joint: τ, on b [N·m]
-    const double* turning_torque = nullptr;     // per elastic joint: on a besides −τ [N·m] (theory 8.1)
+    const double* turning_torque = nullptr;     // per elastic joint: on a in addition to −τ [N·m] (theory 8.1)
     const double* relation_torque = nullptr;    // per relation: λ, taken from its first node [N·m]
-    const double* relation_loss = nullptr;      // per relation: what of it is lost [N·m]
+    const double* relation_loss = nullptr;      // per relation: the lost part of it [N·m]
   };
-  // A shaft that stands: the opposing elements on it hold the rest, in proportion to what each can hold.
+  // A shaft at standstill: the opposing elements on it hold the remaining torque in proportion to their capacities.
   struct Held {
     int shaft = 0;
-    double rest = 0;  // that they bring [N·m]
+    double rest = 0;  // remaining torque held by them [N·m]
   };
-  // Holds per shaft and per element; read only where a shaft is held.
+  // Holds per shaft and per element; used only for held shafts.
   void find(const Given& given, std::span<const Held> held, const Hold* shaft_hold, const Hold* element_hold);
 
   const std::vector<double>& torque() const { return torque_; }  // per joint of the network [N·m]
-  // Per node: what it needs from outside; at a prescribed motion the reaction [N·m].
+  // Per node: the needed external torque; with prescribed motion the reaction [N·m].
   const std::vector<double>& balance() const { return balance_; }
 
-  // Of the last find(): the free shaft where most is left at the root, beside the torques that meet on the shaft. By so
-  // much the torque of any joint within it differs from one of its sides to the other.
+  // Of the last find(): the free shaft with the largest remainder at its root, relative to the torques on the shaft. The
+  // torque of any joint within it differs by this amount between its two sides.
   struct Open {
     double part = 0;  // 0 … 1
     int shaft = -1;
@@ -69,7 +69,7 @@ class JointTorques {
   void bear_reactions();
 
   const Model* model_;
-  std::vector<LoadStep> steps_;  // of the trees within the merged shafts, leaves first; a link is a joint
+  std::vector<LoadStep> steps_;  // of the trees within the merged shafts, leaves first; links are joints
   LoadLoops loops_;
   std::vector<NodeInertia> nodes_;
   std::vector<ElementPlace> elements_;

@@ -1,4 +1,4 @@
-// reaction_balance.cpp — Newton's method for accelerations and the torques that hang on them.
+// reaction_balance.cpp — Newton's method for accelerations and the torques that depend on them.
 #include "engine/equations/reaction_balance.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace kurbel {
 namespace {
 
 constexpr int most_steps = 50;
-constexpr double settled = 1e-8;  // Newton's method that goes to and fro over a kink has found nothing
+constexpr double settled = 1e-8;  // tolerance; Newton's method that alternates across a kink has not converged
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void ReactionBalance::react(const Instant& now, double* work_rate) {
   for (std::size_t p = 0; p < pools_.size(); ++p) pools_[p]->add_reactions(now, alpha_.data(), sums, memory_[p].get());
 }
 
-// From α to the next one: the largest change, beside the acceleration itself.
+// One step of α; returns the largest change over the acceleration.
 double ReactionBalance::newton_step(std::span<const double> inertia) {
   double change = 0;
   for (std::size_t s = 0; s < model_.free_shafts; ++s) {
@@ -51,7 +51,7 @@ double ReactionBalance::newton_step(std::span<const double> inertia) {
   return change;
 }
 
-// False: the shaft has no inertia of its own that could be asked for an answer.
+// False: the shaft has no inertia for a response.
 bool ReactionBalance::settle_alone(const Instant& now, std::span<const double> free_torque,
                                    std::span<const double> inertia, const Accelerate& accelerate, double* alpha,
                                    Sums& sums) {
@@ -59,7 +59,7 @@ bool ReactionBalance::settle_alone(const Instant& now, std::span<const double> f
   if (!(inertia[s] > 0) && s < free) return false;
   std::copy(inertia.begin(), inertia.end(), effective_inertia_.begin());
   slope_[s] = 0;
-  if (modes_.direction[s] == 0) return true;  // what stands reacts to nothing
+  if (modes_.direction[s] == 0) return true;  // no reaction at rest
   std::fill(element_torque_.begin(), element_torque_.end(), 0.0);
   torque_[s] = 0;
   double before = 0, response = 0;
@@ -112,7 +112,7 @@ void ReactionBalance::settle(const Instant& now, std::span<const double> free_to
     const bool lost = !std::all_of(next_.begin(), next_.end(), [](double a) { return std::isfinite(a); });
     const bool round_off = change < 1e-12 && change >= 0.5 * last_change;
     last_change = lost ? HUGE_VAL : change;
-    // At an α that was asked about: what elements found there, they need not find again.
+    // At an α evaluated before: the elements have its results.
     if (lost || !(change > 1e-14) || round_off) break;
     std::copy_n(next_.begin(), model_.free_shafts, alpha_.begin());
   }

@@ -1,4 +1,4 @@
-// ties.cpp — rows of what sticks, the torques that they transmit, and what contacts can hold.
+// ties.cpp — rows of stuck contacts, their torques, and the limits of contacts.
 #include "engine/equations/ties.h"
 
 #include <fmt/format.h>
@@ -15,14 +15,14 @@ namespace {
 
 constexpr double least_capacity = 1e-6;  // of the torque scale, for sharing
 
-// What goes on to the driven side, μ = λ − L, where both lines of a sense of motion meet: there the flanks change.
+// Torque on the driven side, μ = λ − L, at the intersection of both lines of a direction: there the flanks change.
 double meeting(const GearLoss& loss, int direction) {
   const GearLoss::Line &up = loss.line(direction, 1), &down = loss.line(direction, -1);
   if (up.slope == down.slope) return 0;
   const double taken = (down.offset - up.offset) / (up.slope - down.slope);
   return taken - (up.slope * taken + up.offset);
 }
-// L while μ goes on: unique also where a gear locks itself and either flank takes λ > 0.
+// L by μ: unique also for a self-locking gear, in which both flanks take λ > 0.
 double loss_at(const GearLoss::Line& line, double passed) {
   return (line.slope * passed + line.offset) / (1 - line.slope);
 }
@@ -96,7 +96,7 @@ void Ties::make_rows() {
   constraints_.set(tied_ ? rows_ : none);
 }
 
-// A row whose other members stand still holds the last one too.
+// A row whose other members are at rest also holds the last one.
 void Ties::list_still_shafts(const std::vector<ConstraintRow>& rows) {
   std::fill(still_.begin(), still_.end(), 0);
   for (std::size_t s = model_.free_shafts; s < model_.shafts.size(); ++s)
@@ -304,7 +304,7 @@ double Ties::regularised_torque(std::size_t contact, const Instant& now, double*
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// What is transmitted
+// Transmitted torques
 
 void Ties::set_torques(const Torques& known) {
   contact_torque_ = known.contact, relation_torque_ = known.relation, relation_loss_ = known.loss;

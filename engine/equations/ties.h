@@ -1,11 +1,11 @@
-// ties.h — what the present modes tie together, and what that transmits: stuck contacts, relations of gears with their
-// losses, contacts whose events found no rest.
+// ties.h — constraints of the present modes and their torques: stuck contacts, relations of gears with losses, contacts
+// regularised because their events chattered.
 //
 //     stuck contact            a row G ω = 0; its torque is the multiplier λ              (constraints.h)
-//     gear in motion           a row, of whose λ the part L = slope λ + offset is lost
+//     gear in motion           a row; the part L = slope λ + offset of its λ is lost
 //     regularised contact      λ = limit · tanh(v/v₀): it creeps
 //
-// Torques and holds are those of the state looked at last: nothing of them lives on.
+// Torques and holds belong to the last evaluated state and carry no memory.
 #pragma once
 
 #include <span>
@@ -20,7 +20,7 @@ namespace kurbel {
 
 class Ties {
  public:
-  // Both must outlive it; whoever changes the modes calls make_rows() before the next question.
+  // Both must outlive it; after a change of modes call make_rows() before any evaluation.
   Ties(const Model& model, const Modes& modes);
 
   bool any() const { return !contacts_.empty() || !model_.relations.empty(); }
@@ -29,45 +29,45 @@ class Ties {
   std::size_t contact_of_loss(int relation) const { return contact_of_loss_[static_cast<std::size_t>(relation)]; }
 
   // --- rows ---
-  // The constraint rows of the present modes, and the shafts that they tie to the frame.
+  // Makes the constraint rows of the present modes, and finds the shafts tied to the frame.
   void make_rows();
   bool makes_a_row(std::size_t contact) const;
   const std::vector<std::size_t>& contacts_in_rows() const { return row_contact_; }
   // G ω = 0: of relations, then of stuck contacts.
   const std::vector<ConstraintRow>& rows() const { return rows_; }
-  // Some rows say what others say, as the last solution found: they share by capacity.
+  // Some rows are redundant, by the last solution: they share by capacity.
   bool repeats() const { return tied_ && constraints_.repeats(); }
   bool stands(std::size_t shaft) const { return still_[shaft]; }        // tied to the frame
   bool is_coupled(std::size_t shaft) const { return coupled_[shaft]; }  // its row of the Jacobian mixes with others
-  // Speeds made equal where they are tied, to the last bit, with the least change of kinetic energy.
+  // Makes tied speeds exactly consistent, with the least change of kinetic energy.
   void project(std::span<const double> inertia, std::span<double> speed);
-  // Of what a torque of the contact accelerates, by whatever else is tied [kg·m²].
+  // Effective inertia for a torque of the contact, with all other ties [kg·m²].
   double effective_inertia(const Contact& contact, std::span<const double> inertia);
 
   // --- the stages of an evaluation ---
-  // Torques that hang on the state alone: what losses have besides their share of λ, and regularised contacts.
+  // Adds torques that depend on the state only: constant parts of losses, and regularised contacts.
   void add_known(const Instant& now, double* torque);
-  // Accelerations of the free shafts from inertia and torque, and what is transmitted.
+  // Accelerations of the free shafts from inertia and torque, and the transmitted torques.
   void accelerate(double t, std::span<const double> torque, std::span<const double> inertia, double* alpha);
-  // What contacts and relations transmit, as torques on the shafts, of the connections, and as work lost.
+  // Adds the torques of contacts and relations to the shafts and connections, and their losses to the work.
   void publish(const Instant& now, Sums& sums);
-  // Rows of tied shafts in the Jacobian: ∂α = W ∂(M − I α), W = mobility. Comes before the division by the inertia,
-  // which these rows skip.
+  // Rows of tied shafts in the Jacobian: ∂α = W ∂(M − I α), W = mobility. To be called before the division by the inertia,
+  // which is omitted for these rows.
   void mix_rows(const Instant& now, std::span<const double> inertia, std::span<double> values);
 
-  // --- what they can hold ---
-  // What every contact can hold at this state.
+  // --- ranges of torque without slip ---
+  // Finds the range of every contact at this state.
   void find_holds(const Instant& now);
-  // Range of λ that a stuck contact can carry [N·m].
+  // Range of λ of a stuck contact [N·m].
   Hold limits(std::size_t contact) const;
-  // Positive while the flank that the mode says is the one that carries; of order one.
+  // Positive while the flank given by the mode is in contact; of order one.
   double flank_margin(std::size_t relation) const;
-  // Measure of its share where rows repeat: what it can hold the way it carries [N·m].
+  // Weight of its share in redundant rows: its limit in the direction of its torque [N·m].
   double capacity(std::size_t contact) const;
   const std::vector<Hold>& shaft_hold() const { return shaft_hold_; }
   const std::vector<Hold>& element_hold() const { return element_hold_; }
 
-  // --- what they transmit, as found last ---
+  // --- transmitted torques of the last evaluation ---
   double torque(std::size_t contact) const { return contact_torque_[contact]; }    // λ [N·m]
   const std::vector<double>& relation_torque() const { return relation_torque_; }  // per relation: λ [N·m]
   const std::vector<double>& relation_loss() const { return relation_loss_; }      // per relation: L [N·m]
@@ -78,13 +78,13 @@ class Ties {
   void set_torques(const Torques& known);
   void forget_torques();
 
-  // The gear with whose losses the last accelerations could not be found; −1: none.
+  // The gear whose losses prevented the last solution for the accelerations; −1: none.
   int relation_that_locks() const;
-  // A run whose ties are not kept must not go on: std::runtime_error with which, when and why.
+  // Throws std::runtime_error with tie, time and reason if the ties are violated.
   void refuse_broken(double t) const;
 
-  static constexpr double creep = 1e-4;         // of the speed scale: where a regularised one reaches three quarters
-  static constexpr double most_capacity = 1e3;  // of the torque scale: "holds anything"
+  static constexpr double creep = 1e-4;         // v₀ of regularised contacts, over the speed scale: ¾ of the torque
+  static constexpr double most_capacity = 1e3;  // of the torque scale: counts as unlimited
 
  private:
   void list_still_shafts(const std::vector<ConstraintRow>& rows);
@@ -105,12 +105,12 @@ class Ties {
   // by the modes
   Constraints constraints_;
   std::vector<ConstraintRow> rows_;       // of relations, then of stuck contacts
-  std::vector<std::size_t> row_contact_;  // contact of each row behind those of relations
+  std::vector<std::size_t> row_contact_;  // contact of each row after those of relations
   std::vector<char> still_;               // per shaft
-  bool tied_ = false;                     // beyond single shafts at standstill
+  bool tied_ = false;                     // more ties than single shafts at standstill
   bool smooth_ = false;                   // some contact is regularised
 
-  // by the state looked at last
+  // of the last evaluated state
   std::vector<double> contact_torque_, relation_torque_, relation_loss_, multiplier_, all_alpha_;
   std::vector<Hold> shaft_hold_, element_hold_, slip_hold_;
 };

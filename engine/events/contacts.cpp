@@ -1,4 +1,4 @@
-// contacts.cpp — guards of contacts, the search for modes that fit, and the stop where none does.
+// contacts.cpp — guards of contacts, search for consistent modes, and the stop if there are none.
 #include "engine/events/contacts.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace kurbel {
 namespace {
 
 constexpr double nothing = 1e-12;                // of a scale: a torque or speed within round-off
-constexpr double round_off = 1e-9;               // of a push: it decides nothing
+constexpr double round_off = 1e-9;               // of a torque: not significant
 constexpr double leaves_rest = 1e-9;             // of the speed scale: a prescribed motion that begins softly
 constexpr double creep_ends = 20 * Ties::creep;  // beyond this a regularised contact moves, by its own law again
 constexpr std::size_t few_contacts = 7;          // so many are enumerated
@@ -21,7 +21,7 @@ constexpr int most_changes = 200;
 
 }  // namespace
 
-// It may stick or slip, by what the torques say.
+// It may stick or slip, depending on the torques.
 bool Contacts::is_open(std::size_t c) const { return sense(c) == 0 && !modes().regularised[c] && !is_given(c); }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -80,7 +80,7 @@ void Contacts::take(std::size_t guard, double t, std::span<const double> y, Chan
   } else if (sense(c) != 0) {
     changes.stopped.push_back(c);
   } else {
-    // Breaks away on the side whose guard fired: just there the push still equals what can be held.
+    // Breaks away on the side whose guard fired: exactly there the torque still equals the limit.
     changes.released.emplace_back(c, guard % 2 == 0 ? 1 : -1);
   }
 }
@@ -95,9 +95,9 @@ std::string Contacts::regularise(std::size_t guard) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// What is tied
+// Tied speeds
 
-// Of what is stuck, by the holds at the state looked at last.
+// Of stuck contacts, by the holds at the last evaluated state.
 void Contacts::find_capacities() {
   const Ties& ties = flow_.ties();
   for (std::size_t c = 0; c < list().size(); ++c) modes().capacity[c] = ties.makes_a_row(c) ? ties.capacity(c) : 0;
@@ -110,7 +110,7 @@ void Contacts::tie(double t, std::span<const double> y) {
   flow_.ties().make_rows();
 }
 
-// A one-way clutch holds its drag one way, and whatever comes the other. True: one carries otherwise than it was tied.
+// A one-way clutch holds only its drag in one direction, any torque in the other. True: some torque changed its direction.
 bool Contacts::follow_what_is_carried() {
   const Ties& ties = flow_.ties();
   if (!ties.repeats()) return false;
@@ -124,7 +124,7 @@ bool Contacts::follow_what_is_carried() {
   return changed;
 }
 
-// Speeds of what is stuck made equal to the last bit, with the least change of kinetic energy.
+// Makes the speeds of stuck contacts exactly equal, with the least change of kinetic energy.
 void Contacts::tie_speeds(double t, std::span<double> y) {
   tie(t, y);
   flow_.evaluate(t, y);  // for the inertias
@@ -136,9 +136,9 @@ void Contacts::tie_speeds(double t, std::span<double> y) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
-// Which modes fit
+// Consistent modes
 
-// With shares by what each carries. False: what moves as these modes say jams, which is a misfit without measure.
+// Evaluation with shares by capacity. False: the motion with these modes jams, which is an unlimited misfit.
 bool Contacts::evaluate_sharing(double t, std::span<const double> y, const std::vector<std::size_t>& among,
                                 Misfit& jammed) {
   try {
@@ -149,7 +149,7 @@ bool Contacts::evaluate_sharing(double t, std::span<const double> y, const std::
       flow_.ties().make_rows();
       flow_.evaluate(t, y);
     }
-  } catch (const Jam& jam) {  // what stands does not jam
+  } catch (const Jam& jam) {  // contacts at rest do not jam
     for (const std::size_t c : among)
       if (list()[c].kind == Contact::Kind::frame && list()[c].index == jam.shaft && sense(c) != 0) {
         flow_.forget_jam();
@@ -167,7 +167,7 @@ void Contacts::consider(Misfit& worst, double size, std::size_t which, int bette
   worst.total = total;
 }
 
-// Where the present modes of these contacts fit least, and what would be better there. Evaluates the model.
+// The largest misfit of the present modes of these contacts, and the better mode. Evaluates the model.
 Contacts::Misfit Contacts::worst_misfit(double t, std::span<const double> y, const std::vector<std::size_t>& among) {
   for (const auto& pool : flow_.model().pools) pool->follow_directions(flow_.instant(t, y), modes().piece.data());
   tie(t, y);
@@ -176,7 +176,7 @@ Contacts::Misfit Contacts::worst_misfit(double t, std::span<const double> y, con
   const Ties& ties = flow_.ties();
   flow_.ties().find_holds(flow_.now());
   flow_.accelerations();
-  if (const int r = ties.relation_that_locks(); r >= 0)  // no torques go with these modes
+  if (const int r = ties.relation_that_locks(); r >= 0)  // no torques are compatible with these modes
     consider(worst, HUGE_VAL, list().size() + at(r), -modes().loss_sign[at(r)]);
   for (const std::size_t c : among)
     if (!modes().regularised[c]) consider_contact(worst, c, t);
@@ -196,16 +196,16 @@ void Contacts::consider_contact(Misfit& worst, std::size_t c, double t) {
     consider(worst, (hold.low - ties.torque(c)) / contact.torque_scale - nothing, c, -1);
     return;
   }
-  // A push within round-off decides nothing.
+  // A torque within round-off is not significant.
   const double push = sum_over(contact.motion, flow_.accelerations().data()) *
                       flow_.ties().effective_inertia(contact, flow_.effective_inertia()) / contact.torque_scale;
   consider(worst, -push * now - round_off, c, 0);
   if (!ties.lossy().empty() && std::abs(push) <= round_off && !gives_way(c, now, t)) consider(worst, 1, c, 0);
 }
 
-// Does a torque that pushes on speed up what slips that way? Where a gear that locks itself turns back with its load,
-// the more it is pushed the more it holds: what lets go at its limit does not go that way. What another contact holds
-// answers no push at all, and lets go all the same.
+// Whether a torque in this direction accelerates the slip. In a self-locking gear that turns back with its load, a larger
+// torque increases the hold: a contact that releases at its limit does not slip this way. A contact held by another one
+// has no response and releases nevertheless.
 bool Contacts::gives_way(std::size_t c, int way, double t) {
   const Contact& contact = list()[c];
   const Ties::Torques known = flow_.ties().torques();
@@ -223,7 +223,7 @@ bool Contacts::gives_way(std::size_t c, int way, double t) {
   return answer >= -round_off * size;
 }
 
-// What is moved as prescribed and just stands still slips the way it is about to go.
+// Contacts with prescribed motion, momentarily at rest, slip in their next direction.
 void Contacts::slip_as_given(double t, std::span<const double> y) {
   const Instant now = flow_.instant(t, y);
   for (std::size_t c = 0; c < list().size(); ++c) {
@@ -259,7 +259,7 @@ void Contacts::settle(double t, std::span<double> y, const Changes& changes, Eve
   log->push_back(modes_event(t, always.size(), fits, count));
 }
 
-// The worst misfit is changed until there is none. False: it goes in circles.
+// The largest misfit is changed until there is none. False: it cycles.
 bool Contacts::change_worst(double t, std::span<const double> y, const std::vector<std::size_t>& among, int& changes) {
   std::set<std::vector<int>> seen;
   for (; changes < most_changes; ++changes) {
@@ -277,8 +277,8 @@ bool Contacts::change_worst(double t, std::span<const double> y, const std::vect
   return false;
 }
 
-// Every set for few contacts: the one that fits, else the nearest. Many are left as they are; the fixed ones keep their
-// sense.
+// All sets for few contacts: the consistent one, else the nearest. Many contacts are unchanged; the fixed ones keep their
+// direction.
 bool Contacts::try_all(double t, std::span<const double> y, const std::vector<std::size_t>& among,
                        const std::vector<std::size_t>& fixed) {
   const std::vector<int>& lossy = flow_.ties().lossy();
@@ -312,8 +312,8 @@ bool Contacts::try_all(double t, std::span<const double> y, const std::vector<st
   return least <= 0;
 }
 
-// At a breakaway the hold is exceeded by round-off only, so that sticking on seems to fit: it does not, where some set
-// lets go (of a gear that locks itself: on its other flank). True: such a set was found and taken.
+// At a breakaway the limit is exceeded only by round-off, so that sticking seems consistent. It is not if some set releases
+// (for a self-locking gear: on its other flank). True: such a set was found and taken.
 bool Contacts::release_otherwise(double t, std::span<const double> y, const std::vector<std::size_t>& among,
                                  const std::vector<std::pair<std::size_t, int>>& released) {
   std::vector<std::size_t> fixed;
@@ -334,7 +334,7 @@ bool Contacts::release_otherwise(double t, std::span<const double> y, const std:
 // ---------------------------------------------------------------------------------------------------------------------
 // Jams
 
-// Of what is lost where this contact rubs; −1: nobody's.
+// Work account of the friction of this contact; −1: none.
 int Contacts::account_of_friction(const Contact& contact) const {
   const Model& m = flow_.model();
   if (contact.kind == Contact::Kind::connection) return m.elastic[at(contact.index)].loss_account;

@@ -1,9 +1,9 @@
-// contacts.h — what sticks and what slips: the guards of contacts, and the set of modes that fits.
+// contacts.h — sticking and slipping: guards of contacts, and the consistent set of modes.
 //
-// Of all contacts whose speed of slip is zero each may stick or slip either way. A set of modes fits when every stuck
-// one needs no more torque than it can hold, and every released one is accelerated the way it was let go. First all
-// that stopped stick; then the worst misfit is changed until there is none; where that goes in circles, all sets of a
-// few contacts are tried.
+// Every contact with zero slip speed may stick or slip in either direction. A set of modes is consistent if every stuck
+// contact needs no more torque than it can hold, and every released one accelerates in its direction. First all stopped
+// contacts stick; then the largest violation is changed until there is none; if this cycles, all sets of a few contacts
+// are tried.
 #pragma once
 
 #include <span>
@@ -22,33 +22,33 @@ class Contacts {
   // Changes the modes of this flow, which must outlive it.
   explicit Contacts(Flow& flow) : flow_(flow) {}
 
-  // Two guards a contact, one a gear with losses.
+  // Two guards per contact, one per gear with losses.
   std::size_t guard_count() const { return 2 * list().size() + flow_.ties().lossy().size(); }
-  // Positive while the modes hold, of order one. evaluated: the flow was, at this state.
+  // Positive while the modes hold, of order one. evaluated: the flow has been evaluated at this state.
   void guards(double t, std::span<const double> y, bool evaluated, double* g);
-  // A contact, or the gear whose flanks change, that this guard watches.
+  // The contact, or the gear whose flanks change, of this guard.
   std::size_t contact_of(std::size_t guard) const;
   std::string owner(std::size_t guard) const { return list()[contact_of(guard)].name; }
 
-  // Contacts that stopped, and those that break away in a sense.
+  // Contacts that have stopped, and contacts that break away in a direction.
   struct Changes {
     std::vector<std::size_t> stopped;
     std::vector<std::pair<std::size_t, int>> released;
   };
-  // What the guard says that fired; flanks change at once.
+  // Adds the change of a fired guard; flanks change at once.
   void take(std::size_t guard, double t, std::span<const double> y, Changes& changes);
-  // The modes that fit, found anew; what is tied gets speeds that are equal.
+  // Finds the consistent modes, and makes tied speeds equal.
   void settle(double t, std::span<double> y, const Changes& changes, EventLog* log);
-  // Rows and shares by what holds at this state; no mode changes.
+  // Rows and shares at this state, without changes of modes.
   void tie(double t, std::span<const double> y);
 
-  // No set of modes goes on from here: what slips at these guards, or jammed last, comes to rest at once by an impact
-  // that takes the least kinetic energy; what springs tie to it keeps its speed, the energy lost is work of the
+  // If no set of modes continues the motion: the contacts that slip at these guards, or jammed last, stop at once by an
+  // impact with the least loss of kinetic energy; parts joined by springs keep their speed, the lost energy is work of the
   // friction concerned. False: nothing there moves.
   bool stop_jam(double t, std::span<double> y, std::span<const std::size_t> guards, EventLog& log);
-  // The contact gets a law without events; in words, empty where it has none.
+  // Gives the contact a law without events; returns a description, empty if there is none.
   std::string regularise(std::size_t guard);
-  // Each contact that holds: by whom, what acts, what is held, and what is missing to move either way.
+  // Description of each holding contact: elements, acting torque, limits, and the torque missing to move it either way.
   std::vector<std::string> held(double t, std::span<const double> y);
 
  private:

@@ -1,4 +1,4 @@
-// contacts_told.cpp — what of contacts is told: changes, who shares a hold, and what is missing to move.
+// contacts_told.cpp — reports of contacts: changes, shares of a holding torque, and the torque missing to move.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace kurbel {
 
-// Parts of the capacity where several elements hold one shaft.
+// Shares of the capacity if several elements hold a shaft.
 Shares Contacts::sharing(const Contact& contact) const {
   if (contact.kind != Contact::Kind::frame) return {};
   const Model& m = flow_.model();
@@ -43,7 +43,7 @@ void Contacts::tell(double t, const std::vector<std::size_t>& among, const std::
   }
 }
 
-// "press.load, bearing": what can hold there.
+// "press.load, bearing": the elements that can hold there.
 std::string Contacts::holders(const Contact& contact) const {
   if (contact.kind != Contact::Kind::frame) return contact.name;
   const Model& m = flow_.model();

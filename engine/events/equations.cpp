@@ -75,7 +75,7 @@ std::string Equations::regularise(const std::vector<std::size_t>& guards) {
 // ---------------------------------------------------------------------------------------------------------------------
 // Events and edges
 
-// What gears lose by their present torques is asked for by what comes next; nothing may hang on who asked last.
+// Gear losses of the present torques are needed next; they must not depend on the last evaluation.
 void Equations::look_at_losses(double t, std::span<const double> y) {
   if (ties().lossy().empty()) return;
   try {
@@ -102,7 +102,7 @@ void Equations::fire(double t, std::span<double> y, const std::vector<std::size_
   sides.settle(t, y);
 }
 
-// Edges over the angle are told as such; elsewhere a label names the mode.
+// Edges over the angle are named as such; elsewhere a label names the mode.
 void Equations::fire_piece(const PoolGuard& guard, double t, std::span<const double> y, EventLog& log) {
   const ElementPool& pool = *model().pools[guard.pool];
   const GuardLabel before = pool.label(guard.local, instant(t, y));
@@ -122,7 +122,7 @@ void Equations::pass_edge(double t, std::span<double> y, EventLog& log) {
 }
 
 bool Equations::stop_jam(double t, std::span<double> y, const std::vector<std::size_t>& guards, EventLog& log) {
-  std::vector<std::size_t> of_contacts;  // others stay, as numbers that no contact has
+  std::vector<std::size_t> of_contacts;  // other guards get numbers beyond the contacts
   for (const std::size_t guard : guards)
     of_contacts.push_back(guard < contact_guards_ ? contacts_.guard_count() : guard - contact_guards_);
   OpenSides sides(*this);

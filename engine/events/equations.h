@@ -1,8 +1,8 @@
-// equations.h — a compiled machine in motion: its flow, and how the modes change at starts, events and edges.
+// equations.h — a compiled machine in motion: its flow, and the changes of modes at starts, events and edges.
 //
 //   start ──▶ (t, y, modes) ──flow──▶ … ──guard falls through zero, or edge──▶ fire, pass_edge ──▶ (t, y, modes′)
 //
-// Guards stand in the order: pieces of elements' laws, contacts, the operating sequence.
+// Order of the guards: pieces of elements' laws, contacts, the operating sequence.
 #pragma once
 
 #include <memory>
@@ -20,10 +20,10 @@ namespace kurbel {
 
 class Equations final : public Flow {
  public:
-  // With an audit the work of every account and the squares of the torques are integrated along.
+  // With an audit, the work of every account and the squares of the torques are integrated as well.
   Equations(std::shared_ptr<const Model> model, bool audit);
 
-  // --- starts: a state, and all modes with it (start.h) ---
+  // --- starts: a state and all its modes (start.h) ---
   std::vector<double> start(double t) { return start(t, model().scene.run.start); }
   std::vector<double> start(double t, const StartSettings& settings) { return start_.at(t, settings); }
   std::vector<double> state_of(double t, double link_angle, std::span<const double> twists,
@@ -33,7 +33,7 @@ class Equations final : public Flow {
   std::vector<double> modes_from_scratch(double t, double link_angle, double link_speed) {
     return start_.rigid(t, link_angle, link_speed);
   }
-  // The pieces of laws that hold in this state; senses of motion stay.
+  // Sets the pieces of laws for this state; directions of motion are kept.
   void modes_at(double t, std::span<const double> y);
 
   // --- events ---
@@ -45,15 +45,15 @@ class Equations final : public Flow {
   double next_edge(double t) const { return switching_.next_edge(t); }
   void pass_edge(double t, std::span<double> y, EventLog& log);
   bool at_standstill(std::size_t shaft) const { return modes().direction[shaft] == 0; }
-  // Gives whatever owns these guards a law without events, for good. What changed, in words; empty: nothing can.
+  // Gives the owners of these guards a law without events, permanently. Returns a description; empty: none has such a law.
   std::string regularise(const std::vector<std::size_t>& guards);
   std::string guard_owner(std::size_t guard) const;
-  // The motion cannot go on (Contacts::stop_jam). False: nothing there moves.
+  // For a motion that cannot continue (Contacts::stop_jam). False: nothing there moves.
   bool stop_jam(double t, std::span<double> y, const std::vector<std::size_t>& guards, EventLog& log);
   std::vector<std::string> held(double t, std::span<const double> y) { return contacts_.held(t, y); }
 
   // --- angles ---
-  // Angles are kept from 4π · first on (usually 0): a run that confirms another one looks up every law elsewhere.
+  // Angles start from 4π · first (usually 0); a run that confirms another evaluates all laws at other angles.
   void keep_angles_from(double first) { changing_modes().first_two_turns = first; }
   bool wrap(std::span<double> y) { return kurbel::wrap(changing_modes(), y); }
   bool needs_wrap(std::span<const double> y) const { return kurbel::needs_wrap(modes(), y); }
@@ -71,8 +71,8 @@ class Equations final : public Flow {
   Switching switching_;
   Start start_;
   std::vector<std::size_t> guard_begin_;  // per pool
-  std::size_t contact_guards_ = 0;        // where those of contacts begin
-  std::size_t sequence_guard_ = 0;        // where that of the sequence would stand
+  std::size_t contact_guards_ = 0;        // index of the first guard of contacts
+  std::size_t sequence_guard_ = 0;        // index of the guard of the sequence, if any
   std::size_t guard_count_ = 0;
 };
 

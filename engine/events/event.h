@@ -1,4 +1,4 @@
-// event.h — what happened in a run, when, and to whom.
+// event.h — an event of a run: time, component, change.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ namespace kurbel {
 struct Event {
   double t = 0;
   std::string component, what;
-  std::string from = {};  // the mode before, where it has a name
+  std::string from = {};  // the mode before, if it has a name
   EventKind kind = EventKind::note;
-  // What is now: a contact's sense, a command's value, on (1) or off (0). Empty: the words alone name the mode.
+  // The new state: direction of a contact, value of a command, on (1) or off (0). Empty: given by `what` only.
   std::optional<double> value = {};
-  double angle = 0;  // of the reduction link then, turns counted [rad]
+  double angle = 0;  // of the reduction link at the event, including full turns [rad]
 };
 using EventLog = std::vector<Event>;
 

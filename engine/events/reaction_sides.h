@@ -1,5 +1,4 @@
-// reaction_sides.h — on which sides of their kinks the reactions are: guards while modes hold, and the sides anew when
-// other modes have changed.
+// reaction_sides.h — sides of the kinks of reactions: their guards, and their update after changes of other modes.
 #pragma once
 
 #include <span>
@@ -9,16 +8,16 @@
 
 namespace kurbel {
 
-// Guards of all reactions: positive while their sides hold, 1 where nothing is to be told. True: the flow was evaluated at
-// this state for them.
+// Guards of all reactions: positive while their sides hold, 1 for guards without events. True: the flow was evaluated at
+// this state.
 bool guard_reactions(Flow& flow, double t, std::span<const double> y, std::span<const std::size_t> pool_guards,
                      std::span<double> g);
 
-// While other modes change, reactions may jump across kinks: until settle() each counts as it comes.
+// While other modes change, reactions may jump across kinks: until settle() the sides follow from the state.
 class OpenSides {
  public:
   explicit OpenSides(Flow& flow);
-  // Then by the accelerations; next to a kink what was said last stays, as one that fired has its new side.
+  // Sets the sides by the accelerations; very near to a kink the last side is kept, as a fired guard has set it.
   void settle(double t, std::span<const double> y);
 
  private:

@@ -1,4 +1,4 @@
-// start.cpp — a start: unloaded motion, twists in balance with the loads, and the modes that fit.
+// start.cpp — a start: unloaded motion, twists in equilibrium with the loads, and consistent modes.
 #include "engine/events/start.h"
 
 #include "engine/events/reaction_sides.h"
@@ -20,7 +20,7 @@ std::size_t shaft_of(const ShaftGain& g) { return index(g.shaft); }
 
 constexpr double at_rest = 1e-14;  // of the speed scale
 
-// What a scene's start says of angles and twists; given angles of components stand beside the others' usual ones.
+// Angles and twists of a scene's start; given angles of components are combined with the usual ones of the others.
 KnownMotion known_at_start(const Model& m, const StartSettings& start, int on) {
   KnownMotion known{.shaft = m.shaft_of_node[index(on)], .angle = start.angle / m.gain_of_node[index(on)]};
   known.twists.resize(m.elastic.size());
@@ -43,14 +43,14 @@ KnownMotion known_at_start(const Model& m, const StartSettings& start, int on) {
 
 }  // namespace
 
-// What it finds impossible is said where the scene tells of the start.
+// Errors are located at the start in the scene.
 std::vector<double> Start::at(double t, const StartSettings& settings) try {
   const Model& m = model_;
   std::vector<double> y(flow_.size(), 0.0);
   const int on = settings.on.empty() ? m.reduction_node : m.network.ports.at(settings.on).in;
   const KnownMotion known = known_at_start(m, settings, on);
   UnloadedMotion unloaded = unloaded_motion(m, known);
-  if (!known.angles.empty()) flow_.set_shaft_angles(unloaded.twist.data(), unloaded.angle);  // twists may be given, too
+  if (!known.angles.empty()) flow_.set_shaft_angles(unloaded.twist.data(), unloaded.angle);  // twists may be given
   for (std::size_t i = 0; i < m.angles.size(); ++i) y[i] = m.angles[i].gain * unloaded.angle[index(m.angles[i].shaft)];
   for (std::size_t i = 0; i < unloaded.twist.size(); ++i) y[flow_.twists_begin() + i] = unloaded.twist[i];
   const double speed_on = m.node_ratio[index(on)];
@@ -122,8 +122,8 @@ void Start::first_states(double t, std::span<double> y) {
   for (const auto& pool : model_.pools) pool->first_states(flow_.instant(t, y), y.data() + flow_.own_begin());
 }
 
-// Where several sets of modes fit, the search for one must not begin at what an earlier run ended with; a law that lost
-// its events then has them again. Turns are counted from here.
+// If several sets of modes are consistent, the search must not start from the end of an earlier run; a law that lost its
+// events has them again. Turns are counted from here.
 void Start::forget_earlier_modes() {
   Modes& modes = flow_.changing_modes();
   std::fill(modes.turns.begin(), modes.turns.end(), 0.0);
@@ -132,7 +132,7 @@ void Start::forget_earlier_modes() {
   flow_.ties().forget_torques();
 }
 
-// By the speeds; those that stand and may move are returned.
+// Directions by the speeds; returns the contacts at rest that may move.
 std::vector<std::size_t> Start::senses_of_slip(double t, std::span<const double> y) {
   Modes& modes = flow_.changing_modes();
   const std::vector<Contact>& contacts = flow_.ties().contacts();
@@ -168,7 +168,7 @@ void Start::settle_modes(double t, std::span<double> y, bool equilibrium) {
   OpenSides(flow_).settle(t, y);
 }
 
-// A contact that can only ever hold in the sense in which it slips: the sides would have to hit each other.
+// Rejects a contact that can only hold in the direction in which it slips: its sides would collide.
 void Start::refuse_impossible_slip(double t, std::span<const double> y) {
   const std::vector<Contact>& contacts = flow_.ties().contacts();
   if (contacts.empty()) return;
@@ -186,8 +186,8 @@ void Start::refuse_impossible_slip(double t, std::span<const double> y) {
   }
 }
 
-// Speeds that relations demand of members whose speeds are not given. Where a relation leaves a choice, its first
-// members keep the speeds of the usual motion.
+// Speeds by the relations for members without given speeds. If a relation leaves a choice, its first members keep the
+// speeds of the usual motion.
 void Start::members_follow(std::span<double> y, std::vector<char> given, double t) {
   const Model& m = model_;
   const auto speed_at = [&](int shaft) -> double& { return y[flow_.speed_index(shaft)]; };
@@ -220,7 +220,7 @@ void Start::members_follow(std::span<double> y, std::vector<char> given, double 
   }
 }
 
-// φ_a of a joint whose law hangs on it; of others 0.
+// φ_a of a joint whose law depends on it; 0 for others.
 double Start::turn_of(int joint, std::span<const double> y) const {
   const Network::Joint& of = model_.network.joints[index(joint)];
   if (!of.element->is.uses_angle) return 0;
@@ -232,9 +232,9 @@ double Start::turn_of(int joint, std::span<const double> y) const {
   return y[static_cast<std::size_t>(tracked - model_.angles.begin())];
 }
 
-// Twists that carry the torques which the rigid machine would have in this position: no artificial ring at the start.
-// The machine as a whole may accelerate; all shafts then do so together. Where a law hangs on the angle of its shaft, that
-// angle hangs on the twists in turn: Newton's method, joint by joint, along the tree of elastic joints.
+// Twists for the torques of the rigid machine in this position: no artificial vibration at the start. The machine as a
+// whole may accelerate, with all shafts together. If a law depends on the angle of its shaft, this angle depends on the
+// twists: Newton's method, joint by joint, along the tree of elastic joints.
 void Start::balance_twists(std::span<double> y, double t) {
   const Model& m = model_;
   if (m.elastic.empty()) return;
@@ -278,7 +278,7 @@ void Start::balance_twists(std::span<double> y, double t) {
       largest = std::max(largest, std::abs(step));
       turned[i] = twist[i] - unloaded[first + i];
     }
-    // Shafts away from the reduction link stand turned by the twists.
+    // Shafts away from the reduction link are rotated by the twists.
     flow_.set_shaft_angles(turned.data(), angles);
     for (std::size_t i = 0; i < m.angles.size(); ++i)
       y[i] = unloaded[i] + m.angles[i].gain * angles[index(m.angles[i].shaft)];
@@ -299,7 +299,7 @@ void Start::balance_twists(std::span<double> y, double t) {
   wrap(flow_.changing_modes(), y);
 }
 
-// How all nodes turn with the reduction link in this position.
+// Speed ratios of all nodes to the reduction link in this position.
 Start::Together Start::moving_together(std::span<const double> y) const {
   const Model& m = model_;
   Together together{m.node_ratio, std::vector<double>(m.network.nodes.size(), 0.0)};
@@ -321,7 +321,7 @@ Start::Together Start::moving_together(std::span<const double> y) const {
   return together;
 }
 
-// Shafts that turned with the reduction link as they stood before do so as they stand now.
+// Shafts that moved with the reduction link in the previous position do so in the present one.
 void Start::turn_together(std::span<const double> before, const Together& then, std::span<double> y) const {
   const Model& m = model_;
   const double link =
@@ -334,9 +334,9 @@ void Start::turn_together(std::span<const double> before, const Together& then, 
   }
 }
 
-// What every node needs from its joints [N·m] when all shafts accelerate together, at the state evaluated last, whose
-// twists must be none: only the elements' torques are there. `stored`: what springs that vary take with the angle, as a
-// torque on the reduction link.
+// Torque that every node needs from its joints [N·m] when all shafts accelerate together, at the last evaluated state, which
+// must have no twists: only torques of elements act. `stored`: torque of angle-dependent springs on the reduction link by
+// their stored energy.
 std::vector<double> Start::needs_when_balanced(std::span<const double> y, double t, double stored) {
   const Model& m = model_;
   const Network& net = m.network;
@@ -348,7 +348,7 @@ std::vector<double> Start::needs_when_balanced(std::span<const double> y, double
   for (std::size_t n = 0; n < net.nodes.size(); ++n) {
     inertia += net.nodes[n].inertia * ratio[n] * ratio[n];
     torque -= net.nodes[n].inertia * together.kept[n] * ratio[n];
-    if (net.nodes[n].prescribed < 0 || ratio[n] == 0) continue;  // the frame holds nothing that moves
+    if (net.nodes[n].prescribed < 0 || ratio[n] == 0) continue;  // the frame does not drive
     const std::size_t s = index(m.shaft_of_node[n]);
     const double own = m.gain_of_node[n] * prescribed_acceleration(m, flow_.modes(), s, t);
     given = (own - together.kept[n]) / ratio[n];

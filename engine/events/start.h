@@ -1,7 +1,7 @@
-// start.h — the states that a machine begins in: angles, twists in balance with the loads, and all modes.
+// start.h — initial states of a machine: angles, twists in equilibrium with the loads, and all modes.
 //
-//   unloaded motion ──▶ speeds that are given, members of gears follow ──▶ modes of pieces and of the sequence
-//                   ──▶ twists that carry the loads ──▶ contacts that stick or slip as they fit
+//   unloaded motion ──▶ given speeds and the speeds of gear members ──▶ modes of pieces and of the sequence
+//                   ──▶ twists in equilibrium ──▶ consistent modes of contacts
 #pragma once
 
 #include <span>
@@ -15,15 +15,15 @@ namespace kurbel {
 
 class Start {
  public:
-  // Changes the modes of this flow, with its contacts and its switching.
+  // Changes the modes of this flow through its contacts and its switching.
   Start(Flow& flow, Contacts& contacts, Switching& switching)
       : flow_(flow), contacts_(contacts), switching_(switching), model_(flow.model()) {}
 
-  // As a scene demands it. Throws SceneError at the scene's place where that is impossible.
+  // The start given by a scene. Throws SceneError with the location in the scene if it is impossible.
   std::vector<double> at(double t, const StartSettings& settings);
-  // The reduction link at an angle, with these twists and speeds of the free shafts; the other angles follow.
+  // Start with an angle of the reduction link and these twists and speeds of the free shafts; the other angles follow.
   std::vector<double> with(double t, double link_angle, std::span<const double> twists, std::span<const double> speeds);
-  // The rigid machine, for integrators that know no events: clutches locked, senses of motion as they turn.
+  // Start of the rigid machine, for integrators without events: clutches locked, directions by the speeds.
   std::vector<double> rigid(double t, double link_angle, double link_speed);
 
  private:
@@ -36,7 +36,7 @@ class Start {
   std::vector<double> needs_when_balanced(std::span<const double> y, double t, double stored);
   struct Together {             // per node
     std::vector<double> ratio;  // of its speed to the reduction link's
-    std::vector<double> kept;   // acceleration while the reduction link keeps its speed [rad/s²]
+    std::vector<double> kept;   // acceleration at constant speed of the reduction link [rad/s²]
   };
   Together moving_together(std::span<const double> y) const;
   void turn_together(std::span<const double> before, const Together& then, std::span<double> y) const;
@@ -50,10 +50,10 @@ class Start {
   const Model& model_;
 };
 
-// Torques of the network's joints that give every node what it needs [N·m]: summed from the leaves of the whole tree to
-// a root that can take the rest (a prescribed motion, if there is one). A gear that runs counts as one without losses.
-// Closed loops share what they pass by the twists of their springs, which gape by what these twists (per elastic joint)
-// lock in. A joint takes `share` times from a what it passes on (theory 5.11, 7.10). Throws std::runtime_error where the three shafts of a gear are free, or a loop has no spring.
+// Torques of the network's joints in equilibrium with the needs of the nodes [N·m], summed from the leaves of the whole
+// tree to a root that takes the remainder (a prescribed motion, if any). Running gears count as lossless. Closed loops
+// share the torque by the compliances of their springs and the locked-in `twist` (per elastic joint). A joint takes `share`
+// times its torque from a (theory 5.11, 7.10). Throws std::runtime_error if a gear has three free shafts or a loop no spring.
 std::vector<double> balanced_joints(const Model& model, std::vector<double> need, std::span<const double> twist,
                                     std::span<const double> share);
 

@@ -1,4 +1,4 @@
-// switching.h — what changes at known times and by command: windows of time, laws over time, the operating sequence.
+// switching.h — changes at known times and by command: windows of time, laws over time, the operating sequence.
 #pragma once
 
 #include <span>
@@ -16,16 +16,16 @@ class Switching {
   explicit Switching(Flow& flow) : flow_(flow), sequence_(flow.model()) {}
   bool has_sequence() const { return sequence_.any(); }
 
-  // At a start: no command given, the first step armed or, where it is due, taken.
+  // At a start: no commands are given; the first step is armed or, if due, executed.
   void begin(double t, std::span<double> y);
-  // Pieces and windows as they are at this time under the present commands.
+  // Sets pieces and windows for this time and the present commands.
   void set_timed_modes(double t);
-  // The step that is due, and those that follow it at once. What was told changes what is on, and a circuit that opens
-  // or closes changes its currents at once.
+  // Executes the step that is due, and the steps that follow it at once. Commands switch elements on and off; a circuit
+  // that opens or closes changes its currents at once.
   void take_steps(double t, std::span<double> y, EventLog* log);
-  // Everything that is due at this time.
+  // Executes all changes due at this time.
   void pass_edge(double t, std::span<double> y, EventLog& log);
-  // When next something is due; never: infinity [s].
+  // Time of the next change [s]; infinite: none.
   double next_edge(double t) const;
   // Positive until the armed step's angle or speed is reached; of order one.
   double guard(std::span<const double> y, const double* speed) const {

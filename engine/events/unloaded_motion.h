@@ -1,4 +1,4 @@
-// unloaded_motion.h — how all shafts stand and turn with one of them before any load acts: what a start is made of.
+// unloaded_motion.h — angles and speeds of all shafts relative to one of them without load: the basis of a start.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@ struct UnloadedMotion {
   std::vector<double> twist;  // of every elastic joint [rad]
 };
 
-// What is known beforehand: the angle of one shaft, which leads; twists; or the angles of all shafts.
+// Given data: the angle of one leading shaft; twists; or the angles of all shafts.
 struct KnownMotion {
   int shaft = 0;
   double angle = 0;                                // [rad]
-  std::vector<std::optional<double>> twists = {};  // per elastic joint, where given
-  std::vector<double> angles = {};                 // of every shaft; empty: sought
+  std::vector<std::optional<double>> twists = {};  // per elastic joint, if given
+  std::vector<double> angles = {};                 // of every shaft; empty: to be computed
 };
 
-// One walk from the leading shaft outwards, through elastic joints (each at its unloaded twist, which for a universal
-// joint hangs on the angle) and relations alike, so that both Σ gain φ = 0, Σ gain ω = 0 and the kinematics of every
-// connection hold to round-off. Where a relation leaves a choice its members keep the shares of the usual motion.
+// Proceeds from the leading shaft outwards, through elastic joints (each at its unloaded twist, which for a universal
+// joint depends on the angle) and relations, so that Σ gain φ = 0, Σ gain ω = 0 and the kinematics of every connection
+// hold to round-off. If a relation leaves a choice, its members keep their ratios in the usual motion.
 UnloadedMotion unloaded_motion(const Model& model, const KnownMotion& known);
 
 }  // namespace kurbel

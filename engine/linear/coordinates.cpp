@@ -1,4 +1,4 @@
-// coordinates.cpp — the null space of the ties, group by group of the shafts that they join.
+// coordinates.cpp — null space of the ties, by groups of tied shafts.
 #include "engine/linear/coordinates.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double says_nothing_new = 1e-10;  // of a row, over the largest
-constexpr double closes = 1e-9;             // of a speed: two ways round a loop say the same
+constexpr double closes = 1e-9;             // of a speed: tolerance for the closure of a loop
 
 class Maker {
  public:
@@ -71,7 +71,7 @@ class Maker {
     const Svd svd = full_v_svd(g);
     Index rank = 0;
     while (rank < svd.values.size() && svd.values[rank] > says_nothing_new * svd.values[0]) ++rank;
-    if (rank == n) return;  // tied to what stands
+    if (rank == n) return;  // tied to the frame
     const MatrixXd basis = svd.v.rightCols(n - rank);
     Eigen::VectorXd inertia(n);
     for (Index i = 0; i < n; ++i) inertia[i] = inertia_[shafts[at(static_cast<int>(i))]];
@@ -103,7 +103,7 @@ class Maker {
   Coordinates out_;
 };
 
-// Rows of two coordinates at most: parts that hang together turn as they are geared.
+// Rows of at most two coordinates: connected parts turn by their gear ratios.
 class Walk {
  public:
   explicit Walk(const SparseMatrix& twists)
@@ -134,7 +134,7 @@ class Walk {
  private:
   using ByRow = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-  // Outwards from one coordinate; false where something holds the part.
+  // Outwards from one coordinate; false if the part is held.
   bool is_free(Index first, int part) {
     bool free = true;
     std::vector<Index> queue = {first};
@@ -154,7 +154,7 @@ class Walk {
           value_[at(other)] = value;
           queue.push_back(other);
         } else if (std::abs(value - value_[at(other)]) > closes * std::abs(value)) {
-          free = false;  // springs close a loop in which they wind each other up
+          free = false;  // springs preload each other in a closed loop
         }
       }
     return free;

@@ -1,7 +1,6 @@
-// cycle_samples.cpp — the round is run once more; what it does is read between the steps.
+// cycle_samples.cpp — integrates the period again and samples the dense output.
 #include "engine/linear/cycle_samples.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "engine/numerics/index.h"
@@ -24,7 +23,7 @@ class Sampler final : public Observer {
       take(view, std::max(t, view.t_previous()));
     }
   }
-  // Samples beyond the last step, which ends the round to rounding.
+  // Samples beyond the last step, which ends at the period to rounding.
   bool is_full() const { return next_ >= count_; }
   std::vector<double> means() const {
     std::vector<double> all = mean_;

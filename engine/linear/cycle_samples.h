@@ -1,4 +1,4 @@
-// cycle_samples.h — a round of the steady motion, sampled evenly over time: means and orders of what it does.
+// cycle_samples.h — a period of the steady motion, sampled uniformly over time, for means and orders.
 #pragma once
 
 #include <memory>
@@ -10,18 +10,18 @@
 namespace kurbel {
 
 struct CycleSamples {
-  double time = 0;                          // of the round [s]
+  double time = 0;                          // of the period [s]
   double link_angle = 0;                    // at its begin [rad]
-  std::shared_ptr<const MeanMotion> mean;   // of the round
-  std::vector<std::vector<double>> torque;  // per elastic joint: at (k + ½)/n of the round [N·m]
-  std::vector<std::vector<double>> twist;   // less what it is unloaded [rad]
-  std::vector<Event> events;                // that the round goes through
+  std::shared_ptr<const MeanMotion> mean;   // over the period
+  std::vector<std::vector<double>> torque;  // per elastic joint: at (k + ½)/n of the period [N·m]
+  std::vector<std::vector<double>> twist;   // minus the unloaded twist [rad]
+  std::vector<Event> events;                // in the period
 };
 
-// Of a steady motion that repeats; `count` samples. Throws std::invalid_argument in words where the round breaks down.
+// Samples a periodic steady motion at `count` times. Throws std::invalid_argument if the integration fails.
 CycleSamples sample_cycle(const Orbit& orbit, std::size_t count, double tolerance = 1e-11);
 
-// Of a state in which no speed changes: its own.
+// Means of an equilibrium, a state with constant speeds: those of the state.
 std::shared_ptr<const MeanMotion> means_of_equilibrium(std::shared_ptr<const Model> model, const State& state);
 
 }  // namespace kurbel

@@ -283,10 +283,6 @@ UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted
   return modes;
 }
 
-int modes_below(const LinearDrive& drive, double omega) {
-  return omega <= 0 ? 0 : count_below(scaled_stiffness(drive), omega * omega);
-}
-
 EnergyShares energy_shares(const LinearDrive& drive, const VectorXd& shape) {
   const auto shares = [](const VectorXd& energy) {
     const double sum = energy.sum();

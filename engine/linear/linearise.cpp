@@ -18,9 +18,9 @@ using Eigen::Index;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 constexpr int positions_of_balance = 64;       // a turn: enough to find a speed
-constexpr double left_by_differences = 1e-11;  // of the largest entry: what is left of a difference of equal ones
+constexpr double left_by_differences = 1e-11;  // of the largest entry: rounding in a difference of equal ones
 
-// With the link held at an angle weights and loads that hang on it hold it, too.
+// At a given angle of the link, weights and loads that depend on it add stiffness.
 void refuse_what_cannot_swing(const Model& m, const LinearisationPoint& point) {
   const auto& elements = m.network.elements;
   if (point.angle && std::any_of(elements.begin(), elements.end(),
@@ -74,7 +74,7 @@ class Lineariser {
       drive_.shaft_inertia[static_cast<Index>(i)] = base_.shaft_inertia()[drive_.shaft[i]];
   }
 
-  // How the joints' torques change with what they read, averaged.
+  // Averaged derivatives of the joints' torques by their inputs.
   void take_slopes() {
     using By = TorqueSlope::By;
     drive_.joints.resize(m_.elastic.size());
@@ -104,7 +104,7 @@ class Lineariser {
       const ElasticJoint& e = m_.elastic[j];
       const AnyConnection& element = *m_.network.joints[at(e.joint)].element;
       const auto i = static_cast<Index>(j);
-      // A part of a row by itself: as all parts carry the same torque at rest.
+      // A part of a row separately: with the same torque in all parts at rest.
       drive_.joints[j].stiffness = element.row ? element.stiffness : torque_by_twist.coeff(i, i);
       drive_.joints[j].damping = element.row ? element.damping : torque_by_rate.coeff(i, i);
       rows = rows || element.row;

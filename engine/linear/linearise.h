@@ -1,10 +1,10 @@
-// linearise.h — the machine as a linear system about its motion, from the exact Jacobian of the same equations.
+// linearise.h — the machine linearised about its motion, from the exact Jacobian of the same equations.
 //
 //     M q̈ + C q̇ + K q = B z + f,   ż = F z + H q̇ + G θ + h,   θ = T q     (theory 12.1)
-// q are the small departures of the coordinates (coordinates.h) from the base motion (base_motion.h), z those of the
-// elements' own states. C holds the slopes of motors and loads and of whatever slips, K the springs (Tᵀ k T) and what else
-// hangs on the twists: friction of gears that grows with what they transmit. Coefficients that change with the angle enter
-// by their mean over the cycle, unless the link is held at one.
+// q: small deviations of the coordinates (coordinates.h) from the base motion (base_motion.h); z: those of the internal
+// states of elements. C contains the slopes of motors, loads and slipping contacts, K the springs (Tᵀ k T) and other terms
+// by the twists, such as gear friction that depends on the transmitted torque. Coefficients that depend on the angle are
+// averaged over the cycle, unless an angle of the link is given.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,30 +30,29 @@ struct LinearDrive {
 
   std::shared_ptr<const Model> model;
   LinearisationPoint at;
-  std::vector<int> shaft;         // those that may move
-  SparseMatrix motion;            // of them by the coordinates: ω = motion · q̇
-  Eigen::VectorXd shaft_inertia;  // of them [kg·m²]
-  std::vector<double> ratio;      // of them: speed over the reduction link's when all turns as geared
+  std::vector<int> shaft;         // the movable shafts
+  SparseMatrix motion;            // their speeds by the coordinates: ω = motion · q̇
+  Eigen::VectorXd shaft_inertia;  // their inertias [kg·m²]
+  std::vector<double> ratio;      // their speeds over the reduction link's by the gear ratios
   std::vector<Joint> joints;      // per elastic joint of the model
-  // What springs in a row that hang on each other do beyond that, by twists and rates of all joints; empty: there are none.
+  // Additional terms of coupled springs in a row, by twists and rates of all joints; empty: none.
   SparseRows row_stiffness, row_damping;
-  SparseRows twists;        // T: joints × coordinates
-  Eigen::VectorXd inertia;  // M, diagonal [kg·m²]
-  SparseMatrix stiffness;   // Tᵀ k T of the springs, symmetric
-  SparseMatrix
-      other_stiffness;   // of K, what is not: losses by torque; what depends on the angle, with the link held at one
-  SparseMatrix damping;  // C
-  SparseMatrix torque_by_own, own_by_twist, own_by_speed, own_by_angle, own_by_own;  // B, G, H, with the link held, F
+  SparseRows twists;             // T: joints × coordinates
+  Eigen::VectorXd inertia;       // M, diagonal [kg·m²]
+  SparseMatrix stiffness;        // Tᵀ k T of the springs, symmetric
+  SparseMatrix other_stiffness;  // other terms of K: losses by torque; by the angle, if one is given
+  SparseMatrix damping;          // C
+  SparseMatrix torque_by_own, own_by_twist, own_by_speed, own_by_angle, own_by_own;  // B, G, H, by a given angle, F
   SparseMatrix torque_by_twist;               // −K = torque_by_twist · T + …
-  SparseMatrix joint_by_speed, joint_by_own;  // of the joints' torques, by coordinates' speeds and own states
+  SparseMatrix joint_by_speed, joint_by_own;  // of the joints' torques, by speeds of coordinates and internal states
   Eigen::VectorXd own_scale;                  // orders of magnitude of z
-  double mean_torque = 0;  // Σ of all shares on the reduction link: 0 where the point is one of steady motion [N·m]
-  std::string mode_set;    // for people: what was assumed of pieces, directions, stuck shafts
+  double mean_torque = 0;                     // Σ of all shares on the reduction link: 0 in steady motion [N·m]
+  std::string mode_set;                       // for reports: the assumed pieces, directions and stuck shafts
 
   Eigen::Index size() const { return inertia.size(); }
   Eigen::Index own_states() const { return own_scale.size(); }
   bool is_symmetric() const { return other_stiffness.nonZeros() == 0 && own_states() == 0; }
-  // Of the springs by the twists, of the dampers by their rates.
+  // Torques of the springs by the twists, of the dampers by their rates.
   Eigen::VectorXcd spring_torques(const Eigen::VectorXcd& twist) const;
   Eigen::VectorXcd damper_torques(const Eigen::VectorXcd& rate) const;
   Eigen::VectorXd spring_work(const Eigen::VectorXd& twist) const;  // twice their energy, by joints
@@ -63,14 +62,13 @@ struct LinearDrive {
   }
 };
 
-// Throws std::invalid_argument where nothing can swing: no spring and no own state, or no coordinate that is free.
+// Throws std::invalid_argument if nothing can oscillate: no spring and no internal state, or no free coordinate.
 LinearDrive linearise(BaseMotion& base);
 LinearDrive linearise(std::shared_ptr<const Model> model, const LinearisationPoint& point);
 
-// The speed at which a scene is linearised where it has no steady motion and none is asked for: of its start, else the rated one
-// of its elements.
+// Default speed of the linearisation without a steady motion: that of the start, else the rated speed of the elements.
 double usual_speed(const Model& model);
-// Where mean torques balance near the rated speed and a faster motion is braked, if they do; else `usual_speed`.
+// The speed near the rated one with a stable balance of the mean torques; if there is none, `usual_speed`.
 double balanced_speed(const std::shared_ptr<const Model>& model);
 
 }  // namespace kurbel

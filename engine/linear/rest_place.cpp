@@ -1,4 +1,4 @@
-// rest_place.cpp — the state of a steady motion at rest, or a root of the torque left over at standstill, downhill from the start.
+// rest_place.cpp — the state of a steady motion at rest, or a root of the torque at standstill, downhill from the start.
 #include "engine/linear/rest_place.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace kurbel {
 namespace {
 
-// Of the two turns that a law may take; 0 where rounding is all that is left of it.
+// Over the two turns of a law; 0 if only rounding remains.
 double within_a_cycle(double angle) {
   const double within = std::remainder(angle, 4 * std::numbers::pi);
   return std::abs(within) < 1e-9 ? 0 : within;
@@ -24,7 +24,7 @@ double within_a_cycle(double angle) {
 
 bool stands(const Orbit& orbit) { return orbit.kind == Orbit::Kind::at_rest; }
 
-// What the weights and whatever else acts at standstill leave over on the link [N·m].
+// Torque on the link by weights and all other loads at standstill [N·m].
 double torque_at(const std::shared_ptr<const Model>& model, double angle) {
   return BaseMotion(model, {.speed = 0, .angle = angle}).left_over();
 }
@@ -37,7 +37,7 @@ double torque_at(const std::shared_ptr<const Model>& model, double angle) {
                   why, model.node_label(model.reduction_node)));
 }
 
-// From just beside the start, which may be the top or the bottom itself, the way the torque drives.
+// From near the start, which may be the top or the bottom itself, in the direction of the torque.
 double downhill(const std::shared_ptr<const Model>& model, double start) {
   constexpr double step = 0.5 * degree;
   constexpr int turn = 720;

@@ -1,6 +1,6 @@
-// rest_place.h — where a machine stands that swings about its rest: a pendulum, a crank that rocks.
+// rest_place.h — rest position of a machine that oscillates about it: a pendulum, a rocking crank.
 //
-// At rest the angle is no average: weights and loads that hang on it are springs, K = −∂M/∂φ there. Of a pendulum
+// At rest the angle is fixed: weights and loads that depend on it act as springs, K = −∂M/∂φ. For a pendulum
 //     ω² = m g l/J
 #pragma once
 
@@ -13,16 +13,16 @@ namespace kurbel {
 
 struct RestPlace {
   double angle = 0;                         // of the reduction link [rad]
-  std::shared_ptr<const MeanMotion> orbit;  // that it comes to rest in; null: found by its torque alone
+  std::shared_ptr<const MeanMotion> orbit;  // of its rest; null: found by the torque only
 };
 
-// Some crank never comes round, so that there is no mean over its angle.
+// Some crank cannot turn fully, so that there is no mean over its angle.
 bool has_rocking_crank(const Model& model);
-// The machine comes to rest with nothing held by friction, and its torques hang on the angle.
+// The machine comes to rest without static friction, and its torques depend on the angle.
 bool rests_by_its_angle(const Model& model, const Orbit& orbit);
 
-// The rest of a steady motion at rest; else where torques drive the machine to from its start: Σ M = 0 with ∂M/∂φ < 0. Throws
-// std::invalid_argument in words where there is none.
+// The position of a steady motion at rest; else the position to which the torques drive the machine from its start:
+// Σ M = 0 with ∂M/∂φ < 0. Throws std::invalid_argument if there is none.
 RestPlace place_of_rest(const std::shared_ptr<const Model>& model, const Orbit& orbit);
 
 }  // namespace kurbel

@@ -1,8 +1,8 @@
-// elimination.h — Gauss–Jordan elimination that tells a row which says nothing new from one that speaks of little.
+// elimination.h — Gauss–Jordan elimination that distinguishes redundant rows from rows with small entries.
 //
-// In rows that hold speeds of heavy and light shafts the numbers lie decades apart, and what elimination leaves of a
-// row may be small because its shafts count little, or because the row repeats others. Entries are therefore judged by
-// what was added and taken away in their own place: less than 1e-12 of that is round-off, and becomes zero.
+// In rows with speeds of heavy and light shafts the entries differ by decades. The remainder of a row may be small because
+// its entries are small, or because the row is redundant. Entries are therefore compared with the terms added and
+// subtracted at the same position: less than 1e-12 of them is round-off and is set to zero.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,23 +12,23 @@
 namespace kurbel {
 
 struct Eliminated {
-  // row[p] was solved for the unknown column[p]; so many are the rank.
+  // row[p] was solved for the unknown column[p]; their number is the rank.
   std::vector<Eigen::Index> row, column;
-  // The rows after it: pivot columns are unit vectors, columns beyond the unknowns were carried along.
+  // The eliminated rows: pivot columns are unit vectors, columns after the unknowns are transformed as well.
   Eigen::MatrixXd rows;
-  // The combination of the given rows that every row became: rows = combination · given.
+  // Every row as a combination of the given rows: rows = combination · given.
   Eigen::MatrixXd combination;
 
   std::size_t rank() const { return row.size(); }
 };
 
-// The rows are gone through in this order; each is solved for the unknown whose entry, times the unknown's weight > 0,
-// is largest, or repeats those before. The unknowns are the first weights-many columns. With weights decades apart
-// those of most weight that can be solved for are.
+// Rows are processed in this order; each is redundant or solved for the unknown with the largest entry times weight (> 0).
+// The unknowns are the first weight.size() columns. With weights that differ by decades the unknowns of largest weight
+// are solved for where possible.
 Eliminated eliminate(Eigen::MatrixXd rows, const std::vector<std::size_t>& order, const Eigen::VectorXd& weight);
 
-// A square matrix becomes its inverse, by row pivots; its rows and columns should be of like size. False, with the
-// matrix spoilt, where a pivot is no larger than `least`, of the size of what its entries were summed from.
+// Inverts a square matrix in place with row pivots; its rows and columns should be scaled. False, with the matrix
+// destroyed, if a pivot is ≤ `least`, relative to the terms summed in its entry.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 bool invert(RowMatrix& a, double least);
 

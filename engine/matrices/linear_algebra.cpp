@@ -34,10 +34,6 @@ typename LuOf<Scalar>::Vector LuOf<Scalar>::solve(const Vector& right) const {
   return factors_->lu.solve(right);
 }
 template <class Scalar>
-typename LuOf<Scalar>::Vector LuOf<Scalar>::solve_transposed(const Vector& right) const {
-  return factors_->lu.transpose().solve(right);
-}
-template <class Scalar>
 typename LuOf<Scalar>::Matrix LuOf<Scalar>::solve_all(const Matrix& right) const {
   return factors_->lu.solve(right);
 }
@@ -56,7 +52,6 @@ FullLu::FullLu(const MatrixXd& a, double threshold) {
   if (threshold > 0) factors->lu.setThreshold(threshold);
   factors_ = std::move(factors);
 }
-Index FullLu::rank() const { return factors_->lu.rank(); }
 bool FullLu::invertible() const { return factors_->lu.isInvertible(); }
 MatrixXd FullLu::kernel() const {
   if (factors_->lu.dimensionOfKernel() == 0) return MatrixXd(factors_->lu.cols(), 0);
@@ -67,11 +62,6 @@ MatrixXd FullLu::inverse() const { return factors_->lu.inverse(); }
 
 // --- Cholesky ---
 
-VectorXd Cholesky::solve(const VectorXd& right) const {
-  VectorXd x = lower.triangularView<Eigen::Lower>().solve(right);
-  lower.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
-  return x;
-}
 Cholesky cholesky(const MatrixXd& a) {
   const Eigen::LLT<MatrixXd> factors(a);
   if (factors.info() != Eigen::Success) return {};

@@ -1,8 +1,8 @@
 // linear_algebra.h — products, factorisations and eigenvalues of matrices, compiled once.
 //
-// Eigen's algorithms are templates that cost seconds in every source that uses them. What includes this header pays for
-// Eigen's types alone; nobody else includes Eigen's modules of algorithms (a test reads the includes).
-// Matrices are dense and of run-time size unless a name says sparse; blocks and columns are taken without a copy.
+// Eigen's algorithms are templates that take seconds to compile in every source. Sources with this header compile only
+// Eigen's types; no other source includes Eigen's algorithms (a test checks the includes).
+// Matrices are dense and of run-time size unless the name contains sparse; blocks and columns are passed without a copy.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ Eigen::MatrixXcd complex_product_adjoint(const ComplexMatrixView& a, const Compl
 Eigen::VectorXcd complex_image(const Eigen::MatrixXd& a, const Eigen::VectorXcd& b);
 SparseMatrix product(const SparseMatrix& a, const SparseMatrix& b);
 
-// LU by partial pivots, of a square matrix. What is singular gives infinities and no numbers.
+// LU with partial pivoting of a square matrix. A singular matrix gives infinities and NaN.
 template <class Scalar>
 class LuOf {
  public:
@@ -35,7 +35,6 @@ class LuOf {
   LuOf() = default;
   explicit LuOf(const Matrix& a);
   Vector solve(const Vector& right) const;
-  Vector solve_transposed(const Vector& right) const;  // Aᵀ x = b
   Matrix solve_all(const Matrix& right) const;
   Matrix inverse() const;
 
@@ -46,13 +45,12 @@ class LuOf {
 using Lu = LuOf<double>;
 using ComplexLu = LuOf<std::complex<double>>;
 
-// LU by full pivots: tells the rank. Pivots up to `threshold` of the largest count as zero; 0: as rounding makes them.
+// LU by full pivots. Pivots up to `threshold` of the largest count as zero; 0: as rounding makes them.
 class FullLu {
  public:
   explicit FullLu(const Eigen::MatrixXd& a, double threshold = 0);
-  Eigen::Index rank() const;
   bool invertible() const;
-  Eigen::MatrixXd kernel() const;  // columns; none: the matrix has full column rank
+  Eigen::MatrixXd kernel() const;  // columns; empty: the matrix has full column rank
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
   Eigen::MatrixXd inverse() const;
 
@@ -61,18 +59,18 @@ class FullLu {
   std::shared_ptr<const Factors> factors_;
 };
 
-// Least squares: by a complete orthogonal decomposition (of all solutions the shortest), and by QR with column pivots.
+// Least squares: by complete orthogonal decomposition (the shortest of all solutions), and by QR with column pivoting.
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& right);
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& right);
 Eigen::Index rank_by_columns(const Eigen::MatrixXd& a);
 Eigen::MatrixXcd pseudo_inverse(const Eigen::MatrixXcd& a);
 
-// A = Q R by Householder's reflections.
+// A = Q R by Householder reflections.
 Eigen::MatrixXd full_basis(const Eigen::MatrixXd& a);       // Q, square
 Eigen::MatrixXd orthonormalised(const Eigen::MatrixXd& a);  // Q's first columns, as many as A has
 struct PivotedQr {
   Eigen::MatrixXd q;         // as many columns as A
-  Eigen::VectorXd diagonal;  // of R, magnitudes falling
+  Eigen::VectorXd diagonal;  // of R, magnitudes descending
 };
 PivotedQr pivoted_qr(const Eigen::MatrixXd& a);
 struct Qr {
@@ -83,12 +81,11 @@ Qr qr(const Eigen::MatrixXd& a);
 // A = L Lᵀ; empty where A is not positive definite.
 struct Cholesky {
   Eigen::MatrixXd lower;
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 };
 Cholesky cholesky(const Eigen::MatrixXd& a);
 Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& right);  // L⁻¹ B
 
-// A = U diag(values) Vᵀ by Jacobi's rotations, values falling.
+// A = U diag(values) Vᵀ by Jacobi rotations, values descending.
 struct Svd {
   Eigen::MatrixXd u, v;
   Eigen::VectorXd values;
@@ -96,7 +93,7 @@ struct Svd {
 Svd thin_svd(const Eigen::MatrixXd& a);
 Svd full_v_svd(const Eigen::MatrixXd& a);  // V square, no U
 
-// A = X diag(values) Xᵀ of a symmetric matrix, values ascending. Throws std::runtime_error where it does not converge.
+// A = X diag(values) Xᵀ of a symmetric matrix, values ascending. Throws std::runtime_error without convergence.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
@@ -104,8 +101,8 @@ struct SymmetricEigen {
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& a);
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 
-// A v = λ v of a full real matrix. Throws std::runtime_error where an entry is no number, or the iteration does not converge
-// (QR algorithm; Golub, Van Loan 2013, 7.5): nobody may take what did not converge for a result.
+// A v = λ v of a dense real matrix (QR algorithm; Golub, Van Loan 2013, 7.5). Throws std::runtime_error if an entry is not
+// finite or the iteration does not converge.
 struct Eigenpairs {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;  // columns, of length one
@@ -113,7 +110,7 @@ struct Eigenpairs {
 Eigenpairs eigenpairs(const Eigen::MatrixXd& a);
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
 
-// LU of sparse square matrices. The pattern is analysed once, by the first factorise(); later matrices have the same one.
+// LU of sparse square matrices. The first factorise() analyses the pattern, which must be the same for later matrices.
 template <class Scalar>
 class SparseLuOf {
  public:
@@ -129,7 +126,7 @@ class SparseLuOf {
 using SparseLu = SparseLuOf<double>;
 using ComplexSparseLu = SparseLuOf<std::complex<double>>;
 
-// L D Lᵀ of sparse symmetric matrices, likewise.
+// L D Lᵀ of sparse symmetric matrices, with the same rule.
 class SparseLdlt {
  public:
   SparseLdlt();

@@ -2,13 +2,12 @@
 //
 //     A_k = Q_{k+1} T_k Q_kᴴ,  k = 0 … K−1,  Q_K = Q_0        T_k upper triangular, Q_k unitary
 //     eigenvalues of A_{K−1} … A_1 A_0:  μ_j = Π_k (T_k)_jj
-// A. Bojanczyk, G. Golub, P. Van Dooren, The periodic Schur decomposition, Proc. SPIE 1770, 1992. What rounding does is a
-// small relative change of each factor, so that a multiplier of 1e-200 beside one of 1 is as good as its factors are; the
-// product itself would have lost it at 1e-16.
+// A. Bojanczyk, G. Golub, P. Van Dooren, The periodic Schur decomposition, Proc. SPIE 1770, 1992. Rounding is equivalent to
+// a small relative change of each factor, so that a multiplier of 1e-200 next to one of 1 is as accurate as the factors;
+// the product would lose multipliers below 1e-16.
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <vector>
 
 namespace kurbel {
@@ -23,17 +22,17 @@ struct PeriodicEigenvalue {
 
 class PeriodicSchur {
  public:
-  // Real square factors of one size, A_0 first (it acts first). Throws std::invalid_argument where there is none, where
-  // they do not fit or hold no numbers, std::runtime_error where the iteration does not end.
+  // Real square factors of equal size, A_0 first (it acts first). Throws std::invalid_argument if there are none, if sizes
+  // differ or entries are not finite; std::runtime_error if the iteration does not converge.
   explicit PeriodicSchur(const std::vector<Eigen::MatrixXd>& factors);
 
   std::size_t size() const { return static_cast<std::size_t>(triangular_.front().rows()); }
   std::size_t count() const { return triangular_.size(); }
   // Largest magnitude first.
   const std::vector<PeriodicEigenvalue>& eigenvalues() const { return eigenvalues_; }
-  // v_k, of unit length, before each factor: A_k v_k = ν_k v_{k+1}, Π ν_k = μ. Of eigenvalue j as ordered above.
+  // Unit vectors v_k before each factor for the eigenvalue j in the order above: A_k v_k = ν_k v_{k+1}, Π ν_k = μ.
   std::vector<Eigen::VectorXcd> vectors(std::size_t j) const;
-  // Largest ‖A_k − Q_{k+1} T_k Q_kᴴ‖/‖A_k‖, no less than rounding.
+  // Largest ‖A_k − Q_{k+1} T_k Q_kᴴ‖/‖A_k‖, at least the rounding error.
   double backward_error() const { return backward_error_; }
 
  private:

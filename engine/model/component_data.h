@@ -1,8 +1,8 @@
-// component_data.h — what components state beside their part in the equations: ratings, a motor's data, teeth.
+// component_data.h — data of components that are not in the equations: ratings, motor data, teeth.
 //
 //     network.data.add("coupling", CouplingLimits{…});                       where a kind is built
 //     if (const auto* limits = network.data.find<CouplingLimits>("coupling"))  in a study
-// Values are of the families' own types, so that nothing here knows any kind.
+// The types of the values belong to the families of components; this class is independent of them.
 #pragma once
 
 #include <any>
@@ -15,20 +15,20 @@ namespace kurbel {
 
 class ComponentData {
  public:
-  // Of each type a component states one value at most.
+  // A component has at most one value of each type.
   template <class T>
   void add(const std::string& component, T value) {
     places_.emplace(component, values_.size());
     values_.emplace_back(component, std::move(value));
   }
-  // Null: it states none. Valid while nothing is added.
+  // Null: none. Valid until the next add().
   template <class T>
   const T* find(const std::string& component) const {
     for (auto [place, end] = places_.equal_range(component); place != end; ++place)
       if (const T* value = std::any_cast<T>(&values_[place->second].second)) return value;
     return nullptr;
   }
-  // With the components that state them, in the order in which they were added: the canonical one of a scene.
+  // All values with their components, in the order of addition: the canonical order of the scene.
   template <class T>
   std::vector<std::pair<const std::string&, const T&>> all() const {
     std::vector<std::pair<const std::string&, const T&>> list;

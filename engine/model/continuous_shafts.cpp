@@ -1,4 +1,4 @@
-// continuous_shafts.cpp — the degree of every shaft's element, and its points and springs in place of the whole.
+// continuous_shafts.cpp — degree of every shaft's element, and its points and springs instead of the whole.
 #include "engine/model/continuous_shafts.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double farthest = 2 * pi;  // x up to which a shaft follows what swings faster than itself
+constexpr double farthest = 2 * pi;  // x up to which a shaft resolves vibrations faster than its own
 constexpr int next_odd = 2;          // odd degrees have a part in the middle, whose torque is the shaft's
 
 // First root of tan x = (r_a + r_b) x/(r_a r_b x² − 1), r = J/J_shaft (theory 5.19); it lies in 0 … π.
@@ -41,7 +41,7 @@ int degree_for(double x) {
   return degree;
 }
 
-// x of its first own frequency, between what it joins besides itself.
+// x of its first natural frequency between the adjacent inertias.
 double own_x(const Network::Chain& chain, const SeenInertias& seen, std::size_t joint) {
   const auto beside = [&](double side) { return std::max(0.0, side / chain.inertia - 0.5); };
   return first_root(beside(seen.on_side_a(joint)), beside(seen.on_side_b(joint)));

@@ -1,4 +1,4 @@
-// explain.cpp — what a model says of itself: what was merged, its coordinates, their inertias, and why.
+// explain.cpp — description of a model: merged joints with reasons, coordinates, their inertias.
 #include <fmt/format.h>
 
 #include <map>
@@ -11,7 +11,7 @@
 namespace kurbel {
 namespace {
 
-constexpr std::size_t shown = 40;  // shafts and connections that are told one by one
+constexpr std::size_t shown = 40;  // shafts and connections listed one by one
 
 std::string shaft_line(const Model& m, std::size_t s) {
   const Shaft& shaft = m.shafts[s];

@@ -1,4 +1,4 @@
-// jacobian_layout.cpp — the sparsity of the equations comes from the elements themselves.
+// jacobian_layout.cpp — the sparsity of the equations, registered by the elements.
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -119,7 +119,7 @@ std::vector<std::vector<std::pair<std::size_t, std::size_t>>> record_followers(R
   return followed;
 }
 
-// Sorts what was recorded by columns; slots without a state go one past the end.
+// Sorts the recorded entries by columns; slots without a state go one past the end.
 void sort_slots(const Model& model, const Recorder& record, JacobianLayout& layout) {
   const int states = static_cast<int>(model.state_count());
   std::vector<std::size_t> order(record.places.size());

@@ -1,4 +1,4 @@
-// loops.cpp — closed loops of shafts: the motion that they allow, and ratios that clash.
+// loops.cpp — closed loops of shafts: the motion that they allow, and contradictory ratios.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,20 +13,20 @@
 namespace kurbel {
 namespace {
 
-constexpr double fits = 1e-9;  // of the speeds: two ways round a loop say the same
+constexpr double fits = 1e-9;  // of the speeds: tolerance for the closure of a loop
 
 bool is_firm(const Network::Joint& joint) {
   return !joint.element || !(joint.element->is.slips || joint.element->is.springless);
 }
 
-// Where loops are said to close: the first branch with an end.
+// Location of messages on loops: the first branch with an end.
 Location place_of_loop(const Compilation& c) {
   for (const Line& line : c.model.scene.lines)
     if (!line.to.empty()) return line.to_at;
   return c.place_of_line();
 }
 
-// By how much the ends of a joint part, at these speeds of its nodes.
+// Difference of the speeds of a joint's ends, at these speeds of its nodes.
 double gap(const Network::Joint& joint, const std::vector<double>& speed) {
   return speed[at(joint.a)] - joint.ratio * speed[at(joint.b)];
 }

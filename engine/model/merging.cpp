@@ -1,4 +1,4 @@
-// merging.cpp — which nodes hang together rigidly, whether all of them do, and how fast each turns.
+// merging.cpp — rigidly connected nodes, the connection of all nodes, and their speed ratios.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ bool may_slip(const Network::Joint& joint) {
   return joint.element && (joint.element->is.slips || joint.element->is.springless);
 }
 
-// Goes from node to node, breadth first, and notes each one's speed relative to the first.
+// Breadth-first search over the nodes, with the speed of each relative to the first.
 class Walk {
  public:
   Walk(const Network& network, const std::function<bool(const Network::Joint&)>& is_rigid, Through relations)
@@ -45,7 +45,7 @@ class Walk {
       Deadline::check();
       queue_ = {first};
       merging_.group[first] = merging_.groups;
-      // What may slip comes last: it follows the ratios that gears force on its sides, it forces none.
+      // Joints that may slip come last: they follow the ratios of gears on their sides and define none.
       for (std::size_t next = 0, late = 0; next < queue_.size() || (any_slips_ && late < queue_.size());) {
         if (next == queue_.size()) {
           walk_joints(queue_[late++], true);
@@ -127,7 +127,7 @@ void check_start(Compilation& c, const Merging& firm) {
     const char *words, *unit;
   } told[] = {{&ComponentStart::speed, "speeds", "rad/s"}, {&ComponentStart::angle, "angles", "rad"}};
   for (const auto& what : told) {
-    std::map<int, std::pair<std::string, double>> first;  // of each shaft: who told it, of the group's first node
+    std::map<int, std::pair<std::string, double>> first;  // per shaft: the component that gives it, value at first node
     for (const auto& [component, start] : c.model.scene.run.start.components) {
       const auto port = c.net().ports.find(component);
       if (!(start.*what.of) || port == c.net().ports.end()) continue;

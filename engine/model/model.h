@@ -1,8 +1,7 @@
-// model.h — a machine compiled into its smallest set of coordinates; never changes after it is made.
+// model.h — a machine compiled into its smallest set of coordinates; immutable.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,14 +17,14 @@ struct Shaft {
   std::vector<int> nodes;
   double inertia = 0;        // constant part, on the reference node [kg·m²]
   double mean_inertia = 0;   // with the mean of the mechanisms
-  bool variable = false;     // carries a mechanism
-  bool directional = false;  // carries an element that opposes motion
-  int prescribed = -1;       // its speed is given
+  bool variable = false;     // has a mechanism
+  bool directional = false;  // has an element that opposes motion
+  int prescribed = -1;       // index of its prescribed speed; −1: free
   double speed_scale = 1;    // [rad/s]
   double torque_scale = 1;   // [N·m]
 };
 
-// A joint that stayed elastic. θ = gain_a φ_A − gain_b φ_B over the merged shafts A, B.
+// An elastic joint of the model. θ = gain_a φ_A − gain_b φ_B over the merged shafts A, B.
 struct ElasticJoint {
   int joint = 0;  // in the network
   int shaft_a = 0, shaft_b = 0;
@@ -47,16 +46,16 @@ struct ShaftGain {
 struct ShaftRelation {
   int relation = 0;                // in the network
   std::vector<ShaftGain> motion;   // Σ gain ω = 0
-  std::vector<ShaftGain> loss;     // torque on the shafts by a unit of loss L
+  std::vector<ShaftGain> loss;     // torque on the shafts by a unit of the loss L
   std::vector<ShaftGain> sliding;  // speed that the loss opposes
   GearLoss in_motion = {};         // the law of losses while it moves
   int loss_account = -1;           // −1: none
 };
 
-// A torque on a shaft of a gear, by what carries it: relations, and joints that were relations.
+// Torque on a shaft of a gear, as a sum over relations, and joints that replaced relations.
 struct GearTorque {
   struct Term {
-    int relation = -1, joint = -1;  // one of them; a joint stands for a relation without losses
+    int relation = -1, joint = -1;  // one of them; a joint replaces a relation without losses
     double taken = 1, lost = 0;     // factors of λ (of the joint's torque) and of L
   };
   std::string name;  // "gearbox.out"
@@ -65,7 +64,7 @@ struct GearTorque {
   double value(const double* joint_torque, const double* relation_torque, const double* relation_loss) const;
 };
 
-// A state that an element brings along.
+// An internal state of an element.
 struct OwnStatePlace {
   std::string component;
   OwnState state;
@@ -74,21 +73,21 @@ struct OwnStatePlace {
 // A component that the operating sequence switches or sets.
 struct CommandTarget {
   std::string component;
-  std::vector<int> switched;  // shaft elements that are merely on or off
-  std::vector<int> opened;    // shaft elements that are off while it is 0
+  std::vector<int> switched;  // shaft elements that are only on or off
+  std::vector<int> opened;    // shaft elements that are off while the command is 0
 };
 
-// An angle that something depends on: turns are kept apart from the remainder.
+// An angle on which some law depends; full turns are stored separately.
 struct TrackedAngle {
   int node = 0, shaft = 0;
   double gain = 1;  // dφ/dt = gain · ω
 };
 
-// What a joint is said to transmit: its own torque, or of a shaft by its dimensions that in its middle, of what its parts
-// transmit (lobatto_element.h).
+// Reported torque of a joint: its torque or, for a shaft by dimensions, the torque in its middle from those of its parts
+// (lobatto_element.h).
 struct ToldTorque {
-  std::vector<double> weight = {};  // of the parts in their order; empty: the joint's own
-  // `own`: of a joint among all, of a shaft of its part in the middle.
+  std::vector<double> weight = {};  // of the parts in their order; empty: the torque of the joint
+  // `own`: index of the joint; for a shaft, of its middle part.
   template <class T>
   T operator()(const T* all, int own) const {
     if (weight.empty()) return all[own];
@@ -99,23 +98,23 @@ struct ToldTorque {
   }
 };
 
-// A coupling, whether it stayed elastic or was merged: its torque is a result of every run.
+// A coupling, elastic or merged; its torque is a result of every run.
 struct TorqueJoint {
   std::string component;
   int joint = 0;
   int elastic = -1;           // index of the elastic joint; −1: merged, torque by d'Alembert
-  int first = -1, last = -1;  // elastic joints whose twists together are the component's
+  int first = -1, last = -1;  // elastic joints whose twists add up to that of the component
   double torque_scale = 1;    // [N·m]
   ToldTorque told = {};
   double torque(const double* of_joints) const { return told(of_joints, joint); }  // per joint of the network [N·m]
 };
 
-// A motor: the elements of a component that drive and tell a rated torque and speed. Or what turns a shaft whose speed is
-// given: it brings whatever torque that takes (theory 5.18), and its rated ones are the machine's.
+// A motor: the driving elements of a component with a rated torque and speed. Or the drive of a shaft with prescribed speed:
+// it has the torque needed for this motion (theory 5.18), and the rated values of the machine.
 struct MotorTorque {
   std::string component;
   std::vector<std::size_t> elements;
-  int node = 0;                              // whose speed is the motor's
+  int node = 0;                              // node with the motor's speed
   double rated_torque = 0, rated_speed = 0;  // [N·m], [rad/s]
   bool prescribed = false;
   double torque(const Snapshot& s) const;  // [N·m]
@@ -126,19 +125,19 @@ struct WorkAccount {
   Account kind;
 };
 
-// Where the derivatives of the elements go in the sparse Jacobian of the states (quadratures not counted).
+// Positions of the elements' derivatives in the sparse Jacobian of the states (without quadratures).
 struct JacobianLayout {
   SparsityPattern pattern;
-  std::vector<std::size_t> slot_position;                // per slot: stored entry; one past the end: no state
+  std::vector<std::size_t> slot_position;                // per slot: stored entry; one past the end: not a state
   std::vector<std::pair<std::size_t, double>> constant;  // kinematic entries: stored entry, value
-  std::vector<int> row_shaft;                            // per stored entry: shaft of a speed's row, else −1
-  // Shafts whose accelerations mix while constraints hold; all their rows have all their columns.
+  std::vector<int> row_shaft;                            // per stored entry: shaft if the row is of a speed, else −1
+  // Shafts whose accelerations are coupled by constraints; all their rows have all their columns.
   struct Coupled {
     std::vector<int> shafts, columns;
     std::vector<std::size_t> position;  // stored entry of [column][shaft]
   };
   std::vector<Coupled> coupled;
-  // Rows of own states that move with the acceleration of a shaft: row += gain · row of the shaft's speed.
+  // Rows of internal states that depend on the acceleration of a shaft: row += gain · row of the shaft's speed.
   struct Follower {
     std::size_t slot = 0;                                      // of the gain
     std::vector<std::pair<std::size_t, std::size_t>> entries;  // stored entries: of the speed's row, of its own
@@ -155,21 +154,21 @@ struct Model {
   std::vector<int> shaft_of_node;
   std::vector<double> gain_of_node;  // ω_node = gain · ω_shaft
   std::vector<double> node_ratio;    // ω_node / ω_reduction_link in the machine's usual motion, all turning together
-  std::vector<double> scale_ratio;   // its magnitude, never 0: 1 where a shaft usually stands
+  std::vector<double> scale_ratio;   // its magnitude, never 0: 1 for shafts at rest in the usual motion
   std::vector<ElasticJoint> elastic;
   std::vector<TrackedAngle> angles;
   std::vector<ShaftRelation> relations;
   std::vector<GearTorque> gear_torques;
   std::vector<OwnStatePlace> own_states;
   std::vector<CommandTarget> commands;
-  std::vector<int> trigger_angle;  // per step of the sequence: tracked angle that it watches, −1: none
+  std::vector<int> trigger_angle;  // per step of the sequence: tracked angle that it waits for, −1: none
   std::vector<TorqueJoint> torque_joints;
   std::vector<MotorTorque> motors;
   std::vector<WorkAccount> accounts;
   std::vector<std::unique_ptr<ElementPool>> pools;
   std::vector<Channel> pool_channels;
   std::size_t mode_slots = 0;
-  std::vector<std::string> merged;  // what was merged and why, a line each
+  std::vector<std::string> merged;  // merged joints and the reasons, one line each
 
   int reduction_node = 0;                    // crank of the first mechanism, else the line's first shaft
   int reduction_angle = 0;                   // its tracked angle
@@ -181,31 +180,31 @@ struct Model {
   std::size_t angle_count() const { return angles.size(); }
   std::size_t twist_count() const { return elastic.size(); }
   std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts + own_states.size(); }
-  // One coordinate, everything rigid, nothing that slips: what the work equation and the reduction need.
+  // Relations or slipping joints; the work equation and the reduction need a machine without them.
   bool has_contacts() const;
-  // States of its own that a constant motion does not settle at once: all but those that merely lag.
+  // Internal states that do not follow a constant motion at once: all except those that only lag.
   bool has_memory() const;
-  bool has_continuous_shafts() const;  // that are elastic: cut_continuous_shafts says how well they are resolved
+  bool has_continuous_shafts() const;  // elastic ones; for their accuracy see cut_continuous_shafts
   std::string node_label(int node) const;
-  // For people, of all elastic joints: the component, of several of its parts with their number; the middle one of a
-  // continuous shaft stands for the shaft.
+  // Names of all elastic joints for reports: the component, with a number if it has several; the middle joint of a
+  // continuous shaft has the name of the shaft.
   std::vector<std::string> joint_names() const;
-  // What was merged, the coordinates, their inertias, and why.
+  // Description: merged joints with reasons, coordinates, their inertias.
   std::string explain() const;
 };
 
-// Lets every element register its derivatives, and sorts them into a compressed-column pattern.
+// Registers the derivatives of all elements, and sorts them into a compressed-column pattern.
 JacobianLayout lay_out_jacobian(const Model& model);
 
-// Fills the network from a scene's components. Throws SceneError with everything that the components refuse.
+// Builds the network from a scene's components. Throws SceneError with all faults of the components.
 Network build_network(const Scene& scene);
-// Of one component's table; what its parts refuse together is said with the component's place.
+// Adds one component; faults of its parameters together are located at the component.
 void build_component(const Section& section, Network& network, Messages& messages);
 
-// Compiles a scene with the given effects. Throws SceneError where the equations would be singular.
+// Compiles a scene with the given effects. Throws SceneError if the equations would be singular.
 std::shared_ptr<const Model> compile(const Scene& scene, const Effects& effects);
 
-// Compiles a network made by hand (benches, library users); scene carries effects and run settings.
+// Compiles a network made in C++ (benches, library users); the scene contains effects and run settings.
 std::shared_ptr<const Model> compile_network(Network network, const Scene& scene, const Effects& effects);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// placement.cpp — elements into their pools, each with the places that it asks for: angles, modes, states, commands,
+// placement.cpp — elements into their pools, each with the indices that it needs: angles, modes, states, commands,
 // accounts.
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ int command_of(const Model& m, const std::string& component) {
   return known == m.commands.end() ? -1 : static_cast<int>(known - m.commands.begin());
 }
 
-// Loads of a mechanism by their names: what of a component can be switched by itself.
+// Loads of a mechanism by name: parts of a component that can be switched separately.
 std::vector<std::string> parts_of(const Network& net, const std::string& component) {
   std::vector<std::string> parts;
   for (const Network::ShaftElement& e : net.elements)
@@ -43,7 +43,7 @@ std::vector<std::string> parts_of(const Network& net, const std::string& compone
 
 std::string component_of(const std::string& said) { return said.substr(0, said.find('.')); }
 
-// Behind the command of a mechanism come those of its loads, in their order: its element finds them there.
+// The command of a mechanism is followed by those of its loads, in their order, as its element expects.
 void list_commands(Model& m) {
   for (const SequenceStep& step : m.scene.sequence.steps)
     for (const std::string& said : step.set) {
@@ -130,10 +130,10 @@ bool can_be_set(const Network& net, const Network::ShaftElement& e) {
   return e.element->cycle == 0 || !parts_of(net, e.component).empty();
 }
 
-// What a sequence may tell a component.
+// Commands that a component accepts from a sequence.
 struct Commandable {
   bool any = false, reversible = true;
-  bool switched = false;  // something of it is merely on or off
+  bool switched = false;  // some part of it is only on or off
   std::string why_not = {};
 };
 
@@ -164,7 +164,7 @@ Commandable commandable(const Network& net, const std::string& component) {
   return is;
 }
 
-// Why this step would do nothing to the component, or something else than it says; empty: it does what it says.
+// Reason why this step has no effect on the component, or another one than stated; empty: it is valid.
 std::string fault_of(const SequenceStep& step, const std::string& component, const Commandable& is) {
   if (!is.any && !is.why_not.empty()) return is.why_not;
   if (!is.any)
@@ -191,7 +191,7 @@ std::string fault_of(const SequenceStep& step, const std::string& component, con
   return {};
 }
 
-// What a component does not understand it must not be told.
+// Rejects commands that a component does not accept.
 void check_sequence(Compilation& c) {
   for (const SequenceStep& step : c.model.scene.sequence.steps)
     for (const std::string& component : step.set) {

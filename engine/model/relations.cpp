@@ -1,11 +1,9 @@
-// relations.cpp — which relations vanish when the machine is compiled, and what the rest are over the merged shafts.
+// relations.cpp — relations removed by compilation, and the others over the merged shafts.
 #include "engine/model/relations.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <set>
 #include <utility>
 
 #include "engine/matrices/elimination.h"
@@ -47,7 +45,7 @@ void list_torques(const Network& network, const Network::Relation& relation, int
     if (known == torques.end())
       torques.push_back({name, relation.node[at(k)], {term}});
     else if (k == 2)
-      known->terms.push_back(term);  // the housing bears the reaction of every stage
+      known->terms.push_back(term);  // the housing carries the reaction of every stage
   }
 }
 
@@ -165,7 +163,7 @@ std::vector<int> shafts_without_motion(const Model& model) {
 
 std::vector<int> loose_trees(const Model& model) {
   if (model.relations.empty()) return {};
-  // Shafts that twists join hang together: each points towards the first of its group.
+  // Groups of shafts joined by twists: each points towards the first of its group.
   std::vector<std::size_t> towards(model.shafts.size());
   for (std::size_t s = 0; s < towards.size(); ++s) towards[s] = s;
   const auto first_of = [&](std::size_t s) {
@@ -176,7 +174,7 @@ std::vector<int> loose_trees(const Model& model) {
   std::vector<char> known(model.shafts.size(), 0);  // of groups, by their first
   known[first_of(at(model.angles.front().shaft))] = 1;
   std::vector<int> loose;
-  // Prescribed shafts first, the last of all: what swings against the frame counts its angle from there.
+  // Prescribed shafts first, the last before the others: vibrations relative to the frame have its angle as zero.
   for (std::size_t s = model.shafts.size(); s-- > 0;) {
     if (std::exchange(known[first_of(s)], 1)) continue;
     loose.push_back(model.shafts[s].reference);

@@ -1,5 +1,5 @@
-// relations.h — relations between the speeds of shafts: those that are plain ratios become joints, the rest hold at run
-// time over the merged shafts.
+// relations.h — relations between the speeds of shafts: plain ratios become joints, the others are solved at run time over
+// the merged shafts.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,22 @@
 
 namespace kurbel {
 
-// Each row says something that the others, and the joints, do not. `group`: nodes that joints tie;
-// `gain`: how fast each turns by the first of its group.
+// Whether the relations are independent of each other and of the joints. `group`: nodes connected by joints; `gain`: speed
+// of each node over that of the first of its group.
 bool relations_are_independent(const Network& network, const std::vector<int>& group, const std::vector<double>& gain);
 
-// Losses that are off are dropped; members that stand still (nodes where `stands`) drop out of a relation without
-// losses; what then ties two shafts becomes a joint. Returns the gears' torques as terms over what remains.
+// Removes losses that are off, and members at standstill (`stands`) from relations without losses; relations of two shafts
+// become joints. Returns the gears' torques as terms of the remaining relations and joints.
 std::vector<GearTorque> simplify_relations(Network& network, const Effects& effects, const std::vector<char>& stands);
 
-// The relations over the merged shafts; where two members became one shaft their gains add.
+// The relations over the merged shafts; the gains of members on the same shaft are added.
 std::vector<ShaftRelation> relations_over_shafts(const Model& model);
 
-// Free shafts without inertia to whom the relations, which hold in every mode, do not give their motion. Each relation
-// can do so for one of its members, where the others have theirs.
+// Free shafts without inertia whose motion is not defined by the relations, which hold in all modes. A relation defines the
+// motion of one member if those of the others are defined.
 std::vector<int> shafts_without_motion(const Model& model);
 
-// A shaft of every tree of shafts whose angles no twist ties to the first tracked angle.
+// One shaft of every tree of shafts whose angles are not connected by twists to the first tracked angle.
 std::vector<int> loose_trees(const Model& model);
 
 }  // namespace kurbel

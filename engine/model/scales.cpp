@@ -1,4 +1,4 @@
-// scales.cpp — how large the machine's speeds, torques and twists are: the rated ones, carried to every shaft.
+// scales.cpp — orders of magnitude of speeds, torques and twists: the rated ones, referred to every shaft.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace kurbel {
 namespace {
 
-// What the machine's elements say of themselves, on the reduction link.
+// Rated values of the machine's elements, referred to the reduction link.
 struct Size {
   double speed = 0;             // the largest that is rated, prescribed or given at the start [rad/s]
   double torque = 0;            // the largest that drives [N·m]
@@ -54,7 +54,7 @@ void add_given_speeds(const Model& m, Size& size) {
     if (given.speed) speed_of(component, *given.speed);
 }
 
-// What the stiffest elastic joint bears at a small twist, on the link [N·m].
+// Torque of the stiffest elastic joint at a small twist, referred to the link [N·m].
 double torque_of_a_small_twist(const Model& m) {
   constexpr double small = 1e-3;  // [rad]
   double torque = 0;
@@ -85,7 +85,7 @@ void check_scales(Compilation& c, double speed, double torque) {
 
 }  // namespace
 
-// Rated speed and torque, carried to the reduction link and from there to every shaft.
+// Rated speed and torque, referred to the reduction link and from there to every shaft.
 void find_scales(Compilation& c) {
   Model& m = c.model;
   Size size = rated_size(m);

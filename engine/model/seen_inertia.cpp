@@ -1,4 +1,4 @@
-// seen_inertia.cpp — sums over what is rigidly joined, and walks through flanges without inertia.
+// seen_inertia.cpp — sums over rigidly connected nodes, continued through flanges without inertia.
 #include "engine/model/seen_inertia.h"
 
 #include <cmath>

@@ -11,7 +11,7 @@
 namespace kurbel {
 namespace {
 
-// A shaft a group, with the node that it is told for: a prescribed one, else the crank, else the first.
+// One shaft per group, with its reference node: a prescribed one, else the crank, else the first.
 std::vector<Shaft> gather_shafts(Compilation& c, const Merging& merging) {
   const Network& net = c.net();
   std::vector<Shaft> groups(at(merging.groups));
@@ -52,7 +52,7 @@ void add_inertias(const Model& m, const Merging& merging, std::vector<Shaft>& gr
   }
 }
 
-// Free shafts first, so that their speeds stand side by side in the state.
+// Free shafts first, so that their speeds are contiguous in the state.
 void put_in_order(Model& m, const Merging& merging, std::vector<Shaft>& groups) {
   std::vector<std::size_t> order(groups.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -69,7 +69,7 @@ void put_in_order(Model& m, const Merging& merging, std::vector<Shaft>& groups) 
   }
 }
 
-// Why what ties a shaft without inertia to others does not give it its motion: they have none either, or it may slip.
+// Reason why the connections of a shaft without inertia do not define its motion: no inertia either, or slip.
 std::string ties_of_massless(const Model& m, int shaft) {
   std::string text;
   for (const ShaftRelation& relation : m.relations)
@@ -90,7 +90,7 @@ void check_dead_centres(Compilation& c, const Shaft& shaft) {
   double least = shaft.inertia;
   for (const Network::ShaftElement& e : c.net().elements) {
     if (!std::count(shaft.nodes.begin(), shaft.nodes.end(), e.node) || e.element->cycle == 0) continue;
-    if (mechanism) return;  // several mechanisms stand at different angles
+    if (mechanism) return;  // several mechanisms are at different angles
     mechanism = &e;
     const double gain = c.model.gain_of_node[at(e.node)];
     least += e.element->least_inertia * gain * gain;

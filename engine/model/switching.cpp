@@ -1,4 +1,4 @@
-// switching.cpp — the network under the effects that are on: what is elastic, what is merged, what is left out.
+// switching.cpp — the network with the present effects: elastic, merged and omitted parts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ void refuse_undefined_damping(Compilation& c, const std::string& component, doub
                   component, why));
 }
 
-// Which joints stay elastic, and what is told of those that do not.
+// Joints that stay elastic, and the descriptions of the others.
 void switch_joints(Model& m) {
   for (Network::Joint& joint : m.network.joints) {
     if (joint.element && (joint.element->is.slips || joint.element->is.springless)) {
@@ -49,8 +49,8 @@ void switch_joints(Model& m) {
   }
 }
 
-// With clutches locked the machine runs: what the operating sequence brakes with is released, and the sequence is
-// over.
+// With clutches locked the machine runs: brakes of the operating sequence are released, and the sequence has
+// ended.
 void release_brakes(Model& m) {
   std::set<std::string> told;
   for (const SequenceStep& step : m.scene.sequence.steps) told.insert(step.set.begin(), step.set.end());
@@ -62,7 +62,7 @@ void release_brakes(Model& m) {
   });
 }
 
-// Where nothing twists motors keep to their static curves, unless the machine stands beside an elastic one.
+// Without elasticity motors follow their static curves, unless the machine is compared with an elastic one.
 Effects effects_on_elements(const Model& m) {
   Effects effects = m.effects;
   if (effects.lags_rigid) return effects;

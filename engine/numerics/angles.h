@@ -1,4 +1,4 @@
-// angles.h — turns and degrees, as numbers of radians.
+// angles.h — turns and degrees in radians; conversion factors.
 #pragma once
 
 #include <numbers>

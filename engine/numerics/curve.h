@@ -1,11 +1,9 @@
-// curve.h — a characteristic given by points ("graphically") or a formula: torque over time, angle or speed, force over
-// travel.
+// curve.h — a characteristic given by points or a formula: torque over time, angle or speed, force over travel.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "engine/numerics/dual.h"
@@ -14,11 +12,11 @@
 
 namespace kurbel {
 
-// Piecewise polynomial through the points (x, y), x ascending: straight between points, or smooth (monotone cubic:
-// Fritsch & Carlson 1980, no overshoot). Two points at one x are a jump, which at x itself has happened. Outside the
-// points the end values hold, or the end's slope goes on, unless periodic. Pieces are numbered −1 (before the first point), 0 … n−2, n−1 (after the
-// last), points at one x counted once. Of a formula the places between its pieces take the part of the points.
-// How a curve goes on beyond its data, where its scene says so: then that is data, too. Refuse: it does not.
+// Piecewise polynomial through the points (x, y), x ascending: linear, or smooth (monotone cubic: Fritsch & Carlson 1980,
+// no overshoot). Two points at the same x are a jump; at x the value after it applies. Outside the points the curve is
+// constant, or continued by the slope at the end, unless periodic. Pieces are numbered −1 (before the first point), 0 … n−2,
+// n−1 (after the last), points at the same x counted once. For a formula its knots take the role of the points.
+// Continuation of a curve beyond its data as defined in the scene; it then counts as data. refuse: no continuation.
 enum class Beyond { unsaid, hold, line, refuse };
 
 class Curve {
@@ -26,22 +24,22 @@ class Curve {
   enum class Form { linear, smooth, formula };
 
   Curve() = default;
-  // period > 0: the points lie within one period and the curve closes itself. Throws std::invalid_argument on
-  // fewer than 2 points, x not ascending, three points at one x, or points that span more than the period.
+  // period > 0: the points lie within one period and the curve is closed. Throws std::invalid_argument for fewer than 2
+  // points, x not ascending, three points at the same x, or points that span more than the period.
   Curve(const std::vector<double>& x, const std::vector<double>& y, Form form, double period = 0);
-  // A program for each piece between ascending knots, which span the period where there is one. Throws
-  // std::invalid_argument where a value or a slope at the end of a piece is not finite.
+  // One program for each piece between ascending knots, which span the period if there is one. Throws
+  // std::invalid_argument if a value or slope at the end of a piece is not finite.
   Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, double period = 0);
 
-  // The same by fewer cubic pieces between some of its points, which are off by no more than `within` [unit of y] at the
-  // points and at quarters of what lies between, and of all cubics between their ends nearest in the mean square. Jumps and
-  // both ends stay; so does a formula, and what no fewer pieces come near.
+  // Approximation by fewer cubic pieces between some of its points, with errors up to `within` [unit of y] at the points and
+  // at quarters of the intervals between; each is the least-squares cubic between its ends. Jumps and both ends are kept;
+  // a formula is unchanged, as are parts that fewer pieces do not approximate.
   Curve by_fewer_pieces(double within) const;
 
-  // From here on; at first nothing is said, and the end values hold.
+  // Defines the continuation at both ends; default: undefined, with constant end values.
   void go_on(Beyond before, Beyond after);
-  void say(Beyond before, Beyond after) { beyond_first_ = before, beyond_last_ = after; }  // its values stay
-  // Beyond an end its slope goes on, although nobody said so.
+  void say(Beyond before, Beyond after) { beyond_first_ = before, beyond_last_ = after; }  // values unchanged
+  // Continues an end by its slope without definition in the scene.
   void follow_first_slope() { slope_before_ = first_slope(); }
   void follow_last_slope() { slope_after_ = last_slope(); }
   Beyond beyond_first() const { return beyond_first_; }
@@ -54,24 +52,24 @@ class Curve {
   Form form() const { return form_; }
   double period() const { return period_; }
   const std::vector<double>& x() const { return x_; }
-  const std::vector<double>& y() const { return y_; }  // at x, behind a jump
+  const std::vector<double>& y() const { return y_; }  // at x, after a jump
   double before() const { return before_; }            // the value up to the first point
   double end_value(std::size_t piece) const { return value_in(static_cast<int>(piece), x_[piece + 1]); }
   bool jumps() const;
   const std::vector<FormulaProgram>& programs() const { return *programs_; }  // of a formula
   double max_abs() const { return max_abs_; }
 
-  // x brought into [first point, first point + period) by whole periods; x itself without a period.
+  // x shifted into [first point, first point + period) by whole periods; x itself without a period.
   double within(double x) const {
     if (!(period_ > 0)) return x;
     const double place = x_.front() + place_within(x - x_.front(), period_);
     return place < x_.back() ? place : std::nextafter(x_.back(), x_.front());
   }
-  // Piece that holds x, which may be any: of a periodic curve always one of 0 … n−2.
+  // Piece of any x; for a periodic curve always one of 0 … n−2.
   int piece(double x) const {
     return static_cast<int>(std::upper_bound(x_.begin(), x_.end(), within(x)) - x_.begin()) - 1;
   }
-  // Of any number: a piece before the first one ends where that begins.
+  // For any piece number; a piece before the first one ends where the first begins.
   double piece_begin(int piece) const {
     return piece < 0 ? -HUGE_VAL : x_[std::min(static_cast<std::size_t>(piece), x_.size() - 1)];
   }
@@ -91,7 +89,7 @@ class Curve {
     const T s = x - x_[i];
     return ((c3_[i] * s + c2_[i]) * s + c1_[i]) * s + y_[i];
   }
-  // ∫ of one piece's values from one x to another: exact between points, of a formula by many short panels.
+  // ∫ of one piece from one x to another: exact between points, by many short panels for a formula.
   double area(int piece, double from, double to) const;
   template <class T>
   T value(const T& x) const {
@@ -101,7 +99,7 @@ class Curve {
   }
 
  private:
-  // Beyond the ends of the piece by its tangent there: trial steps stay within the domain of the formula.
+  // Beyond the ends of the piece by the tangent, so that trial steps stay within the domain of the formula.
   template <class T>
   T by_formula(std::size_t i, const T& x) const {
     using kurbel::value_of;
@@ -111,7 +109,7 @@ class Curve {
     return (*programs_)[i](x);
   }
 
-  std::vector<double> x_, y_, c1_, c2_, c3_;  // of a formula: slope at the begin, value and slope at the end of a piece
+  std::vector<double> x_, y_, c1_, c2_, c3_;  // c1 … c3 of a formula: slope at the begin, value and slope at the end
   Form form_ = Form::linear;
   double period_ = 0;
   double before_ = 0, max_abs_ = 0;

@@ -1,9 +1,9 @@
-// deadline.h — how long a computation may take: asked in every loop whose length hangs on the scene.
+// deadline.h — time limit of a computation, checked in every loop whose length depends on the scene.
 //
-//     const Deadline deadline(budget, interrupted);   // in force to the end of this block, in this thread
-//     while (…) { Deadline::check(); … }              // anywhere below: throws OutOfTime
+//     const Deadline deadline(budget, interrupted);   // valid to the end of this block, in this thread
+//     while (…) { Deadline::check(); … }              // in any function called: throws OutOfTime
 //
-// Within another deadline both hold.
+// Within another deadline both apply.
 #pragma once
 
 #include <atomic>
@@ -13,10 +13,10 @@
 
 namespace kurbel {
 
-// The time is up, or the user has interrupted. No runtime_error: what fails and is tried otherwise must not swallow it.
+// The time is over, or the user has interrupted. Not a runtime_error, so that handlers of failures do not catch it.
 class OutOfTime : public std::exception {
  public:
-  // `budget`: processor time that is spent [s]; 0: interrupted.
+  // `budget`: exceeded processor time [s]; 0: interrupted.
   explicit OutOfTime(double budget);
   const char* what() const noexcept override { return what_.c_str(); }
   bool interrupted() const { return budget_ == 0; }
@@ -34,7 +34,7 @@ class Deadline {
   Deadline(const Deadline&) = delete;
   Deadline& operator=(const Deadline&) = delete;
 
-  // Costs some 30 ns; without a deadline nothing. Once over, every further look says so.
+  // Takes some 30 ns; without a deadline nothing. After the deadline every check throws.
   static void check();
 
  private:
@@ -47,7 +47,7 @@ class Deadline {
   bool spent_ = false;
 };
 
-// Processor time of this thread [s]: what other threads compute meanwhile is not its own.
+// Processor time of this thread only [s].
 double processor_time();
 
 }  // namespace kurbel

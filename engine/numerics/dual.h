@@ -1,4 +1,4 @@
-// dual.h — numbers that carry their derivatives by N inputs: the exact Jacobian of an element from its own formula.
+// dual.h — numbers with their derivatives by N inputs: the exact Jacobian of an element from its own formula.
 #pragma once
 
 #include <array>

@@ -17,7 +17,7 @@ constexpr double least_part = 1e-9;         // of the whole range: nearer places
 constexpr int most_intervals = 100'000;     // that are looked into …
 constexpr int most_work = 10'000'000;       // … and operations for that
 constexpr std::size_t most_knots = 10'000;  // of one formula
-constexpr double most_angle = 1e12;         // [rad]: of greater ones a double does not tell the place in the turn
+constexpr double most_angle = 1e12;         // [rad]: above this a double does not resolve the position in a turn
 
 struct Interval {
   double low, high;
@@ -42,7 +42,7 @@ Interval whole_power(const Interval& a, double n) {
   return even && n > 0 && a.low < 0 && a.high > 0 ? Interval{0, ends.high} : ends;
 }
 
-// What a function of one operand makes of an interval within its domain.
+// Image of an interval within the domain of a function of one operand.
 Interval image(FormulaOp op, const Interval& a, double n) {
   switch (op) {
     case FormulaOp::power:
@@ -77,7 +77,7 @@ Interval image(FormulaOp op, const Interval& a, double n) {
   }
 }
 
-// The whole of an interval lies where the function and its slope are finite.
+// Whether function and slope are finite on the whole interval.
 bool allows(FormulaOp op, const Interval& a, double n) {
   switch (op) {
     case FormulaOp::power:
@@ -102,17 +102,17 @@ bool allows(FormulaOp op, const Interval& a, double n) {
   }
 }
 
-// Touching the edge of its domain is no harm to its slope: x² to the power of 1.5.
+// Whether the slope is finite at the edge of the domain, as for x² to the power of 1.5.
 bool may_touch(const Formula::Node& node) {
   return node.op == FormulaOp::power && node.number > 1 && node.number != std::round(node.number);
 }
 
-// Undefined at one place, defined on both sides of it.
+// Undefined at one point, defined on both sides of it.
 bool has_pole(const Formula::Node& node) {
   return node.op == FormulaOp::divide || node.op == FormulaOp::tan || (node.op == FormulaOp::power && node.number < 0);
 }
 
-// Why a function of one operand has no value there; empty: it has.
+// Reason why a function of one operand has no value there; empty: it has one.
 std::string not_defined(FormulaOp op, double a, double n) {
   switch (op) {
     case FormulaOp::power:
@@ -141,7 +141,7 @@ std::string not_defined(FormulaOp op, double a, double n) {
   }
 }
 
-// What is wrong at the edge of the domain of an operation, where its operand just allows it.
+// Fault at the edge of the domain of an operation that is just reached by its operand.
 std::string edge_of(const Formula::Node& n) {
   const bool broken = n.op == FormulaOp::power && n.number != std::round(n.number);
   if (n.op == FormulaOp::divide) return "division by 0";
@@ -152,7 +152,7 @@ std::string edge_of(const Formula::Node& n) {
   return fmt::format("a value beyond ± {:g}", most);
 }
 
-// Whether a node is part of the whole where the nodes have these values, and not only asked by a branch.
+// Whether a node is part of the result with these values of the nodes, not only of a condition.
 bool is_part(const Formula& whole, int node, const std::vector<double>& values) {
   std::vector<char> part(whole.size(), 0);
   part.back() = 1;
@@ -235,7 +235,7 @@ Formula::Range Formula::choose_over(const Node& node, const std::vector<Range>& 
   }
   r = {std::min(yes.low, no.low), std::max(yes.high, no.high), true, std::max(yes.outside, no.outside)};
   if (asked.outside < 0) return r;
-  // What is asked must be computed on every branch; its slope nobody asks for.
+  // A condition must be computable on every branch; its slope is not needed.
   r.outside = asked.outside;
   r.split = asked.split || !has_pole(nodes_[static_cast<std::size_t>(asked.outside)]);
   return r;
@@ -326,7 +326,7 @@ Formula::Points Formula::at(double x) const {
 
 std::vector<char> Formula::choices(double x) const {
   const Points p = at(x);
-  // Those that the whole hangs on: from the last node downwards.
+  // Nodes on which the result depends, from the last node downwards.
   std::vector<char> needed(nodes_.size(), 0), taken(nodes_.size(), 0);
   needed.back() = 1;
   for (std::size_t k = nodes_.size(); k-- > 0;) {
@@ -426,8 +426,8 @@ void Formula::emit(int node, const std::vector<double>& farthest, FormulaProgram
   to.push({n.op, n.number});
 }
 
-// What a branch asks keeps its sign on the piece, but may touch 0 there, as x² does: its answer is that of the place,
-// of some, where it is farthest from 0.
+// A condition keeps its sign on the piece, but may touch 0 there, as x² does: its branch is taken at the sample farthest
+// from 0.
 FormulaProgram Formula::program(double from, double to) const {
   constexpr double golden = 0.6180339887498949;  // spreads places over the piece
   constexpr int places = 12;

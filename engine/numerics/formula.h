@@ -1,12 +1,12 @@
-// formula.h — a law of one variable given by an expression: where it has kinks and jumps, and each piece between them
-// as a straight-line program, evaluated on plain and on dual numbers alike.
+// formula.h — a law of one variable given by an expression: positions of its kinks and jumps, and each piece between them
+// as a straight-line program for plain and dual numbers.
 //
 //     Formula  ──knots(from, to)──▶  x₀ < x₁ < … < xₙ  ──program(between two knots)──▶  FormulaProgram
 //
-// What branches (abs, min, max, sign, step, if) asks whether some d(x) ≥ 0. The places where an answer changes are
-// looked for with interval arithmetic (Moore 1966): an interval on which every d keeps its sign holds none; others are
-// halved. So none is missed, and on each piece the branches are known: its program has none. The same search proves
-// that no logarithm, root or quotient leaves its domain.
+// Every branch of abs, min, max, sign, step, if depends on the sign of some d(x). The changes of sign are found by interval
+// arithmetic (Moore 1966): an interval on which every d keeps its sign contains none; others are bisected. So none is
+// missed, and each piece has known branches: its program has no branches. The same search proves that no logarithm, root
+// or quotient leaves its domain.
 #pragma once
 
 #include <cmath>
@@ -42,20 +42,20 @@ enum class FormulaOp : std::uint8_t {
   choose  // b where a ≥ 0, else c
 };
 
-// Greatest number of values that a program may hold at once.
+// Maximum stack depth of a program.
 inline constexpr std::size_t most_formula_depth = 32;
 
-// One piece of a formula, by a stack and without branches. It is asked for within its piece; what rounding lets stand
-// a little outside of a domain there is taken as its edge.
+// One piece of a formula as a stack program without branches. It is evaluated within its piece; arguments that leave a
+// domain by rounding are limited to its edge.
 class FormulaProgram {
  public:
   struct Step {
     FormulaOp op = FormulaOp::number;
-    double number = 0;  // of a constant; of a power its exponent
+    double number = 0;  // value of a constant; exponent of a power
   };
 
   void push(Step step);
-  // The values it holds at once, at most.
+  // Maximum stack depth.
   std::size_t depth() const { return depth_; }
   // −f(−x)
   FormulaProgram mirrored() const;
@@ -75,7 +75,7 @@ class FormulaProgram {
   template <std::size_t depth, class T>
   T run(const T& x) const {
     T stack[depth] = {};
-    std::size_t top = 0;  // of those in use
+    std::size_t top = 0;  // number of values in use
     for (const Step& step : steps_) switch (step.op) {
         case FormulaOp::number:
           stack[top++] = T(step.number);
@@ -144,19 +144,19 @@ class FormulaProgram {
   }
   static double within_one(double v) { return v < -1 ? -1 : v > 1 ? 1 : v; }
   static double root_of_rest(double v) {
-    constexpr double digit = 0x1p-53;  // of v beside ±1: what is less is not known
+    constexpr double digit = 0x1p-53;  // rounding error of v near ±1
     const double rest = (1 - v) * (1 + v);
     return std::sqrt(rest > digit ? rest : digit);
   }
-  static constexpr double near = 1e-200, far = 1e200;  // in place of 0 and of what is divided by it
+  static constexpr double near = 1e-200, far = 1e200;  // instead of 0 and of quotients by it
 
   std::vector<Step> steps_;
   std::size_t depth_ = 0, held_ = 0;
 };
 
-// Where a formula cannot be computed.
+// A position at which a formula cannot be computed.
 struct FormulaFault {
-  double x = 0;            // there
+  double x = 0;            // the position
   std::size_t column = 0;  // of its text, from 0
   std::string text;        // why: "logarithm of -2"
 };
@@ -165,20 +165,20 @@ class Formula {
  public:
   struct Node {
     FormulaOp op = FormulaOp::number;
-    int a = -1, b = -1, c = -1;  // operands, which stand before it
-    double number = 0;           // of a constant; of a power its exponent
+    int a = -1, b = -1, c = -1;  // operands, with smaller indices
+    double number = 0;           // value of a constant; exponent of a power
     std::size_t column = 0;      // in the text
   };
 
-  int add(const Node& node);  // its number; the last one is the whole
+  int add(const Node& node);  // returns its index; the last node is the whole formula
   const Node& operator[](int node) const { return nodes_[static_cast<std::size_t>(node)]; }
   std::size_t size() const { return nodes_.size(); }
-  std::size_t depth() const;  // the values that one of its programs may hold at once
+  std::size_t depth() const;  // maximum stack depth of its programs
 
-  // The value at x, or why there is none.
+  // The value at x, or the fault there.
   std::optional<FormulaFault> value(double x, double& value) const;
-  // Ascending places from `from` to `to`, both with them, between which it is smooth and can be computed; what keeps it
-  // from that.
+  // Ascending knots from `from` to `to`, both included, between which the formula is smooth and can be computed; or the
+  // fault that prevents it.
   std::optional<FormulaFault> knots(double from, double to, std::vector<double>& knots) const;
   // The piece between two knots.
   FormulaProgram program(double from, double to) const;
@@ -186,7 +186,7 @@ class Formula {
  private:
   struct Range {
     double low = 0, high = 0;
-    bool split = false;  // a branch hangs on where in the interval x lies
+    bool split = false;  // a branch depends on the position of x in the interval
     int outside = -1;    // the node whose domain it may leave
   };
   struct Points {
@@ -196,7 +196,7 @@ class Formula {
   Range over(double low, double high) const;
   Range choose_over(const Node& node, const std::vector<Range>& all) const;
   Points at(double x) const;
-  std::vector<char> choices(double x) const;  // which are taken, in the order of the nodes
+  std::vector<char> choices(double x) const;  // the branches taken, in the order of the nodes
   FormulaFault fault_at(double x, int node) const;
   void emit(int node, const std::vector<double>& farthest, FormulaProgram& to) const;
   std::optional<FormulaFault> look_into(double low, double high, double least, int& left,

@@ -1,8 +1,8 @@
-// fp_traps.h — while one of these lives, a division by zero or an invalid operation of this thread stops the program.
+// fp_traps.h — during its lifetime a division by zero or an invalid operation in this thread stops the program.
 //
-// Only with KURBEL_FP_TRAPS (the debug preset), and around the machine's own equations alone: the libraries compare NaN
-// and divide by zero on purpose. A trial step that diverges overflows on its way, which the step control sees and
-// mends: from states beyond all reason nothing is trapped.
+// Only with KURBEL_FP_TRAPS (the debug preset), and only around the equations of the machine: the libraries compare NaN
+// and divide by zero on purpose. A diverging trial step overflows, which the step control handles: states with extreme
+// values are not trapped.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ class FpTraps {
   explicit FpTraps(std::span<const double> state) : before_(fegetexcept()) {
     constexpr double beyond_reason = 1e12;
     if (!std::all_of(state.begin(), state.end(), [](double v) { return std::abs(v) < beyond_reason; })) return;
-    std::feclearexcept(traps);  // what was raised before would stop us at once
+    std::feclearexcept(traps);  // earlier exceptions would trap at once
     feenableexcept(traps);
   }
   ~FpTraps() {

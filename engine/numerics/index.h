@@ -1,4 +1,4 @@
-// index.h — the model numbers nodes, shafts and states by int, where −1 says "none"; containers count by std::size_t.
+// index.h — the model numbers nodes, shafts and states by int, where −1 is "none"; containers count by std::size_t.
 #pragma once
 
 #include <concepts>
@@ -6,8 +6,7 @@
 
 namespace kurbel {
 
-// The element of a container that a number names: shafts[at(node.shaft)]. Numbers are never negative where they are
-// used.
+// Index for an element of a container: shafts[at(node.shaft)]. The number must not be negative.
 template <std::signed_integral Number>
 constexpr std::size_t at(Number number) {
   return static_cast<std::size_t>(number);

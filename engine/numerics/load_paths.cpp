@@ -1,4 +1,4 @@
-// load_paths.cpp — trees grown breadth first, and the flows that circle in what they leave over.
+// load_paths.cpp — breadth-first trees, and the torques that circulate in closed loops.
 #include "engine/numerics/load_paths.h"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ LoadLoops::LoadLoops(const LoadPaths& paths, const std::vector<LoadStep>& steps,
     rename(names);
     return;
   }
-  // A combination of loops that nothing in it resists.
+  // A combination of loops without stiffness.
   const Eigen::VectorXd open = lu.kernel().col(0);
   Eigen::Index most = 0;
   open.cwiseAbs().maxCoeff(&most);
@@ -99,7 +99,7 @@ void LoadLoops::lock_in(const std::vector<double>& twist) {
 
 void LoadLoops::share(double* torque) const {
   const std::size_t n = loops_.size();
-  std::vector<double> twist(n, 0.0);  // by which the loops would gape
+  std::vector<double> twist(n, 0.0);  // whose sums are the gaps of the loops
   for (std::size_t i = 0; i < n; ++i) {
     if (!gape_.empty()) twist[i] = -gape_[i];
     for (const auto& [k, part] : loops_[i]) twist[i] += part * compliance_[at(k)] * torque[k];

@@ -1,4 +1,4 @@
-// ode_system.h — what is integrated: y' = f(t, y) with its sparse Jacobian, and how exactly.
+// ode_system.h — the system to be integrated, y' = f(t, y) with its sparse Jacobian, and the error control.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace kurbel {
 
-// Compressed-column pattern of a square sparse matrix. Every diagonal entry is stored, zeros too (KLU needs it).
+// Compressed-column pattern of a square sparse matrix. All diagonal entries are stored, including zeros (needed by KLU).
 struct SparsityPattern {
   std::size_t size = 0;
   std::vector<std::int64_t> column_start;  // size + 1 entries
@@ -26,7 +26,7 @@ class OdeSystem {
 };
 
 // Local error control in the maximum norm: a step is accepted when |error_i| ≤ tolerance · scale_i for every i.
-// A scale of 0 leaves a state out of the control (quadratures). The maximum norm sees one lively state among 10⁵ at
+// A scale of 0 excludes a state from the control (quadratures). The maximum norm detects one active state among 10⁵ at
 // rest.
 struct ErrorControl {
   double tolerance = 1e-8;

@@ -1,5 +1,5 @@
-// roots.h — where a function of one variable vanishes between two places at which its signs differ, and where it is
-// greatest between two places.
+// roots.h — root of a function of one variable between two points with opposite signs, and its maximum between two
+// points.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,10 @@
 
 namespace kurbel {
 
-// Root of f in [a, b] with f(a), f(b) of opposite signs (Illinois), to the last few bits or |f| ≤ enough.
+// Root of f in [a, b] with f(a), f(b) of opposite signs (Illinois method), to a few ulps or |f| ≤ enough.
 double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough = 0);
 
-// A bracket halved so many times, or down to its last bit: `below` is true of places below what is sought.
+// Bisects a bracket so many times, or to the last bit: `below` is true for points below the result.
 struct Bracket {
   double low, high;
   double middle() const { return 0.5 * (low + high); }
@@ -26,12 +26,12 @@ Bracket halved(Bracket b, int times, const F& below) {
   return b;
 }
 
-// A place and the value of a function there.
+// A position and the value of a function there.
 struct Sampled {
   double at = 0, value = 0;
 };
-// Where the rate of something vanishes between three samples of it, in each half at whose ends its signs differ: there it
-// turns. turn(place) for each, in order.
+// Zeros of a rate between three of its samples, in each half with opposite signs at its ends. Calls turn(position) for
+// each, in order.
 template <class Rate, class Turn>
 void for_each_turn(const Rate& rate, const Sampled& begin, const Sampled& middle, const Sampled& end,
                    const Turn& turn) {
@@ -40,8 +40,8 @@ void for_each_turn(const Rate& rate, const Sampled& begin, const Sampled& middle
       turn(find_root(rate, a.at, a.value, b.at, b.value));
 }
 
-// The place and value of the maximum of f in [a, b], where f rises to it and falls after it; by the golden section,
-// each of whose steps leaves 0.618 of the interval. More than `enough` ends the search.
+// Position and value of the maximum of a unimodal f in [a, b] by golden section; each step leaves 0.618 of the interval.
+// A value above `enough` ends the search.
 struct Maximum {
   double at = 0, value = 0;
 };

@@ -1,9 +1,7 @@
-// held_speeds.cpp — Newton's method on the return map and the speeds at once.
+// held_speeds.cpp — Newton's method on the return map and the given speeds together.
 #include "engine/orbit/held_speeds.h"
 
 #include <fmt/format.h>
-
-#include <cmath>
 
 #include "engine/numerics/deadline.h"
 
@@ -33,7 +31,7 @@ class HeldSearch {
   }
 
  private:
-  // Rounds beside for all unknowns from this one on.
+  // Difference quotients for all unknowns from this one on.
   Index first_beside() const { return held_.slope ? n_ : 0; }
 
   bool round(const VectorXd& x, bool with_derivative, VectorXd& residual) {
@@ -49,7 +47,7 @@ class HeldSearch {
     last = map.image(x.head(n_), with_derivative, {held_.record(map.model())});
     out_.cost += map.cost();
     if (last.end != ReturnMap::End::returned) {
-      Deadline::check();  // which a round ends by, too
+      Deadline::check();  // which may also have ended the period
       if (last.end != ReturnMap::End::failed) out_.broken = last.why;
       return false;
     }

@@ -1,7 +1,7 @@
-// held_speeds.h — the cycle of a machine whose speeds are held: one more unknown for each speed.
+// held_speeds.h — the cycle of a machine with given speeds: one additional unknown for each speed.
 //
-//     P(z, a) = z,   speeds over the round = those asked for
-// a: what holds them, torques beside the drive or a quantity of the scene.
+//     P(z, a) = z,   speeds over the period = given speeds
+// a: the holding quantities, torques in addition to the drive or a quantity of the scene.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace kurbel {
 
-// A constant torque beside the drive; it sets no scale, so that all members of a search are measured alike.
+// A constant torque in addition to the drive; it has no rated value, so that all machines of a search have the same scales.
 struct HoldingTorque {
   static constexpr ShaftTraits is{.account = Account::driving};
   double value = 0;  // [N·m]
@@ -24,35 +24,35 @@ struct HoldingTorque {
   Rated rated() const { return {}; }
 };
 
-// What is held, and what by.
+// The given speeds, and the quantities that hold them.
 struct HeldSpeeds {
-  // The machine that these a hold, each of order one.
+  // The machine with these a, each of order one.
   std::function<std::shared_ptr<const Model>(const Eigen::VectorXd& a)> machine;
-  // What sees the speeds of a round: anew for each one, the caller's own.
+  // A new observer of the speeds for each period; owned by the caller.
   std::function<Observer*(const Model& machine)> record;
-  // By how much the recorded round misses each of the speeds, over its scale.
+  // Deviation of the recorded period from each given speed, over its scale.
   std::function<Eigen::VectorXd(const ReturnMap::Image& round)> miss;
-  // ∂miss/∂z of a round with its derivative; empty: by differences.
+  // ∂miss/∂z of a period with derivative; empty: by differences.
   std::function<Eigen::MatrixXd(const ReturnMap::Image& round)> slope = {};
-  bool by_differences = false;  // ∂P/∂z, too: at no cost where slopes are
-  double enough = 1e-11;        // residual at which it ends
-  double magnitude = 0.2;       // of what z deviates from (newton.h)
-  double most_cost = HUGE_VAL;  // of all searches so far [cycles]
+  bool by_differences = false;  // also ∂P/∂z, without additional cost if the slopes are
+  double enough = 1e-11;        // residual of convergence
+  double magnitude = 0.2;       // of the state from which z deviates (newton.h)
+  double most_cost = HUGE_VAL;  // limit for all searches so far [cycles]
 };
 
 struct HeldMotion {
-  Orbit orbit;                 // a cycle of the machine held; failed or interrupted: its words say why
+  Orbit orbit;                 // a cycle of this machine; failed or interrupted: its words state the reason
   Eigen::VectorXd by;          // a
-  Eigen::MatrixXd derivative;  // of all residuals, of P(z, a) − z first
-  ReturnMap::Image last;       // of the rounds that were tried
+  Eigen::MatrixXd derivative;  // of all residuals, first P(z, a) − z
+  ReturnMap::Image last;       // of the periods tried
   NewtonOutcome newton;
-  // Of all searches so far.
+  // For all searches so far.
   double cost = 0;     // [cycles]
-  std::string broken;  // what became of the last round that did not come round; empty: all did
+  std::string broken;  // end of the last period that was not completed; empty: all were completed
 };
 
-// By Newton's method from (z, a) on; section, period and limits of a round are those of a map of a like machine. Of the
-// options those of the return map count. Throws OutOfTime; `motion` has its cost and what broke off even so.
+// Newton's method from the guess (z, a); section, period and limits of a period are those of a map of a similar machine.
+// Only options of the return map are used. Throws OutOfTime; even then `motion` has the cost and `broken`.
 void find_held_orbit(const HeldSpeeds& held, const ReturnMap& like, const Eigen::VectorXd& guess,
                      const OrbitOptions& options, HeldMotion& motion);
 

@@ -1,4 +1,4 @@
-// kept_moment.h — which moment of a machine is meant where none is asked for: the last one at which it keeps a motion.
+// kept_moment.h — the default moment of a machine for studies of steady motion: the last one with a steady motion.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace kurbel {
 
-// Where `at` is no moment: of a machine that rests when all is switched, `at` becomes the last step of its sequence, or else
-// the last time between the edges of its sources' windows, at which its motion repeats; then the words say so: "the machine
-// comes to rest at 21.2 s …". Of any other machine `at` stays the end of all switching, and there are no words. Searches as
-// find_orbit() does, and only where something is switched; `last`: where all that is switched leads to, null: not known yet.
-// Throws as find_orbit() does.
+// Sets `at` if it is empty and the machine is at rest after all switching: to the last step of its sequence, or else the
+// last time between the edges of its sources' windows, with a periodic motion; returns a text, "the machine comes to rest at
+// 21.2 s …". For other machines `at` stays empty (the end of all switching), and so does the text. Searches like
+// find_orbit(), only if something is switched; `last`: the steady motion after all switching; null: unknown. Throws as
+// find_orbit().
 std::string choose_kept_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at,
                                const Orbit* last = nullptr);
 

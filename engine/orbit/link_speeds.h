@@ -1,9 +1,8 @@
-// link_speeds.h — how the shafts turn in a run: whether the link keeps vibrating, when it turns back, when it stopped.
+// link_speeds.h — observers of the shafts' speeds in a run: whether the link keeps vibrating, reverses, has stopped.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,7 +12,7 @@
 
 namespace kurbel {
 
-// The reduction link's greatest speeds, forwards and backwards, at the ends of steps.
+// The reduction link's maximum speeds, forwards and backwards, at the ends of steps.
 class LinkSpeeds final : public Observer {
  public:
   explicit LinkSpeeds(const Model& m)
@@ -32,7 +31,7 @@ class LinkSpeeds final : public Observer {
   double forwards_ = 0, backwards_ = 0;
 };
 
-// To and fro as fast as over the wait before, hundreds of vibrations long: it will neither come round nor come to rest.
+// Vibration as fast as in the previous interval of hundreds of periods: it will neither complete a turn nor stop.
 class LastSwing {
  public:
   bool as_before(const LinkSpeeds& speeds) {
@@ -42,10 +41,10 @@ class LastSwing {
   }
 
  private:
-  double greatest_ = 0;  // [rad/s]; 0: it did not turn back
+  double greatest_ = 0;  // [rad/s]; 0: it did not reverse
 };
 
-// When the link was last faster than some part of its rated speed, looked at eight times a step; where its speed is
+// Last time at which the link was faster than a part of its rated speed, checked eight times per step; if its speed is
 // prescribed, the fastest of the free shafts.
 class LastMotion final : public Observer {
  public:
@@ -64,7 +63,7 @@ class LastMotion final : public Observer {
       see(t, speed);
     }
   }
-  // [s]; 0: it never was.
+  // [s]; 0: never.
   double above(double part) const {
     const auto slower = std::find_if(falling_.begin(), falling_.end(), [&](const auto& e) { return e.second <= part; });
     return slower == falling_.begin() ? 0 : std::prev(slower)->first;
@@ -72,7 +71,7 @@ class LastMotion final : public Observer {
 
  private:
   void see(double t, double speed) {
-    constexpr double same = 0.999;  // keeps the list short; the time comes out later, not earlier
+    constexpr double same = 0.999;  // keeps the list short; the time may be later, never earlier
     while (!falling_.empty() && falling_.back().second <= speed) falling_.pop_back();
     if (!falling_.empty() && speed > same * falling_.back().second)
       falling_.back().first = t;
@@ -85,7 +84,7 @@ class LastMotion final : public Observer {
   std::vector<std::pair<double, double>> falling_;  // time [s], speed: each faster than all after it
 };
 
-// When the link turns back from forwards to backwards, located on the solution between the steps.
+// Times at which the link reverses from forwards to backwards, located on the dense output.
 class TurningTimes final : public Observer {
  public:
   explicit TurningTimes(const Model& m) : shaft_(m.angles[at(m.reduction_angle)].shaft) {}

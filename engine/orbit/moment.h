@@ -1,4 +1,4 @@
-// moment.h — a machine as it is at another moment than at the end of all switching: from then on nothing is switched.
+// moment.h — a machine at an earlier moment than the end of all switching; after this moment nothing is switched.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@ struct Moment {
   std::string describe() const;  // "after step 2", "before step 1"; empty: none
 };
 
-// The scene with steps of its sequence that come later left waiting for ever. Of a time the run itself tells how many
-// steps come before. Throws std::invalid_argument in words where there is no such step.
+// The scene without the later steps of its sequence, which wait forever. For a time, a run gives the number of steps before
+// it. Throws std::invalid_argument if there is no such step.
 Scene as_of(const Scene& scene, const Effects& effects, const Moment& moment);
-// Its network, whose windows stay open or shut as they are at that time; laws over time themselves go on.
+// Its network, with the windows open or closed as at that time; laws over time continue.
 Network network_as_of(const Scene& scene, const Moment& moment);
 
 }  // namespace kurbel

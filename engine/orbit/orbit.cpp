@@ -1,4 +1,4 @@
-// orbit.cpp — the run round by round, and Newton's method where it comes near.
+// orbit.cpp — the run period by period, and Newton's method when it is close to a steady motion.
 #include "engine/orbit/orbit.h"
 
 #include <fmt/format.h>
@@ -18,12 +18,12 @@
 namespace kurbel {
 namespace {
 
-constexpr double near_enough = 0.1;     // change of a round, of the rated values, at which Newton is tried
+constexpr double near_enough = 0.1;     // change per period, over the rated values, below which Newton is tried
 constexpr double enough = 1e-11;        // residual of the map, over the rated values
 constexpr double enough_by_run = 1e-8;  // where Newton does not apply
 constexpr double still = 1e-9;          // of the rated values, per radian of the link at rated speed
-constexpr double far_beyond = 30;       // rated speeds: that is no cycle but flight
-// Events: several rounds of a sequence with some hundred events each (joints that move to and fro, gears that rattle).
+constexpr double far_beyond = 30;       // over the rated speed: the machine runs away
+// Events: several periods of a sequence with some hundred events each (reversing joints, rattling gears).
 constexpr std::ptrdiff_t most_remembered = 20000;
 
 class Search {
@@ -43,7 +43,7 @@ class Search {
     state_.modes = equations_.modes();
     try {
       while (!done_ && out_.rounds < options_.most_rounds) go_on();
-    } catch (const std::runtime_error& error) {  // an element that knows no answer, such as joints that jam
+    } catch (const std::runtime_error& error) {  // an element without solution, such as jamming joints
       end(Orbit::Kind::failed, error.what());
     }
     if (!done_) drift();
@@ -59,7 +59,7 @@ class Search {
     done_ = true;
   }
 
-  // --- where the run is ---
+  // --- state of the run ---
 
   double link_speed() {
     const TrackedAngle& link = m_.angles[at(m_.reduction_angle)];
@@ -74,9 +74,9 @@ class Search {
   bool has_own_period() const { return kurbel::has_own_period(m_, period_); }
   Pace pace() { return pace_of(equations_, state_); }
 
-  // --- one round ---
+  // --- one period ---
 
-  // From where the run is.
+  // From the present state of the run.
   RunOptions on_until(double until) const {
     RunOptions run{.tolerance = std::max(options_.tolerance, 1e-9),
                    .method = options_.method,
@@ -90,23 +90,23 @@ class Search {
 
   double round_angle() const { return period_.angle * options_.cycles; }
   double round_time() const { return period_.time * options_.cycles; }
-  // How long the link at this speed may need to come round [s].
+  // Time limit for a period of the link at this speed [s].
   double patience(double omega) const { return 3 * round_angle() / std::max(std::abs(omega), 0.05 * m_.speed_scale); }
 
-  // Of what came to no whole round, by the way of the link, or by time where that alone tells a cycle.
+  // Cycles of an incomplete period, by the rotation of the link, or by time if only time defines a cycle.
   double cycles_of(double time, double begin) const {
     if (period_.by_time) return time / period_.time;
     return std::abs(equations_.angle_with_turns(at(m_.reduction_angle), state_.y) - begin) / period_.angle;
   }
 
-  // The link once round, or the common period of time; where the link stands or creeps, some time.
+  // One period of the link, or the common period of time; if the link rests or creeps, some time.
   void go_on() {
     equations_.bind(state_.modes);
     const double omega = link_speed();
     const std::size_t angle = at(m_.reduction_angle);
     const double begin = equations_.angle_with_turns(angle, state_.y);
     const bool by_time = period_.by_time && is_settled();
-    const bool aligning = by_time && !aligned_;  // rounds begin at whole periods of time
+    const bool aligning = by_time && !aligned_;  // start at a multiple of the period of time
     const double periods = std::floor(state_.t / round_time() + 1e-9) + 1;
     RunOptions run = on_until(aligning  ? periods * round_time()
                               : by_time ? state_.t + round_time()
@@ -138,7 +138,7 @@ class Search {
     if (is_settled() && !aligning && !m_.scene.sequence.repeats_freely()) look(before, now);
   }
 
-  // The link did not come round.
+  // The link did not complete the period.
   void wait(const Pace& now, const LinkSpeeds& speeds) {
     patience_factor_ = std::min(2 * patience_factor_, 64.0);
     if (!is_settled() && state_.t < switched_until(m_, period_, state_)) return;
@@ -150,7 +150,7 @@ class Search {
     end(Orbit::Kind::equilibrium,
         with_holders(fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link())));
   }
-  // What friction or losses hold is at rest; what nothing holds comes nearer to it without end.
+  // Parts held by friction or losses are at rest; others approach the rest asymptotically.
   std::string at_rest() {
     constexpr double as_good_as_still = 1e-3;  // as in the periods of a run
     constexpr double held_still = 1e-12;
@@ -176,7 +176,7 @@ class Search {
                     state_.t, speed));
   }
 
-  // A round with nothing to be switched: how much has changed, and is it near enough?
+  // A period without switching: its change, and whether it is small enough.
   void look(const State& before, const Pace& now) {
     ++settled_rounds_;
     speeds_.push_back(now.speed);
@@ -197,7 +197,7 @@ class Search {
 
   std::shared_ptr<ReturnMap> new_map() const { return std::make_shared<ReturnMap>(shared_, map_options(options_)); }
 
-  // Where Newton's method does not apply, the run itself has come near enough.
+  // If Newton's method does not apply: the run is close enough.
   void rest_on_run(const std::shared_ptr<ReturnMap>& map) {
     const ReturnMap::Image way = map->approach_from(state_);
     if (way.end != ReturnMap::End::returned) return spend(*map);
@@ -209,7 +209,7 @@ class Search {
     out_.polished = out_.stable = false;
   }
 
-  // On to the middle of the widest gap between the events of the last period: a round must not begin with one.
+  // Continues to the middle of the widest gap between the events of the last period: a period must not begin with an event.
   bool go_where_least_happens(double last, double period) {
     std::vector<double> times;
     for (const Event& e : events_)
@@ -234,8 +234,8 @@ class Search {
     return std::max<std::size_t>(1, count);
   }
 
-  // The same event again and again after the same time, with the whole state: so many of its kind may lie between. Of a
-  // sequence the same command of the same step.
+  // The same event recurs after the same time with the same state, with up to a number of its kind between. For a sequence
+  // the same command of the same step.
   bool find_own_period() {
     if (events_.size() < 4 || events_seen_ == looked_at_) return false;
     looked_at_ = events_seen_;
@@ -255,7 +255,7 @@ class Search {
                        sequence ? "the operating sequence repeats" : "self-excited vibration, no law sets this period");
   }
 
-  // The link turns back again and again, and nothing happens that tells a period.
+  // The link reverses repeatedly, and no event defines a period.
   void vibrate() {
     TurningTimes turning(m_);
     equations_.bind(state_.modes);
@@ -269,7 +269,7 @@ class Search {
     drift();
   }
 
-  // Whether the motion does, of times at which the same happened, latest first; so many of its kind may lie between.
+  // Whether the motion is periodic, by the times of equal events, latest first, with up to a number of its kind between.
   bool comes_again(const std::vector<double>& times, const std::string& why) {
     constexpr std::size_t most_between = 8;
     constexpr double same_time = 1e-6, settled_time = 1e-10, settling = 0.9;
@@ -277,7 +277,7 @@ class Search {
       const double period = times[0] - times[k], before = times[k] - times[2 * k];
       const double change = std::abs(period - before);
       if (!(period > 0) || change > same_time * period) continue;
-      // While it still settles as fast as this, a few rounds more are worth it: the period is taken as it is.
+      // While it still converges this fast, more periods are computed before the period is accepted.
       if (change > settled_time * period && change < settling * std::exchange(period_changes_, change)) return false;
       if (period_.by_time && std::abs(std::remainder(period, period_.time)) < same_time * period_.time) continue;
       if (!go_where_least_happens(times[0], period)) return false;
@@ -296,7 +296,7 @@ class Search {
     return false;
   }
 
-  // A period that the link's turning tells to the run's tolerance, corrected by as much as the whole state lags behind.
+  // The period by the rotation of the link, to the run's tolerance, corrected by the lag of the whole state.
   double by_whole_state(double period) {
     for (int twice = 0; twice < 2; ++twice) {
       ReturnMap map(shared_, map_options(options_), period);
@@ -327,16 +327,16 @@ class Search {
     accept(map, point);
   }
 
-  // Of a family, the run tells which member is meant: what the motion keeps, it has from the start on.
+  // The member of a family is that of the run: conserved quantities have their initial values.
   bool keeps_its_member(const ReturnMap& map, SteadyPoint& point) {
-    constexpr int patient = 64;  // rounds: what does not fade does not come nearer either
+    constexpr int patient = 64;  // periods: without decay there is no convergence either
     if (!point.neutral() || is_member_of_run(map, point) || settled_rounds_ >= patient) return true;
     why_not_ = "the motion is one of a family, and the run is still too far from it to decide which";
     return false;
   }
   void spend(const ReturnMap& map) { out_.cost += map.cost(); }
 
-  // From z = 0, where the run was, a round leads as far towards the point as the derivative says.
+  // From z = 0, the state of the run, a period moves towards the point as predicted by the derivative.
   bool was_on_its_way(const SteadyPoint& point) {
     constexpr double off = 0.3, near_by = 1e-4;
     if (point.z.size() == 0) return true;
@@ -398,7 +398,7 @@ class Search {
                         "{}{}",
                         out_.still_changes, changes_most_, why_not_.empty() ? "" : ": " + why_not_));
   }
-  // Faster throughout the second half of all rounds, and by as much in its second half as in its first.
+  // Speeds increase over the second half of all periods, in its second half as much as in its first.
   bool grows() const {
     const std::size_t n = speeds_.size();
     if (n < 40) return false;
@@ -416,12 +416,12 @@ class Search {
   State state_;
   Orbit out_;
   bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
-  double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // the latter of its own, at the last look [s]
+  double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
   int settled_rounds_ = 0, next_trial_ = 1;
   LastSwing swings_;
   LastMotion last_motion_;
   std::string why_not_, changes_most_;
-  std::vector<double> speeds_;  // fastest shaft at the ends of settled rounds, of its rated speed
+  std::vector<double> speeds_;  // fastest shaft at the ends of settled periods, over its rated speed
   std::vector<Event> events_;   // the last ones
   std::size_t events_seen_ = 0, looked_at_ = 0;
 };

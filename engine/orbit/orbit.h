@@ -1,15 +1,14 @@
-// orbit.h — where the scene's own start leads to: the motion that the machine keeps, found once for all studies.
+// orbit.h — the steady motion reached from the start of the scene, found once for all studies.
 //
-// The machine runs as the scene says, sequence, contacts and own states included, round by round (a round: the common
-// period of all that reads an angle or time), until nothing is left that is to be switched. Where rounds come near to each
-// other, Newton's method on the return map goes the rest of the way; what it finds counts only if the run was on its way
-// there: what is left must shrink from one round to the next as the derivative says. What does not settle that way, runs on.
+// The machine runs as defined by the scene, with sequence, contacts and internal states, period by period (common period of
+// all laws over angle or time), until all switching is done. If successive periods are close, Newton's method on the return
+// map completes the search. Its result is accepted only if the run converges to it: the remaining deviation must decrease
+// from period to period as predicted by the derivative. Otherwise the run continues.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "engine/base/enumerators.h"
 #include "engine/return_map/return_map.h"
@@ -17,50 +16,50 @@
 namespace kurbel {
 
 struct OrbitOptions {
-  double tolerance = 1e-12;  // of the return map; the run's is 1e-9 at the least
+  double tolerance = 1e-12;  // of the return map; that of the run is at least 1e-9
   std::string method = "auto";
-  int cycles = 1;       // of the machine in one round
+  int cycles = 1;       // cycles of the machine in one period
   double budget = 300;  // of processor time, for one integration [s]
   int most_rounds = 600;
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& what, double fraction)> progress = {};
 };
 
-// As a scene's run asks for it: its budget, and its method unless that goes over the angle, where no round is one of time.
+// Options of a scene's run: its budget, and its method unless it integrates over the angle, which has no periods of time.
 OrbitOptions orbit_options(const RunSettings& run, const std::atomic<bool>* interrupted = nullptr);
-// Of the return map.
+// Options of the return map.
 inline ReturnMapOptions map_options(const OrbitOptions& of) {
   return {of.tolerance, of.method, of.cycles, of.budget, of.interrupted};
 }
 
 struct Orbit {
   enum class Kind {
-    equilibrium,  // all speeds keep; the reduction link may stand
-    cycle,        // everything comes again after a round
-    vibrating,    // so it does, and the link does not turn in the mean
+    equilibrium,  // all speeds are constant; the reduction link may be at rest
+    cycle,        // the motion is periodic
+    vibrating,    // the motion is periodic, and the link has zero mean speed
     at_rest,      // nothing moves
-    runaway,      // speeds grow beyond bounds
-    drifting,     // neither: it goes on changing, or nothing has a common period
-    failed,       // the run broke down
+    runaway,      // speeds grow without bound
+    drifting,     // none of these: the motion keeps changing, or there is no common period
+    failed,       // the integration failed
     interrupted
   };
   Kind kind = Kind::failed;
-  std::string words;               // what it is, and what decides that
-  bool stable = true;              // as its multipliers say; false where they are uncertain or unknown
-  bool polished = false;           // by Newton on the return map; else as near as the run came
-  double still_changes = 0;        // from round to round, of the rated values
-  int rounds = 0;                  // that the run took
-  double cost = 0;                 // of all, in cycles
-  State state;                     // in the steady motion: on the section of a cycle
-  SteadyPoint point;               // of a cycle or an equilibrium that turns: the fixed point and its multipliers
-  std::shared_ptr<ReturnMap> map;  // of it; null where nothing comes round
+  std::string words;               // description, with the criterion
+  bool stable = true;              // by its multipliers; false if they are uncertain or unknown
+  bool polished = false;           // found by Newton's method on the return map; else by the run only
+  double still_changes = 0;        // change per period, over the rated values
+  int rounds = 0;                  // periods of the run
+  double cost = 0;                 // total, in cycles
+  State state;                     // a state of the steady motion; for a cycle on its section
+  SteadyPoint point;               // for a cycle or a rotating equilibrium: the fixed point and its multipliers
+  std::shared_ptr<ReturnMap> map;  // of the point; null if there is no period
   bool repeats() const { return map && (kind == Kind::cycle || kind == Kind::vibrating || kind == Kind::equilibrium); }
 };
 inline const char* name_of(Orbit::Kind kind) {
   return kind == Orbit::Kind::runaway ? "running away" : enumerator_words<Orbit::Kind::interrupted>(kind);
 }
 
-// Throws std::invalid_argument in words where nothing can have a period in common.
+// Throws std::invalid_argument if there can be no common period.
 Orbit find_orbit(std::shared_ptr<const Model> model, const OrbitOptions& options);
 
 }  // namespace kurbel

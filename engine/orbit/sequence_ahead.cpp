@@ -1,4 +1,4 @@
-// sequence_ahead.cpp — the armed step of a sequence against a round of the motion.
+// sequence_ahead.cpp — whether a period of the motion triggers the armed step of a sequence.
 #include "engine/orbit/sequence_ahead.h"
 
 #include "engine/events/operating_sequence.h"

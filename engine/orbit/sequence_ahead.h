@@ -1,4 +1,4 @@
-// sequence_ahead.h — whether a motion that was found makes the operating sequence go on: then the machine does not keep it.
+// sequence_ahead.h — whether the operating sequence continues in a motion that was found, which is then not steady.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 
 namespace kurbel {
 
-// A step that waits for a time or an angle comes; one that waits for a speed comes where a round from there reaches it, or
-// where it is reached already. Of a sequence that goes round: never.
+// A step that waits for a time or an angle is executed; a step that waits for a speed, if it is reached within a period or
+// already. False for a repeated sequence.
 bool sequence_goes_on(const ReturnMap& map, const Eigen::VectorXd& z);
 
 }  // namespace kurbel

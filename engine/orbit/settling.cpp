@@ -24,7 +24,7 @@ double switched_until(const Model& m, const Periodicity& period, const State& st
   for (const PrescribedSpeed& given : m.network.prescribed)
     if (!given.time.empty()) until = std::max(until, given.time.back());
   const Sequence& sequence = m.scene.sequence;
-  for (const Command& c : state.modes.command)  // a law that repeats is part of what comes again
+  for (const Command& c : state.modes.command)  // a periodic law is part of the periodic motion
     if (!c.holds_still() && !(c.law >= 0 && sequence.steps[at(c.law)].law.period() > 0))
       until = std::max(until, c.until);
   if (state.modes.next_step < sequence.steps.size() && state.modes.armed_time < no_edge)

@@ -1,4 +1,4 @@
-// settling.h — what a motion still waits for before it can come again, and how fast it changes.
+// settling.h — remaining switching before a motion can be periodic, and its rate of change.
 #pragma once
 
 #include "engine/events/equations.h"
@@ -6,14 +6,14 @@
 
 namespace kurbel {
 
-// Until when something is still to be switched that does not come again [s]; before: nothing.
+// Time until which non-recurring switching remains [s]; in the past: none remains.
 double switched_until(const Model& model, const Periodicity& period, const State& state);
-// The next step of the sequence comes at an angle.
+// The next step of the sequence waits for an angle.
 bool waits_for_angle(const Model& model, const Modes& modes);
-// Nothing that depends on an angle or on time sets the pace: what vibrates, vibrates by itself; or a sequence goes round.
+// No law over angle or time defines the period: a vibration is self-excited, or the sequence is repeated.
 bool has_own_period(const Model& model, const Periodicity& period);
 
-// Greatest speed, and greatest rate of all that is no angle, of the rated values.
+// Maximum speed, and maximum rate of all states except angles, over the rated values.
 struct Pace {
   double speed = 0, rate = 0;
 };

@@ -1,4 +1,4 @@
-// floquet.cpp — the round interval by interval, the eigenvalues of what they make together, and the modes' phases.
+// floquet.cpp — the period interval by interval, the eigenvalues of the product, and the phases of the modes.
 #include "engine/periodic/floquet.h"
 
 #include <algorithm>
@@ -21,14 +21,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
 constexpr double looser = 100;           // the tolerance by which errors are measured
-constexpr double in_common = 4;          // to allow for what both computations share: like steps have like errors
-constexpr double fades_in_interval = 9;  // ln of what one direction may lose against another
+constexpr double in_common = 4;          // allows for common errors of both computations with similar steps
+constexpr double fades_in_interval = 9;  // ln of the allowed decay of one direction relative to another
 constexpr double turns_in_interval = 1;  // [rad] of the slow ones
 constexpr std::size_t least_intervals = 12, most_intervals = 2000;
-constexpr double gone = 1e-9, gone_by_differences = 1e-6;  // of the largest direction: below what integration knows
+constexpr double gone = 1e-9, gone_by_differences = 1e-6;  // of the largest direction: accuracy of the integration
 constexpr double difference_step = 2e-5;                   // of states over their scales
-constexpr double jumps = 2;  // [rad] in an interval beside the mode's own turning: the next one may be another turn
-constexpr double vanishes = 0.1;  // of a mode's mean amplitude in a motion: where it is less, its phase says little
+constexpr double jumps = 2;       // [rad] in an interval, from the mode's phase: the number of turns is then ambiguous
+constexpr double vanishes = 0.1;  // of a mode's mean amplitude in a motion: below this its phase is not significant
 
 struct BrokenOff : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -39,7 +39,7 @@ struct Round {
   std::vector<MatrixXd> factors;
   std::vector<MatrixXd> directions;  // before each: δy over the scales = directions · coordinates
   Index rank = 0;                    // least
-  double wiped_out = 0;              // greatest share of a factor that was taken for nothing
+  double wiped_out = 0;              // largest share of a factor that was set to zero
 };
 
 // As square as the largest.
@@ -49,7 +49,7 @@ MatrixXd filled(const MatrixXd& m, Index rows, Index columns) {
   return larger;
 }
 
-// What integration cannot tell from nothing is nothing.
+// Sets entries below the accuracy of the integration to zero.
 void wipe_out(MatrixXd& factor, double least, Round& round) {
   if (factor.size() == 0) return;
   const Svd svd = thin_svd(factor);
@@ -75,7 +75,7 @@ class Machine {
   const Eigen::VectorXd& scale() const { return scale_; }
 
   struct Way {
-    double time = 0;  // of the round [s]
+    double time = 0;  // of the period [s]
     MatrixXd mean;    // Jacobian
     std::vector<double> events;
   };
@@ -90,7 +90,7 @@ class Machine {
     return way;
   }
 
-  // Over intervals that end at these times; the last one ends the round.
+  // Over intervals that end at these times; the last one ends the period.
   Round round(const Eigen::VectorXd& z, const std::vector<double>& ends) {
     State here;
     here.t = map_.start_time();
@@ -132,7 +132,7 @@ class Machine {
     return run;
   }
 
-  // The state, and where directions have gone by then.
+  // The state, and the transformed directions.
   MatrixXd advance(State& state, double until, const MatrixXd& directions) {
     if (!map_.variational()) return advance_by_differences(state, until, directions);
     equations_.bind(state.modes);
@@ -224,14 +224,14 @@ std::vector<double> ends_away_from(const std::vector<double>& events, double tim
 
 double turned(double phase) { return std::remainder(phase, turn); }
 
-// The phase of one motion round the cycle, as its mode sees it.
+// The phase of one motion over the cycle, measured with its mode.
 class PhaseReader {
  public:
   PhaseReader(const std::vector<MeanMode>& modes, const ModeFilter& filter, const std::vector<double>& ends)
       : modes_(modes), filter_(filter), ends_(ends) {}
 
-  // w_k before each interval, over the scales, with A_k w_k = ν_k w_{k+1}. Of all modes that it has something of, the one
-  // whose own exponent is near to what it would be counts.
+  // w_k before each interval, over the scales, with A_k w_k = ν_k w_{k+1}. Of all modes with a share in it, the one
+  // with the nearest exponent is chosen.
   void read(const std::vector<VectorXcd>& w, const std::vector<Complex>& nu, const PeriodicEigenvalue& value,
             FloquetExponent& out) const {
     std::vector<VectorXcd> seen;
@@ -263,12 +263,12 @@ class PhaseReader {
   }
 
  private:
-  // A motion that swings in step with the round is as much of a mode as of its conjugate.
+  // A motion in phase with the period has equal shares of a mode and of its conjugate.
   static bool is_real(const PeriodicEigenvalue& value) {
     const double off = std::min(std::abs(value.phase), std::numbers::pi - std::abs(value.phase));
     return off <= std::max(1e-9, 10 * value.error);
   }
-  // Of what does not swing by itself: 0 or π where it is real.
+  // For aperiodic modes: 0 or π if the multiplier is real.
   static double out_of_step(const PeriodicEigenvalue& value) {
     return is_real(value) ? std::abs(value.phase) : value.phase;
   }
@@ -277,10 +277,10 @@ class PhaseReader {
     return value.phase + turn * std::round((phase - value.phase) / turn);
   }
   struct Followed {
-    double phase = 0;  // [rad] in a round
+    double phase = 0;  // [rad] in a period
     bool sure = true;
   };
-  // What a mode sees it turn through, in each interval as near to the mode's own turning as can be.
+  // Phase advance measured with a mode, in each interval as near as possible to the phase advance of the mode.
   Followed follow(Index mode, const std::vector<VectorXcd>& seen, const std::vector<Complex>& nu) const {
     const double omega = modes_[static_cast<std::size_t>(mode)].exponent.imag();
     Followed followed;
@@ -304,7 +304,7 @@ class PhaseReader {
   const std::vector<double>& ends_;
 };
 
-// What the looser computation says of the same multiplier is the nearest that is left.
+// The corresponding multiplier of the looser computation is the nearest one that is unused.
 std::vector<double> differences(const PeriodicSchur& exact, const PeriodicSchur& loose) {
   std::vector<PeriodicEigenvalue> left = loose.eigenvalues();
   std::vector<double> off;
@@ -331,7 +331,7 @@ void find(const ReturnMap& map, const Eigen::VectorXd& z, const FloquetOptions& 
   out.intervals = options.intervals > 0 ? options.intervals : intervals_for(way.time, of_mean);
   std::vector<double> ends = ends_away_from(way.events, way.time, out.intervals);
   Round round = machine.round(z, ends);
-  // What fades faster than the mean says is not gone yet in shorter intervals; what sticks is gone in any.
+  // Motions that decay faster than the mean survive in shorter intervals; sticking ones vanish in any interval.
   for (int shorter = 0; options.intervals == 0 && shorter < 2 && round.wiped_out > 0; ++shorter) {
     out.intervals *= 2;
     ends = ends_away_from(way.events, way.time, out.intervals);
@@ -373,7 +373,7 @@ FloquetSpectrum floquet_exponents(const ReturnMap& map, const Eigen::VectorXd& z
   FloquetSpectrum out;
   try {
     find(map, z, options, out);
-  } catch (const std::runtime_error& error) {  // a round that breaks off, joints that jam, an iteration without end
+  } catch (const std::runtime_error& error) {  // a failed period, jamming joints, an iteration without convergence
     out.why = error.what();
     out.exponents.clear();
   }

@@ -1,8 +1,8 @@
-// floquet.h — exponents of the motions beside a cycle, from transition matrices of sub-intervals of the round.
+// floquet.h — Floquet exponents of a cycle, from the transition matrices of sub-intervals of the period.
 //
 //     δy(t) = e^{s t} p(t),  p(t + T) = p(t);   s = (ln μ + 2π i n)/T,  μ an eigenvalue of A_{K−1} … A_1 A_0
-// The product is never formed (numerics/periodic_schur.h). Which n it is, μ does not say: it follows from the phase that
-// the motion runs through from sub-interval to sub-interval, seen by the mode that it has most of.
+// The product is never formed (matrices/periodic_schur.h). n is not determined by μ; it follows from the phase of the motion
+// from sub-interval to sub-interval, measured with its dominant mode.
 #pragma once
 
 #include <complex>
@@ -15,36 +15,36 @@
 namespace kurbel {
 
 struct FloquetExponent {
-  std::complex<double> exponent;  // s [1/s]; Re = −∞: gone within a sub-interval, as where something sticks
-  Eigen::VectorXcd shape;         // δy at the section, per state of y in its own unit; largest over the scales 1
-  double phase_advance = 0;       // in one round [rad]: Im s · T
-  int mode = -1;                  // that it has most of, of those that are compared with; −1: none
-  double share = 0;               // its coefficient, on the average over the round; near 1 where they are much the same
-  // The branch that is nearest to the mode's own frequency is this many times 1/T off: a mean that is a poor one.
+  std::complex<double> exponent;  // s [1/s]; Re = −∞: decays to zero within a sub-interval, for example by sticking
+  Eigen::VectorXcd shape;         // δy at the section, per state of y in its own unit; maximum over the scales is 1
+  double phase_advance = 0;       // in one period [rad]: Im s · T
+  int mode = -1;                  // index of its dominant mode among those for comparison; −1: none
+  double share = 0;               // mean coefficient of this mode over the period; near 1 if both are similar
+  // Difference from the branch nearest to the mode's frequency, in multiples of 1/T; not 0: the mean is a poor approximation.
   int off_nearest = 0;
-  // The phase could not be followed all round (it jumps, or the mode is nearly nothing of the motion somewhere): the
-  // branch is that nearest to the mode's own frequency, and the exponent is known but for multiples of 2πi/T.
+  // The phase could not be followed over the period (it jumps, or the share of the mode nearly vanishes): the branch is the
+  // one nearest to the mode's frequency, and the exponent is known except for multiples of 2πi/T.
   bool branch_by_mean = false;
   double error = 0;  // of s [1/s]
 };
 
 struct FloquetSpectrum {
-  std::string why;                         // in words, where there are no exponents
+  std::string why;                         // the reason, if there are no exponents
   std::vector<FloquetExponent> exponents;  // Re s largest first
-  std::vector<MeanMode> modes;             // that they are compared with
-  double time = 0;                         // T of a round [s]
+  std::vector<MeanMode> modes;             // for comparison
+  double time = 0;                         // T, the period [s]
   std::size_t intervals = 0;               // K
   bool found() const { return why.empty(); }
 };
 
 struct FloquetOptions {
-  std::vector<MeanMode> modes = {};  // to compare with; empty: those of the mean Jacobian over the round
-  std::size_t intervals = 0;         // 0: as many as the machine needs
-  bool measure_error = true;         // else rounding alone
+  std::vector<MeanMode> modes = {};  // for comparison; empty: those of the mean Jacobian over the period
+  std::size_t intervals = 0;         // 0: chosen by the machine
+  bool measure_error = true;         // false: rounding only
 };
 
-// Of the fixed point z of a map. A machine that knows no time has no exponent along its own motion: the section leaves it
-// out.
+// Exponents at the fixed point z of a map. For an autonomous machine the zero exponent along the motion is excluded by the
+// section.
 FloquetSpectrum floquet_exponents(const ReturnMap& map, const Eigen::VectorXd& z, const FloquetOptions& options = {});
 
 }  // namespace kurbel

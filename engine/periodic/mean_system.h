@@ -1,8 +1,8 @@
 // mean_system.h — the mean of the Jacobian over a cycle, and its modes.
 //
 //     Ā = (1/T) ∫ ∂f/∂y dt along the motion,   Ā r = λ r
-// What linear theory with constant coefficients says of a machine whose coefficients vary round by round: modes to compare
-// the exponents of the periodic system with. Jumps at events are no part of it.
+// Approximation with constant coefficients of a machine with periodic coefficients: modes for comparison with the Floquet
+// exponents. Jumps at events are not included.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ struct MeanMode {
   Eigen::VectorXcd shape;         // of the state y, each in its own unit
 };
 
-// Sees a run and takes the mean of its Jacobian.
+// Observer of a run that averages its Jacobian.
 class MeanJacobian final : public Observer {
  public:
   explicit MeanJacobian(Equations& equations);
@@ -32,15 +32,15 @@ class MeanJacobian final : public Observer {
   double time_ = 0;
 };
 
-// All modes of a matrix, of states with these scales.
+// All modes of a matrix, for states with these scales.
 std::vector<MeanMode> modes_of(const Eigen::MatrixXd& mean, const Eigen::VectorXd& scale);
 
-// How much of each mode a motion has: coefficients of the modes whose sum is nearest to it.
+// Shares of the modes in a motion: coefficients of the combination of modes nearest to it.
 class ModeFilter {
  public:
-  // Angles, which come first, tell no mode from another: a mode that is nothing but angles is one that no motion has.
+  // Angles, which come first, are ignored; a mode that consists only of angles gets the coefficient zero.
   ModeFilter(const std::vector<MeanMode>& modes, const Eigen::VectorXd& scale, std::size_t angles);
-  // Of a motion δy over the scales.
+  // Coefficients of a motion δy over the scales.
   Eigen::VectorXcd operator()(const Eigen::VectorXcd& scaled) const { return by_motion_ * scaled; }
   double length(const Eigen::VectorXcd& scaled) const;  // without angles
 

@@ -1,4 +1,4 @@
-// cases.cpp — [[case]]: reads the list, and each case's machine on trial.
+// cases.cpp — [[case]]: reads the list, and the machine of each case as a check.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::vector<Case> read_list(const DocumentValue& document, Messages& messages) {
   return cases;
 }
 
-// What the settings brought is placed at the setting in the file; all else where it stands.
+// Faults by settings are located at the setting in the file; others at their own location.
 void place(const Case& one, const SceneError& error, Messages& messages) {
   for (const Message& m : error.messages) {
     const auto said = std::find_if(one.settings.begin(), one.settings.end(), [&](const std::string& setting) {

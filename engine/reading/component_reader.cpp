@@ -1,4 +1,4 @@
-// component_reader.cpp — the tables of the components, and what else stands at the top of a scene.
+// component_reader.cpp — reads the tables of the components and other top-level entries of a scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,7 +84,7 @@ bool tables_are_tables(SceneReading& r, const DocumentEntry& tables) {
 
 bool read_component(SceneReading& r, const DocumentEntry& entry) {
   const std::string& name = entry.key;
-  // A slip of the pen in [effects] or [run], and no component at all.
+  // A misspelt [effects] or [run], not a component.
   const auto table_meant =
       entry.value.find("kind") ? std::nullopt : nearest(name, {"effects", "sequence", "run", "operation", "branch"});
   if (table_meant) {
@@ -96,7 +96,7 @@ bool read_component(SceneReading& r, const DocumentEntry& entry) {
   if (!kind) return false;
   DocumentValue table = entry.value;
   table.at = entry.at;
-  // TOML gives every key to the table header above it: the commonest slip with `line`.
+  // In TOML every key belongs to the table header above it: the most common error with `line`.
   for (const DocumentEntry& inner : entry.value.entries)
     if (is_top_key(inner)) {
       r.refuse(inner.at,

@@ -1,5 +1,5 @@
-// lines.cpp — `line` and the [[branch]]es, names in rows, each with its place; whether they and the components fit together,
-// and the order in which they count.
+// lines.cpp — reads `line` and the [[branch]]es with locations; checks them against the components, and puts them in
+// canonical order.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Line read_line(SceneReading& r, const DocumentValue& value, const std::string& w
   return line;
 }
 
-// The text of a port, "gearbox.out"; none, with a message, where something else stands there.
+// The text of a port, "gearbox.out"; empty, with a message, for another value.
 std::optional<std::string> read_port(SceneReading& r, const DocumentEntry& entry) {
   if (entry.value.type == Type::text && !entry.value.text.empty()) return entry.value.text;
   r.refuse(entry.value.at, fmt::format("branch: {} = {}; must be the name of a component in quotes", entry.key,
@@ -113,7 +113,7 @@ void check_port(SceneReading& r, const std::string& said, Location where, const 
     if (!r.unreadable.count(component)) r.refuse(where, r.no_component(component, names));
     return;
   }
-  if (!placed.count(component)) return;  // said elsewhere
+  if (!placed.count(component)) return;  // reported elsewhere
   const std::string port = said.size() > component.size() ? said.substr(component.size() + 1) : "";
   const bool two = section->kind->placement == Placement::inline_two;
   const std::vector<std::string>& more = section->kind->further_shafts;
@@ -136,7 +136,7 @@ void check_port(SceneReading& r, const std::string& said, Location where, const 
 void check_ends(SceneReading& r, const Line& line, const std::vector<std::string>& names,
                 const std::map<std::string, Location>& placed) {
   if (line.from.empty()) return;
-  const bool ring = std::count(line.names.begin(), line.names.end(), component_of(line.from)) > 0;  // said below
+  const bool ring = std::count(line.names.begin(), line.names.end(), component_of(line.from)) > 0;  // reported below
   if (!ring) check_port(r, line.from, line.at, names, placed);
   if (line.to.empty()) return;
   if (std::count(line.names.begin(), line.names.end(), component_of(line.to)))
@@ -169,7 +169,7 @@ void report_ring(SceneReading& r, std::size_t first, const std::map<std::string,
                shortened_list(from, "and")));
 }
 
-// Branches that hang on each other in a ring, apart from the main line: one message a ring.
+// Branches that depend on each other in a ring, separate from the main line: one message per ring.
 void check_rings(SceneReading& r) {
   std::map<std::string, std::size_t> line_of;
   for (std::size_t i = 0; i < r.scene.lines.size(); ++i)
@@ -189,7 +189,7 @@ void check_rings(SceneReading& r) {
 
 }  // namespace
 
-// Every name exists, every component stands in one place, every branch begins somewhere.
+// Checks: every name exists, every component is used once, every branch has a begin.
 void check_connections(SceneReading& r) {
   std::map<std::string, Location> placed;
   std::set<std::string> meant;  // by a name mistyped elsewhere
@@ -241,7 +241,7 @@ void put_in_canonical_order(SceneReading& r) {
       waiting.erase(first, last);
     }
   }
-  r.scene.lines = std::move(ordered);  // what is missing hangs in a ring or on nothing, and was refused
+  r.scene.lines = std::move(ordered);  // missing ones are in a ring or unconnected, and were reported
   std::map<std::string, std::size_t> rank;
   for (const Line& line : r.scene.lines)
     for (const std::string& name : line.names) rank.emplace(name, rank.size() + 1);

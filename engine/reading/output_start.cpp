@@ -1,8 +1,8 @@
-// output_start.cpp — a start told for a mechanism's output: angle and speed of the crank that it follows.
+// output_start.cpp — a start given for a mechanism's output: angle and speed of its crank.
 //
-//     x(φ) = position on the stroke that is said,   ω = v/x′(φ)
-// A stroke is named by the end that it leads to as the crank turns forwards; of a slider that moves it is the one that a
-// crank turning forwards makes, of one at rest the one towards the folded end, or the least angle.
+//     x(φ) = position on the given stroke,   ω = v/x′(φ)
+// A stroke is named by its end as the crank turns forwards. Default: for a moving slider the stroke of a crank turning
+// forwards, at rest the one towards the folded end, or the minimum angle.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,13 +29,13 @@ class Output {
     const auto ports = net.ports.find(section.name);
     if (!messages.empty() || net.elements.empty() || ports == net.ports.end()) return;
     net.components = {section.name};
-    net.nodes[at(ports->second.in)].inertia += 1;  // kg·m²; ways do not see it
+    net.nodes[at(ports->second.in)].inertia += 1;  // kg·m²; no influence on displacements
     cycle_ = net.elements.front().element->cycle;
     Scene bare;
     bare.file = file;
     try {
       model_ = compile_network(std::move(net), bare, Effects{});
-    } catch (const SceneError& error) {  // dimensions beside which an inertia of 1 kg·m² is lost
+    } catch (const SceneError& error) {  // dimensions for which an inertia of 1 kg·m² is negligible
       for (const Message& message : error.messages) messages.add(section.at, message.text);
       return;
     }
@@ -44,7 +44,7 @@ class Output {
       if (channel.name.what == quantities::velocity) velocity_ = &channel;
     }
   }
-  // What a shaft moves along, as a screw does, is no output: its place hangs on turns and travel as well.
+  // A slide moved by a shaft, such as a screw, is no output: its position depends on full turns and travel as well.
   bool found() const { return position_ && velocity_ && cycle_ != 0; }
   bool turns() const { return std::isfinite(cycle_); }
   double cycle() const { return cycle_; }
@@ -86,8 +86,8 @@ Way way_of(const Output& output) {
   return way;
 }
 
-// Where the output stands at x on its way to the greatest place or to the least as the crank turns forwards; at an end
-// of its way both strokes meet.
+// Crank angle with the output at x on the stroke to the maximum or minimum position as the crank turns forwards; at the
+// ends both strokes meet.
 std::vector<double> angles_at(const Output& output, const Way& way, double x, bool rising) {
   const double length = way.greatest - way.least;
   std::vector<double> places;

@@ -1,4 +1,4 @@
-// preparation.cpp — what a document says once for many places: constants, formulas of them, tables used by name.
+// preparation.cpp — definitions of a document used in many places: constants, formulas of them, tables used by name.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,12 +87,12 @@ class Preparation {
       if (value.find("formula") || value.find("return_formula")) value.constants = shared_;
     }
     for (DocumentEntry& entry : value.entries)
-      // A curve's own formula has a variable; who reads it knows which.
+      // The formula of a curve has a variable, known to the reader of the curve.
       if (entry.key != "formula" && entry.key != "return_formula") prepare(entry.value, false);
     for (DocumentValue& item : value.items) prepare(item, false);
   }
 
-  // A run computes with the value that a tolerance is about.
+  // A run uses the value of a toleranced quantity.
   void take_value(DocumentValue& table) {
     const std::size_t faults = r_.messages.all().size();
     for (DocumentEntry& entry : table.entries) prepare(entry.value, false);

@@ -1,4 +1,4 @@
-// read_scene.h — from a scene's file, or its text, to a scene that can be built.
+// read_scene.h — reads a scene from a file or a text.
 #pragma once
 
 #include <string>
@@ -11,38 +11,37 @@
 
 namespace kurbel {
 
-// Reads a scene; `kinds` lists the components that a line may hold. Throws SceneError with all errors of the file.
+// Reads a scene; `kinds`: the allowed components of a line. Throws SceneError with all errors of the file.
 Scene read_scene(const std::string& path, const std::vector<Kind>& kinds,
                  DataFiles allowed = DataFiles::below_the_scene);
 Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Kind>& kinds,
                   DataFiles allowed = DataFiles::below_the_scene);
 
-// As parse_scene of the text that the document was made from, without its [[case]]; an empty text if there is none.
+// As parse_scene for the text of the document, without its [[case]]; `text` is empty if there is none.
 Scene scene_from(DocumentValue document, const std::string& text, const std::string& file,
                  const std::vector<Kind>& kinds, DataFiles allowed = DataFiles::below_the_scene);
 
-// With settings put into its text (settings.h). Errors are placed in the file as it stands and in the settings; those
-// of what is built from the scene later must be placed by settled.placed(). `with_cases`: those of [[case]] are
-// checked, too.
+// With settings inserted into its text (settings.h). Errors are located in the original file and in the settings; errors
+// of later steps must be located by settled.placed(). `with_cases`: [[case]] tables are checked as well.
 Scene parse_scene(const SettledText& settled, const std::vector<Kind>& kinds,
                   DataFiles allowed = DataFiles::below_the_scene, bool with_cases = true);
 
-// A named variant of a scene: a failed valve, a damper out of order, one cylinder without compression. What it sets is put
-// into the scene's text; that is tried when the scene is read.
+// A named variant of a scene: a failed valve, a damper out of order, one cylinder without compression. Its settings are
+// inserted into the scene's text, which is checked when the scene is read.
 //
 //     [[case]]
 //     name = "damper out of order"
-//     set  = ["damper.damping=0 N*m*s/rad"]     # as --set takes them
+//     set  = ["damper.damping=0 N*m*s/rad"]     # as for --set
 struct Case {
   std::string name;
   std::vector<std::string> settings;
   std::vector<Location> setting_at = {};
 };
 
-// Of a scene's text that was read without fault, in its order.
+// The cases of a scene's text without faults, in order.
 std::vector<Case> cases_of(const std::string& text, const std::string& file);
 
-// The scene of one; `settings` were given beside the file, those of the case come behind them. Throws SceneError.
+// The scene of a case; `settings`: given in addition to the file; those of the case follow them. Throws SceneError.
 Scene scene_of(const Case& one, const std::string& text, const std::string& file,
                const std::vector<std::string>& settings, const std::vector<Kind>& kinds, DataFiles allowed);
 

@@ -53,14 +53,14 @@ void read_component_start(SceneReading& r, const DocumentEntry& entry) {
   r.scene.run.start.components[entry.key] = start;
 }
 
-// A mechanism whose slider or rocker is named as if it were a shaft; null where that is not what was meant.
+// A mechanism whose slider or rocker is named like a shaft; null if this was not meant.
 const char* output_named(SceneReading& r, const std::string& name) {
   for (const char* output : {".slider", ".rocker"})
     if (name.ends_with(output) && r.find(name.substr(0, name.size() - 7))) return output + 1;
   return nullptr;
 }
 
-// Of what goes to and fro a place is given, a velocity and a stroke; of the crank an angle and a speed.
+// For a reciprocating output the start has a position, a velocity and a stroke; for the crank an angle and a speed.
 void check_start_on_output(SceneReading& r, const DocumentValue& start, const char* output) {
   const OutputStart& given = r.output_start;
   if (!output) {
@@ -82,7 +82,7 @@ void check_start_on_output(SceneReading& r, const DocumentValue& start, const ch
                          std::string_view(output) == "rocker" ? "\"30 deg\"" : "\"430 mm\", from the crank's axis"));
 }
 
-// "position", "velocity" and "towards", unless a component has that name: kept for when its mechanism is known.
+// "position", "velocity" and "towards", unless a component has this name: stored until its mechanism is known.
 bool is_of_output(SceneReading& r, const DocumentEntry& entry) {
   const std::pair<const char*, const DocumentEntry * OutputStart::*> keys[] = {
       {"position", &OutputStart::position}, {"velocity", &OutputStart::velocity}, {"towards", &OutputStart::towards}};
@@ -94,7 +94,7 @@ bool is_of_output(SceneReading& r, const DocumentEntry& entry) {
   return false;
 }
 
-// Names a shaft, or the output of a mechanism, which is told.
+// Whether it names a shaft, or the output of a mechanism, which is stored.
 const char* read_start_on(SceneReading& r, const DocumentEntry& entry) {
   std::string& on = r.scene.run.start.on;
   on = entry.value.text;
@@ -183,7 +183,7 @@ void read_run(SceneReading& r) {
     } catch (const std::invalid_argument& does_not_fit) {
       r.refuse(section.where("method"), fmt::format("[run]: {}", does_not_fit.what()));
     }
-  // In the document, which lives as long as the reading: what is told of an output is looked at later.
+  // Points into the document, which lives as long as the reading: the start of an output is evaluated later.
   if (const DocumentEntry* start = run ? run->value.find("start") : nullptr) read_start(r, start->value);
   if (const DocumentEntry* output = table.find("output")) read_output(r, output->value);
 }
@@ -242,7 +242,7 @@ void check_component(SceneReading& r, const Section& section, const char* key, s
                          suggestion(name, r.component_names()), shortened_list(r.component_names())));
 }
 
-// What a converter's frequencies are made of must be known.
+// The frequencies needed for the harmonics of a converter must be known.
 void check_converter(SceneReading& r, Location at) {
   const Operation& o = r.scene.operation;
   const Section* motor = o.motor.empty() ? nullptr : r.find(o.motor);

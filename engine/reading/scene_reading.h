@@ -1,4 +1,4 @@
-// scene_reading.h — the parts of reading a scene, a file each, and what they share.
+// scene_reading.h — the steps of reading a scene, one file each, and their common data.
 #pragma once
 
 #include <map>
@@ -12,12 +12,12 @@
 
 namespace kurbel {
 
-// A start told for the output of a mechanism, as it stands in the document.
+// A start given for the output of a mechanism, in the document.
 struct OutputStart {
   const DocumentEntry *on = nullptr, *position = nullptr, *velocity = nullptr, *towards = nullptr;
 };
 
-// A scene on its way from the document.
+// A scene while it is read from the document.
 struct SceneReading {
   const std::vector<Kind>& kinds;
   Messages messages;
@@ -25,15 +25,15 @@ struct SceneReading {
   DocumentValue document;
   Scene scene = {};
   std::map<std::string, std::size_t> index = {};  // of each component in scene.components
-  std::set<std::string> unreadable = {};          // keys and tables that were refused as a whole
+  std::set<std::string> unreadable = {};          // keys and tables rejected as a whole
   const DocumentEntry* misplaced_line = nullptr;  // a `line` within a table
   OutputStart output_start = {};
-  bool lines_sound = true;  // false: what is not connected follows from an error that was named
+  bool lines_sound = true;  // false: missing connections are a consequence of a reported error
 
   void refuse(Location at, const std::string& text) { messages.add(at, text); }
   std::vector<std::string> component_names() const;
   const Section* find(const std::string& name) const;
-  // Of so many messages only the first are shown: what costs time to explain is left out of the rest.
+  // Only the first messages are shown: expensive explanations are omitted from the others.
   bool explains() const;
   std::string no_component(const std::string& name, const std::vector<std::string>& names) const;
 };
@@ -44,12 +44,12 @@ bool is_table_of_tables(const DocumentValue& value);  // [table.gas], and no com
 
 void read_components(SceneReading& r);         // component_reader.cpp
 void read_lines(SceneReading& r);              // lines.cpp
-void check_connections(SceneReading& r);       // and: every name exists, and stands in one place
+void check_connections(SceneReading& r);       // also: every name exists, and is used once
 void put_in_canonical_order(SceneReading& r);  // of lines and components, whatever their order in the file
 void read_effects(SceneReading& r);            // effects_reader.cpp
 void read_run(SceneReading& r);                // run_reader.cpp
-void read_operation(SceneReading& r);          // of the same file
-void read_cases(SceneReading& r);              // cases.cpp: of a scene that has no fault else
-void place_by_output(SceneReading& r);  // output_start.cpp: angle and speed of the crank from those of its output
+void read_operation(SceneReading& r);          // in the same file
+void read_cases(SceneReading& r);              // cases.cpp: only for scenes without other faults
+void place_by_output(SceneReading& r);         // output_start.cpp: crank angle and speed from those of the output
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// section_reader.h — one table of a scene file against the table of keys of its kind.
+// section_reader.h — reads one table of a scene file by the keys of its kind.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace kurbel {
 
-// Reads a table's values into a section of the given kind; whatever is wrong goes into `messages`.
-// `what` names the table in messages: coupling "main_coupling". Keys in `passed_over` (such as `kind`) are read by
-// somebody else. Curves may have their points in files, of which those `allowed` are read.
+// Reads the values of a table into a section of the given kind; faults go into `messages`. `what`: name of the table in
+// messages: coupling "main_coupling". Keys in `passed_over` (such as `kind`) are skipped. Points of curves may be in files,
+// of which only those `allowed` are read.
 Section read_section(const DocumentValue& table, const Kind& kind, const std::string& name, const std::string& what,
                      Messages& messages, const std::vector<std::string>& passed_over = {},
                      DataFiles allowed = DataFiles::below_the_scene);

@@ -70,10 +70,10 @@ class StepReader {
       for (int k = 0; k <= 100; ++k)
         least = std::min(least, step.law.value_in(static_cast<int>(i),
                                                   step.law.x()[i] + (step.law.x()[i + 1] - step.law.x()[i]) * k / 100));
-    step.to = least;  // what it must be able to be told
+    step.to = least;  // the value it must accept
     if (step.law.max_abs() > 10 || least < -1) refuse("its values must lie within −1 … 10");
   }
-  // A component, or a part of one: which it has is seen when it is built.
+  // A component, or a part of it, which is checked when it is built.
   void check_set(const std::string& name, Location at, const std::string& what) {
     const std::size_t dot = name.find('.');
     if (dot == std::string::npos || !is_component_(name.substr(0, dot))) check(name, at, what);
@@ -132,7 +132,7 @@ void read_steps(const DocumentValue& list, StepReader& reader, Messages& message
   }
 }
 
-// What begins the next round: its first step, or the clock.
+// The begin of the next repetition: by its first step, or by time.
 void read_rounds(const Section& section, Location table, Messages& messages, Sequence& sequence) {
   using When = SequenceStep::When;
   const SequenceStep& first = sequence.steps.front();

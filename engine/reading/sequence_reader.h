@@ -10,11 +10,11 @@
 
 namespace kurbel {
 
-// Reads [sequence]; whatever is wrong goes into `messages`.
+// Reads [sequence]; faults go into `messages`.
 Sequence read_sequence(const DocumentValue& table, const std::vector<std::string>& components,
                        const std::function<bool(const std::string&)>& is_component, Messages& messages);
 
-// Keys of [sequence] besides its steps, and of a step; for the docs.
+// Keys of [sequence] without its steps, and of a step; for the docs.
 const std::vector<Key>& sequence_keys();
 const std::vector<Key>& sequence_step_keys();
 

@@ -1,4 +1,4 @@
-// settings.cpp — settings as edits of a scene's text: where they go, what they become, and back from there.
+// settings.cpp — settings as edits of a scene's text, and the locations of faults in them.
 #include "engine/reading/settings.h"
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ std::string in_toml(std::string_view text) {
   return out + '"';
 }
 
-// "0.5", "true", "[1, 2]", "{ kind = \"none\" }" stand for themselves; whatever TOML does not know is a text.
+// "0.5", "true", "[1, 2]", "{ kind = \"none\" }" are used as they are; values unknown to TOML are texts.
 bool is_toml_value(const std::string& value) {
   if (value.find('\n') != std::string::npos || value.find('#') != std::string::npos) return false;
   try {
@@ -181,8 +181,8 @@ const DocumentValue& SettledText::item_of(std::size_t setting, const Segment& se
   return value.items[static_cast<std::size_t>(segment.item) - 1];
 }
 
-// What is missing of the path comes along, in dots; a section that is missing comes behind all others, so that no line
-// of the file moves.
+// Missing parts of the path are added with dots; a missing section is added after all others, so that no line of the file
+// moves.
 SettledText::Edit SettledText::brought_in(std::size_t setting, const std::vector<Segment>& missing,
                                           const DocumentValue& document, const DocumentValue& table,
                                           const std::string& value) {
@@ -245,7 +245,7 @@ SettledText::Edit SettledText::replaced(std::size_t setting, const Segment& segm
   return edit;
 }
 
-// In a table of one line with the comma that goes with it; `table` is null at the root.
+// In an inline table including its comma; `table` is null at the root.
 SettledText::Edit SettledText::taken_away(std::size_t setting, const Segment& segment, const DocumentEntry& entry,
                                           const DocumentValue* table) const {
   if (segment.item > 0) refuse(setting, segment.place, "an item of a list cannot be taken away; give the whole list");
@@ -267,7 +267,7 @@ SettledText::Edit SettledText::taken_away(std::size_t setting, const Segment& se
 Message SettledText::placed(const Message& message) const {
   if (message.at.line <= 0 || message.file != file_) return message;
   const std::size_t offset = offset_of(text_, message.at);
-  std::size_t shift = 0;  // how far the settled text is ahead, modulo its size
+  std::size_t shift = 0;  // offset of the settled text, modulo its size
   for (const Edit& edit : edits_) {
     if (offset < edit.settled_begin) break;
     if (offset < edit.settled_begin + edit.by.size()) {

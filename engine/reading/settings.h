@@ -1,10 +1,10 @@
-// settings.h — values given beside a scene, as by `--set` on a command line: main_coupling.stiffness=1 MN*m/rad.
+// settings.h — values given in addition to a scene, such as `--set` on a command line: main_coupling.stiffness=1 MN*m/rad.
 //
 //   PATH=VALUE   PATH: component.key, run.accuracy, press.load.nominal_force, gearbox.stages[2].ratio
-//                VALUE: as in a scene, quotes may be left out; nothing: the key is taken away, its default holds
+//                VALUE: as in a scene, quotes may be omitted; empty: the key is removed, its default applies
 //
-// They are put into the scene's text, so that whatever is read, shown, kept or compared is the machine that ran; the
-// place of a fault in what they brought is told in the setting, and of any other in the file as it stands.
+// They are inserted into the scene's text, so that the scene read, shown, stored or compared is the one that ran. Faults
+// in inserted text are located in the setting, others in the original file.
 #pragma once
 
 #include <set>
@@ -20,25 +20,25 @@ class SettledText {
  public:
   // A text without settings.
   SettledText(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {}
-  // Throws SceneError: of a text that is not TOML, a setting without "=", a path that leads nowhere (with the nearest
-  // name), one path within another.
+  // Throws SceneError for a text that is not TOML, a setting without "=", an unknown path (with the nearest name), a path
+  // within another.
   SettledText(const std::string& text, const std::string& file, const std::vector<std::string>& settings);
 
   const std::string& text() const { return text_; }
   const std::string& file() const { return file_; }
   const std::vector<std::string>& settings() const { return settings_; }
-  // A fault of the settled text, placed in the file as it stands or in the setting.
+  // A fault of the settled text, located in the original file or in the setting.
   SceneError placed(const SceneError& error) const;
 
  private:
   struct Edit {
     std::size_t setting = 0;
     std::size_t begin = 0, length = 0;  // replaced, in the file's text
-    std::string by = {};                // what stands there now: before, key, between, value, behind
-    std::size_t value = 0;              // where in that the value begins
-    std::size_t key = 0;                // where in the setting its key begins
+    std::string by = {};                // the new text: before, key, between, value, behind
+    std::size_t value = 0;              // begin of the value in `by`
+    std::size_t key = 0;                // begin of its key in the setting
     std::size_t settled_begin = 0;      // in the settled text
-    bool quoted = false;                // the value got its quotes here
+    bool quoted = false;                // quotes were added to the value
   };
   struct Segment {
     std::string name;
@@ -63,7 +63,7 @@ class SettledText {
   std::string text_, file_, before_;  // before_: the file's own text
   std::vector<std::string> settings_;
   std::vector<Edit> edits_;      // along the text
-  std::set<std::string> begun_;  // sections and empty tables that an edit has begun to fill
+  std::set<std::string> begun_;  // new sections and empty tables filled by an edit
 };
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// family.cpp — null vectors of a derivative, and the member of a family that a run comes to.
+// family.cpp — null vectors of a derivative, and the member of a family reached by a run.
 #include "engine/return_map/family.h"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 namespace kurbel {
 namespace {
 
-// The section's state as a run from the scene's start with looser steps comes to it.
+// The section's state reached by a run from the scene's start with looser steps.
 Eigen::VectorXd loosely_reached(const ReturnMap& map) {
   constexpr double looser = 100;
   const State& there = map.section().state();
@@ -74,7 +74,7 @@ std::string trial_ended(const NewtonOutcome& search, const std::string& why) {
       search.residual > 0 ? fmt::format("; the one before left {:.1e} of the rated values", search.residual) : "");
 }
 
-// By inverse iteration, of a matrix that rounding keeps from being singular.
+// By inverse iteration with a matrix that is regular by rounding only.
 std::optional<Family> family_of(const Eigen::MatrixXd& derivative, double uncertain) {
   constexpr double least_slope = 1e-3;
   const Eigen::Index n = derivative.rows();
@@ -99,7 +99,7 @@ Family Family::kept(const Eigen::VectorXd& residual, double unchanged) const {
   return {product(tangent, others), product(quantity, others)};
 }
 
-// To first order: a run that is nearer to the point says more.
+// To first order: more accurate for a run nearer to the point.
 bool is_member_of_run(const ReturnMap& map, SteadyPoint& point) {
   constexpr double same_member = 1e-10;  // of the rated values
   const Eigen::Index n = point.z.size();

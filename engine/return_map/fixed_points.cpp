@@ -10,13 +10,13 @@ namespace kurbel {
 
 namespace {
 
-constexpr double slowest_shrinking = 0.999;  // from round to round; nearer to 1 it tells nothing
-constexpr double floor_of_rounds = 1e-10;    // of the rated values: below that rounds are noise
-constexpr double same_motion = 1e-3;         // of the rated values, and of the time of a round
+constexpr double slowest_shrinking = 0.999;  // ratio from period to period; nearer to 1 it is not significant
+constexpr double floor_of_rounds = 1e-10;    // of the rated values: smaller changes are noise
+constexpr double same_motion = 1e-3;         // of the rated values, and of the time of a period
 constexpr int rounds_looked_at = 6;
 constexpr double looser_residual = 10;  // at which a looser search ends, over its tolerance
 
-// How much the largest eigenvalue moves with an entry of the matrix.
+// Sensitivity of the largest eigenvalue to an entry of the matrix.
 double condition_of_largest(const Eigen::MatrixXd& derivative) {
   if (!derivative.allFinite()) return 1 / floor_of_rounds;
   const auto [values, vectors] = eigenpairs(derivative);
@@ -99,7 +99,7 @@ void SteadyPoint::take(const Eigen::VectorXd& at, const ReturnMap::Image& image)
   grazed = image.grazed;
 }
 
-// Rounds z, P(z), P(P(z)) … come nearer by a ratio q: behind the last one lie r q/(1 − q).
+// Iterates z, P(z), P(P(z)) … converge with the ratio q: the distance remaining after the last one is r q/(1 − q).
 SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double enough) {
   SteadyPoint out;
   const double cost_before = map.cost();

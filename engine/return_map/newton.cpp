@@ -1,4 +1,4 @@
-// newton.cpp — steps that are halved until they pay, a derivative that is kept while it serves.
+// newton.cpp — steps halved until they reduce the residual, derivatives reused while they are good enough.
 #include "engine/return_map/family.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int most_rounds = 60, most_derivatives = 12;
 constexpr int most_run_on = 8;
-constexpr double residual_floor = 30;  // times the residual asked for may be left where round-off stops the descent
+constexpr double residual_floor = 30;  // times the required residual is accepted if round-off stops the descent
 
 class Newton {
  public:
@@ -45,7 +45,7 @@ class Newton {
     return true;
   }
 
-  // Where r knows a family and does not leave its member, the member is kept: [A Q; Qᵀ 0].
+  // If r has a family and does not leave its member, the member is kept: [A Q; Qᵀ 0].
   void factorise(const Eigen::MatrixXd& derivative) {
     const Eigen::Index n = derivative.rows();
     const std::optional<Family> family = uncertain_ ? family_of(derivative, uncertain_()) : std::optional<Family>();
@@ -76,7 +76,7 @@ class Newton {
                            norm_, out_.rounds);
   }
 
-  // Far steps lead to other machines: nothing changes by more than half of the largest there is.
+  // Large steps lead to other states: changes are limited to half of the largest value.
   Eigen::VectorXd limited(Eigen::VectorXd step) const {
     const double longest = 0.5 * std::max(system_.magnitude, x_.cwiseAbs().maxCoeff()),
                  length = step.cwiseAbs().maxCoeff();
@@ -85,9 +85,9 @@ class Newton {
     return step;
   }
 
-  // One step, halved while it does not pay; with a kept derivative only the whole step is tried. Steps are judged by
-  // the correction that would follow with the same derivative, not by the residual, which knows no common scale of soft
-  // and stiff directions (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2011).
+  // One step, halved until it is accepted; with a reused derivative only the whole step is tried. The criterion is the next
+  // correction with the same derivative, not the residual, which has no common scale of soft and stiff directions (natural
+  // monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2011).
   Progress advance(const Eigen::VectorXd& whole) {
     const Eigen::VectorXd from = x_, residual_from = residual_, step = limited(whole);
     const double norm_from = norm_, wanted = whole.cwiseAbs().maxCoeff();
@@ -112,20 +112,20 @@ class Newton {
     residual_ = residual_from;
     norm_ = norm_from;
     if (norm_ <= residual_floor * enough_) return Progress::floor;  // round-off: nothing shrinks any more
-    if (fresh) {                                                    // Newton finds no way down: let the machine run on
+    if (fresh) {                                                    // no descent by Newton: integrate further
       if (!system_.run_on || ++run_on_ > most_run_on) return Progress::floor;
       x_ = from + residual_from;
     }
     return evaluate(x_, true) ? Progress::made : Progress::ended;
   }
 
-  // Kept while the rounds that are left with it cost less than a new one.
+  // Reused while the remaining iterations with it cost less than a new one.
   bool keep_derivative(double contraction) const {
     if (contraction >= 0.9) return false;
     return std::log(std::max(norm_ / enough_, 1.0)) / -std::log(contraction) <= system_.derivative_cost + 1;
   }
 
-  // The derivative at the solution itself, for the multipliers; a trial elsewhere may have come last.
+  // The derivative at the solution, for the multipliers; the last trial may have been elsewhere.
   void finish() {
     if (at_ != x_) {
       x_ += limited(-correction(residual_));

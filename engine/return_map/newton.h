@@ -1,4 +1,4 @@
-// newton.h — Newton's method with damping, for systems whose derivative costs many times what the residual costs.
+// newton.h — damped Newton method for systems whose derivative is much more expensive than the residual.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,23 +7,23 @@
 
 namespace kurbel {
 
-// r(x) = 0 for as many unknowns as residuals, all of order one.
+// r(x) = 0 with as many unknowns as residuals, all of order one.
 struct NewtonSystem {
-  // Residual, and its derivative where asked for; false where there is none.
+  // Residual, and its derivative if requested; false if there is none.
   std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* derivative)> evaluate;
   std::function<bool()> stopped = {};  // by the user
-  double derivative_cost = 1;          // in evaluations without
-  double magnitude = 0.2;              // of what x deviates from: steps are at most half of that and of x
-  bool run_on = false;                 // x + r(x) is a sensible step where Newton has none: for maps
+  double derivative_cost = 1;          // in evaluations without derivative
+  double magnitude = 0.2;              // of the state from which x deviates: steps are at most half of it and of x
+  bool run_on = false;                 // for maps: x + r(x) is a useful step if Newton's method has none
 };
 struct NewtonOutcome {
   bool found = false;
   std::string why;
-  Eigen::VectorXd x;  // the last evaluation was at x and with derivative
+  Eigen::VectorXd x;  // the last evaluation was at x with derivative
   double residual = 0;
   int rounds = 0, derivatives = 0;
 };
-// Newton with damping, derivatives kept while they serve.
+// Damped Newton method; derivatives are reused as long as they are good enough.
 NewtonOutcome solve(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough);
 
 }  // namespace kurbel

@@ -1,23 +1,23 @@
-// periodicity.h — after what angle or time the laws of a machine repeat: the smallest common period of all.
+// periodicity.h — the smallest common period of all laws of a machine, over angle and time.
 #pragma once
 
 #include "engine/model/model.h"
 
 namespace kurbel {
 
-// After what the machine's laws repeat.
+// Periods of the machine's laws.
 struct Periodicity {
-  double angle = 0;            // of the reduction link [rad]; 2π where no law depends on an angle
-  bool angle_matters = false;  // some law does
+  double angle = 0;            // of the reduction link [rad]; 2π if no law depends on an angle
+  bool angle_matters = false;  // some law depends on an angle
   bool by_time = false;        // some law depends on time, or a speed is prescribed
-  double time = 0;             // common period of all that does [s]
-  double settled_from = 0;     // laws over time that do not repeat hold still from here on [s]
+  double time = 0;             // common period of the laws over time [s]
+  double settled_from = 0;     // time from which non-periodic laws are constant [s]
 };
 
-// Throws std::invalid_argument in words where the cycles never meet (periods that are not commensurable).
+// Throws std::invalid_argument if the periods are not commensurable.
 Periodicity periodicity_of(const Model& model);
 
-// The node whose speed is prescribed, the frame's not counted; −1: none. Throws std::invalid_argument where there are
+// The node with prescribed speed, except the frame; −1: none. Throws std::invalid_argument if there are
 // two.
 int prescribed_node(const Model& model);
 

@@ -1,4 +1,4 @@
-// return_map.cpp — one round from section to section, and its derivative.
+// return_map.cpp — one period from section to section, and its derivative.
 #include "engine/return_map/return_map.h"
 
 #include <fmt/format.h>
@@ -16,18 +16,18 @@ namespace kurbel {
 namespace {
 
 constexpr std::size_t most_unknowns = 400;   // the derivative is full
-constexpr double overlap = 0.02;             // of a round, by which the first run goes on
-constexpr double slowest = 20;               // a round may take this many times what it takes at the guessed speed
+constexpr double overlap = 0.02;             // of a period, added to the first run
+constexpr double slowest = 20;               // limit of a period's duration over that at the guessed speed
 constexpr double difference_step = 2e-5;     // of unknowns of order one
-constexpr std::int64_t dearest = 300;        // a round may take this many times the evaluations of the first one
-constexpr std::int64_t least_effort = 1000;  // evaluations; fewer tell nothing of what a round takes
-constexpr double safely = 20;                // times a tolerance: what a round is good for
+constexpr std::int64_t dearest = 300;        // limit of a period's evaluations over those of the first one
+constexpr std::int64_t least_effort = 1000;  // evaluations; fewer are not representative of a period
+constexpr double safely = 20;                // times a tolerance: error of a period
 constexpr double loose_directions = 100;     // times the tolerance of the motion: that of variational equations
-constexpr double grazes = 0.05;              // that differences to either side differ, of the greatest of them
+constexpr double grazes = 0.05;              // difference of one-sided differences, over their maximum
 
 Eigen::Index entry(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-// Where events happen: angles of the link at the ends of steps; and which contacts stick all the time.
+// Positions of events: angles of the link at the ends of steps; and contacts that stick over the whole period.
 class RoundLog final : public Observer {
  public:
   explicit RoundLog(const Model& m) : contacts_(contacts_of(m)), sticks_(contacts_.size(), 1) {}
@@ -63,7 +63,7 @@ double quiet_angle(std::vector<double> angles, double cycle, double without_even
   return place_within(0.5 * (angles[widest] + angles[widest + 1]), cycle);
 }
 
-// Where no acceleration satisfies the friction in the joints, at a place that no integration looks at.
+// A jam at a state that is not reached by integration.
 ReturnMap::Image broken(const Jam& jam) {
   ReturnMap::Image image;
   image.why = jam.what();
@@ -96,7 +96,7 @@ void ReturnMap::take_period(const Periodicity& periodicity) {
                     "where it matters least (--effects), or simulate with kurbel run",
                     most_unknowns, unknowns));
   periodicity_ = periodicity;
-  // Joints with friction have a Jacobian that is near enough for steps, not for derivatives.
+  // The Jacobian of joints with friction is accurate enough for steps, not for derivatives.
   variational_ = contacts_of(m).empty() && m.scene.sequence.steps.empty() && !m.effects.joint_friction;
   set_pace(m.speed_scale);
 }
@@ -115,7 +115,7 @@ void ReturnMap::go_through(State state, std::vector<char> sticks_throughout, dou
 }
 
 void ReturnMap::follow(const ReturnMap& other) {
-  periodicity_ = other.periodicity_;  // which may be one of its own motion
+  periodicity_ = other.periodicity_;  // which may be that of its own motion
   own_period_ = other.own_period_;
   section_ = other.section_;
   section_angle_ = other.section_angle_;
@@ -124,7 +124,7 @@ void ReturnMap::follow(const ReturnMap& other) {
   most_flow_calls_ = other.most_flow_calls_;
 }
 
-// A trial far from any motion may take steps without end. The first round that comes round tells what one takes.
+// A trial far from any motion may take unlimited steps. The first completed period defines the limit.
 void ReturnMap::learn_effort(const RunOutcome& outcome) {
   if (most_flow_calls_ == 0) most_flow_calls_ = dearest * std::max(least_effort, outcome.statistics.stepper.flow_calls);
 }
@@ -140,7 +140,7 @@ std::function<double(double, std::span<const double>)> ReturnMap::round_end(Equa
   };
 }
 
-// What became of a round.
+// Result of a period.
 ReturnMap::Image ReturnMap::judge(const RunOutcome& outcome, double from, double link_begin,
                                   Equations& equations) const {
   const Model& m = *shared_;
@@ -228,8 +228,8 @@ ReturnMap::Image ReturnMap::round_of(const Eigen::VectorXd& z, bool with_derivat
   return image;
 }
 
-// A sequence that goes round says itself when a round ends: as long after a command as it began. Where a step waits for
-// the motion the period is known only about; by as much as the round ended late the motion is followed back.
+// A repeated sequence defines the end of a period: at the same time after a command as its begin. If a step waits for the
+// motion, the period is known only approximately; the motion is followed back by the excess time.
 void ReturnMap::in_step_with_sequence(const RunOutcome& outcome, Image& image) {
   const Modes &now = equations_.modes(), &then = section_->state().modes;
   if (!own_period_ || !shared_->scene.sequence.repeats_freely() || now.next_step != then.next_step) return;
@@ -241,8 +241,8 @@ void ReturnMap::in_step_with_sequence(const RunOutcome& outcome, Image& image) {
   image.time -= late;
 }
 
-// Where contacts stick and slip within the round, edges of time hang on the state, or a jam ends a motion: central
-// differences of the map see all of that. One that has no image beside it leaves no derivative.
+// If contacts stick and slip within the period, time edges depend on the state, or a jam ends the motion, central
+// differences of the map include all of this. Without an image of a neighbouring point there is no derivative.
 void ReturnMap::differentiate(const Eigen::VectorXd& z, Image& image) {
   const Eigen::VectorXd here = image.z;
   image.derivative = Eigen::MatrixXd::Zero(z.size(), z.size());
@@ -279,7 +279,7 @@ ReturnMap::Image ReturnMap::approach(double link_speed) {
   return approach_from({from, std::move(y), equations_.modes()});
 }
 
-// A given speed tells where the machine has turned to until its law repeats.
+// A prescribed speed defines the rotation of the machine over the period of its law.
 ReturnMap::Image ReturnMap::approach_as_given(double from) {
   RunOptions run = run_options(0, from);
   run.tolerance = std::max(options_.tolerance, 1e-9);
@@ -322,7 +322,7 @@ ReturnMap::Image ReturnMap::round_from(State state) {
   RunOptions run = run_options(state.t, state.t + (periodicity_.by_time ? round : time_limit_));
   run.tolerance = std::max(options_.tolerance, 1e-9);
   run.from->y = state.y;
-  run.stop = round_end(equations_, state.y, 1 + overlap);  // an event where it begins is seen at the end
+  run.stop = round_end(equations_, state.y, 1 + overlap);  // detects an event at the begin
   const RunOutcome first = integrate(equations_, run, {&log});
   cost_ += options_.cycles;
   Image image = judge(first, state.t, begin, equations_);

@@ -1,4 +1,4 @@
-// sensitivities.h — derivatives of a run by its start: variational equations along the motion, jumps at events.
+// sensitivities.h — derivatives of a run by its initial state: variational equations along the motion, jumps at events.
 //
 //     Ẏ = ∂f/∂y · Y                                              between events, with the exact sparse Jacobian
 //     Y⁺ = Y⁻ + (f⁺ − f⁻) (∇g·Y⁻)/(∇g·f⁻ + ∂g/∂t)                where guard g falls through zero (saltation)
@@ -14,20 +14,20 @@ namespace kurbel {
 
 class Sensitivities final : public RunExtension {
  public:
-  // The equations carry no audit. columns: number of directions that are followed, this much more loosely than the
-  // motion: in Newton's steps their errors do not enter the result.
+  // The equations must have no audit. columns: number of directions; `looser`: their tolerance over that of the motion; in
+  // Newton's method their errors do not affect the result.
   Sensitivities(Equations& equations, std::size_t columns, double looser);
 
   // [ y | Y row by row ]; Y₀ = ∂y₀/∂z, states × columns.
   std::vector<double> start(std::span<const double> y, const Eigen::MatrixXd& first) const;
   Eigen::MatrixXd matrix(std::span<const double> extended) const;
-  // An event that the motion only just touched: there the derivative does not exist.
+  // A guard was touched tangentially: the derivative does not exist there.
   bool grazed() const { return grazed_; }
 
   std::size_t size() const override { return states_ * (1 + columns_); }
   void flow(double t, std::span<const double> y, std::span<double> ydot) override;
-  // For implicit steps: the Jacobian of the motion repeated per direction; what the directions owe to the curvature of
-  // f is left out, which costs Newton's iteration a step and no accuracy.
+  // For implicit steps: the Jacobian of the motion repeated per direction; the terms of the directions by the curvature of
+  // f are omitted, which costs an iteration of Newton's method but no accuracy.
   const SparsityPattern& jacobian_pattern() override;
   void jacobian(double t, std::span<const double> y, std::span<double> values) override;
   ErrorControl error_control(double tolerance) const override;

@@ -1,4 +1,4 @@
-// rigid_machine.cpp — evaluates the rigid machine at angles and speeds, and finds where its torques' laws change.
+// rigid_machine.cpp — evaluates the rigid machine at angles and speeds, and finds the edges of its torques' laws.
 #include "engine/rigid/rigid_machine.h"
 
 #include <fmt/format.h>
@@ -17,8 +17,8 @@
 namespace kurbel {
 namespace {
 
-constexpr double ahead = 1e-11;        // rad: what lies this near ahead counts as here
-constexpr double farthest = 1e-5;      // rad: where rounding hides what is ahead
+constexpr double ahead = 1e-11;        // rad: an edge so near ahead counts as here
+constexpr double farthest = 1e-5;      // rad: look-ahead if rounding hides the next piece
 constexpr int cells_a_turn = 720;      // of the search for edges
 constexpr double below_zero = -1e-11;  // of a guard of order one: a touch within the tables' error is no edge
 
@@ -73,8 +73,8 @@ RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
   cycle_ = cycle.angle;
   periodic_ = cycle.periodic;
   set_modes(0, 1);
-  // Both ways to the inertia must agree: a mechanism that tells no inertia_at would go unnoticed. At the same angle: of
-  // a heavy slider on a light crank the one at 0 is a part in thousands of that where the modes were looked up.
+  // Both computations of the inertia must agree, to detect a mechanism without inertia_at. At the same angle: for a heavy
+  // slider on a light crank the inertia at 0 is a thousandth of that at the angle of the modes.
   fill_state(0, 1);
   const double whole = equations_.shaft_balance(0, 0, state_).inertia;
   if (std::abs(constant_inertia() + mechanism_inertia(0).value - whole) > 1e-9 * whole)
@@ -145,8 +145,8 @@ const Snapshot& RigidMachine::snapshot(double phi, double omega) {
   return equations_.snapshot(0, state_);
 }
 
-// Walks once round with the modes that hold; a guard that falls below zero marks an edge, also where it comes back
-// within the same cell. s grows in the direction of motion.
+// Follows a cycle with valid modes; a guard that falls below zero marks an edge, even if it rises again within the same
+// cell. s increases in the direction of motion.
 class RigidMachine::EdgeSearch {
  public:
   EdgeSearch(RigidMachine& machine, int direction)
@@ -176,13 +176,13 @@ class RigidMachine::EdgeSearch {
   };
 
   void walk_round() {
-    // Begins off the round angles where edges like to lie.
+    // Starts away from round angles, which are often edges.
     const double cell = turn / cells_a_turn, begin = -0.37 * cell, end = begin + machine_.cycle_;
     machine_.set_modes(sign_ * begin, sign_);
     double here = begin, looked = ahead;
     while (here < end) {
       Deadline::check();
-      // On one grid all along, so that cells keep off the round angles behind an edge, too.
+      // One grid for the whole cycle, so that cells avoid round angles also after an edge.
       const double to = std::min(begin + cell * (std::floor((here - begin) / cell + 1e-6) + 1), end);
       const Fall fall = first_fall(here, to);
       if (fall.s == nowhere) {
@@ -190,8 +190,8 @@ class RigidMachine::EdgeSearch {
         looked = ahead;
         continue;
       }
-      // Nothing but rounding above zero already here: at a dead centre the slider's place tells the piece only further
-      // on.
+      // Above zero only by rounding: at a dead centre the slider's position determines the piece only further
+      // ahead.
       if (fall.value_at_begin < -below_zero && looked < farthest) {
         looked *= 10;
         machine_.look_ahead(sign_ * here, sign_, looked);

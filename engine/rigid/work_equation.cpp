@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "engine/base/gauss.h"
@@ -20,7 +19,7 @@ constexpr double tail_allowed = 3e-13;                    // of the largest valu
 constexpr double closes_within = 1e-12;                   // work per cycle over turnover
 constexpr double tail_of_narrow = 1e-11;                  // of the largest value: within 10⁻¹⁴ of a turn's work
 constexpr double narrowest = std::numbers::pi * 0x1p-22;  // [rad]: a corner that is no edge of the machine
-constexpr std::size_t many_panels = 8192;  // beyond so many none is halved below `narrow`: what is left is rounding
+constexpr std::size_t many_panels = 8192;  // from this number on none is bisected below `narrow`: the rest is rounding
 constexpr double rounding_torque = 1e-9;   // of the machine's scale: a machine without torques has nothing to resolve
 
 double largest(std::span<const double> values) {
@@ -89,7 +88,7 @@ void WorkOverAngle::add_panels(RigidMachine& machine, double begin, double end, 
   panel_.push_back(panel);
 }
 
-// What the tables' rounding leaves of a cycle without work is spread over the cycle and taken away.
+// The work per cycle by rounding of the tables, of a cycle without work, is subtracted uniformly over the cycle.
 void WorkOverAngle::close_cycle() {
   if (std::abs(per_cycle_) > closes_within * turnover_) return;
   const double excess = per_cycle_ / cycle_;

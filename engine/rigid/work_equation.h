@@ -1,9 +1,9 @@
-// work_equation.h — the rigid machine over its angle instead of time: work first, time by quadrature.
+// work_equation.h — the rigid machine over its angle instead of time: equation of work, time by quadrature.
 //
 //     d(½ I_r ω²)/dφ = M(φ, ω),   dt = dφ/ω                                                       (theory 2.5)
-// Smooth between load edges, which sit at known angles. Where torques depend on the angle alone the first equation is
-// a quadrature of its own, T(φ) = T₀ + ∫M dφ, the same in every cycle: WorkOverAngle. Machines whose torques depend on
-// the speed, too, are integrated by WorkStepper.
+// Smooth between load edges, which are at known angles. If torques depend only on the angle, the first equation is a
+// quadrature, T(φ) = T₀ + ∫M dφ, the same in every cycle: WorkOverAngle. Machines whose torques also depend on the speed
+// are integrated by WorkStepper.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@
 
 namespace kurbel {
 
-// ∫M dφ and I_r(φ) over one cycle in one direction of motion, on panels that end at the load edges; each panel carries
-// its functions at 16 Gauss–Legendre nodes, short enough for them to agree with the machine to 1e-12.
-// s = direction · φ grows with the motion; s = 0 at φ = 0.
+// ∫M dφ and I_r(φ) over one cycle in one direction of motion, on panels that end at the load edges. Each panel has the
+// functions at 16 Gauss–Legendre nodes and is short enough for an agreement with the machine to 1e-12.
+// s = direction · φ increases with the motion; s = 0 at φ = 0.
 class WorkOverAngle {
  public:
-  // For machines whose torques depend on the angle alone. edges: machine.edges(direction).
+  // For machines whose torques depend only on the angle. edges: machine.edges(direction).
   WorkOverAngle(RigidMachine& machine, const std::vector<double>& edges, int direction);
 
   int direction() const { return direction_; }
   double cycle() const { return cycle_; }
   std::size_t panels() const { return panel_.size(); }
-  // Work that the torques do from s = 0 on, for s of any size [J]; over one cycle. Work per cycle below 1e-12 of the
-  // torques' turnover is rounding of their tables and counts as none: such a machine keeps its energy for ever.
+  // Work of the torques from s = 0, for any s [J]; over one cycle. Work per cycle below 1e-12 of the torques' turnover is
+  // rounding of their tables and counts as zero: such a machine conserves its energy.
   double work(double s) const;
   double work_per_cycle() const { return per_cycle_; }
   double inertia(double s) const;  // I_r [kg·m²]
@@ -40,23 +40,23 @@ class WorkOverAngle {
     double s = 0;             // within a cycle [rad]
     std::int64_t cycles = 0;  // whole cycles before that
     double speed = 0;         // |ω| [rad/s]
-    bool stalled = false;     // came to rest at s, at time t, before the end
+    bool stalled = false;     // at rest at s, at time t, before the end
   };
-  // Motion from s₀ ≥ 0 with speed ≥ 0 until a time; it ends earlier where the kinetic energy is used up. Time is the
-  // integral of 1/ω, with s = s* ∓ u² where the speed vanishes; the end is found by Newton's method. Whole cycles of a
-  // machine that keeps its energy are one multiplication; else each cycle costs 16 square roots a panel.
-  // Throws std::invalid_argument where the start is no number.
+  // Motion from s₀ ≥ 0 with speed ≥ 0 until a time; it ends earlier if the kinetic energy becomes zero. Time is the integral
+  // of 1/ω, with s = s* ∓ u² where the speed vanishes; the end is found by Newton's method. Whole cycles of a machine that
+  // conserves its energy are one multiplication; else each cycle takes 16 square roots per panel.
+  // Throws std::invalid_argument if the start is not finite.
   Motion advance(double s0, double speed, double until) const;
 
  private:
   static constexpr std::size_t nodes = 16;
-  // Near a change point I_r turns within √(2 (l − r)/r) of an angle: 4.5e-4 rad where the rod is a 10⁻⁷ longer than the
-  // crank. Panels are halved until they resolve that; in narrow ones what remains may be the tables' rounding.
+  // Near a change point I_r changes within an angle √(2 (l − r)/r): 4.5e-4 rad if the rod is longer than the crank by 10⁻⁷.
+  // Panels are bisected until they resolve this; in narrow ones the remaining error may be rounding of the tables.
   static constexpr double narrow = std::numbers::pi / 512;  // [rad]
   using Values = std::array<double, nodes>;
   struct Panel {
     double begin = 0, half = 0;        // half: half its width [rad]
-    Values inertia, work;              // at the nodes; work counts from s = 0
+    Values inertia, work;              // at the nodes; work from s = 0
     Values inertia_term, torque_term;  // Legendre coefficients
     double work_begin = 0;
   };
@@ -80,19 +80,19 @@ class WorkOverAngle {
   std::vector<Panel> panel_;
 };
 
-// What is made once for a model and serves many runs.
+// Tables made once for a model and used by many runs.
 class WorkTables {
  public:
-  // Throws std::invalid_argument with refusal() where the work equation does not apply.
+  // Throws std::invalid_argument with refusal() if the work equation does not apply.
   explicit WorkTables(std::shared_ptr<const Model> model);
-  // Why the model cannot run over its angle, in words; empty: it can.
+  // The reason why the model cannot be integrated over its angle; empty: it can.
   static std::string refusal(const std::shared_ptr<const Model>& model);
 
   const RigidMachine& machine() const { return machine_; }
   bool of_angle_alone() const { return of_angle_alone_; }
   // Ascending in s = direction · φ, within [0, cycle).
   const std::vector<double>& edges(int direction);
-  // Only where torques are of the angle alone.
+  // Only if torques depend only on the angle.
   const WorkOverAngle& diagram(int direction);
 
  private:

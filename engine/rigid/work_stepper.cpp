@@ -146,7 +146,7 @@ void WorkStepper::start(double t, std::span<const double> y) {
   at_edge_ = begun_ = false;
 }
 
-// T > angle · |M|, and not so slow that 1/ω means nothing.
+// T > angle · |M|, and not so slow that 1/ω is meaningless.
 bool WorkStepper::regular(double least_angle) {
   const Model& m = equations_.model();
   const double omega = y_[equations_.speed_index(0)];
@@ -176,7 +176,7 @@ void WorkStepper::step(double t_limit) {
   count();
 }
 
-// Turns by at most a quarter, as a step over angle does, so that no guard goes there and back unseen.
+// At most a quarter turn, as in a step over the angle, so that no guard falls and rises undetected.
 void WorkStepper::step_over_time(double t_limit) {
   if (!begun_) over_time_.start(t_, y_);
   const double omega = std::abs(y_[equations_.speed_index(0)]);
@@ -200,7 +200,7 @@ void WorkStepper::step_over_angle(double t_limit) {
   motion_.end(over_angle_.t(), y_);
 }
 
-// The next edge; at most half a turn on, for those who look for extremes within a step.
+// The next edge; at most half a turn ahead, for the search of extremes within a step.
 double WorkStepper::next_stop() {
   const double turned = over_angle_.t(), cycle = tables_->machine().cycle();
   if (turned >= edge_) {
@@ -237,7 +237,7 @@ double WorkStepper::turned_at(double t) {
   return turned;
 }
 
-// A true step that ends at the time t.
+// An exact step that ends at the time t.
 void WorkStepper::land(double t) {
   const double last = over_angle_.t();
   double turned = turned_at(t);

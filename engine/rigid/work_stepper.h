@@ -1,10 +1,10 @@
 // work_stepper.h — Stepper of rigid machines over their angle: T and t as functions of φ, load edges as step ends.
 //
 //     dT/dφ = M(φ, ω),   dt/dφ = 1/ω,   ω = √(2T/I_r)                                             (theory 2.5)
-// Dormand–Prince 8(5,3) over s = ±φ; T itself comes from the work diagram where torques are of the angle alone, so that
-// energy is exact and errors of phase grow with time, not with its square. Near rest, T < 0.2 rad · |M|, 1/ω is
-// singular and the same machine is integrated over time instead; so starts, stalls and reversals are ordinary events of
-// the run.
+// Dormand–Prince 8(5,3) over s = ±φ; T is taken from the work diagram if torques depend only on the angle, so that the
+// energy is exact and phase errors grow linearly with time, not quadratically. Near rest, T < 0.2 rad · |M|, 1/ω is nearly
+// singular and the machine is integrated over time instead; so starts, stalls and reversals are ordinary events of the
+// run.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@
 
 namespace kurbel {
 
-// [T | t | quadratures] over the angle turned since the start, in the direction of motion. T stands still where the
-// work diagram gives it.
+// [T | t | quadratures] over the angle turned since the start, in the direction of motion. T is constant if the work
+// diagram gives it.
 class MotionOverAngle final : public OdeSystem {
  public:
   MotionOverAngle(Equations& equations, WorkTables& tables);
@@ -26,7 +26,7 @@ class MotionOverAngle final : public OdeSystem {
   const SparsityPattern& jacobian_pattern() override { return no_pattern_; }
   void jacobian(double, std::span<const double>, std::span<double>) override {}
 
-  // Begins at a state of the equations with ω ≠ 0. A start where the last motion ended keeps its energy to the last
+  // Starts at a state of the equations with ω ≠ 0. A start at the end of the last motion keeps its energy to the last
   // bit.
   void start(double t, std::span<const double> y, std::span<double> x);
   void end(double turned, std::span<const double> y);
@@ -55,8 +55,8 @@ class MotionOverAngle final : public OdeSystem {
 
 class WorkStepper final : public Stepper {
  public:
-  // control: of the equations' own states. tables: of the same model; made here where there are none.
-  // Throws std::invalid_argument with the reason where the work equation does not apply.
+  // control: of the states of the equations. tables: of the same model; null: made here.
+  // Throws std::invalid_argument with the reason if the work equation does not apply.
   WorkStepper(Equations& equations, const ErrorControl& control, std::shared_ptr<WorkTables> tables = nullptr);
 
   void start(double t, std::span<const double> y) override;
@@ -87,9 +87,9 @@ class WorkStepper final : public Stepper {
   std::shared_ptr<WorkTables> tables_;
   MotionOverAngle motion_;
   ExplicitRungeKutta over_time_, over_angle_;
-  bool by_angle_ = false, begun_ = false, at_edge_ = false;  // begun: the variable in use was started
+  bool by_angle_ = false, begun_ = false, at_edge_ = false;  // begun: the present variable is started
   bool landed_ = false;                                      // the last step over the angle ended at a time
-  double t_ = 0, t_previous_ = 0, edge_ = 0;                 // edge: next one, as angle turned
+  double t_ = 0, t_previous_ = 0, edge_ = 0;                 // edge: next one, as rotation
   std::vector<double> y_, y_previous_, x_;
   mutable std::vector<double> ydot_, ydot_previous_;
 };

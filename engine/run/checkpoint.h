@@ -1,4 +1,4 @@
-// checkpoint.h — a checkpoint as text, and back to the last bit; what observers remember in it.
+// checkpoint.h — a checkpoint as text, and back to the last bit; the memory of observers in it.
 #pragma once
 
 #include <stdexcept>
@@ -9,20 +9,20 @@
 
 namespace kurbel {
 
-// As JSON, with the names of all states, so that a reader knows what machine it is of.
+// As JSON, with the names of all states to identify the machine.
 std::string text_of(const Checkpoint& checkpoint, const Equations& equations);
 
-// Why a text is no checkpoint of this machine.
+// A text that is not a checkpoint of this machine, with the reason.
 struct UnfitCheckpoint : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-// Throws UnfitCheckpoint where the text is none, or of a machine of other states: what is not alike, in words.
-// Parameters may be others: a machine that has warmed up goes on under another load.
+// Throws UnfitCheckpoint if the text is no checkpoint, or of a machine with other states, with the difference.
+// Parameters may differ: a warmed-up machine may continue under another load.
 Checkpoint checkpoint_from(const std::string& text, const Equations& equations);
 
-// What each of them has seen so far, as numbers, and back. Throws std::invalid_argument for the memory of others; none
-// at all: they begin anew.
+// The memory of each observer as numbers, and back. Throws std::invalid_argument for the memory of other observers; empty:
+// they start without memory.
 std::vector<std::vector<double>> memory_of(const std::vector<Observer*>& observers);
 void recall(const std::vector<Observer*>& observers, const std::vector<std::vector<double>>& memory);
 

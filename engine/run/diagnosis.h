@@ -1,4 +1,4 @@
-// diagnosis.h — why a run cannot go on, in words: when, which state of which element, what happened last, what to try.
+// diagnosis.h — message why a run cannot continue: time, state and element, last events, remedy.
 #pragma once
 
 #include <optional>
@@ -8,20 +8,20 @@
 
 namespace kurbel {
 
-// What broke a run off.
+// Reason why a run ended early.
 struct Breakdown {
   enum class Kind {
-    not_finite,  // a value was lost, however short the step
-    collapse,    // the step fell to round-off
+    not_finite,  // a value is not finite, even with the shortest step
+    collapse,    // the step size fell to round-off
     budget,
-    restless,  // events without end at one instant
-    other      // an element that knows no answer; the user
+    restless,  // unlimited events at one instant
+    other      // an element without solution; interrupted by the user
   };
   Kind kind = Kind::other;
   double t = 0;
   std::string why = {};
   std::optional<std::size_t> state = {};  // worst one
-  std::string element = {};               // of the events without end
+  std::string element = {};               // of the unlimited events
 };
 
 // One sentence each: "stopped at t = …: why; the state …; last events: …; try …". Names parameters with their values.

@@ -1,4 +1,4 @@
-// event_location.cpp — guards at both ends of a step, dips within it, and the way to the first that fires.
+// event_location.cpp — guards at both ends of a step, dips within it, and location of the first event.
 #include "engine/run/event_location.h"
 #include "engine/numerics/roots.h"
 
@@ -44,7 +44,7 @@ void EventLocation::go_on() {
   std::swap(guard_slope_, guard_slope_before_);
 }
 
-// The equations' guards, and behind them the one that ends the run.
+// The guards of the equations, followed by the end of the run.
 void EventLocation::find_guards(double t, std::span<const double> y, std::span<double> g) {
   equations_.guards(t, y, g);
   if (options_.stop) g.back() = options_.stop(t, y);
@@ -68,8 +68,8 @@ void EventLocation::find_guard_slopes(double t, std::span<const double> y, std::
   for (std::size_t i = 0; i < guard_.size(); ++i) slopes[i] = (slopes[i] - g[i]) / delta;
 }
 
-// Guards that are positive at both ends of the step but negative in between: where the cubic through values and
-// slopes dips towards zero, the dense output is asked.
+// Guards that are positive at both ends of the step but negative in between: if the cubic through values and slopes
+// approaches zero, the dense output is evaluated.
 void EventLocation::add_dips(std::vector<Below>& below) {
   if (!may_dip_ || stepper_->ends_on_edges()) return;
   const double t0 = stepper_->t_previous(), h = stepper_->t() - t0;
@@ -115,8 +115,8 @@ std::vector<std::size_t> EventLocation::locate() {
     add_dips(below);
     if (below.empty()) return fired;
     const double t0 = stepper_->t_previous(), t1 = stepper_->t();
-    // A guard that begins at its root either rises first, and its next root is sought from there; or the mode was
-    // wrong from the step's begin: nothing to find, take the whole step back.
+    // A guard that starts at its root either rises first, and its next root is searched from there; or the mode was wrong
+    // from the begin of the step, which is then discarded.
     fired.clear();
     std::vector<double> from(below.size(), t0), value(below.size());
     for (std::size_t k = 0; k < below.size(); ++k) {
@@ -166,8 +166,8 @@ std::vector<std::size_t> EventLocation::fired_at_edge() {
   return fired;
 }
 
-// False: a library's method finds no step that ends on the event, where the laws have a kink; then the step is cut to
-// a part before it, and what follows looks for the event anew.
+// False: a library's method finds no step that ends on the event at a kink of a law; the step is then shortened to a part
+// before it, and the event is searched again afterwards.
 bool EventLocation::try_to_land_on(double t, std::size_t guard) {
   const double t0 = stepper_->t_previous();
   std::exception_ptr failure;
@@ -189,7 +189,7 @@ bool EventLocation::try_to_land_on(double t, std::size_t guard) {
   std::rethrow_exception(failure);
 }
 
-// A true step onto the event, corrected by the secant until the guard is zero to round-off.
+// An exact step onto the event, corrected by the secant method until the guard is zero to round-off.
 void EventLocation::land_on(double t, std::size_t guard) {
   const double t0 = stepper_->t_previous(), t1 = stepper_->t();
   const double delta = 1e-4 * (t1 - t0);

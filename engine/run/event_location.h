@@ -1,8 +1,8 @@
-// event_location.h — which guards fall through zero within a step, and where: the step is taken anew to end on the
-// first.
+// event_location.h — locates the guards that fall through zero within a step; the step is repeated to end on the first
+// one.
 //
-// Guards are functions of (t, y) of order one, positive while their mode holds. They are looked at at both ends of each
-// step; those that may dip below zero and rise again are found by the cubic through values and slopes.
+// Guards are functions of (t, y) of order one, positive while their mode holds. They are evaluated at both ends of each
+// step; guards that may fall below zero and rise again are found by the cubic through values and slopes.
 #pragma once
 
 #include <span>
@@ -18,24 +18,24 @@ inline constexpr double fired_below = -1e-11, at_root = 1e-13;
 
 class EventLocation {
  public:
-  // Of the equations' guards, and behind them the run's own end.
+  // For the guards of the equations, followed by the end of the run.
   EventLocation(Equations& equations, const RunOptions& options, std::size_t states);
   std::size_t guard_count() const { return guard_.size(); }
 
-  // The steps are this one's. A library's method may find no step that ends on an event.
+  // Sets the stepper. A library's method may fail to find a step that ends on an event.
   void watch(Stepper& stepper, bool of_library) { stepper_ = &stepper, of_library_ = of_library; }
   // The stepper begins here.
   void begin(double t, std::span<const double> y);
-  // After a step: the guards that fired, and the step ends on them; none if it was smooth. Throws StepFailure.
+  // After a step: the fired guards, on which the step now ends; empty for a smooth step. Throws StepFailure.
   std::vector<std::size_t> find();
-  // What fired last had done so at the step's begin: the step was never there. Asked once.
+  // The last guards fired at the begin of the step, which is discarded. take_at_begin() resets it.
   bool at_begin() const { return at_begin_; }
   bool take_at_begin() { return std::exchange(at_begin_, false); }
-  // The step stands; the next one goes on from its end.
+  // The step is accepted; the next one starts at its end.
   void go_on();
 
  private:
-  struct Below {  // a guard that is negative at a place within the step
+  struct Below {  // a guard that is negative within the step
     std::size_t guard;
     double t, value;
   };

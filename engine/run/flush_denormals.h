@@ -1,6 +1,6 @@
-// flush_denormals.h — within its scope numbers too small to be normal count as zero.
+// flush_denormals.h — denormal numbers count as zero within its scope.
 //
-// Ahead of a wave front a chain's motion decays into denormal numbers, which cost a hundred times the usual.
+// Ahead of a wave front the motion of a chain decays to denormal numbers, which are a hundred times slower.
 #pragma once
 
 #if defined(__SSE2__)

@@ -13,14 +13,14 @@
 namespace kurbel {
 namespace {
 
-// Explicit steps that stability holds down are worth leaving once implicit ones get this much longer (measured: an
-// ESDIRK step costs 2 to 3 steps of DOP853). A trial that did not pay is repeated after four times as many held steps.
-// Counted in steps, not in seconds, so that a run repeats bit for bit.
+// Explicit steps limited by stability are replaced if implicit ones are longer by this factor (measured: an ESDIRK step
+// costs 2 to 3 steps of DOP853). An unsuccessful trial is repeated after four times as many limited steps. Counted in
+// steps, not in seconds, so that a run is reproducible bit for bit.
 const int held_steps_before_trial = LoopMemory{}.held_needed;
 constexpr int trial_warm_up = 30, trial_length = 60;
 constexpr double implicit_step_cost = 3;
 
-// Turns after which the work equation has earned its search for the edges.
+// Number of turns from which the work equation is faster in spite of its search for edges.
 constexpr double turns_to_pay = 3;
 
 }  // namespace
@@ -64,7 +64,7 @@ Method MethodChoice::as_asked() {
   return method;
 }
 
-// With its place where the scene asks for it.
+// With its location if the scene requests it.
 void MethodChoice::refuse(const std::string& why) const {
   const Scene& scene = equations_.model().scene;
   const std::string text = fmt::format("method \"{}\": {}", options_.method, why);
@@ -105,7 +105,7 @@ std::optional<Method> MethodChoice::after(const Stepper& stepper, Method now) {
     return change(implicit_, t,
                   fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", h));
   }
-  // After the trial the check goes on, over ever new windows of steps.
+  // After the trial the check continues with new windows of steps.
   if (++implicit_steps_ == trial_warm_up) trial_begin_ = t;
   if (implicit_steps_ < trial_warm_up + trial_length) return {};
   const double mean = (t - trial_begin_) / trial_length;

@@ -1,5 +1,5 @@
-// method_choice.h — which method a run takes: the one that is asked for where it applies, else ("auto") the work
-// equation where it pays, explicit steps while accuracy holds them, implicit ones where stability does.
+// method_choice.h — integration method of a run: the requested one if it applies; "auto": the work equation if it is
+// faster, explicit steps while accuracy limits them, implicit steps if stability does.
 #pragma once
 
 #include <optional>
@@ -15,19 +15,19 @@ class MethodChoice {
  public:
   MethodChoice(const Equations& equations, const RunOptions& options, LoopMemory& memory);
 
-  // To begin with. Throws std::invalid_argument, or SceneError where the scene asked, for one that does not apply.
+  // The initial method. Throws std::invalid_argument, or SceneError if the scene requests it, if it does not apply.
   Method first();
-  const std::string& reason() const { return reason_; }  // of the last choice, in words
-  // In words: what ran at first, what runs, and how often that changed.
+  const std::string& reason() const { return reason_; }  // of the last choice
+  // Description: the first and the present method, and the number of changes.
   std::string describe() const;
 
-  // That "auto" goes on with after a checkpoint.
+  // Method with which "auto" continues after a checkpoint.
   Method resumed(Method first) const { return automatic() && memory_.implicit ? implicit_ : first; }
   bool is_implicit(Method method) const { return automatic() && method == implicit_; }
 
-  // After a step: another method, where it pays to go on with it.
+  // After a step: another method, if it is faster.
   std::optional<Method> after(const Stepper& stepper, Method now);
-  // After implicit steps that failed: explicit ones, for good; none where implicit ones were asked for.
+  // After a failure of implicit steps: explicit ones, permanently; empty if implicit ones are requested.
   std::optional<Method> after_failure(double t, Method now, const std::string& why);
 
  private:
@@ -41,7 +41,7 @@ class MethodChoice {
   const Equations& equations_;
   const RunOptions& options_;
   LoopMemory& memory_;
-  Method explicit_ = Method::dormand_prince_853, implicit_ = Method::esdirk_43;  // that "auto" takes
+  Method explicit_ = Method::dormand_prince_853, implicit_ = Method::esdirk_43;  // used by "auto"
   Method first_ = Method::dormand_prince_853, now_ = Method::dormand_prince_853;
   std::string reason_;
   int changes_ = 0;

@@ -1,7 +1,5 @@
-// recorders.cpp — what a run leaves behind.
+// recorders.cpp — records of a run: trajectory, extremes, cycles, energy balance.
 #include "engine/run/recorders.h"
-
-#include <algorithm>
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -10,7 +8,7 @@
 namespace kurbel {
 namespace {
 
-// Peaks that differ by less are the same peak come again: the time of the first one counts.
+// Peaks that differ by less are repetitions of the same peak: the time of the first one counts.
 constexpr double same_peak = 1e-9;
 
 }  // namespace
@@ -29,7 +27,7 @@ void TrajectoryRecorder::record(double t, const Snapshot& snapshot) {
 }
 
 void TrajectoryRecorder::begin(double t, std::span<const double> y, Equations& equations) {
-  if (!time_.empty()) return;  // goes on
+  if (!time_.empty()) return;  // continuation
   begin_ = t;
   record(t, equations.snapshot(t, y));
 }
@@ -126,14 +124,14 @@ void ExtremeRecorder::step(StepView& view) {
       take_row(found, view.snapshot(found.time));
 }
 
-// A cubic through both ends with these slopes goes at most 4/27 h (|slope| + |slope|) beyond them; seven times as far
-// lies half a turn of a sine between two of its zeros.
+// A cubic through both ends with these slopes exceeds them by at most 4/27 h (|slope| + |slope|), half a sine wave between
+// two zeros by 1/(2π) of h (|slope| + |slope|); the limit used is some seven times as large.
 bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
   const double reach = (last_.t - first_.t) * (std::abs(first_.slope[i]) + std::abs(last_.slope[i]));
   return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
 }
 
-// Looks for an extreme within the step, but only where it could beat what is known already.
+// Searches an extreme within the step, only if it could exceed the known one.
 void ExtremeRecorder::search(StepView& view, std::size_t i) {
   const double h = last_.t - first_.t;
   const double a = first_.value[i], m = middle_.value[i], b = last_.value[i];
@@ -261,8 +259,8 @@ void CycleRecorder::step(StepView& view) {
     const double before = std::max(time - delta, view.t_previous()), after = std::min(time + delta, view.t());
     return (speed(after) - speed(before)) / (after - before);
   };
-  // An even number of extremes leaves the signs at the ends as they are: places between are asked wherever the speed could
-  // get beyond what is known of the cycle (a cubic goes at most 4/27 h (|α₀| + |α₁|) beyond its ends).
+  // An even number of extremes does not change the signs at the ends: points between are evaluated if the speed could exceed
+  // the known range of the cycle (a cubic exceeds its ends by at most 4/27 h (|α₀| + |α₁|)).
   const auto extreme_until = [&](double t) {
     see_speed(speed(t));
     if (t > from) {
@@ -282,7 +280,7 @@ void CycleRecorder::step(StepView& view) {
     }
     from = t;
   };
-  // What was passed last is passed again, backwards, only when it is left behind for good.
+  // The multiple passed last is passed again, backwards, only after a reversal.
   constexpr double left_behind = 1e-9;
   const auto beyond = [&](double t, int sense) {
     const double angle = equations.angle_with_turns(tracked, view.at(t));
@@ -331,7 +329,7 @@ void EnergyAudit::check(double t, std::span<const double> y, Equations& equation
 }
 
 void EnergyAudit::begin(double t, std::span<const double> y, Equations& equations) {
-  if (checked == 0) check(t, y, equations);  // else it goes on
+  if (checked == 0) check(t, y, equations);  // else it is a continuation
 }
 
 // At the end of the step in which checks fall due: dense output is of a lower order than the steps it lies between.

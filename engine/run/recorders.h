@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +11,11 @@
 
 namespace kurbel {
 
-// All that can be recorded of a model, under dotted names. Components restrict the list; empty: all of a small machine,
-// both ends of a long one.
+// All channels of a model, with dotted names. `components` restrict the list; empty: all of a small machine, both ends of a
+// long one.
 std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components);
 
-// What a prescribed shaft's drive gives [W].
+// Power of the drive of a prescribed shaft [W].
 Channel power_of(const Model& model, const MotorTorque& drive);
 
 // Values of channels at equidistant times.
@@ -33,7 +32,7 @@ class TrajectoryRecorder final : public Observer {
   const std::vector<double>& values() const { return values_; }
   double value(std::size_t row, std::size_t channel) const { return values_[row * channels_.size() + channel]; }
 
-  // Further rows at times between, with the same columns.
+  // Additional rows at times between, with the same columns.
   struct Row {
     double time = 0;
     std::vector<double> values;
@@ -50,15 +49,15 @@ class TrajectoryRecorder final : public Observer {
   std::vector<Row> peaks_;
 };
 
-// A quantity whose extreme is wanted, located on the continuous solution by a root of its rate.
+// A quantity whose extreme is located on the continuous solution by a root of its rate.
 struct ExtremeOf {
   Name name;
   std::string unit;
   double scale = 0;                          // for its error
-  Functional functional = Functional::peak;  // or greatest, or least
+  Functional functional = Functional::peak;  // peak, greatest or least
   std::function<double(const Snapshot&)> value;
   std::function<double(const Snapshot&)> rate;  // vanishes at the extreme; empty: by central differences of the value
-  // d value/dt, where it bounds what the value does between two points of a step; empty: unknown.
+  // d value/dt, if it bounds the value between two points of a step; empty: unknown.
   std::function<double(const Snapshot&)> slope = {};
 };
 
@@ -70,9 +69,9 @@ class ExtremeRecorder final : public Observer {
   struct Found {
     double value = 0, time = 0;
     bool any = false;
-    double merit_then = 0;  // at that time: what is a little larger later on is the same peak
+    double merit_then = 0;  // at that time; slightly larger later values belong to the same peak
     std::vector<double> row = {};
-    double row_time = 0;  // that `row` was taken at; without a row: never
+    double row_time = 0;  // time of `row`, if there is one
     void remember(Tape& tape) { tape(value, time, any, merit_then, row, row_time); }
   };
   explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}
@@ -81,9 +80,9 @@ class ExtremeRecorder final : public Observer {
   void remember(Tape& tape) override { tape(found_); }
   const std::vector<ExtremeOf>& wanted() const { return wanted_; }
   const std::vector<Found>& found() const { return found_; }
-  // At the time of each extreme the values of all these are taken, too.
+  // Also records the values of these channels at the time of each extreme.
   void take_rows_of(std::vector<Channel> channels) { channels_ = std::move(channels); }
-  std::vector<TrajectoryRecorder::Row> rows() const;  // by time, none twice
+  std::vector<TrajectoryRecorder::Row> rows() const;  // by time, without duplicates
 
  private:
   struct Sample {
@@ -113,7 +112,7 @@ struct CycleRecord {
   double energy_before = 0;              // kinetic and stored, at its begin [J]
   double energy_after = 0;               // and at its end
   double mid_speed() const { return 0.5 * (omega_max + omega_min); }
-  // δ (theory 2.6) where the motion repeats, whichever way it turns
+  // δ (theory 2.6) of a periodic motion, for both directions
   double fluctuation() const { return (omega_max - omega_min) / std::abs(mid_speed()); }
   // `angle` of a cycle over its time (theory 2.7)
   double mean_speed(double angle) const { return std::copysign(angle / (end - begin), mid_speed()); }
@@ -122,8 +121,8 @@ struct CycleRecord {
   }
 };
 
-// A cycle lies between two multiples of its angle that are passed one after the other in the same sense; where the
-// link turns round it begins anew.
+// A cycle lies between two successive multiples of its angle passed in the same direction; if the link reverses, a new
+// cycle begins.
 class CycleRecorder final : public Observer {
  public:
   void begin(double t, std::span<const double> y, Equations& equations) override;
@@ -136,16 +135,16 @@ class CycleRecorder final : public Observer {
   void pass(double t, int sense, StepView& view);
   std::vector<CycleRecord> cycles_;
   bool goes_on_ = false;
-  double cycle_ = 0, low_ = 0, high_ = 0;  // the multiples below and above, the one passed last among them [rad]
-  int sense_ = 0;                          // of that passing; 0: none yet
+  double cycle_ = 0, low_ = 0, high_ = 0;  // the multiples below and above, including the last one passed [rad]
+  int sense_ = 0;                          // direction of that passage; 0: none yet
   bool open_ = false;                      // a cycle began at a multiple of its angle
   double begin_ = 0, max_ = 0, min_ = 0;
   std::vector<double> work_at_begin_, motors_at_begin_;
   double energy_at_begin_ = 0;
 };
 
-// Checks T + V − (T₀ + V₀) = Σ work along the run; T comes from the mechanisms' bodies, not from I_r. And that the torque of
-// every joint is the same by both of its sides (theory 5.18).
+// Checks T + V − (T₀ + V₀) = Σ work along the run, with T by the mechanisms' bodies, not by I_r; and that the torque of
+// every joint is equal from both of its sides (theory 5.18).
 class EnergyAudit final : public Observer {
  public:
   EnergyAudit(double until, int checks) : until_(until), checks_(checks) {}
@@ -163,10 +162,10 @@ class EnergyAudit final : public Observer {
   double largest_kinetic = 0;
   int checked = 0;
   std::vector<double> work;           // per account at the last check [J]
-  JointTorques::Open open_body = {};  // where free bodies differ most
+  JointTorques::Open open_body = {};  // with the largest difference of free bodies
   // Residual over max(turnover, largest T); 0 for a machine that never had energy.
   double relative() const;
-  // What speaks against an accuracy: the residual, and what free bodies leave open where it is more than round-off.
+  // Measure to be compared with an accuracy: the residual, and the difference of free bodies if it exceeds the accuracy.
   double largest(double accuracy) const {
     return open_body.part > accuracy ? std::max(relative(), open_body.part) : relative();
   }

@@ -1,4 +1,4 @@
-// run.cpp — the event loop: step, look at the guards, go back to the first event, change modes, go on.
+// run.cpp — the event loop: step, check the guards, return to the first event, change modes, continue.
 #include "engine/run/run.h"
 
 #include <fmt/format.h>
@@ -22,12 +22,12 @@ namespace kurbel {
 namespace {
 
 constexpr int most_events_at_once = 100;
-// So many at one instant, and no mode goes on from there: the motion jams. Far more than contacts that change together.
+// So many events at one instant without a continuation: the motion jams. Far more than contacts that change together.
 constexpr int events_of_a_jam = 20;
-// An implicit method comes only near to a jam; so many explicit steps may go there.
+// An implicit method stops before a jam; limit of explicit steps to reach it.
 constexpr int steps_to_a_jam = 500;
-// So many events while the machine turns by no more than this find no rest of themselves: bouncing that dies away,
-// a contact that flickers. Their elements then follow laws without events.
+// So many events while the machine turns by no more than this angle are chattering: decaying bouncing, a switching
+// contact. Their elements then get laws without events.
 constexpr std::size_t restless_events = 60;
 constexpr double restless_angle = 1e-6;  // [rad] at the speed scale
 
@@ -56,7 +56,7 @@ class Loop {
     } catch (const StepFailure& failure) {
       broken_ = {failure.not_finite ? Breakdown::Kind::not_finite : Breakdown::Kind::collapse, failure.time,
                  failure.what(), failure.state};
-    } catch (const std::runtime_error& error) {  // an element that knows no answer, such as joints that jam
+    } catch (const std::runtime_error& error) {  // an element without solution, such as jamming joints
       broken_ = {.t = stepper_ ? stepper_->t() : 0, .why = error.what()};
     }
     finish();
@@ -80,7 +80,7 @@ class Loop {
     std::vector<double> y = checkpoint.state.y;
     y.insert(y.end(), checkpoint.integrals.begin(), checkpoint.integrals.end());
     y.resize(system_.size());
-    equations_.wrap(y);  // angles may be kept elsewhere now
+    equations_.wrap(y);  // the base of angles may have changed
     memory_ = checkpoint.loop;
     method_ = choice_.resumed(method_);
     out_.limits.begin(system_.size(), location_.guard_count());
@@ -114,8 +114,8 @@ class Loop {
 
   void go_on_with(Method method) { make(method, stepper_->t(), reached()); }
 
-  // Newton's iteration leaves off when the states that are under control stand still, with quadratures one iterate
-  // behind; and a method that begins at order 1 steps over uniform acceleration without a look at the work it does.
+  // Newton's iteration ends when the controlled states are constant, with quadratures one iterate behind; and a method that
+  // starts at order 1 integrates uniform acceleration without an error estimate of its work.
   void control_quadratures(ErrorControl& control) const {
     if (!equations_.audit()) return;
     const Model& m = equations_.model();
@@ -144,7 +144,7 @@ class Loop {
 
   std::vector<double> reached() const { return {stepper_->y().begin(), stepper_->y().end()}; }
 
-  // Behind what happened at this time: the events from the known ones on are its.
+  // Continues after the changes at this time; the events after the known ones belong to them.
   bool go_on_from(double t, std::vector<double>& y, std::size_t known) {
     note_angle(known, y);
     equations_.wrap(y);
@@ -152,7 +152,7 @@ class Loop {
     return true;
   }
 
-  // Steps of the sequence that wait for nothing, again and again.
+  // Steps of a repeated sequence that never wait.
   [[noreturn]] static void broken_clock(double t) {
     throw std::runtime_error(
         fmt::format("the operating sequence repeats without a pause at {:.9g} s: all its steps are due at once, and "
@@ -160,7 +160,7 @@ class Loop {
                     t));
   }
 
-  // A step may come to where joints jam and be whole itself; then what looks at it finds out.
+  // A step may end at a jam without failing; it is then detected by the evaluation after the step.
   bool advance_or_jam() {
     try {
       return advance();
@@ -170,7 +170,7 @@ class Loop {
     }
   }
 
-  // One step with all that happens at its end. False: the run ends here.
+  // One step with all changes at its end. False: the run ends here.
   bool advance() {
     look_at_time();
     const double until = memory_.shortened > 0 ? std::min(limit(), stepper_->t() + memory_.shortened) : limit();
@@ -184,7 +184,7 @@ class Loop {
       go_on_with(*other);
       return true;
     }
-    if (equations_.jam()) equations_.forget_jam();  // a trial step was too long, no more
+    if (equations_.jam()) equations_.forget_jam();  // only a trial step was too long
     const StepLimit limited_by = stepper_->limited_by();
     memory_.last_step = stepper_->t() - stepper_->t_previous();
     const std::vector<std::size_t> fired = location_.find();
@@ -194,7 +194,7 @@ class Loop {
     } else {
       out_.limits.count_event(fired.front());
     }
-    if (!location_.at_begin() && stepper_->t() > stepper_->t_previous()) {  // a step that is taken back was never there
+    if (!location_.at_begin() && stepper_->t() > stepper_->t_previous()) {  // a discarded step is not observed
       for (Observer* observer : observers_) observer->step(view_);
       view_.set_anew(false);
     }
@@ -221,8 +221,8 @@ class Loop {
     if (double& smallest = out_.statistics.smallest_step; smallest == 0 || h < smallest) smallest = h;
   }
 
-  // Steps end at known edges, and turn no mechanism by more than a quarter, so that no guard goes there and back
-  // unseen.
+  // Steps end at known edges and rotate mechanisms by at most a quarter turn, so that no guard falls and rises
+  // undetected.
   double limit() {
     double t = std::min(options_.until, edge_);
     bound_ = edge_ <= options_.until ? StepLimits::Bound::edge : StepLimits::Bound::until;
@@ -257,7 +257,7 @@ class Loop {
         time - memory_.last_event <= 1e-13 * std::max(1.0, std::abs(time)) ? memory_.events_here + 1 : 0;
     memory_.last_event = time;
     ++out_.statistics.events;
-    // A motion that ends as soon as it began may be one that a coarse step goes over: it is tried again, shorter.
+    // A motion that ends at its begin may be missed by a coarse step: it is repeated with a shorter one.
     if (at_begin && memory_.events_here >= 2)
       memory_.shortened = std::max(0.1 * memory_.last_step, 1e-12 * std::max(1.0, std::abs(time)));
     if (memory_.events_here == events_of_a_jam && !options_.extension) {
@@ -286,8 +286,8 @@ class Loop {
     return true;
   }
 
-  // Joints in whose friction law the motion finds no way on. The jam lies within round-off of an explicit step's begin;
-  // a library's method gives up earlier, and explicit steps go the rest of the way.
+  // The friction laws of joints allow no continuation. The jam is within round-off of the begin of an explicit step; a
+  // library's method fails earlier, and explicit steps integrate the rest.
   bool pass_jam() {
     if (options_.extension) return false;
     if (is_of_library(method_)) {
@@ -313,7 +313,7 @@ class Loop {
     return before_jam_ ? resume() : true;
   }
 
-  // Back to the method that was asked for.
+  // Returns to the requested method.
   bool resume() {
     go_on_with(*std::exchange(before_jam_, std::nullopt));
     return true;
@@ -332,7 +332,7 @@ class Loop {
     return (time - memory_.recent.front().time) * equations_.model().speed_scale < restless_angle;
   }
 
-  // The guards that fired most often in the restless stretch lose their events, those that fire now among them.
+  // The guards that fired most often while chattering lose their events, including those that fire now.
   void calm(double time, std::vector<std::size_t>& fired) {
     constexpr int most_for_one = static_cast<int>(restless_events / 10);
     std::map<std::size_t, int> times;
@@ -351,7 +351,7 @@ class Loop {
     std::erase_if(fired, [&](std::size_t guard) { return times.count(guard) && times.at(guard) > most_for_one; });
   }
 
-  // Between steps. What takes long within one asks for itself.
+  // Between steps; long computations within a step check themselves.
   void look_at_time() {
     if (options_.interrupted && options_.interrupted->load()) throw OutOfTime(0);
     if (++checks_ % 64 != 0) return;
@@ -415,7 +415,7 @@ class Loop {
   LoopMemory memory_;
   MethodChoice choice_;
   double begin_ = 0, edge_ = 0;
-  std::optional<Method> before_jam_;  // explicit steps go to the jam; this method goes on
+  std::optional<Method> before_jam_;  // method that continues after explicit steps to the jam
   int steps_to_jam_ = 0;
   std::int64_t checks_ = 0;
 };

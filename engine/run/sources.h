@@ -1,4 +1,4 @@
-// sources.h — what drives a machine, and whether it does so now.
+// sources.h — the driving elements of a machine, and whether they are active.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ class Sources {
         prescribed_ = true;
   }
   bool none() const { return elements_.empty() && !prescribed_; }
-  // Under modes whose elements are `active`: within their windows of time, and switched on. A prescribed shaft drives as
-  // long as the run lasts.
+  // Whether something drives; `active` per element: within its window of time and switched on. A prescribed shaft always
+  // drives.
   bool drive(const std::vector<char>& active) const {
     return prescribed_ ||
            std::any_of(elements_.begin(), elements_.end(), [&](std::size_t e) { return active[e] != 0; });

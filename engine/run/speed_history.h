@@ -1,11 +1,10 @@
-// speed_history.h — when was the reduction link's speed outside a band for the last time? Of a band that only the end
-// of the run tells.
+// speed_history.h — last time at which the reduction link's speed was outside a band that is known only at the end of the
+// run.
 //
-// The last time below a level x is, for every x, in one of those stretches whose minimum no later stretch goes below:
-// ever higher minima towards the end, kept as a stack. The same for maxima. Steady motion takes its own stretches off
-// again, so that memory grows with run-up and drift, by a few stretches a cycle at most, not with the length of the
-// run. Each stretch is the solver's own dense output over one step, as the polynomial through nine of Chebyshev's
-// points.
+// The last time below any level x is in a stretch whose minimum is not reached by later stretches: a stack with minima
+// increasing towards the end. The same for maxima. In steady motion stretches replace earlier ones, so that the memory
+// grows with run-up and drift, by a few stretches per cycle at most, not with the length of the run. Each stretch is the
+// dense output of the solver over one step, as the polynomial through nine Chebyshev points.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@
 
 namespace kurbel {
 
-// Driving, useful, harmful work, that of weights, by Account [J].
+// Driving, useful, harmful work and work of weights, by Account [J].
 using Works = std::array<double, 4>;
 
 class BandHistory {
@@ -28,7 +27,7 @@ class BandHistory {
     double begin = 0, end = 0;  // [s]
     std::array<double, points> value{};
     double lowest = 0, lowest_at = 0, highest = 0, highest_at = 0;
-    // Works from the start of the run on, summed up by their kind, at every other of the points [J].
+    // Works from the start of the run, summed by kind, at every other point [J].
     std::array<Works, points / 2 + 1> work{};
     double at(double t) const;
     Works work_at(double t) const;
@@ -38,7 +37,7 @@ class BandHistory {
   };
 
   void add(const Stretch& stretch);
-  // What followed in time.
+  // Appends a later history.
   void append(const BandHistory& later);
   void clear();
   bool empty() const { return low_.empty(); }
@@ -46,17 +45,17 @@ class BandHistory {
   double last() const { return low_.back().value.back(); }
   std::size_t size() const { return low_.size() + high_.size(); }
   void remember(Tape& tape) { tape(low_, high_); }
-  // The curve stays within [low, high] from here on; nothing: it never was outside. Where it jumps in, the time of the
-  // jump; end() where it ends outside.
+  // Time from which the curve stays within [low, high]; empty: it was never outside. If it jumps in, the time of the jump;
+  // end() if it ends outside.
   std::optional<double> last_outside(double low, double high) const;
-  // Of those that are kept, the stretch with this time in it, as that of every entry found above; null: none.
+  // The stored stretch that contains this time, such as a result of last_outside(); null: none.
   const Stretch* stretch_at(double t) const;
 
  private:
-  std::vector<Stretch> low_, high_;  // ever higher minima, ever lower maxima
+  std::vector<Stretch> low_, high_;  // increasing minima, decreasing maxima
 };
 
-// Follows the reduction link: its speed while something drives and after that, and its angle at equal times.
+// Observes the reduction link: its speed while something drives and after that, and its angle at equal intervals.
 class SpeedRecorder final : public Observer {
  public:
   explicit SpeedRecorder(double until) : until_(until) {}
@@ -64,14 +63,14 @@ class SpeedRecorder final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override { tape(on_, driven_, coasting_, off_since_, works_off_, angles_); }
 
-  // Up to the time at which the last driving source went off for good; all of the run where none did.
+  // Up to the time at which the last driving source was switched off finally; else the whole run.
   const BandHistory& driven() const { return driven_.empty() ? coasting_ : driven_; }
   const BandHistory& coasting() const { return coasting_; }
-  // Nothing: something drives to the end, or nothing ever drove.
+  // Empty: something drives to the end, or nothing ever drove.
   std::optional<double> off_since() const { return driven_.empty() ? std::nullopt : off_since_; }
-  // Up to a time at which a band was entered for good, or to off_since(); none at another one, or without an audit.
+  // Works up to a time of final entry into a band, or to off_since(); empty at other times, or without an audit.
   std::optional<Works> works_at(double t) const;
-  // Angles with turns counted [rad] at multiples of interval() from the start on; only of machines without a cycle.
+  // Angles including full turns [rad] at multiples of interval() from the start; only for machines without a cycle.
   const std::vector<double>& angles() const { return angles_; }
   double interval() const { return until_ / grid; }
 

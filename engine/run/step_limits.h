@@ -1,4 +1,4 @@
-// step_limits.h — what kept the steps of a run short: counted state by state, told element by element.
+// step_limits.h — causes of short steps in a run: counted by state, reported by element.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ namespace kurbel {
 
 class Equations;
 
-// Steps that one element kept short for one reason.
+// Steps limited by one element for one reason.
 struct LimitedSteps {
   std::string element;                   // empty: no element of the machine
   std::string by;                        // "accuracy", "stability", "events", "edges", "turns", …
-  std::vector<std::string> states = {};  // "twist of c3", most often first; of accuracy and stability
+  std::vector<std::string> states = {};  // "twist of c3", most often first; for accuracy and stability
   std::int64_t steps = 0;
   double share = 0;  // of all steps
 };
 
 class StepLimits {
  public:
-  // Where the run itself ends a step.
+  // End of a step set by the run.
   enum class Bound { until, edge, turn };
 
   void begin(std::size_t states, std::size_t guards);
@@ -45,7 +45,7 @@ class StepLimits {
   }
   void count_event(std::size_t guard) { ++by_guard_[guard]; }
 
-  // Ranked, most steps first. States are told through the Jacobian at (t, y): a speed is held by what is stiffest on
+  // Ranked, most steps first. States are assigned to elements by the Jacobian at (t, y): a speed to the stiffest element on
   // it.
   std::vector<LimitedSteps> ranked(Equations& equations, double t, std::span<const double> y) const;
 
@@ -55,11 +55,11 @@ class StepLimits {
   std::int64_t by_bound_[3] = {0, 0, 0};
 };
 
-// The element whose law moves a state most: its own for a twist or an element's own state; for the speed or the angle
-// of a shaft the spring, damper or circuit that it answers fastest through, by the exact Jacobian.
+// The element whose law dominates a state: the owner of a twist or internal state; for the speed or angle of a shaft the
+// spring, damper or circuit with the fastest response, by the exact Jacobian.
 std::string element_behind(Equations& equations, std::size_t state, double t, std::span<const double> y);
 
-// "c3: accuracy 61 %, stability 12 % (twist of c3); events of clutch 9 %"; nothing for a run without steps.
+// "c3: accuracy 61 %, stability 12 % (twist of c3); events of clutch 9 %"; empty for a run without steps.
 std::string told(const std::vector<LimitedSteps>& limits);
 
 }  // namespace kurbel

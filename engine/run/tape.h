@@ -1,4 +1,4 @@
-// tape.h — what an observer remembers as a list of numbers, written and read by one and the same function.
+// tape.h — the memory of an observer as a list of numbers, written and read by the same function.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace kurbel {
 
-// An observer passes its members one by one: an empty tape takes them down, a written one gives them back.
+// An observer passes its members one by one: an empty tape records them, a written one restores them.
 //
 //     void remember(Tape& tape) override { tape(time_, values_); }
 class Tape {
@@ -22,8 +22,7 @@ class Tape {
   Tape() = default;
   explicit Tape(std::vector<double> written) : numbers_(std::move(written)), reading_(true) {}
 
-  // Throws std::invalid_argument where a written tape is shorter than what is asked of it, or holds no count where one
-  // is to stand.
+  // Throws std::invalid_argument if a written tape is too short, or has no count where one is needed.
   template <class... T>
   void operator()(T&... member) {
     (pass(member), ...);
@@ -44,7 +43,7 @@ class Tape {
     double number = static_cast<double>(whole);
     pass(number);
     if (!reading_) return;
-    constexpr auto bits = std::min(53, std::numeric_limits<Whole>::digits);  // what both can hold
+    constexpr auto bits = std::min(53, std::numeric_limits<Whole>::digits);  // exact in both types
     const double end = std::ldexp(1.0, bits), begin = std::is_signed_v<Whole> ? -end : 0.0;
     if (!(number >= begin && number < end) || number != std::floor(number))
       throw std::invalid_argument("a recorder's memory is damaged: a count is none");

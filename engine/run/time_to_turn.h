@@ -1,4 +1,4 @@
-// time_to_turn.h — how long a shaft takes for an angle, as it turns now: no step is longer, so that no guard is missed.
+// time_to_turn.h — time in which a shaft turns by an angle at its present speed: limits steps, so that no guard is missed.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace kurbel {
 
-// Until the angle has changed so far [rad], from the stepper's time on [s]; what is prescribed may begin at rest.
-// Infinite: it stands.
+// Time [s] from the stepper's time until the angle has changed by `by` [rad]; a prescribed shaft may start from rest.
+// Infinite at standstill.
 inline double time_to_turn(const Equations& equations, const TrackedAngle& angle, double by, const Stepper& stepper) {
   const Model& m = equations.model();
   if (at(angle.shaft) < m.free_shafts)

@@ -1,4 +1,4 @@
-// effects.h — what is simulated beyond the rigid machine. What is off costs nothing.
+// effects.h — effects simulated in addition to the rigid machine. An effect that is off adds no cost.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@ namespace kurbel {
 struct Scene;
 struct Section;
 
-// Every name in `elastic` is a component whose elasticity is on.
+// `elastic`: names of the components whose elasticity is on.
 struct Effects {
   bool all_elastic = false;
   std::vector<std::string> elastic = {};
@@ -18,8 +18,8 @@ struct Effects {
   bool backlash = false;          // gaps between flanks; off: they always touch
   bool mesh_variation = false;    // tooth stiffness over the mesh; off: its mean
   bool transients = false;        // circuits of motors; off: their static characteristic
-  bool torque_lag = true;         // of induction motors on that, where anything is elastic; off: none
-  bool lags_rigid = false;        // … and where nothing is: the rigid machine beside an elastic one that has it
+  bool torque_lag = true;         // of induction motors on that, in machines with elasticity; off: none
+  bool lags_rigid = false;        // … also without: for the rigid machine compared with an elastic one that has it
   bool relaxation = false;        // of rubber; off: its static stiffness and damping
   bool bearing_friction = false;  // off: none
   bool gear_losses = false;       // off: gears without losses
@@ -41,43 +41,43 @@ struct EffectFlag {
   bool Effects::*flag;
   const char* words;  // "joint friction"
   enum class Unsaid { off, where_given, with_elasticity, part_of_machine };
-  Unsaid unsaid;     // off; on where the scene has parameters for it; on in any elastic machine; in the rigid one, too
-  const char* adds;  // what it simulates
-  const char* parameters;  // what a scene needs for it
-  const char* states;      // what it adds to the state and to the events
-  const char* matters;     // when it matters
-  // A body that gives way, or what only an elastic connection has: it goes where elasticity goes.
+  Unsaid unsaid;           // default: off; on if the scene has parameters; on in elastic machines; always on
+  const char* adds;        // what it simulates
+  const char* parameters;  // parameters needed in a scene
+  const char* states;      // additional states and events
+  const char* matters;     // when it is relevant
+  // A flexible body, or an effect of elastic connections only: switched off together with elasticity.
   bool of_elasticity = false;
-  bool is_usual() const { return unsaid >= Unsaid::with_elasticity; }  // only where it is off that is worth a word
+  bool is_usual() const { return unsaid >= Unsaid::with_elasticity; }  // only its absence is reported
 };
 std::span<const EffectFlag> effect_flags();
 
-// The same machine made rigid, which is what "rigid" means wherever it stands beside "elastic": elasticity alone is taken
-// away, everything else stays. Elasticity is whatever lets two ends of one body turn or move against each other:
-//   taken away   couplings, shafts, belts, meshes of teeth, supports of housings: their ends are one;
+// The same machine made rigid, which is the meaning of "rigid" in comparison with "elastic": only elasticity is removed, all
+// else is kept. Elasticity is what allows relative motion of two ends of one body:
+//   removed      couplings, shafts, belts, meshes of teeth, supports of housings: their ends are one;
 //                the flexible rod of a slider-crank;
-//                what only an elastic connection has: backlash (rigid flanks always touch, there is no law of rigid
-//                impact here), mesh variation, relaxation;
+//                effects of elastic connections only: backlash (rigid flanks always touch; there is no law of rigid
+//                impact), mesh variation, relaxation;
 //   kept         friction of joints and bearings (LuGre's bristle is the friction's own memory), losses of gears and
-//                their self-locking, slip of belts, clutches and fluid couplings, currents of motors; joint clearance (the
-//                journal's way within its gap, not the bodies' compliance, is what it adds); and what is part of the
-//                machine: gravity, variable inertia, load edges. The torque lag of motors is on by itself only where
-//                something is elastic; a comparison keeps it on both sides (rigid_twin in studies/run/compare.h).
+//                their self-locking, slip of belts, clutches and fluid couplings, currents of motors; joint clearance (it
+//                adds the motion of the journal within its gap, not compliance); and parts of every machine: gravity,
+//                variable inertia, load edges. By default the torque lag of motors is on only with elasticity; a
+//                comparison has it on both sides (rigid_twin in studies/run/compare.h).
 Effects without_elasticity(const Effects& effects);
 
-// The bare machine: no effect at all but what is on by itself, as it is in `effects`.
+// The basic machine: only effects that are on by default, as they are in `effects`.
 Effects bare_machine(const Effects& effects);
 
-// What two models share: effects that are on in both; of what is on by itself, what is off in both.
+// Common effects of two models: effects on in both; of effects on by default, only those off in both are off.
 Effects in_both(const Effects& a, const Effects& b);
 
-// A key that this effect needs stands somewhere in the scene, in a component's table.
+// Whether a component's table in the scene has a key for this effect.
 bool has_parameters(const Scene& scene, const EffectFlag& effect);
 bool has_parameters(const Section& section, const EffectFlag& effect);
 
-// "none", "all" (that the scene has parameters for), or names joined by commas: "elasticity" or
-// "elasticity:motor_coupling,main_coupling", and names of flags; "-name" takes one away, at the beginning of the list
-// from those of the scene. Throws std::invalid_argument.
+// "none", "all" (with parameters in the scene), or names separated by commas: "elasticity" or
+// "elasticity:motor_coupling,main_coupling", and names of flags; "-name" removes an effect, at the beginning of the list
+// from the effects of the scene. Throws std::invalid_argument.
 Effects parse_effects(const std::string& text, const Scene& scene);
 
 }  // namespace kurbel

@@ -1,28 +1,25 @@
-// fields.h — a table of keys in which each key stands once, together with the member that it fills.
+// fields.h — a table of keys, each declared once together with its member.
 //
-//     const Fields<Spring>& spring_fields() {
-//       static const auto made =
-//           Fields<Spring>()
-//               .add(required("stiffness", "N/m", positive, "k"), &Spring::k)
-//               .add(quantity("damping", "N*s/m", any_number, "c; default: none"), &Spring::c)
-//               .add(choice("seat", "flat", "of its ends"), &Spring::ground,
-//                    {{"flat", true}, {"open", false}})
-//               .add(quantity("preload", "N", any_number, "default: by the stiffness"), &Spring::preload,
-//                    [](const Spring& s) { return 1e-3 * s.k; });
-//       return made;
+//     Fields<Spring> spring_fields() {
+//       return Fields<Spring>()
+//           .add(required("stiffness", "N/m", positive, "k"), &Spring::k)
+//           .add(quantity("damping", "N*s/m", any_number, "c; default: none"), &Spring::c)
+//           .add(choice("seat", "flat", "of its ends"), &Spring::ground, {{"flat", true}, {"open", false}})
+//           .add(quantity("preload", "N", any_number, "default: by the stiffness"), &Spring::preload,
+//                [](const Spring& s) { return 1e-3 * s.k; });
 //     }
-//     .keys = spring_fields().keys()                          for reader, schema, docs and --set
-//     const auto spring = spring_fields().read(section, messages);   for the build function
+//     void build_spring(const Section& section, const Reading<Spring>& spring, Network& net);
+//     kind_of<spring_fields, build_spring>(between_shafts, "spring", "a spring")
 //
-// The member's type is the key's: double a quantity, int a whole number, bool a flag (or, as an enum, words), a string a
-// text, vectors of numbers lists, CurveData a curve, nested tables a struct with its own fields. A std::optional member
-// says whether it was given. What is read is a D that knows its place (Reading): a fault names the member, not the key.
-// Fields are read in the order of the table, so that a default sees what stands above it.
+// The type of the member defines that of the key: double a quantity, int a whole number, bool a flag (or, as an enum,
+// words), a string a text, vectors of numbers lists, CurveData a curve, a struct with its own fields nested tables. A
+// std::optional member is empty if not given. The result is a D with its location (Reading): faults refer to members, not to
+// keys. Fields are read in the order of the table, so that a default may use the members above it.
 //
-// Why so: a member pointer is checked by the compiler, is the shortest name of "this parameter" and needs no macro; a
-// table by values (not by traits of the struct) lets several kinds fill one physical struct by keys of different names,
-// docs and domains, which a link of a mechanism and the two sides of a gear need. A key declared twice, or a member
-// filled twice, is a std::logic_error when the table is made, which is when the program starts.
+// Reasons: a member pointer is checked by the compiler, is the shortest name of a parameter and needs no macro. A table by
+// values (not by traits of the struct) allows several kinds to fill one physical struct by keys with different names, docs
+// and domains, as needed by links of mechanisms and the two sides of a gear. A key declared twice, or a member filled
+// twice, is a std::logic_error when the table is made, at program start.
 #pragma once
 
 #include <bit>
@@ -46,18 +43,19 @@ class Fields;
 template <class T>
 class Tables;
 
-// Where a table is read, and where its faults go.
+// Source of a table, and destination of its faults.
 struct Place {
   const Section* section;
   Messages* messages;
-  std::string what;  // how faults name it: gearbox "g": stages[2]
+  std::string what;                             // how faults name it: gearbox "g": stages[2]
+  std::size_t before = messages->all().size();  // faults before it is read
 };
 
-// Words of a text, each with the value that it stands for.
+// Words of a text with their values.
 template <class V>
 using Words = std::vector<std::pair<const char*, V>>;
 
-// A factor between the key's value and its member's: half a length, 2π of a frequency.
+// A factor from the value of the key to its member: ½ for half a length, 2π for a frequency.
 struct Scaled {
   explicit Scaled(double by) : factor(by) {}
   double factor;
@@ -90,12 +88,12 @@ constexpr KeyType type_of() {
   else if constexpr (std::is_same_v<M, CurveData>)
     return KeyType::curve;
   else if constexpr (std::is_same_v<M, std::span<const Section>>)
-    return KeyType::sections;  // for a reader of its own
+    return KeyType::sections;  // for a special reader
   else
     static_assert(!sizeof(M), "no key fills a member of this type: an enum needs its words, a struct its fields");
 }
 
-// The ints next to them.
+// The nearest integers.
 int whole(double number);
 std::vector<int> wholes(const std::vector<double>& numbers);
 
@@ -121,7 +119,7 @@ void set(M& member, const Setting& setting) {
     member = setting.sections;
 }
 
-// A member of a struct whose type is not known here: where it stands, and as what.
+// A type-erased member of a struct: its offset and its type.
 struct Member {
   std::ptrdiff_t at;
   const std::type_info* type;
@@ -146,20 +144,20 @@ void set_member(std::byte* member, const Setting& setting) {
   set(as<M>(member), setting);
 }
 
-// The table itself, without the type of its struct: its code exists once, not once for each of some hundred structs.
+// The table without the type of its struct, so that its code is not repeated for some hundred structs.
 class FieldTable {
  public:
-  // Throw std::logic_error if a key or a member is there already.
+  // Throw std::logic_error if a key or member is already in the table.
   void enter(Key key, Member member, Setter set);
   void enter(const std::vector<Key>& keys, Member member, Reader read);
-  // A rule of the table's order: what a member starts as, or what follows from others.
+  // A rule in the order of the table: default of a member, or a member derived from others.
   void enter(Reader rule);
   void check(void (*rule)()) { rules.push_back(rule); }
 
   void read(std::byte* data, const Place& place) const;
-  // Of the keys that fill a member; throws std::logic_error if none does.
+  // Names of the keys of a member; throws std::logic_error if there are none.
   const std::vector<std::string>& names_of(Member member) const;
-  // The member's key; of a group the first given one.
+  // The key of a member; for a group the first given one.
   const std::string& key_of(Member member, const Section& section) const;
 
   std::vector<Key> keys;
@@ -175,7 +173,7 @@ class FieldTable {
   std::vector<Entry> entries_;
 };
 
-// Sets the member to the value that its word stands for.
+// Sets the member to the value of its word.
 template <class V>
 Setter by_words(const Words<V>& words) {
   return [words](std::byte* member, const Setting& s) {
@@ -183,7 +181,7 @@ Setter by_words(const Words<V>& words) {
       if (s.text == word) as<V>(member) = value;
   };
 }
-// The one key of several that is given; null: none is. A message where several are.
+// The given key of several; null: none. A message if several are given.
 const Key* one_given(const std::vector<Key>& keys, const Place& place);
 template <class Form>
 Reader by_forms(std::ptrdiff_t member, std::ptrdiff_t form, std::vector<Key> keys, std::vector<Form> forms) {
@@ -209,7 +207,7 @@ void belongs_to(const Place& place, const std::string& key, const std::string& o
 
 }  // namespace fields_detail
 
-// What a section gives, as a D that knows where it was read.
+// The data of a section as a D, with its location.
 template <class D>
 class Reading : public D {
  public:
@@ -219,18 +217,19 @@ class Reading : public D {
   const Section& section() const { return *place_.section; }
   Messages& messages() const { return *place_.messages; }
   const std::string& what() const { return place_.what; }
+  bool sound() const { return place_.messages->all().size() == place_.before; }  // no fault since its reading began
 
-  // The name of the member's key; of a group the first given one's.
+  // The name of the key of a member; for a group the first given one.
   template <class M, class B>
   const std::string& key(M B::*member) const {
     return fields_->key_of(member, *place_.section);
   }
-  // Stands in the file; of a group: any of its keys.
+  // Whether it is in the file; for a group: any of its keys.
   template <class M, class B>
   bool given(M B::*member) const {
     return place_.section->given(key(member));
   }
-  // The keys of a group that stand in the file.
+  // The keys of a group that are in the file.
   template <class M, class B>
   std::vector<std::string> given_keys(M B::*group) const {
     std::vector<std::string> names;
@@ -243,7 +242,7 @@ class Reading : public D {
     return place_.section->where(key(member));
   }
 
-  // A fault, at the member's place or at the table's; false, for `return refuse(…)`.
+  // Adds a fault at the location of the member or the table; returns false, for `return refuse(…)`.
   template <class M, class B>
   bool refuse(M B::*member, const std::string& text) const {
     return fields_detail::refuse(place_, where(member), text);
@@ -252,14 +251,14 @@ class Reading : public D {
     return fields_detail::refuse(place_, place_.section->where(key), text);
   }
   bool refuse(const std::string& text) const { return fields_detail::refuse(place_, place_.section->at, text); }
-  // Of two that say the same at most one may be given; the fault stands at the second.
+  // At most one of two equivalent members may be given; the fault is at the second.
   template <class M, class N, class B, class C>
   bool keep_one(M B::*first, N C::*second) const {
     if (!given(first) || !given(second)) return true;
     fields_detail::both_given(place_, key(first), key(second), key(second));
     return false;
   }
-  // Those that are given mean nothing, for their owner is not.
+  // Faults for given members whose owner is not given, as they have no meaning then.
   template <class O, class B, class... M>
   bool drop_without(O B::*owner, M B::*... members) const {
     if (given(owner)) return true;
@@ -281,13 +280,13 @@ class Reading : public D {
 template <class D>
 class Fields {
  public:
-  // A key and its member, of D or a base of it. Where the key has no value, the member keeps its initial one.
+  // A key and its member, of D or a base of it. Without a value of the key the member keeps its initial value.
   template <class M, class B>
   Fields& add(Key key, M B::*member) {
     key.type = fields_detail::type_of<M>();
     return enter(std::move(key), member, fields_detail::set_member<M>);
   }
-  // The same with a default by what was read above: another member, or a function of the data.
+  // The same with a default from the members above: another member, or a function of the data.
   template <class M, class B, class Default>
   requires std::is_invocable_v<Default, const D&> Fields& add(Key key, M B::*member, Default otherwise) {
     start(member, std::move(otherwise));
@@ -298,14 +297,14 @@ class Fields {
     return enter(std::move(key), member,
                  [scale](std::byte* to, const Setting& s) { fields_detail::as<double>(to) = scale.factor * s.number; });
   }
-  // Words that stand for values.
+  // Words with values.
   template <class V, class B>
   Fields& add(Key key, V B::*member, const Words<std::type_identity_t<V>>& words) {
     key.type = KeyType::text;
     for (const auto& word : words) key.choices.emplace_back(word.first);
     return enter(std::move(key), member, fields_detail::by_words(words));
   }
-  // Keys that fill a member struct, which starts as `otherwise` says where that is given.
+  // Keys of a member struct, with the default `otherwise` if given.
   template <class G, class M, class B>
   requires std::is_base_of_v<M, G> Fields& add(const Fields<G>& group, M B::*member) {
     return enter(group.keys(), member, group.template filling<M>(place_of(member).at));
@@ -317,12 +316,12 @@ class Fields {
     start(member, std::move(otherwise));
     return add(group, member);
   }
-  // Tables nested in this one: a list of them, one that may be missing, or one.
+  // Nested tables: a list, an optional table, or one table.
   template <class M, class T, class B>
   requires fields_detail::holds<M, T> Fields& add(Key key, M B::*member, const Tables<T>& tables) {
     return enter(tables.owned(key), member, tables.template into<M>(key, place_of(member).at));
   }
-  // One number that may be given in several forms, of which at most one is; `as` says which.
+  // One number that may be given in one of several forms; `as` stores the form.
   template <class Form>
   Fields& add_forms(double D::*member, Form D::*as,
                     const std::vector<std::pair<Key, std::type_identity_t<Form>>>& forms) {
@@ -331,21 +330,21 @@ class Fields {
     for (const auto& [key, form] : forms) keys.push_back(key), stands_for.push_back(form);
     return enter(keys, member, fields_detail::by_forms(place_of(member).at, place_of(as).at, keys, stands_for));
   }
-  // What follows from the members read above.
+  // A rule for members derived from those above.
   Fields& derive(void (*rule)(D&)) {
     table_.enter([rule](std::byte* data, const Place&) { rule(fields_detail::as<D>(data)); });
     return *this;
   }
-  // What must hold of all together; faults go to Reading::refuse.
+  // A check of all members together; faults by Reading::refuse.
   Fields& check(void (*rule)(const Reading<D>&)) {
     table_.check(reinterpret_cast<void (*)()>(rule));
     return *this;
   }
 
   const std::vector<Key>& keys() const& { return table_.keys; }
-  std::vector<Key> keys() && { return std::move(table_.keys); }  // of one that does not last
+  std::vector<Key> keys() && { return std::move(table_.keys); }  // of a temporary
 
-  // Of a sound section; faults go into the messages, under the section's kind and name unless `what` is given.
+  // Reads a valid section; faults go into the messages, with the section's kind and name unless `what` is given.
   Reading<D> read(const Section& section, Messages& messages, std::string what = "") const {
     return read_at({&section, &messages, what.empty() ? fields_detail::who(section) : std::move(what)});
   }
@@ -356,7 +355,7 @@ class Fields {
     return reading;
   }
 
-  // Of its keys; throws std::logic_error if none fills it.
+  // Names of the keys of a member; throws std::logic_error if there are none.
   template <class M, class B>
   const std::vector<std::string>& names_of(M B::*member) const {
     return table_.names_of(place_of(member));
@@ -365,7 +364,7 @@ class Fields {
   const std::string& key_of(M B::*member, const Section& section) const {
     return table_.key_of(place_of(member), section);
   }
-  // Fills a member M of another struct, M a base of D.
+  // Reader of a member M of another struct; M is a base of D.
   template <class M>
   fields_detail::Reader filling(std::ptrdiff_t at) const {
     return [group = *this, at](std::byte* data, const Place& place) {
@@ -397,13 +396,13 @@ class Fields {
   fields_detail::FieldTable table_;
 };
 
-// What may stand within another table, as tables of one kind or of several. T is what each of them is read as: the
-// data, the Reading of it, or a variant of such.
+// Tables of one or several kinds nested in another table. T: type of each after reading: the data, a Reading of them, or a
+// variant of these.
 template <class T>
 class Tables {
  public:
-  bool numbered = false;  // faults name a table by its place in the list: stages[2]
-  bool named = false;     // the user names each: points.A; a table of one kind whose first key may stand for it
+  bool numbered = false;  // faults name a table by its index in the list: stages[2]
+  bool named = false;     // names by the user: points.A; of one kind, whose first key may replace the table
 
   template <class G>
   requires std::is_constructible_v<T, Reading<G>> Tables& add(std::string name, KeyDoc doc, const Fields<G>& fields,
@@ -415,13 +414,13 @@ class Tables {
   }
 
   const std::vector<Kind>& kinds() const { return kinds_; }
-  // The key that they stand under.
+  // The key of these tables.
   std::vector<Key> owned(Key& key) const {
     key.type = named ? KeyType::named : KeyType::sections;
     key.nested = &kinds_;
     return {key};
   }
-  // Into a member of another struct. The tables must outlive what is returned.
+  // Reader into a member of another struct. The tables must outlive the reader.
   template <class M>
   fields_detail::Reader into(const Key& key, std::ptrdiff_t at) const {
     constexpr bool list = std::is_same_v<M, std::vector<T>>;
@@ -443,5 +442,20 @@ class Tables {
   std::vector<Kind> kinds_;
   std::vector<std::function<T(const Place&)>> readers_;
 };
+
+// The fields that a function makes, made once: a Reading refers to them.
+template <auto fields>
+const auto& made_once() {
+  static const auto made = fields();
+  return made;
+}
+// A kind of components by the function that makes its fields, and the one that builds from what they read.
+template <auto fields, auto build>
+Kind kind_of(decltype(on_a_shaft)* placed, std::string name, KeyDoc doc) {
+  return placed(std::move(name), std::move(doc), made_once<fields>().keys(),
+                [](const Section& section, Network& net, Messages& messages) {
+                  build(section, made_once<fields>().read(section, messages), net);
+                });
+}
 
 }  // namespace kurbel

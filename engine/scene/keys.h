@@ -1,8 +1,7 @@
-// keys.h — what may stand in a scene: every kind of component is one table of keys, used by the reader and by the docs.
+// keys.h — contents of a scene: every kind of component is a table of keys, used by the reader and by the docs.
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +15,7 @@ struct Section;
 struct Kind;
 class Network;
 
-// The range a number must lie in.
+// The allowed range of a number.
 struct Domain {
   double low = -HUGE_VAL, high = HUGE_VAL;
   bool low_open = false, high_open = false;
@@ -42,7 +41,7 @@ enum class KeyType {
   named,  // a table of names that the user chooses, each with a table of the `nested` kind or the value of its first key
 };
 
-// What people read about a key or a kind. The run-time of exported components shows it to nobody, and holds none of it.
+// Documentation of a key or a kind. The run-time of exported components does not contain it.
 #ifdef KURBEL_FMI_RUNTIME
 struct KeyDoc {
   KeyDoc() = default;
@@ -59,14 +58,14 @@ using KeyDocText = std::string_view;
 struct Key {
   std::string name;
   KeyType type = KeyType::quantity;
-  std::string unit = {};      // SI unit of the value (of a curve: of its second column)
-  std::string fallback = {};  // as it would stand in the file; empty: none
+  std::string unit = {};      // SI unit of the value (for a curve: of its second column)
+  std::string fallback = {};  // default, as written in a file; empty: none
   Domain domain = any_number;
   KeyDoc doc = {};
   bool required = false;
-  std::vector<std::string> choices = {};      // of a text; of a curve: what it may be given over
-  const std::vector<Kind>* nested = nullptr;  // of sections, of named ones
-  std::string effect = {};                    // giving it gives the scene parameters for these effects, by spaces
+  std::vector<std::string> choices = {};      // for a text; for a curve: the allowed abscissas
+  const std::vector<Kind>* nested = nullptr;  // for sections and named tables
+  std::string effect = {};                    // effects for which this key is a parameter, separated by spaces
 
   bool gives(const std::string& asked) const {
     return (" " + effect + " ").find(" " + asked + " ") != std::string::npos;
@@ -76,21 +75,21 @@ struct Key {
 // Keys of numbers; an empty unit for a bare number, `effect` as in Key.
 Key quantity(std::string_view name, std::string_view unit, Domain domain, KeyDocText doc, std::string_view effect = "");
 Key required(std::string_view name, std::string_view unit, Domain domain, KeyDocText doc, std::string_view effect = "");
-// Where it is not given, as if `fallback` stood in the file: "0 deg"; quotes are put around it where it has a unit.
+// If not given, `fallback` is used as if it were in the file: "0 deg"; quotes are added if it has a unit.
 Key defaulted(std::string_view name, std::string_view unit, std::string_view fallback, Domain domain, KeyDocText doc,
               std::string_view effect = "");
 
-// Keys of what is no number: true or false, a word, a characteristic over one of `over`.
+// Keys of other types: true or false, a word, a characteristic over one of `over`.
 Key flag(std::string_view name, std::string_view fallback, KeyDocText doc, std::string_view effect = "");
 Key choice(std::string_view name, std::string_view fallback, KeyDocText doc, std::string_view effect = "");
 Key curve(std::string_view name, std::vector<std::string> over, std::string_view unit, KeyDocText doc);
 Key required_curve(std::string_view name, std::vector<std::string> over, std::string_view unit, KeyDocText doc);
 
-// How a kind of component stands in a machine.
+// Position of a kind of component in a machine.
 enum class Placement {
-  inline_one,  // one shaft passes through it: motor, flywheel, slider-crank; in a line, or `on` a component
-  inline_two,  // it has a shaft on either side: coupling, gearbox; only in a line
-  nested       // stands inside another component's table
+  inline_one,  // one continuous shaft: motor, flywheel, slider-crank; in a line, or `on` a component
+  inline_two,  // a shaft on each side: coupling, gearbox; only in a line
+  nested       // in the table of another component
 };
 
 struct Kind {
@@ -98,34 +97,34 @@ struct Kind {
   KeyDoc doc = {};
   Placement placement = Placement::inline_one;
   std::vector<Key> keys;
-  // Adds the component to the network, and says what is wrong with its parameters together. Null for nested kinds.
+  // Adds the component to the network; reports faults of its parameters together. Null for nested kinds.
   void (*build)(const Section&, Network&, Messages&) = nullptr;
   // The component's elasticity can be switched off, which merges the shafts on either side.
   bool elastic = false;
-  // Shafts besides "in" and "out" that a branch may begin at: "ring".
+  // Shafts in addition to "in" and "out" at which a branch may begin: "ring".
   std::vector<std::string> further_shafts = {};
 };
 
-// Kinds of components, by what every one of them says.
+// Kinds of components by their common properties.
 using Build = void (*)(const Section&, Network&, Messages&);
 Kind on_a_shaft(std::string name, KeyDoc doc, std::vector<Key> keys, Build build);
 Kind between_shafts(std::string name, KeyDoc doc, std::vector<Key> keys, Build build);
 Kind elastic_between_shafts(std::string name, KeyDoc doc, std::vector<Key> keys, Build build);
 
-// A characteristic as read, in SI; made into a Curve by the component that owns it. Of a formula the points are those
-// between its pieces.
+// A characteristic as read, in SI; its component makes a Curve of it. For a formula the points are the knots between its
+// pieces.
 struct CurveData {
   std::string over;  // "time", "angle", "speed", "travel"
   std::vector<double> x, y;
-  std::vector<double> x_back, y_back;  // branch of the return stroke, where one was given
+  std::vector<double> x_back, y_back;  // branch of the return stroke, if given
   Curve::Form form = Curve::Form::linear;
   double period = 0;
   Beyond beyond = Beyond::unsaid;               // of both ends
   Curve by_formula = {}, by_formula_back = {};  // empty: by points
-  // Part of the greatest value that fewer pieces than points may be off; 0: as given. Set by studies (dense_tables.h).
+  // Allowed error of an approximation by fewer pieces over the maximum; 0: as given. Set by studies (dense_tables.h).
   double within = 0;
 
-  // Throws std::invalid_argument in words; with another period than its own where one is given.
+  // Throws std::invalid_argument with a message. other_period: replaces its period, if > 0.
   Curve curve(double other_period = 0) const;
   Curve back() const;  // of the return stroke
 };
@@ -133,8 +132,8 @@ struct CurveData {
 // One value of a section.
 struct Setting {
   std::string key;
-  Location at;         // of the value in the file; of the section where the fallback is used
-  bool given = false;  // stands in the file
+  Location at;         // of the value in the file; of the section if the default is used
+  bool given = false;  // is in the file
   double number = 0;   // SI
   bool flag = false;
   std::string text = {};
@@ -143,8 +142,8 @@ struct Setting {
   std::vector<Section> sections;
 };
 
-// One table of the scene: a component, or a table nested in one. Holds every key of its kind that was given or has a
-// fallback.
+// One table of the scene: a component, or a table nested in one. Contains every key of its kind that is given or has a
+// default.
 struct Section {
   std::string name;
   const Kind* kind = nullptr;
@@ -162,9 +161,9 @@ struct Section {
   Location where(std::string_view key) const { return has(key) ? find(key)->at : at; }
 };
 
-// A few names of many.
+// A shortened list of names.
 std::string shortened_list(std::vector<std::string> names, std::string_view conjunction = "or");
-// " — did you mean "x"?", or nothing.
+// " — did you mean "x"?", or empty.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names);
 
 // "a", "b" or "c"

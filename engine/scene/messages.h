@@ -1,4 +1,4 @@
-// messages.h — what is wrong with a user's input: where · what · got · allowed · next step.
+// messages.h — faults of a user's input: where · what · got · allowed · next step.
 #pragma once
 
 #include <compare>
@@ -40,10 +40,10 @@ class Messages {
   std::vector<Message> all_;
 };
 
-// A user's text in quotes: control characters escaped, shortened where it is long.
+// A user's text in quotes, with control characters escaped, shortened if long.
 std::string in_quotes(std::string_view text);
 
-// A scene that cannot be read or makes no machine. what() holds one "file:line:col: text" a line
+// A scene that cannot be read or is not a machine. what() has one line "file:line:col: text" for each message
 // (the first hundred).
 struct SceneError : std::runtime_error {
   explicit SceneError(std::vector<Message> messages);

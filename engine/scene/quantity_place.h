@@ -1,4 +1,4 @@
-// quantity_place.h — the one quantity of a scene that a path names: "main_coupling.stiffness".
+// quantity_place.h — finds a quantity of a scene by its path: "main_coupling.stiffness".
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 namespace kurbel {
 
 struct QuantityPlace {
-  const Setting* setting = nullptr;  // null: the path leads to none that is given
+  const Setting* setting = nullptr;  // null: the path leads to no given quantity
   const Key* key = nullptr;
 };
-// The setting of a component's key that holds one quantity, or of one in a table within it.
+// The setting of a component's key with one quantity, or of a key in a table within it.
 QuantityPlace quantity_place(const std::vector<Section>& sections, const std::string& path);
-// To change it; null: there is none.
+// The same for changes; null: none.
 Setting* quantity_at(std::vector<Section>& sections, const std::string& path);
 
 }  // namespace kurbel

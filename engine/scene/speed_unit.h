@@ -1,4 +1,4 @@
-// speed_unit.h — the unit in which a scene gives its speeds: people are told all speeds in it, programs get rad/s.
+// speed_unit.h — the unit of speeds in a scene, used in reports for people; programs get rad/s.
 #pragma once
 
 #include <numbers>
@@ -10,7 +10,7 @@ namespace kurbel {
 
 struct SpeedUnit {
   std::string name = "rpm";
-  double size = std::numbers::pi / 30;  // one of it [rad/s], > 0
+  double size = std::numbers::pi / 30;  // the unit in rad/s, > 0
 
   double of(double speed) const { return speed / size; }
   // "60 rpm"

@@ -1,4 +1,4 @@
-// text.h — characters of UTF-8, blanks and capitals of a text.
+// text.h — UTF-8 characters, blanks and letter case of a text.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace kurbel {
 
-// False of the bytes that go on with a character.
+// False for continuation bytes of a character.
 inline bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 inline std::size_t characters(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
@@ -19,7 +19,7 @@ inline std::string_view trimmed(std::string_view text, std::string_view blanks =
                                          : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-// Capitals of ASCII count as small letters.
+// Case-insensitive for ASCII.
 inline bool equal_but_for_case(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });

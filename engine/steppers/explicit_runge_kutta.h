@@ -28,12 +28,12 @@ class ExplicitRungeKutta final : public Stepper {
   StepLimit limited_by() override { return {limit_, worst_}; }
 
  private:
-  static constexpr int stiff_steps_to_tell = 15;  // in a row, and
-  static constexpr int mild_steps_to_forget = 6;  // that many in a row to forget it (Hairer–Wanner II, section IV.2)
+  static constexpr int stiff_steps_to_tell = 15;  // successive steps to detect stiffness, and
+  static constexpr int mild_steps_to_forget = 6;  // to reset the detection (Hairer–Wanner II, section IV.2)
 
   struct Aim {
     double t, h;
-    bool cut;  // shorter than accuracy asks, for the sake of t_limit
+    bool cut;  // shorter than needed by accuracy, to end at t_limit
   };
 
   double first_step(double longest);
@@ -41,7 +41,7 @@ class ExplicitRungeKutta final : public Stepper {
   Aim aim(double h, double t_limit) const;
   void evaluate(double t, const double* y, std::size_t stage);
   void take(double h);          // stages and solution, from y_previous_ and slope_[0] to y_
-  double error_norm(double h);  // ≤ 1 is good; not finite if any value of the step is not
+  double error_norm(double h);  // ≤ 1: accepted; not finite if any value of the step is not
   bool end_slope_is_finite() const;
   void adapt(double error, const Aim& done, bool after_rejection);
   void watch_stability(double h);
@@ -57,17 +57,17 @@ class ExplicitRungeKutta final : public Stepper {
   double stiff_from_ = 0;  // h·ρ
   bool error_needs_end_slope_;
 
-  std::vector<double> storage_;  // all that follows points into it
+  std::vector<double> storage_;  // the following pointers point into it
   double* y_;
   double* y_previous_;
-  double* stage_y_;  // argument of the last stage but the end slope
+  double* stage_y_;  // argument of the last stage before the end slope
   std::array<double*, most_stages> slope_{};
   std::array<double*, 4> dense_{};
   bool dense_is_ready_ = false;
 
   double t_ = 0, t_previous_ = 0;
   double step_end_ = 0;  // of the last step as it was accepted
-  double h_next_ = 0;    // 0: not known yet
+  double h_next_ = 0;    // 0: unknown
   double previous_error_ = 1e-4;
   std::size_t worst_ = 0;  // state with the largest error in the last step tried
   StepLimit::By limit_ = StepLimit::By::end;

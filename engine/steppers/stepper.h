@@ -1,4 +1,4 @@
-// stepper.h — what an integrator is to the rest of kurbel: something that advances y' = f(t, y) by one step at a time.
+// stepper.h — interface of integrators: they advance y' = f(t, y) by one step at a time.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct StepperStatistics {
   std::int64_t steps = 0, rejected = 0, flow_calls = 0, jacobian_calls = 0, factorisations = 0, restarts = 0;
 };
 
-// The step size fell to round-off, a value became non-finite, or a solver gave up. `state` is the worst state's index.
+// The step size fell to round-off, a value became non-finite, or a solver failed. `state`: index of the worst state.
 struct StepFailure : std::runtime_error {
   StepFailure(const std::string& what, double time, std::size_t state, bool not_finite)
       : std::runtime_error(what), time(time), state(state), not_finite(not_finite) {}
@@ -27,33 +27,33 @@ struct StepFailure : std::runtime_error {
   bool not_finite;
 };
 
-// What kept a step from being longer.
+// What limited the length of a step.
 struct StepLimit {
   enum class By {
     accuracy,   // the error of `state`
-    stability,  // of an explicit method; `state` has the largest error then
-    growth,     // steps grow only so fast after a start
-    end         // it had to end there
+    stability,  // of an explicit method; `state` has the largest error
+    growth,     // limited growth of steps after a start
+    end         // prescribed end
   };
   By by = By::end;
   std::size_t state = 0;
 };
 
-// One integrator at work. After step() the solution is known at t_previous() and t(), and between them by
+// An integrator. After step() the solution is known at t_previous() and t(), and between them by
 // interpolate().
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  // Begins, or begins anew after an event that changed f or y. Keeps the last good step size as a first guess.
+  // Starts, or restarts after an event that changed f or y. Uses the last good step size as the first guess.
   virtual void start(double t, std::span<const double> y) = 0;
   // One accepted step, ending at t_limit at the latest (lands on t_limit exactly when it reaches it). Throws
   // StepFailure.
   virtual void step(double t_limit) = 0;
-  // Takes the last step back and integrates from t_previous() so as to land on t exactly; t lies within the step as it
-  // was accepted, so several retakes may close in on an event from either side.
+  // Discards the last step and integrates from t_previous() to end exactly at t, which lies within the accepted step;
+  // repeated calls may approach an event from both sides.
   virtual void retake(double t) = 0;
   virtual void interpolate(double t, std::span<double> y) = 0;  // t_previous() ≤ t ≤ t()
-  // One state alone, which costs less where the method can.
+  // One state only; faster if the method supports it.
   virtual double interpolate(double t, std::size_t state) {
     one_of_.resize(y().size());
     interpolate(t, one_of_);
@@ -66,13 +66,13 @@ class Stepper {
   virtual std::span<const double> y_previous() const = 0;
   virtual std::span<const double> ydot() const = 0;           // f(t(), y())
   virtual std::span<const double> ydot_previous() const = 0;  // f(t_previous(), y_previous())
-  // Steps end where a law changes at a known angle, of their own; at_edge(): the last one did, and guards that are zero
-  // there and fall have fired.
+  // The stepper ends steps where a law changes at a known angle; at_edge(): the last step did, and falling guards that are
+  // zero there have fired.
   virtual bool ends_on_edges() const { return false; }
   virtual bool at_edge() const { return false; }
-  // True while the step size is held down by stability rather than by accuracy (explicit methods on stiff equations).
+  // True while the step size is limited by stability rather than accuracy (explicit methods on stiff equations).
   virtual bool held_by_stability() const { return false; }
-  // Of the last step() as it was accepted, before any retake().
+  // For the last accepted step(), before any retake().
   virtual StepLimit limited_by() { return {}; }
 
   const StepperStatistics& statistics() const { return statistics_; }
@@ -88,7 +88,7 @@ enum class Method {
   dormand_prince_54,   // explicit, order 5
   dormand_prince_853,  // explicit, order 8
   verner_65,           // explicit, order 6
-  fehlberg_87,         // explicit, order 8; blind to rates that depend on time alone
+  fehlberg_87,         // explicit, order 8; no error estimate for rates that depend on time only
   esdirk_32,           // implicit, L-stable, order 3 (SUNDIALS ARKStep)
   esdirk_43,           // order 4
   esdirk_54,           // order 5
@@ -98,7 +98,7 @@ enum class Method {
 };
 
 std::string_view name_of(Method method);
-// By the name that scenes use; "auto" begins with dop853. Throws std::invalid_argument in words.
+// By its name in scenes; "auto" starts with dop853. Throws std::invalid_argument with a message.
 Method method_named(const std::string& name);
 std::unique_ptr<Stepper> make_stepper(Method method, OdeSystem& system, ErrorControl control);
 

@@ -1,4 +1,4 @@
-// sundials_common.h — what the steppers made of ARKStep and of CVODE have in common; for their sources alone.
+// sundials_common.h — common parts of the steppers with ARKStep and CVODE; only for their sources.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,10 +22,10 @@
 namespace kurbel {
 
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
-inline constexpr int most_failures_in_a_step = 25;  // each divides the step by 4 or so: down to round-off, not for ever
+inline constexpr int most_failures_in_a_step = 25;  // each divides the step by about 4: limit before round-off
 inline constexpr long most_steps_in_a_call = 100;   // one is asked for
 
-// --- handles of the library that free themselves ---
+// --- owning handles of the library ---
 
 struct Release {
   void operator()(SUNContext context) const { SUNContext_Free(&context); }
@@ -70,7 +70,7 @@ class SundialsStepper : public Stepper {
   }
 
  protected:
-  // The library's calls, by the name they have there.
+  // Calls of the library, with its names.
   virtual int reinit(double t, N_Vector y, double first_step) = 0;  // first_step = 0: the library's own guess
   virtual int evolve(double t_stop, N_Vector y, double& t) = 0;     // one step, at most to t_stop
   virtual int get_dky(double t, N_Vector y) = 0;
@@ -78,7 +78,7 @@ class SundialsStepper : public Stepper {
   virtual int get_error_estimate(N_Vector e) = 0;
   virtual long failed_attempts() = 0;  // since reinit
 
-  virtual int shorten_to(double t) = 0;  // retake: makes y_ the solution at t, within the last step
+  virtual int shorten_to(double t) = 0;  // for retake(): sets y_ to the solution at t, within the last step
 
   // Callbacks. They return 0 for success, 1 for "try a shorter step", −1 for "stop".
   static int flow(double t, N_Vector y, N_Vector ydot, void* self) noexcept;
@@ -98,7 +98,7 @@ class SundialsStepper : public Stepper {
   Owned<SUNLinearSolver> linear_solver_;
   double t_ = 0, t_previous_ = 0;
   double step_end_ = 0;  // of the last step as it was accepted
-  bool restart_ = true;  // the library must be told t_ and y_ before it can go on
+  bool restart_ = true;  // t_ and y_ must be passed to the library before it continues
   double good_step_ = 0;
   double rate_of_convergence_ = 1;  // of Newton's iteration, since its matrix was made
 
@@ -117,13 +117,13 @@ class SundialsStepper : public Stepper {
 
   std::vector<double> weight_;
   std::vector<double> jacobian_values_;
-  std::vector<std::size_t> diagonal_;                  // where the pattern keeps (i, i)
+  std::vector<std::size_t> diagonal_;                  // position of (i, i) in the pattern
   std::vector<std::int64_t> column_of_;                // of each stored entry
-  mutable Slope slope_, slope_previous_;               // evaluated when asked for
-  std::int64_t& flow_calls_ = statistics_.flow_calls;  // counts those too
+  mutable Slope slope_, slope_previous_;               // evaluated on demand
+  std::int64_t& flow_calls_ = statistics_.flow_calls;  // includes these evaluations
 
   bool has_dense_output_ = false;
-  bool cut_ = false;  // the last step was shorter than accuracy asks
+  bool cut_ = false;  // the last step was shorter than needed by accuracy
   bool started_ = false;
   long failed_attempts_ = 0;
   std::optional<std::size_t> lost_state_;  // first state whose rate was not finite in this step

@@ -1,5 +1,5 @@
-// sundials_stepper.h — the implicit and multistep integrators of SUNDIALS as Steppers; no SUNDIALS type is seen
-// outside.
+// sundials_stepper.h — the implicit and multistep integrators of SUNDIALS as Steppers, without SUNDIALS types in the
+// interface.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// spreadsheet.h — a sheet of an .xlsx file as lines of text: a line a row, cells between tabs.
+// spreadsheet.h — a sheet of an .xlsx file as text: one line per row, cells separated by tabs.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace kurbel {
 
-// What a file begins with that is a zip archive, as .xlsx is.
+// Whether a file begins like a zip archive, as .xlsx files do.
 inline bool is_archive(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
-// The sheet of that name, or the first. Values are those that the sheet was saved with. No part of the archive and no
-// text made of it is larger than `limit`, whatever its sizes say. Throws SceneError for `path`.
+// The sheet with this name, or the first. Values are those saved in the sheet. Parts of the archive and the resulting text
+// are limited to `limit`, whatever sizes the archive declares. Throws SceneError for `path`.
 std::string sheet_as_text(const std::string& bytes, const std::string& sheet, const std::string& path,
                           std::size_t limit);
 

@@ -1,4 +1,4 @@
-// table_file.h — a file of a table: its form, its headings, its columns as numbers.
+// table_file.h — a table in a file: its form, its headings, its columns as numbers.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace kurbel {
 
-// What its user says of it.
+// Form given by the user.
 struct TableForm {
   std::string sheet = {};  // of an .xlsx file; empty: the first
-  char decimal = 0;        // '.' or ','; 0: as the file shows
-  bool words = false;      // its cells may be words: the first line is the heading, whatever stands below it
+  char decimal = 0;        // '.' or ','; 0: detected from the file
+  bool words = false;      // its cells may be words: the first line is the heading, whatever follows
 };
 
 struct TableHeading {
@@ -26,34 +26,34 @@ struct TableHeading {
 };
 
 struct TableNumbers {
-  std::vector<std::vector<double>> columns;  // as they were asked for
+  std::vector<std::vector<double>> columns;  // in the requested order
   std::vector<Location> at;                  // of each row: its cell in the first of them
 };
 
 struct TableCell {
-  std::string text;  // without quotes; of a number, its decimals by a point
+  std::string text;  // without quotes; numbers with a decimal point
   Location at;
 };
 
 class TableFile {
  public:
-  // Throws SceneError with the line where the form is not clear, and with what that line looks like.
+  // Throws SceneError with the line if its form is ambiguous, and with a description of the line.
   explicit TableFile(const std::string& path, const TableForm& form = {});
 
-  TableFile(const TableFile&) = delete;  // its cells are within its own text
+  TableFile(const TableFile&) = delete;  // its cells refer to its own text
   TableFile& operator=(const TableFile&) = delete;
 
   const std::string& path() const { return path_; }
-  // One a column; none where no line of words stands above the numbers.
+  // One per column; empty if there is no line of words above the numbers.
   const std::vector<TableHeading>& headings() const { return headings_; }
-  // The column of that name, with or without its unit; capitals do not count. Null: none. Throws SceneError where two have it.
+  // The column with this name, with or without its unit, case-insensitive. Null: none. Throws SceneError if there are two.
   const TableHeading* find(std::string_view name) const;
   std::vector<std::string> names() const;
 
-  // Columns by their numbers from 1. Rows where all of them are empty are passed over; bad cells go into `messages`.
+  // Columns by their numbers from 1. Rows in which all of them are empty are skipped; faulty cells go into `messages`.
   TableNumbers numbers(const std::vector<int>& columns, Messages& messages) const;
-  // All rows below the headings, one cell for each heading. Throws SceneError at a row with more, and unless cells may be
-  // empty, at one with fewer or empty ones.
+  // All rows below the headings, one cell for each heading. Throws SceneError for a row with more cells and, unless cells
+  // may be empty, with fewer or empty cells.
   std::vector<std::vector<TableCell>> cells(bool may_be_empty = false) const;
 
  private:
@@ -81,9 +81,9 @@ class TableFile {
 
   std::string path_;
   TableText text_;
-  std::vector<Line> lines_, remarks_;  // those with cells; those that begin with #
+  std::vector<Line> lines_, remarks_;  // lines with cells; lines that begin with #
   char separator_ = ',', decimal_ = '.';
-  std::vector<std::size_t> of_numbers_;  // columns that hold numbers in most lines, from 0
+  std::vector<std::size_t> of_numbers_;  // columns with numbers in most lines, from 0
   std::size_t data_ = 0;                 // the first line of numbers
   std::vector<TableHeading> headings_;
 };

@@ -1,4 +1,4 @@
-// broken_dimension.h — dimensions within a formula: of a root they may be of half a metre.
+// broken_dimension.h — dimensions within a formula, with fractional exponents for roots.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace kurbel {
 
-// Exponents of kilogram, metre, second, radian, ampere: of a root they may be halves.
+// Exponents of kilogram, metre, second, radian, ampere; halves for roots.
 using BrokenDimension = std::array<double, 5>;
 inline constexpr BrokenDimension plain_number{};
 

@@ -1,4 +1,4 @@
-// curve_reader.h — a characteristic of a scene file: its points in place or in a file, with their units, or a formula.
+// curve_reader.h — reads a characteristic of a scene: points in the scene or in a file, with units, or a formula.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace kurbel {
 
-// Reads a curve in SI; false with messages where it is none. Points in files are read where they are `allowed`.
+// Reads a curve in SI; false with messages if it is invalid. Points in files are read if `allowed`.
 bool read_curve(const DocumentValue& table, const Key& key, const std::string& what, Messages& messages,
                 DataFiles allowed, CurveData& curve);
 
-// The same of a table with `formula`, whose `over` has been read (curve_formula.cpp).
+// The same for a table with `formula`, whose `over` has been read (curve_formula.cpp).
 bool read_curve_formula(const DocumentValue& table, const Key& key, const std::string& what, Messages& messages,
                         CurveData& curve);
 
-// What is wrong with the period of a curve over the angle, in words; empty: nothing, or it is given over something else.
+// Fault of the period of a curve over the angle; empty: none, or it is not over the angle.
 std::string wrong_period(const CurveData& curve);
 
-// Unit of the first column of a curve, by what it is given over.
+// Unit of the first column of a curve by its abscissa.
 std::string unit_over(const std::string& over);
 
 }  // namespace kurbel

@@ -1,9 +1,9 @@
-// data_files.h — which data files a scene may have read.
+// data_files.h — which data files a scene may refer to.
 #pragma once
 
 namespace kurbel {
 
-// A scene from a stranger only those in its own folder and below (SECURITY.md).
+// An untrusted scene only those in its folder and below (SECURITY.md).
 enum class DataFiles { below_the_scene, anywhere };
 
 }  // namespace kurbel

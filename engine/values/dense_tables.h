@@ -1,8 +1,8 @@
-// dense_tables.h — tables with more points than a motion needs: taken by fewer pieces, as exactly as is asked for.
+// dense_tables.h — tables with more points than needed, approximated by fewer pieces within the required accuracy.
 //
-// Every point of a table is a place where a law changes and an integration begins anew. A scene that is read takes the dense
-// tables of its loads over angle or travel by fewer cubic pieces (Curve::by_fewer_pieces), where they are so few that it pays;
-// every study counts what that does among its errors.
+// At every point of a table a law changes and the integration restarts. In a scene that is read, dense tables of loads over
+// angle or travel are approximated by fewer cubic pieces (Curve::by_fewer_pieces) if this reduces them enough; every study
+// includes the effect in its errors.
 #pragma once
 
 #include <string>
@@ -11,22 +11,22 @@
 
 namespace kurbel {
 
-// Pieces within this part of the accuracy that is asked for.
+// Allowed error of the pieces over the required accuracy.
 inline constexpr double tables_of_accuracy = 1.0 / 3;
 
-// The scene with its dense tables taken by pieces that are off by no more than that part of the accuracy of [run], of their
-// greatest value: tables of at least 200 points that a third as many pieces come near enough to. Those over speed or time stay,
-// for their slopes count, and those whose edges the scene rounds.
+// The scene with its dense tables approximated within that part of the accuracy of [run], relative to their maxima: tables
+// of at least 200 points for which a third as many pieces are sufficient. Tables over speed or time are kept because their
+// slopes matter, and tables whose edges are rounded by the scene.
 Scene with_fewer_points(Scene scene);
-// Tables that are taken by fewer pieces by ones that may be off by so many times as much; 0: as they are given.
+// The scene with the allowed error of its approximated tables multiplied by `times`; 0: tables as given.
 Scene with_rougher_tables(Scene scene, double times);
 
-// By which part of its greatest value a table of the scene may be off at most; 0: none is taken by fewer pieces.
+// Maximum allowed error of a table of the scene over its maximum; 0: no table is approximated.
 double tables_within(const Scene& scene);
-// What that may leave open of a figure, as part of it: forces that are off by so much at once, and what swings by them.
+// Relative error of a figure by this approximation: direct error of the forces, and vibrations excited by it.
 inline double left_by_tables(const Scene& scene) { return tables_within(scene) / tables_of_accuracy; }
 
-// "cylinder1.load.force (7201 points): by fewer pieces, within 1e-05 of …"; empty: there is none.
+// "cylinder1.load.force (7201 points): by fewer pieces, within 1e-05 of …"; empty: no table is approximated.
 std::string words_of_dense_tables(const Scene& scene);
 
 }  // namespace kurbel

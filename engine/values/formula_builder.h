@@ -1,5 +1,5 @@
-// formula_builder.h — nodes of a formula as it is read: constants folded, dimensions compared, functions made of the
-// operations of engine/numerics/formula.h.
+// formula_builder.h — builds the nodes of a formula while it is read: folds constants, checks dimensions, composes
+// functions from the operations of engine/numerics/formula.h.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace kurbel {
 
-// What a parser of formulas makes them of (formula_reader.cpp).
+// Base of the parser of formulas (formula_reader.cpp).
 class FormulaBuilder {
  protected:
   FormulaBuilder(std::string_view text, UnitError& error) : text_(text), error_(error) {}
@@ -21,14 +21,14 @@ class FormulaBuilder {
   struct Term {
     int node = -1;
     BrokenDimension dimension{};
-    bool zero = false;  // the number 0 without a unit goes with every dimension
+    bool zero = false;  // the number 0 without a unit is compatible with every dimension
     std::size_t column = 0;
   };
 
-  // --- faults: the first one counts, and nothing more is read ---
+  // --- faults: the first one is reported, and reading ends ---
   Term stop(std::string text, std::size_t column);
 
-  // --- nodes; what hangs on constants alone is computed at once ---
+  // --- nodes; constant expressions are computed at once ---
   const Formula::Node& of(const Term& t) const { return made_[t.node]; }
   bool constant(const Term& t) const { return of(t).op == FormulaOp::number; }
   Term number(double value, const BrokenDimension& dimension, std::size_t column, bool may_be_zero = false);
@@ -38,7 +38,7 @@ class FormulaBuilder {
   Term choose(const Term& asked, const Term& yes, const Term& no, const BrokenDimension& dimension, std::size_t column);
 
   // --- dimensions ---
-  // Of two that are added, compared or alternatives.
+  // Common dimension of two terms that are added, compared or alternatives.
   BrokenDimension common(const Term& a, const Term& b, std::size_t column, const char* what);
   static BrokenDimension combined(const BrokenDimension& a, const BrokenDimension& b, double sign);
   bool demand(const Term& t, const BrokenDimension& wanted, std::string_view who, const char* must);
@@ -49,14 +49,14 @@ class FormulaBuilder {
   // max(least, min(greatest, a))
   Term clamped(const std::vector<Term>& args, std::size_t column);
   Term root_of_squares(const Term& a, const Term& b, const BrokenDimension& d, std::size_t column);
-  // The angle of (x, y) from +x, −π … π: by y/x where |y| ≤ |x|, else by x/y; a jump of 2π where y passes 0 with x < 0.
+  // The angle of (x, y) from +x, −π … π: by y/x if |y| ≤ |x|, else by x/y; it jumps by 2π where y passes 0 with x < 0.
   Term direction(const Term& y, const Term& x, const BrokenDimension& d, std::size_t column);
   Term of_one(const std::string& name, const Term& a, std::size_t column);
 
   std::string_view text_;
   UnitError& error_;
   Formula made_;
-  std::size_t at_ = 0;  // of the text: what is read next
+  std::size_t at_ = 0;  // position in the text
   bool failed_ = false;
 };
 

@@ -1,4 +1,4 @@
-// formula_reader.h — the text of a formula: its grammar, its names, and the dimension of every part of it.
+// formula_reader.h — reads the text of a formula: its grammar, its names, and the dimensions of its parts.
 //
 //     sum      product { (+ | −) product }
 //     product  sign { (* | /) sign }
@@ -8,8 +8,8 @@
 //     unit     one symbol: 5 mm, 2 kN; others in brackets: 4 [kN*m/rad]
 //
 // Functions: sin cos tan asin acos atan tanh exp log log10 sqrt abs min max clamp hypot atan2 sign step, and
-// if(a < b, c, d) with < <= > >=; sign and step are 1 from 0 on. Constant: pi. Nothing else is there: a text cannot run
-// anything, its length and depth are bounded.
+// if(a < b, c, d) with < <= > >=; sign and step are 1 for arguments ≥ 0. Constant: pi. There is nothing else: a text cannot
+// execute anything, its length and depth are limited.
 #pragma once
 
 #include <map>
@@ -24,9 +24,9 @@
 
 namespace kurbel {
 
-// What a formula may speak of.
+// The names allowed in a formula.
 struct FormulaNames {
-  std::vector<std::string> variable = {};  // its names; none: a constant is asked for
+  std::vector<std::string> variable = {};  // its names; empty: the result must be constant
   Dimension variable_dimension = {};
   std::map<std::string, Quantity> constants = {};
 };
@@ -34,13 +34,13 @@ struct FormulaNames {
 struct ReadFormula {
   Formula formula;
   BrokenDimension dimension{};
-  bool zero = false;  // just 0, of any dimension
+  bool zero = false;  // plain 0, for any dimension
 };
 
 // Errors have their column in the text, from 0.
 std::optional<ReadFormula> read_formula(std::string_view text, const FormulaNames& names, UnitError& error);
 
-// A name that a constant may have; else why not.
+// Fault of the name of a constant; empty: it is allowed.
 std::string wrong_constant_name(const std::string& name);
 
 }  // namespace kurbel

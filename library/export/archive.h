@@ -1,4 +1,4 @@
-// archive.h — files as one zip archive, the same bytes for the same files.
+// archive.h — files as one zip archive; the same files give the same bytes.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace kurbel {
 
-// Throws std::runtime_error where the archive cannot be made.
+// Throws std::runtime_error if the archive cannot be made.
 std::string zip_of(const std::vector<std::pair<std::string, std::string>>& files);
 
 }  // namespace kurbel

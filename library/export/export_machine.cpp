@@ -1,4 +1,4 @@
-// export_machine.cpp — what of a scene can be exported, and why the rest cannot; the archive of a component.
+// export_machine.cpp — checks whether a scene can be exported, with reasons; the archive of a component.
 #include "library/export/export_machine.h"
 
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ std::vector<std::string> files_of(const DocumentValue& document, const std::stri
   return files;
 }
 
-// A component takes these values, by trial.
+// Tries whether a component accepts these values.
 bool takes(ExportedMachine machine, const Scene& scene, std::size_t input, double value) {
   std::vector<double> values;
   for (const ExportedInput& one : machine.inputs) values.push_back(one.start);
@@ -137,7 +137,7 @@ void add_inputs(ExportedMachine& machine, const Scene& scene, const std::vector<
   }
 }
 
-// With another value the machine has the same states, and shafts turn together as before.
+// With another value the machine has the same states and the same rigidly connected shafts.
 bool is_tunable(ExportedMachine machine, const std::string& folder, std::size_t parameter, Equations& usual,
                 const std::vector<double>& inputs) {
   std::vector<double> values;
@@ -207,7 +207,7 @@ ExportedComponent component_of(const Scene& given, const ExportAsked& asked) {
   files_of(machine.document, folder);
   add_inputs(machine, scene, asked.inputs);
   add_parameters(machine, scene, asked.parameters);
-  // As the run-time makes it, of the document; so every table that it needs comes into the book.
+  // Made as in the run-time, from the document, so that every required table enters the book.
   std::vector<double> parameters, inputs;
   for (const ExportedParameter& one : machine.parameters) parameters.push_back(one.start);
   for (const ExportedInput& one : machine.inputs) inputs.push_back(one.start);

@@ -1,7 +1,6 @@
 // export_machine.h — a scene as a component of FMI 2.0 or 3.0: checked, described, packed.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,7 @@ struct ExportedComponent {
   ExportedDependencies dependencies;
 };
 
-// Throws SceneError where the scene makes no machine, std::invalid_argument for what cannot be exported, with the reason.
+// Throws SceneError for a scene that makes no machine, std::invalid_argument with the reason for what cannot be exported.
 ExportedComponent component_of(const Scene& scene, const ExportAsked& asked);
 
 // The archive. `fmi` 2 or 3.

@@ -15,7 +15,7 @@ namespace {
 
 using Role = ExportedVariable::Role;
 
-// What people read a quantity in: value there = factor · value in SI.
+// Display unit: value in it = factor · value in SI.
 struct DisplayUnit {
   const char *unit, *display;
   double factor;
@@ -187,11 +187,11 @@ class Description {
       const std::uint32_t state = c_.view.reference(Role::state, v.place);
       real.append_attribute("derivative") = three_ ? state : index_of(state);
     }
-    // Events set speeds and take turns out of angles.
+    // Events set speeds and subtract whole turns from angles.
     if (v.role == Role::state && m_.model_exchange) real.append_attribute("reinit") = "true";
   }
 
-  // Version 2.0 counts variables from 1; all that it shows stand before those that it does not.
+  // Version 2.0 counts variables from 1; the variables shown precede the hidden ones.
   static std::uint32_t index_of(std::uint32_t reference) { return reference + 1; }
 
   pugi::xml_node unknown(pugi::xml_node list, const char* name, std::uint32_t reference) {
@@ -202,8 +202,8 @@ class Description {
       one.append_attribute("index") = index_of(reference);
     return one;
   }
-  // In the order of the variables: time, inputs, in version 3.0 parameters that change while it runs, states. Where nothing
-  // is said, all that is known counts.
+  // In the order of the variables: time, inputs, in version 3.0 tunable parameters, states. Without a statement all
+  // knowns count.
   void write_dependencies(pugi::xml_node one, const ExportedDependency& on) {
     if (!on.known) return;
     std::vector<std::uint32_t> references;

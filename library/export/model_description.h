@@ -1,4 +1,4 @@
-// model_description.h — what an importer reads of a component: modelDescription.xml of FMI 2.0 and 3.0.
+// model_description.h — the description of a component for importers: modelDescription.xml of FMI 2.0 and 3.0.
 #pragma once
 
 #include <string>

@@ -1,11 +1,11 @@
-// run_time_image.h — the run-time of exported components, as it was built with this program.
+// run_time_image.h — the run-time of exported components, built together with this program.
 #pragma once
 
 #include <string_view>
 
 namespace kurbel {
 
-// A shared library of Linux on x86-64 that needs libc and libstdc++ alone.
+// A shared library for Linux on x86-64 that depends on libc and libstdc++ only.
 std::string_view run_time_image();
 
 }  // namespace kurbel

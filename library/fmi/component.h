@@ -1,5 +1,5 @@
-// component.h — what stands behind a handle of the interface, in either version: an instance, where it is in its life, and
-// who learns what goes wrong.
+// component.h — the object behind an instance handle of FMI 2.0 or 3.0: the machine instance, its phase and its
+// logger.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,10 +20,10 @@
 
 namespace kurbel::fmi {
 
-// As both versions number them.
+// Numbered as in both versions.
 enum class Status { ok, warning, discard, error, fatal };
 
-// Where an instance is in its life; a set of them says when a function may be called.
+// Phase of an instance; a set of phases says when a function may be called.
 enum Phase : unsigned {
   instantiated = 1,
   initialisation = 2,
@@ -32,7 +32,7 @@ enum Phase : unsigned {
   step_mode = 16,
   terminated = 32,
   failed = 64,
-  within_step = 128,  // while the importer looks on
+  within_step = 128,  // during a callback to the importer
   configuration = 256,
   set_up = instantiated | initialisation,
   running = event_mode | continuous_time | step_mode,
@@ -66,14 +66,14 @@ struct Component {
   std::string name;
   bool co_simulation = false;
   unsigned phase = instantiated;
-  bool logging = false;                      // errors are logged all the same
-  std::vector<std::string> categories = {};  // that are wanted; none: all
+  bool logging = false;                      // errors are always logged
+  std::vector<std::string> categories = {};  // categories to log; empty: all
   std::unique_ptr<Instance> instance;
   std::function<void(Status, const char* category, const std::string&)> tell;
-  std::function<bool(double t)> look;  // at the end of a step of the integrator; false: the importer has seen enough
-  double last_time = 0;                // that a step of the importer's ended at
+  std::function<bool(double t)> look;  // called at the end of each integrator step; false: the importer stops
+  double last_time = 0;                // end of the importer's last step
 
-  // With the time. Throws std::invalid_argument for a category that there is not.
+  // Throws std::invalid_argument for an unknown category. Messages carry the time.
   void log_only(bool on, std::vector<std::string> wanted) {
     for (const std::string& category : wanted)
       if (category != "logEvents" && category != "logStatusError")
@@ -188,7 +188,7 @@ inline Status refused(Component* c, const char* function, const char* why) {
   return Status::error;
 }
 
-// The component of this folder of resources. Null, with a message, where it cannot be made.
+// The component of this resources folder. Null, with a message, if it cannot be made.
 inline Component* made(std::unique_ptr<Component> c, const char* token, std::string folder, bool co_simulation) {
   try {
     while (folder.ends_with("/")) folder.pop_back();

@@ -1,4 +1,4 @@
-// exported_machine.h — a machine as an exported component carries it: its scene as a document, its tables, its ports.
+// exported_machine.h — the machine within an exported component: its scene as a document, its tables, its ports.
 #pragma once
 
 #include <limits>
@@ -10,31 +10,31 @@
 
 namespace kurbel {
 
-// What somebody else sets while the machine runs.
+// A quantity that the importer sets while the machine runs.
 struct ExportedInput {
   enum class What {
-    command,  // of a motor, clutch or brake: in the place of the operating sequence [1]
+    command,  // of a motor, clutch or brake: replaces the operating sequence [1]
     torque,   // on a shaft, positive in its positive sense [N·m]
-    speed     // of a shaft whose speed is prescribed, in the place of the scene's [rad/s]
+    speed     // of a shaft with prescribed speed: replaces the scene's [rad/s]
   };
   What what = What::command;
   std::string of = {};    // component, or shaft: "gearbox.out"
   std::string name = {};  // "brake.command", "flywheel.torque"
   double start = 0;
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-  bool whole = false;  // 0 or 1, nothing between
+  bool whole = false;  // only 0 or 1
 
-  // What is commanded: the element that exerts a torque, or follows a speed, has a component of its own.
+  // The component that receives the value: an element that exerts a torque or follows a speed is a component of its own.
   std::string target() const;
 };
 
-// A number of the scene that may be another one.
+// A number of the scene that the importer may change.
 struct ExportedParameter {
   std::string path = {};  // "main_coupling.stiffness", "gearbox.stages[2].ratio"
   std::string unit = {};  // SI, as in a scene
   std::string doc = {};
   double start = 0;
-  bool tunable = false;  // the machine has the same states with another value
+  bool tunable = false;  // the machine keeps its states when the value changes
 };
 
 struct ExportedMachine {
@@ -48,7 +48,7 @@ struct ExportedMachine {
   std::vector<std::string> outputs = {}, peaks = {};  // channels, and extremes within a communication step
   TableBook tables = {};
 
-  // As JSON, whose numbers are exact, and back. from_text throws std::invalid_argument for what is no such text.
+  // As JSON with exact numbers, and back. from_text throws std::invalid_argument for any other text.
   std::string text() const;
   static ExportedMachine from_text(const std::string& text);
 };

@@ -1,4 +1,4 @@
-// fmi2.h — the interface of FMI 2.0 as its binaries have it (standard 2.0.4, sections 2.1, 3.2, 4.2): own declarations.
+// fmi2.h — own declarations of the FMI 2.0 binary interface (standard 2.0.4, sections 2.1, 3.2, 4.2).
 #pragma once
 
 #include <cstddef>

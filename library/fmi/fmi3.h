@@ -1,4 +1,4 @@
-// fmi3.h — the interface of FMI 3.0 as its binaries have it (standard 3.0, sections 2.2, 2.3, 3.2, 4.2, 5.2): own declarations.
+// fmi3.h — own declarations of the FMI 3.0 binary interface (standard 3.0, sections 2.2, 2.3, 3.2, 4.2, 5.2).
 #pragma once
 
 #include <cstddef>

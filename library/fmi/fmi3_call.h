@@ -1,4 +1,4 @@
-// fmi3_call.h — from a call of FMI 3.0 to its component.
+// fmi3_call.h — dispatches a call of FMI 3.0 to its component.
 #pragma once
 
 #include "library/fmi/component.h"

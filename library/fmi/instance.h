@@ -1,5 +1,5 @@
-// instance.h — one exported machine at work, stepped by itself (co-simulation) or by its importer (model exchange). It knows
-// nothing of the interface's types; faults leave it as exceptions, and it is then as it was before the call.
+// instance.h — one exported machine in operation, stepped by itself (co-simulation) or by its importer (model exchange). It
+// is independent of the types of the interface. Errors are exceptions that leave it as it was before the call.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace kurbel {
 
-// All that an instance is between two calls.
+// The complete state of an instance between two calls.
 struct InstanceState {
   Checkpoint here;
   std::vector<double> parameters, inputs;
-  std::vector<double> applied;  // inputs as the machine follows them
+  std::vector<double> applied;  // inputs as currently applied to the machine
   std::vector<double> slopes;   // of the inputs, over the next step [1/s]
   std::vector<double> peaks;
   bool started = false, stale = true;
@@ -29,7 +29,7 @@ struct InstanceState {
 
 class Instance {
  public:
-  // Throws std::exception where the machine cannot be made of its data.
+  // Throws std::exception if the machine cannot be made from its data.
   Instance(ExportedMachine machine, std::string folder);
 
   const ExportedMachine& machine() const { return machine_; }
@@ -40,19 +40,19 @@ class Instance {
   // --- before it runs ---
   void set_up(double begin, std::optional<double> tolerance);
   void reset();
-  // It runs from here on: inputs and parameters count from its start.
+  // Starts the run: from here on inputs and parameters take effect.
   void begin();
 
   // --- variables, by value reference; std::invalid_argument for one that does not exist or cannot be set ---
   double value(std::uint32_t reference);
-  // `structure`: before the start, where parameters that are fixed may be set, too.
+  // `before_start`: fixed parameters may be set as well.
   void set(std::uint32_t reference, double value, bool before_start);
   void set_slope(std::uint32_t reference, double slope);
   double time() const { return moment_ ? moment_->t : s_.here.state.t; }
 
   // --- co-simulation ---
-  // `look` sees the end of each step of the integrator, and may end the way there: it returns false. The time that was
-  // reached. Throws std::runtime_error with the diagnosis where the machine cannot go on; it is then as it was.
+  // Returns the time reached. `look` is called at the end of each integrator step and ends the call there by returning
+  // false. Throws std::runtime_error with the diagnosis if the machine cannot continue; its state is then unchanged.
   double go(double step, const std::function<bool(double t)>& look);
   std::vector<Event> take_events() { return std::exchange(events_, {}); }
 
@@ -61,7 +61,7 @@ class Instance {
   void set_states(std::span<const double> y);
   void states(std::span<double> y);
   void nominals(std::span<double> scale);
-  // False: there is none that satisfies the friction.
+  // False: no accelerations satisfy the friction laws.
   bool derivatives(std::span<double> rate);
   void indicators(std::span<double> z);
   struct Discrete {
@@ -69,7 +69,7 @@ class Instance {
     std::optional<double> next;  // [s]
   };
   Discrete pass_events();
-  bool wants_event();  // angles have grown so far that turns are taken out of them
+  bool wants_event();  // angles are so large that whole turns must be subtracted
   // Σ_k ∂(unknown)/∂(known k) · seed_k
   std::vector<double> directional(std::span<const std::uint32_t> unknowns, std::span<const std::uint32_t> knowns,
                                   std::span<const double> seed);
@@ -96,7 +96,7 @@ class Instance {
   std::string folder_;
   std::optional<double> tolerance_;
   InstanceState s_;
-  std::vector<double> compiled_;  // parameters that the model was made with
+  std::vector<double> compiled_;  // parameters that the model was compiled with
   std::unique_ptr<Equations> equations_;
   std::unique_ptr<ExportedView> view_;
   std::vector<std::size_t> commands_;
@@ -105,7 +105,7 @@ class Instance {
     double t = 0;
     std::vector<double> y;
   };
-  std::optional<Moment> moment_;  // while somebody looks on
+  std::optional<Moment> moment_;  // during a callback within a step: its time and states
 };
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// ports.h — from an exported machine to its model, with what somebody else may set and see.
+// ports.h — from an exported machine to its model with the inputs and outputs of its importer.
 #pragma once
 
 #include <memory>
@@ -12,23 +12,23 @@
 
 namespace kurbel {
 
-// Components that an exported machine may hold: those that are compiled into its run-time.
+// Kinds of components that an exported machine may contain: those compiled into its run-time.
 const std::vector<Kind>& exported_kinds();
 
-// The scene with these values of the parameters, in their order. `folder` holds its files. Throws SceneError.
+// The scene with these parameter values, in their order. `folder` contains its files. Throws SceneError.
 Scene scene_of(const ExportedMachine& machine, const std::string& folder, std::span<const double> parameters);
 
-// The machine with its inputs at these values from its start on; its tables from the book, where they are in it. Throws
-// SceneError where no machine is made.
+// The machine with these inputs from its start on; tables are taken from the book if present there. Throws SceneError
+// if no machine can be made.
 std::shared_ptr<const Model> model_of(ExportedMachine& machine, const Scene& scene, std::span<const double> inputs);
 
-// Of a shaft by its name: "flywheel", "gearbox.out".
+// The node of a shaft by name: "flywheel", "gearbox.out".
 int node_of(const Network& network, const std::string& shaft);
 
-// Of each input, its place among the model's commands.
+// For each input its index among the model's commands.
 std::vector<std::size_t> commands_of(const ExportedMachine& machine, const Model& model);
 
-// Finds a number of a scene by its path; null: there is none.
+// Finds a number of a scene by its path; null: not found.
 struct FoundNumber {
   const Setting* setting = nullptr;
   const Key* key = nullptr;

@@ -1,5 +1,5 @@
-// variables.h — the variables of an exported component, in the order of their value references: its description and its
-// run-time make the same list of the same model.
+// variables.h — the variables of an exported component in the order of their value references: description and
+// run-time make the same list from the same model.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace kurbel {
 struct ExportedVariable {
   enum class Role { time, input, parameter, output, peak, state, derivative, indicator };
   Role role = Role::time;
-  std::size_t place = 0;                // among those of its role
+  std::size_t place = 0;                // index among those of its role
   std::string name, unit, description;  // unit: SI, as in a scene
 };
 
-// What an exported machine shows, by the model that it is.
+// What an exported machine shows, according to its model.
 struct ExportedView {
-  // Throws std::invalid_argument where the model has no such channel or extreme.
+  // Throws std::invalid_argument if the model has no such channel or extreme.
   ExportedView(const ExportedMachine& machine, const Equations& equations);
 
   std::vector<ExportedVariable> variables;  // by value reference
@@ -30,10 +30,10 @@ struct ExportedView {
   std::uint32_t reference(ExportedVariable::Role role, std::size_t place) const;
 };
 
-// What a variable may depend on: by the pattern of the exact Jacobian, which holds what is coupled while constraints hold,
-// too, and by where inputs and laws over time act.
+// Possible dependencies of a variable: from the sparsity pattern of the exact Jacobian, including couplings by active
+// constraints, and from the places where inputs and laws over time act.
 struct ExportedDependency {
-  bool known = true;  // false: on anything
+  bool known = true;  // false: it may depend on anything
   bool time = false;
   std::vector<std::size_t> states = {}, inputs = {};  // ascending
 };

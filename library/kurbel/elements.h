@@ -1,4 +1,4 @@
-// elements.h — elements of one's own: a coupling's law, a mechanism's motion. Scenes then name them like kurbel's.
+// elements.h — user-defined elements: the law of a coupling, the motion of a mechanism. Scenes use them like kurbel's own.
 //
 //     kurbel::add_coupling("cubic coupling", "k θ + κ θ³ + c θ̇",
 //                          {{"stiffness", "N*m/rad"}, {"cubic", "N*m/rad3"}, {"damping", "N*m*s/rad"}},
@@ -9,8 +9,8 @@
 //                            });
 //                          });
 //
-// Formulas are written once, for any type of number: kurbel asks them with numbers that carry their derivatives, so that
-// its Jacobians are exact. They must be smooth; of kinks the solver would only see that steps fail.
+// A formula is written once, for any type of number: kurbel evaluates it with numbers that carry derivatives, so that
+// its Jacobians are exact. Formulas must be smooth: the solver does not locate kinks, its steps fail there.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@
 
 namespace kurbel {
 
-// A key that the element has in a scene. Every key is required unless it has a fallback as it would stand in the file.
+// A key of the element in a scene, required unless it has a fallback, written as in the file.
 struct Parameter {
   std::string name;           // of the key: "stiffness"
   std::string unit;           // SI: "N*m/rad"; empty: a plain number
@@ -44,13 +44,13 @@ class Parameters {
 
 // --- a coupling ---
 
-// A coupling's torque with its derivatives, which the solver's Jacobian is made of.
+// A coupling's torque and its derivatives, for the Jacobian of the solver.
 struct CouplingTorque {
   double value = 0;     // τ [N·m]
   double by_twist = 0;  // ∂τ/∂θ [N·m/rad]
   double by_rate = 0;   // ∂τ/∂θ̇ [N·m·s/rad]
 };
-// τ(θ, θ̇) with τ(0, 0) = 0, positive driving what stands behind in the line. At rest it must rise with θ.
+// τ(θ, θ̇) with τ(0, 0) = 0, positive if it drives the following shaft. At rest it must rise with θ.
 class CouplingLaw {
  public:
   virtual ~CouplingLaw() = default;
@@ -58,8 +58,8 @@ class CouplingLaw {
   virtual CouplingTorque torque(double twist, double rate) const = 0;
 };
 
-// A law of a formula τ(θ, θ̇) in (twist, rate) for any type of number: it is asked with Dual<2>, so that its derivatives are
-// exact. What a Dual knows: + − · /, sin, cos, sqrt, exp, tanh, abs, pow(x, n).
+// A law from a formula τ(θ, θ̇) in (twist, rate) for any type of number. It is evaluated with Dual<2>, so that its
+// derivatives are exact. Dual provides + − · /, sin, cos, sqrt, exp, tanh, abs, pow(x, n).
 template <class F>
 std::shared_ptr<const CouplingLaw> coupling_law(F formula) {
   struct Law final : CouplingLaw {
@@ -73,18 +73,17 @@ std::shared_ptr<const CouplingLaw> coupling_law(F formula) {
   return std::make_shared<const Law>(std::move(formula));
 }
 
-// From one component's parameters to its law. Throws std::invalid_argument in words for parameters that do not go
-// together.
+// Makes a law from one component's parameters. Throws std::invalid_argument with the reason for parameters that are
+// inconsistent.
 using MakeCoupling = std::function<std::shared_ptr<const CouplingLaw>(const Parameters&)>;
-// Makes `kind` known to all scenes that are read from now on. The component has two shafts, with `inertia_in` and
-// `inertia_out` as kurbel's couplings, and its elasticity is an effect. Throws std::invalid_argument for a kind that is
-// known.
+// Registers `kind` for all scenes read from now on. The component has two shafts, `inertia_in` and `inertia_out` as
+// in kurbel's couplings, and its elasticity is an effect. Throws std::invalid_argument for a kind that exists.
 void add_coupling(const std::string& kind, const std::string& doc, const std::vector<Parameter>& parameters,
                   const MakeCoupling& make);
 
 // --- a mechanism ---
 
-// Of a series, term by term from s′ = c a′, c′ = −s a′.
+// Sine of a series, term by term from s′ = c a′, c′ = −s a′.
 inline Taylor sin(const Taylor& a) {
   Taylor s(std::sin(a.c[0])), c(std::cos(a.c[0]));
   for (int k = 1; k <= Taylor::order; ++k) {
@@ -92,7 +91,7 @@ inline Taylor sin(const Taylor& a) {
   }
   return s;
 }
-// Likewise.
+// Cosine of a series, likewise.
 inline Taylor cos(const Taylor& a) {
   Taylor s(std::sin(a.c[0])), c(std::cos(a.c[0]));
   for (int k = 1; k <= Taylor::order; ++k) {
@@ -101,29 +100,29 @@ inline Taylor cos(const Taylor& a) {
   return c;
 }
 
-// A link at the crank's angle φ: where its centre of mass is, and which way it points.
+// A link at crank angle φ: position of its centre of mass, and orientation.
 struct Link {
   std::string name;    // for messages and drawings
   double mass = 0;     // [kg], ≥ 0
   double inertia = 0;  // about its centre of mass [kg·m²], ≥ 0
   Taylor x;            // of its centre of mass [m]; axes of the mechanism, φ counter-clockwise from +x
   Taylor y;            // of its centre of mass [m]
-  Taylor angle;        // which way it points [rad]
+  Taylor angle;        // orientation [rad]
 };
-// All links at one angle of the crank.
+// All links at one crank angle.
 struct LinkagePosition {
   std::vector<Link> links;  // the crank first; at most five
   Taylor output;            // x [m] that loads act along
 };
 
-// From the crank's angle φ [rad] to the links: one degree of freedom, period 2π. A formula of Taylor: + − · /, sin, cos, sqrt.
+// From the crank angle φ [rad] to the links: one degree of freedom, period 2π. Taylor provides + − · /, sin, cos, sqrt.
 using MechanismMotion = std::function<LinkagePosition(const Taylor& phi)>;
-// From one component's parameters to its motion. Throws std::invalid_argument in words for parameters that do not go
-// together.
+// Makes the motion from one component's parameters. Throws std::invalid_argument with the reason for parameters that
+// are inconsistent.
 using MakeMechanism = std::function<MechanismMotion(const Parameters&)>;
-// Makes `kind` known, with `phase`, `gravity`, `stroke_angle` and `load` as kurbel's mechanisms have. Variable inertia,
-// weight and loads follow from the motion (I_r = Σ m v′² + J ϑ′²). Reactions in joints are not known of it: the study
-// "forces" refuses it. Throws std::invalid_argument for a kind that is known.
+// Registers `kind`, with `phase`, `gravity`, `stroke_angle` and `load` as in kurbel's mechanisms. Variable inertia,
+// weight and loads follow from the motion (I_r = Σ m v′² + J ϑ′²). Joint reactions are unknown: the study "forces"
+// refuses it. Throws std::invalid_argument for a kind that exists.
 void add_mechanism(const std::string& kind, const std::string& doc, const std::vector<Parameter>& parameters,
                    const MakeMechanism& make);
 

@@ -1,4 +1,4 @@
-// figures.h — what a study found in numbers: figures with unit and measured error, quantities over time.
+// figures.h — results of a study as numbers: figures with unit and measured error, quantities over time.
 #pragma once
 
 #include <cstddef>
@@ -10,26 +10,26 @@
 
 namespace kurbel {
 
-// A figure. In SI: speeds in rad/s.
+// A figure, in SI: speeds in rad/s.
 struct FigureValue {
-  std::string name;             // "peak_torque.main_coupling"; what it means: kurbel explain
+  std::string name;             // "peak_torque.main_coupling"; for its meaning: kurbel explain
   double value = 0;             // in `unit`
   std::string unit;             // "N*m"; empty: a plain number
   std::optional<double> error;  // ±, in `unit`, measured by further runs; empty: not measured
-  std::optional<double> at;     // the moment that it belongs to [s]; empty: to none
-  std::string of = {};          // the model that it is of, where a study has several: "rigid"; empty: the only one
+  std::optional<double> at;     // time at which it occurs [s]; empty: none
+  std::string of = {};          // the model that it belongs to, if a study has several: "rigid"; empty: the only one
 };
-// What figures of this name, or of such words, mean: definition, formula, unit, what it is not. Throws std::invalid_argument
-// with the nearest names.
+// Definition, formula, unit and limits of meaning of the figures with this name or these words. Throws
+// std::invalid_argument with the nearest names.
 std::string explain(const std::string& figure);
 std::vector<std::string> explained_figures();  // the names that explain() knows: "delta", "peak_torque", …
 
-// All that a run found, by their names and in the order of the report.
+// All figures of a run by name, in the order of the report.
 class FigureValues {
  public:
   FigureValues() = default;
   explicit FigureValues(std::vector<FigureValue> all) : all_(std::move(all)) {}  // for kurbel itself
-  // The figure of this name; null where there is none.
+  // The figure of this name; null if there is none.
   const FigureValue* find(const std::string& name) const;
   // The figure of this name. Throws std::out_of_range with the nearest names.
   const FigureValue& operator[](const std::string& name) const;
@@ -41,18 +41,18 @@ class FigureValues {
   std::vector<FigureValue> all_;
 };
 
-// One quantity over time, in the memory of the run that recorded it, which it keeps: value i lies at data()[i · stride()].
+// One quantity over time, in the memory of the run, which it keeps alive: value i lies at data()[i · stride()].
 class TimeSeries {
  public:
   TimeSeries() = default;
-  // Of memory that `kept` holds, for as long as it is held.
+  // Refers to memory owned by `kept`.
   TimeSeries(std::shared_ptr<const void> kept, const double* data, std::size_t size, std::size_t stride)
       : kept_(std::move(kept)), data_(data), size_(size), stride_(stride) {}
   std::size_t size() const { return size_; }                             // how many values
   double operator[](std::size_t i) const { return data_[i * stride_]; }  // value i < size(), not checked, in SI
   const double* data() const { return data_; }                           // the first value
   std::size_t stride() const { return stride_; }                         // from value to value, in doubles
-  const std::shared_ptr<const void>& kept() const { return kept_; }      // what holds the memory, for other languages
+  const std::shared_ptr<const void>& kept() const { return kept_; }      // owner of the memory, for other languages
 
  private:
   std::shared_ptr<const void> kept_;
@@ -61,11 +61,11 @@ class TimeSeries {
 };
 
 // Quantities over time: at equidistant times and, between them, at the peaks that are figures. The rows of trajectory.csv.
-// Empty of a multibody run.
+// Empty for a multibody run.
 class Trajectory {
  public:
   Trajectory() = default;
-  // Of a recorder's memory: a row of all names at each time.
+  // Refers to a recorder's memory: one row of all names at each time.
   Trajectory(std::shared_ptr<const void> kept, const std::vector<double>* time, const std::vector<double>* values,
              std::vector<std::string> names, std::vector<std::string> units)
       : kept_(std::move(kept)), time_(time), values_(values), names_(std::move(names)), units_(std::move(units)) {}

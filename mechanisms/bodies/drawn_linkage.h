@@ -1,4 +1,4 @@
-// drawn_linkage.h — the places by which a linkage is drawn.
+// drawn_linkage.h — the points of the drawing of a linkage.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 namespace kurbel {
 
 struct DrawnJoint {
-  int body;       // it moves with
-  SketchSpot at;  // in the position of the sketch, mechanism's axes [m]
+  int body;       // the body that it moves with
+  SketchSpot at;  // in the position of the sketch, axes of the mechanism [m]
   std::string name;
 };
 // In the order of LinkageDrawing's joints: the driving link's bearing and its next point first.

@@ -1,4 +1,4 @@
-// mechanism_tree.h — any mechanism's description as Simbody's bodies, the source of its first extraction.
+// mechanism_tree.h — a Simbody model from the description of any mechanism: the source of the first extraction.
 #pragma once
 
 #include <functional>
@@ -11,13 +11,13 @@
 
 namespace kurbel {
 
-// What bodies are made of.
+// Input of make_bodies.
 struct BodiesOf {
   std::string kind;  // "four-bar", for messages
   std::function<PlanarLinkage(long double phi)> linkage;
-  double place = 0;  // φ at which the shapes of the links are read off: no dead position or change point [rad]
-  int turns = 1;     // of the crank until the links come back, of one without change points
-  // Places on bodies whose motion is read off besides, as they are at `place`.
+  double place = 0;  // φ at which the shapes of the links are taken: no dead position or change point [rad]
+  int turns = 1;     // turns of the crank in a cycle, for mechanisms without change points
+  // Further points on bodies whose motion is sampled, in their position at `place`.
   struct Place {
     int body = PlanarLinkage::frame;
     Path at;
@@ -28,8 +28,8 @@ struct BodiesOf {
 // Throws std::invalid_argument where a link has inertia and no mass.
 std::unique_ptr<MechanismBodies> make_bodies(const BodiesOf& of);
 
-// Simbody's bodies in their order, each with the joint of the tree that it moves in: indices of the description. A slider that
-// rides as a point mass on what it is pinned to is none of them.
+// Simbody's bodies in order, each with its inboard joint in the tree: indices of the description. A slider modelled as a
+// point mass on the body that it is pinned to is not included.
 struct BodyInTree {
   int body = 0, joint = 0;
 };

@@ -4,8 +4,8 @@
 //
 // The mechanism is a tree of Pin and Slider mobilizers moving parallel to the x-y plane, its loops closed by
 // PointInPlane constraints (one for a slider's line, two for a pin). Inertia, speeds, accelerations and constraint
-// matrices are Simbody's. Two things that Simbody does not give are computed here from Simbody's own topology and
-// frames: the closure error in extended precision (near a dead position double loses half its digits) and the third
+// matrices are Simbody's. Two results that Simbody does not provide are computed here from its topology and frames: the
+// closure error in extended precision (near a dead position double precision loses half the digits) and the third
 // derivative of the motion, for I_r″.
 #pragma once
 
@@ -22,21 +22,21 @@ struct TrackedPoint {
   SimTK::Vec3 station;  // in the body's frame [m]
 };
 
-// A tracked point's position and its first two derivatives by the reduction coordinate.
+// Position of a tracked point and its first two derivatives by the reduction coordinate.
 struct PointMotion {
   SimTK::Vec3 position, velocity_ratio, acceleration_ratio;
 };
 
-// The mechanism as seen from its reduction coordinate φ, at one configuration; derivatives are by φ.
+// The mechanism reduced to the coordinate φ at one configuration; derivatives are by φ.
 struct Reduction {
   double inertia = 0, slope = 0, curvature = 0;  // I_r, I_r′, I_r″ (theory 2.1)
   SimTK::Vector q1, q2, q3;                      // dq/dφ, d²q/dφ², d³q/dφ³ of all coordinates
   std::vector<PointMotion> points;               // one for each tracked point
   double determinant = 0;    // of ∂(closure errors)/∂(dependent coordinates): changes sign only in a dead position
-  double closure_error = 0;  // Simbody's own, largest [m]
+  double closure_error = 0;  // largest closure error by Simbody [m]
 };
 
-// dq/dφ, d²q/dφ², d³q/dφ³ of all coordinates, known from elsewhere.
+// dq/dφ, d²q/dφ², d³q/dφ³ of all coordinates from another source.
 struct KnownDerivatives {
   SimTK::Vector q1, q2, q3;
 };
@@ -60,19 +60,19 @@ struct BodyMotion {
 
 class SimbodyReduction {
  public:
-  // `redundant`: there may be more closures than dependent coordinates, which then follow by least squares; the determinant
-  // is the root of that of the normal equations.
+  // `redundant`: there may be more closures than dependent coordinates; these then follow by least squares, and the
+  // determinant is the square root of that of the normal equations.
   SimbodyReduction(const SimTK::MultibodySystem& system, const SimTK::SimbodyMatterSubsystem& matter, int coordinate,
                    std::vector<TrackedPoint> points, bool redundant = false);
 
-  // Newton's method on the closure error: moves the dependent coordinates of `state` until its loops close to rounding.
-  // It goes to the assembly branch that the state is near; the caller checks which by reduce().determinant.
+  // Newton's method on the closure error: changes the dependent coordinates of `state` until the loops close to rounding
+  // error. It converges to the nearest assembly branch; the caller checks the branch by reduce().determinant.
   // Throws std::runtime_error if it does not converge.
   void close(SimTK::State& state) const;
 
   // The reduction at a closed state, whose speeds are set to the velocity ratios (dφ/dt = 1). Throws std::runtime_error
-  // if Simbody finds the loops open. In a change point, where the closures do not say how the motion goes on, it is
-  // given: they then only have to be kept by it.
+  // if the loops are open by Simbody. In a change point, where the closures do not determine the motion, its derivatives
+  // are given by `known`; they only have to satisfy the closures.
   Reduction reduce(SimTK::State& state, const KnownDerivatives* known = nullptr) const;
 
  private:
@@ -109,7 +109,7 @@ class SimbodyReduction {
   std::vector<TrackedPoint> points_;
   std::vector<Joint> joints_;  // by body; [0] is the ground
   std::vector<Closure> closures_;
-  double size_ = 0;  // a length no smaller than the mechanism [m]
+  double size_ = 0;  // a length ≥ the size of the mechanism [m]
 };
 
 }  // namespace kurbel

@@ -1,8 +1,7 @@
-// sketched_linkage.h — a linkage that is described by a sketch as bodies and joints at one angle of its driving link, and how it is drawn.
+// sketched_linkage.h — bodies, joints and drawing of a linkage given by a sketch, at one angle of its driving link.
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "mechanisms/linkage/linkage.h"
@@ -12,20 +11,20 @@
 
 namespace kurbel {
 
-// Bodies: the driving link first, the output last. For data without faults.
+// Bodies: the driving link first, the output last. The data must be without faults.
 PlanarLinkage linkage_of(const LinkageData& data, long double phi);
-// Which of them a link of the sketch is; the frame is itself.
+// Index of the body of a link of the sketch; the frame stays the frame.
 int body_of(const PlanarLinkage& bodies, const Linkage& linkage, int link);
 
-// The driving link's bearing, its next point, all others of the sketch, places on slides.
+// Order: the driving link's bearing, its next point, the other points of the sketch, points on slides.
 LinkageDrawing drawing_of(const LinkageData& data);
-// In the order of the drawing.
+// The points in the order of the drawing.
 std::vector<PlanePoint> places_of(const LinkageData& data, double phi);
 
 // A travel within the linkage: the same bodies without mass, with the travel as their output.
 PlanarLinkage linkage_of(const LinkageTravelData& data, long double phi);
 LinkageDrawing drawing_of(const LinkageTravelData& data);
-// Its sample has the travel by the positions, velocities and accelerations of Simbody's bodies; all else is 0.
+// Its samples contain the travel by Simbody's positions, velocities and accelerations; all other members are 0.
 std::unique_ptr<MechanismBodies> own_bodies(const LinkageTravelData& data);
 
 }  // namespace kurbel

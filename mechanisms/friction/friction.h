@@ -1,6 +1,6 @@
-// friction.h — friction in a joint: its coefficient over the sliding speed, its friction circle.
+// friction.h — friction in a joint: coefficient over sliding speed, friction circle.
 //                                                                                                     (theory 8)
-// f is a coefficient of friction [1], φ_f = atan f its angle [rad]. What stands outside of its domain is refused with
+// f: coefficient of friction [1], φ_f = atan f: angle of friction [rad]. Values outside their domain throw
 // std::invalid_argument.
 #pragma once
 
@@ -26,9 +26,9 @@ inline double friction_angle(double f) {
 
 // --- coefficient over sliding speed ---
 
-// Stribeck's curve, from static (dry) over mixed to fluid friction:
+// Stribeck curve, from static (dry) over mixed to fluid friction:
 //     f(v) = f_k + (f_s − f_k) exp(−(|v|/v_s)²) + b |v|                                               (theory 8.7)
-// v_s = 0: f_s at rest alone, f_k in motion; f_k is then Coulomb's kinetic coefficient.
+// v_s = 0: f_s only at rest, f_k in motion; f_k is then Coulomb's kinetic coefficient.
 struct FrictionCoefficient {
   double kinetic = 0;         // f_k ≥ 0
   double resting = 0;         // f_s ≥ f_k: static coefficient
@@ -41,7 +41,7 @@ struct FrictionCoefficient {
     if (stribeck_speed > 0) return stribeck(v, kinetic, resting, stribeck_speed) + viscous * v;
     return (v > 0 ? kinetic : resting) + viscous * v;
   }
-  // The same without the jump at rest: what holds at v → 0 once it moves.
+  // The same without the jump at rest: at v = 0 the limit v → 0 of motion.
   double in_motion(double sliding_speed) const {
     return sliding_speed == 0 && stribeck_speed == 0 ? kinetic : at(sliding_speed);
   }
@@ -49,7 +49,7 @@ struct FrictionCoefficient {
 
 // --- revolute pair: journal radius r, reaction R tangent to the friction circle ---
 
-// ρ = r sin φ_f, exact: the reaction's normal and friction parts add to R. For small f, f r.
+// ρ = r sin φ_f, exact: R is the resultant of normal and friction force. For small f, f r.
 inline double friction_circle_radius(double journal_radius, double f) {
   friction_detail::require(journal_radius >= 0, "journal radius", journal_radius, ">= 0 m");
   return journal_radius * std::sin(friction_angle(f));

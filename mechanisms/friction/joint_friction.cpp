@@ -14,7 +14,7 @@ namespace kurbel {
 namespace {
 
 constexpr std::size_t most_loads = JointFriction::most_loads, most_reactions = 2 * JointFriction::most_joints;
-constexpr double quadratic = 1e-8;  // a step of Newton's method this small leaves its square
+constexpr double quadratic = 1e-8;  // after such a small step of Newton's method the error is its square
 
 int sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
@@ -26,7 +26,7 @@ T coefficient(const FrictionCoefficient& f, const T& sliding, bool at_rest) {
   return f.viscous > 0 ? moving + f.viscous * sliding : moving;
 }
 
-// ρ of a pin or f + k_r/r_r of a slide, by what slides there against the friction.
+// ρ of a pin or f + k_r/r_r of a slide, by the sliding speed against the friction.
 template <class T>
 T strength(const RubbingJoint& j, bool slides, const T& sliding, bool at_rest) {
   using std::sqrt;
@@ -54,7 +54,7 @@ struct Edges {
 struct JointFriction::Work {
   std::size_t n = 0, reactions = 0;
   double phi = 0;
-  bool given = false;                                   // the acceleration is: none else is sought
+  bool given = false;                                   // the acceleration is given
   double strength[most_joints], edge[2 * most_joints];  // −sgn(v) times ρ or f + k_r/r_r; shares of u and w in Σ|N|
   double base[most_reactions], influence[most_reactions][most_loads];  // R₀, U + m b vᵀ
   double q[most_loads], r[most_reactions], wanted[most_loads];
@@ -65,7 +65,7 @@ struct JointFriction::Work {
   double determinant = 1;
   double answer[most_reactions];  // b
 
-  // N: the number of loads, where the compiler may know it; else 0.
+  // N: the number of loads if known at compile time; else 0.
   template <std::size_t N>
   void react() {
     const std::size_t n = N > 0 ? N : this->n;
@@ -145,7 +145,7 @@ double JointFriction::without_friction(const State& s, const double* row) const 
   return sum;
 }
 
-// fold: couples of slides go into the influence of the other loads, as they are in proportion to N.
+// fold: couples of slides are included in the influence of the other loads, as they are proportional to N.
 void JointFriction::prepare(const State& s, double response, const double* values, bool fold, Work& w) const {
   const std::size_t n = places_.loads, stride = places_.stride();
   w.n = fold ? places_.joints : n, w.reactions = places_.reactions(), w.phi = s.phi;
@@ -192,7 +192,7 @@ void JointFriction::prepare(const State& s, double response, const double* value
   }
 }
 
-// q wanted at the present q, and its slopes; the greatest of them.
+// q by the laws at the present q, and its slopes; returns the maximum.
 template <std::size_t N>
 double JointFriction::apply_laws(Work& w) const {
   w.react<N>();
@@ -222,7 +222,7 @@ double JointFriction::apply_laws(Work& w) const {
   return largest;
 }
 
-// Newton's method at one share of the coefficients from q on; false where it does not come to an end on the branch wanted.
+// Newton's method at one share of the coefficients from q; false if it does not converge on the right branch.
 template <std::size_t N>
 bool JointFriction::settle(double share, Work& w) const {
   const std::size_t n = N > 0 ? N : w.n;
@@ -236,7 +236,7 @@ bool JointFriction::settle(double share, Work& w) const {
     for (std::size_t k = 0; k < n; ++k) step[k] = share * w.wanted[k] - w.q[k];
     w.solve<N>(step);
     for (std::size_t k = 0; k < n; ++k) w.q[k] += step[k], size = std::max(size, std::abs(step[k]));
-    // By the square of the step; where a pin bears next to nothing, whose law bends there, by rounding.
+    // By the square of the step; for a pin with a nearly zero reaction, where its law has a kink, by rounding.
     double least = largest;
     for (std::size_t j = 0; j < joints_.size(); ++j)
       if (!joints_[j].slides && w.strength[j] != 0) least = std::min(least, std::abs(w.wanted[joints_[j].load]));
@@ -266,12 +266,12 @@ bool JointFriction::settle_any(double share, Work& w) const {
   }
 }
 
-// From the frictionless solution on; where Newton's method does not lead to it at once, along the way of growing shares.
+// From the frictionless solution; if Newton's method does not converge directly, by continuation with growing shares.
 void JointFriction::find(const State& s, Work& w) const {
   std::fill_n(w.q, w.n, 0.0);
   double share = 0, step = 1;
   constexpr double least_step = 1.0 / 4096;
-  // Reactions grow without bound as the determinant vanishes; steps over time never get there.
+  // Reactions are unbounded as the determinant vanishes; integration over time does not reach this.
   const double least_determinant = s.at_rest || w.given ? 0 : 1e-4;
   while (share < 1) {
     const double next = std::min(1.0, share + step);
@@ -375,7 +375,7 @@ JointFriction::Slopes JointFriction::slopes(const State& s) const {
   return out;
 }
 
-// Each beside the terms that it is the sum of, so that sides that vanish together stay of order one elsewhere.
+// Each relative to its terms, so that sides that vanish together are of order one elsewhere.
 void JointFriction::sides(const State& s, double* side) const {
   double values[most_values];
   table_->read(s.phi, values);
@@ -430,7 +430,7 @@ double JointFriction::resting(double phi, double load, int direction, bool weigh
                     .at_rest = true,
                     .weightless = weightless})
                 .torque;
-  } catch (const Jam&) {  // locks itself
+  } catch (const Jam&) {  // self-locking
     return direction * HUGE_VAL;
   }
 }

@@ -1,20 +1,20 @@
-// joint_friction.h — friction in the joints of a linkage: by their reactions, which it changes, a torque on the crank.
+// joint_friction.h — friction in the joints of a linkage as a torque on the crank, solved together with the reactions.
 //
 // A pin has the reaction R_x, R_y of body `from` on body `on`; a slide has N across it and the moment M about its place.
-// Of all joints that rub these are linear, with coefficients that are functions of φ (theory 10.2):
+// The reactions of all joints with friction are linear with coefficients over φ (theory 10.2):
 //     R = ω² a + ε b + w + F c + Σ F_i c_i + U q
-// w weights, F the load on the output, F_i what acts within the linkage, q the friction loads, all on body `on`:
+// w weights, F load on the output, F_i forces within the linkage, q friction loads, all on body `on`:
 //     pin    q = −sgn(v) ρ |R|              couple [N·m]; ρ = r f/√(1 + f²), radius of the friction circle
-//     slide  q = −sgn(v) (f + k_r/r_r) Σ|N| force along it [N]; Σ|N| = |N| within the guide's length L, else both edges
-//                                           bear: Σ|N| = (|L N − 2 M| + |L N + 2 M|)/2L, M about the guide's middle
+//     slide  q = −sgn(v) (f + k_r/r_r) Σ|N| force along it [N]; Σ|N| = |N| if N acts within the guide's length L, else
+//                            contact at both edges: Σ|N| = (|L N − 2 M| + |L N + 2 M|)/2L, M about the guide's middle
 //            q = −sgn(v) (f + k_r/r_r) w/2 N  couple of the friction on two faces at the distance w [N·m]
-// v_j ω is the velocity of `on` against `from`: of a pin an angle's, of a slide along it. On the crank acts, by the power,
+// v_j ω is the velocity of `on` relative to `from`: angular for a pin, along a slide. Torque on the crank by equal power:
 //     M = Σ v_j q_j
-// With ε = ε₀ + m M, where m is what a unit of torque on the crank adds to ε, all is found at once:
+// With ε = ε₀ + m M, where m is the acceleration per unit of torque on the crank, all unknowns are solved together:
 //     q = law(R₀ + (U + m b vᵀ) q),   R₀ at ε₀                                                                      (1)
-// by Newton's method. Of several solutions the one is meant that the frictionless one leads to as the coefficients grow
-// from zero: the determinant of 1 − ∂law/∂R (U + m b vᵀ) stays positive on that way. Where it ends there is none: at a
-// given ε no reactions satisfy the laws (the joints jam); with ε free no acceleration does (Painlevé's inconsistency).
+// by Newton's method. Of several solutions the valid one is reached continuously from the frictionless solution as the
+// coefficients grow from zero: det(1 − ∂law/∂R (U + m b vᵀ)) stays positive. If this path ends, there is no solution: with
+// given ε no reactions satisfy the laws (the joints jam); with free ε no acceleration does (Painlevé's inconsistency).
 #pragma once
 
 #include <functional>
@@ -28,16 +28,16 @@
 
 namespace kurbel {
 
-// What a scene says of a joint.
+// Data of a joint in the scene.
 struct RubbingJoint {
   std::string name;  // of the joint in the linkage
   FrictionCoefficient friction;
   double radius = 0;         // of a pin [m], ≥ 0
-  double length = 0;         // L of a slide [m], ≥ 0; 0: takes moments without more friction
-  double middle = 0;         // of that length, from the joint's place along the slide [m]
+  double length = 0;         // L of a slide [m], ≥ 0; 0: moments add no friction
+  double middle = 0;         // middle of that length, from the joint's place along the slide [m]
   double width = 0;          // between the two faces of a slide [m], ≥ 0
   double rolling_arm = 0;    // k_r of the rollers of a slide [m], ≥ 0
-  double roller_radius = 0;  // r_r [m], > 0 where there is a rolling_arm
+  double roller_radius = 0;  // r_r [m], > 0 if rolling_arm > 0
 
   bool rubs(bool slides) const { return slides ? !friction.none() || rolling_arm > 0 : radius > 0 && !friction.none(); }
 };
@@ -45,12 +45,12 @@ struct RubbingJoint {
 // Throws std::invalid_argument naming the first value outside its domain.
 void validate(const RubbingJoint& joint);
 
-// Coefficients of the reactions over φ. Values in rows, one of each reaction, two reactions a joint that rubs:
-//     a, b, w, c, then c_i by what acts within, U by friction load;      behind all rows v by friction load.
+// Coefficients of the reactions over φ. One row for each reaction, two reactions for each joint with friction:
+//     a, b, w, c, then c_i for each force within, U for each friction load; after all rows v for each friction load.
 struct ReactionPlaces {
   std::size_t joints = 0, loads = 0, applied = 0;
   enum Case : std::size_t { speed_case, acceleration_case, weight_case, load_case, cases };
-  std::size_t friction(std::size_t load) const { return cases + applied + load; }  // in a row
+  std::size_t friction(std::size_t load) const { return cases + applied + load; }  // column in a row
   std::size_t stride() const { return friction(loads); }
   std::size_t reactions() const { return 2 * joints; }
   std::size_t ratio(std::size_t load) const { return reactions() * stride() + load; }
@@ -78,51 +78,51 @@ class JointFriction {
   struct Joint {
     RubbingJoint data;
     bool slides = false;
-    std::size_t load = 0;                 // its friction load: of the n-th joint the n-th
-    std::optional<std::size_t> couple{};  // of a slide with two faces, behind the loads of all joints
-    // Sign of v: a sign of its own among those that change, the sign of the output's travel, or always the same.
+    std::size_t load = 0;                 // its friction load; the n-th joint has the n-th
+    std::optional<std::size_t> couple{};  // for a slide with two faces: index after the loads of all joints
+    // Sign of v: index of a changing sign, or the sign of the output's travel, or constant.
     static constexpr int of_travel = -1, constant = -2;
     int sign = constant;
-    int sense = 1;               // times that sign
-    std::size_t first_side = 0;  // of a slide, among all sides
+    int sense = 1;               // factor on that sign
+    std::size_t first_side = 0;  // for a slide: index among all sides
   };
-  // A function of φ whose sign turns: the ratio of this load, which joints of the same or the opposite share.
+  // A function of φ that changes its sign: the velocity ratio of this load, shared by joints with the same or opposite v.
   struct Turning {
     std::size_t load = 0;
-    double scale = 1;  // of its greatest value
+    double scale = 1;  // its maximum
   };
 
-  // `applied`: names of what acts within the linkage, in the order of the table.
+  // `applied`: names of the forces within the linkage, in the order of the table.
   JointFriction(std::vector<Joint> joints, std::vector<Turning> turnings, std::shared_ptr<const ReactionTable> table,
                 std::vector<std::string> applied = {});
 
   const std::vector<Joint>& joints() const { return joints_; }
   const std::vector<std::string>& applied() const { return applied_; }
   std::string describe() const { return table_->describe(); }
-  // Modes: one a turning sign, then the sides of the slides: two edges of one with length, else one.
+  // Modes: one for each changing sign, then the sides of the slides: two edges if the slide has a length, else one.
   int sign_count() const { return static_cast<int>(turnings_.size()); }
   int side_count() const { return sides_; }
-  // v over its scale, of a turning sign.
+  // v over its scale for a changing sign.
   ReactionTable::One turning(int which, double phi) const;
 
   struct State {
     double phi = 0, omega = 0, alpha = 0;  // [rad, rad/s, rad/s²]
-    double load = 0;                       // F [N]; of an output that rocks [N·m]
-    const double* applied = nullptr;       // F_i [N], [N·m], in the order of applied(); null: none acts
-    int direction = 0;                     // ±1: of the crank, whatever ω; 0: the sign of ω
-    bool at_rest = false;                  // about to move that way: static coefficients
+    double load = 0;                       // F [N]; on a rocking output [N·m]
+    const double* applied = nullptr;       // F_i [N], [N·m], in the order of applied(); null: all zero
+    int direction = 0;                     // ±1: of the crank, independent of ω; 0: the sign of ω
+    bool at_rest = false;                  // about to move in that direction: static coefficients
     bool weightless = false;
-    int travel = 0;              // sign of the output's x′; 0: as it comes
-    const int* modes = nullptr;  // ±1: the sign, the side that is held; others and null: as it comes
+    int travel = 0;              // sign of the output's velocity; 0: by x′
+    const int* modes = nullptr;  // ±1: fixed sign or side; other values and null: by the state
   };
   struct Torque {
     double torque = 0, slope = 0;  // M [N·m]; dM/dε at this state [kg·m²]
     double alpha = 0;              // ε + m M
   };
-  // M at the acceleration ε + m M: response m [1/(kg·m²)]; 0: at the acceleration given. Throws Jam with the angle and the
-  // share of the coefficients from which on there is no solution.
+  // M at the acceleration ε + m M; response: m [1/(kg·m²)]; 0: at the given acceleration. Throws Jam with the angle and the
+  // share of the friction coefficients beyond which there is no solution.
   Torque torque(const State& state, double response = 0) const;
-  // The same at a place that was read before, for who asks again and again there.
+  // The same with the table values at φ kept in `place` between calls.
   struct Place {
     double phi = std::numeric_limits<double>::quiet_NaN();
     double values[most_values];
@@ -134,15 +134,15 @@ class JointFriction {
     double by_applied[most_applied] = {};            // [m] or [1]
   };
   Slopes slopes(const State& state) const;
-  // How far all sides are from bearing nothing, with their signs; of order one.
+  // Signed, scaled contact force of every side; zero where the contact changes.
   void sides(const State& state, double* side) const;
-  // Reactions and friction loads in full: per joint R_x, R_y or N, M; per load q.
+  // All reactions and friction loads: per joint R_x, R_y or N, M; per load q.
   struct Solved {
     std::vector<double> reactions, loads;
-    double torque = 0, residual = 0;  // of the laws, relative to the largest load
+    double torque = 0, residual = 0;  // M [N·m]; residual of the laws, relative to the largest load
   };
   Solved solve(const State& state) const;
-  // What friction holds at rest the way the crank is about to move, direction ±1: −M, ∞ where it locks itself [N·m].
+  // Static friction torque −M against motion in this direction (±1) of the crank [N·m]; ∞: self-locking.
   double resting(double phi, double load, int direction, bool weightless, const double* applied = nullptr) const;
 
  private:
@@ -164,8 +164,8 @@ class JointFriction {
   int sides_ = 0;
 };
 
-// Joints that rub, as a mechanism has them: a table is made when somebody asks for it first. `second`: from pieces that
-// have nothing in common with the first's.
+// Friction in the joints of a mechanism; tables are made at the first request. `second`: a table with pieces independent
+// of the first.
 class JointFrictionSource {
  public:
   using Make = std::function<std::shared_ptr<const JointFriction>(bool second)>;

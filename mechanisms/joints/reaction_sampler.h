@@ -1,5 +1,5 @@
-// reaction_sampler.h — reactions of the joints that rub to ω² = 1, ε = 1, weights, unit load, a unit of what acts within and of friction at one
-// angle, by Newton–Euler in long double (newton_euler.h).
+// reaction_sampler.h — reactions of the joints with friction at one angle to ω² = 1, ε = 1, weights, unit load and units of
+// the forces within and of friction, by Newton–Euler in long double (newton_euler.h).
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace kurbel {
 
-// The linkage at φ with its output's centre of mass and load where they are.
+// The linkage with the centre of mass and the load of its output moved off the pin.
 PlanarLinkage placed_off_the_pin(PlanarLinkage linkage, const OffThePin& off);
 
 class ReactionSampler {
@@ -25,21 +25,21 @@ class ReactionSampler {
 
   // All coefficients, in the order of ReactionPlaces.
   void operator()(double phi, double* values) const;
-  using UnitReactions = std::vector<std::vector<long double>>;  // as unit_reactions has them
+  using UnitReactions = std::vector<std::vector<long double>>;  // see unit_reactions
   UnitReactions put(double phi, const PlanarLinkage& at, double* values) const;
-  // Velocity of the n-th joint that rubs, by ω.
+  // Velocity of the n-th joint with friction over ω.
   double rate(std::size_t joint, const PlanarLinkage& at) const;
-  std::size_t joint_of(std::size_t rubbing) const { return joint_[rubbing]; }  // among the linkage's
-  // By columns the greatest force in any joint, whether it rubs or not, and the greatest moment, in any case what that
-  // force has at the crank's length: beside these a coefficient may be rounding. A unit of load or of friction has at
-  // least what it would do at that length.
+  std::size_t joint_of(std::size_t rubbing) const { return joint_[rubbing]; }  // index in the linkage
+  // For each column the maximum force in any joint, with or without friction, and the maximum moment, at least that force
+  // times the crank's length: coefficients far below these are rounding errors. For units of load or friction at least
+  // their effect at that length.
   struct Greatest {
     std::vector<double> force, moment;
   };
   void widen(double phi, Greatest& to) const;
   double output_ratio(double phi) const { return static_cast<double>(linkage(phi).output[1]); }
 
-  std::vector<JointFriction::Joint> joints;  // that rub
+  std::vector<JointFriction::Joint> joints;  // with friction
 
  private:
   void add(int number, const RubbingJoint& r, bool slides);
@@ -49,7 +49,7 @@ class ReactionSampler {
   OffThePin off_;
   std::vector<ActsWithin> within_;
   ReactionPlaces places_;
-  std::vector<std::size_t> joint_;  // of the linkage, per joint that rubs
+  std::vector<std::size_t> joint_;  // index in the linkage, per joint with friction
   std::vector<FrictionPlace> loads_;
 };
 

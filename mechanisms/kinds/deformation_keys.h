@@ -11,7 +11,7 @@
 
 namespace kurbel {
 
-// What of a slider-crank is not ideal.
+// Clearances and flexibility of a slider-crank.
 struct Deformation {
   std::vector<JointClearance> clearances = {};
   std::optional<RodFlexibility> flexibility = {};
@@ -22,7 +22,7 @@ struct DeformationKeys {
 };
 Fields<DeformationKeys> deformation_fields();
 
-// What is wrong beside the slider-crank's data goes into the messages.
+// Faults other than those of the slider-crank's data go into the messages.
 Deformation deformation_of(const DeformationKeys& keys, const SliderCrankData& data, const Section& section,
                            Messages& messages);
 

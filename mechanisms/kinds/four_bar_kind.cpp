@@ -30,10 +30,8 @@ Fields<FourBar> four_bar_linkage() {
            &FourBar::ground_angle);
 }
 
-const Fields<Mounted<FourBar>>& four_bar_fields() {
-  static const auto made =
-      mounted(four_bar_linkage(), mounting("torque on the rocker, or a list of them", rocker_loads()));
-  return made;
+Fields<Mounted<FourBar>> four_bar_fields() {
+  return mounted(four_bar_linkage(), mounting("torque on the rocker, or a list of them", rocker_loads()));
 }
 
 }  // namespace

@@ -53,26 +53,32 @@ const Tables<RubbingJoint>& journals() {
 
 using Guide = SliderCrankJointKeys::Guide;
 
-void check_guide(const Reading<Guide>& guide) {
-  if (guide.rolling_arm > 0 && guide.roller_radius == 0)
-    guide.refuse(&RubbingJoint::rolling_arm, "rolling_arm without roller_radius; give the rollers' radius");
+// What is said of a joint that slides: its length from where, between which faces.
+template <class Joint>
+Fields<Joint>& add_sliding(Fields<Joint>& to, const std::string& slide, const std::string& from,
+                           const std::string& faces) {
+  return to
+      .add(defaulted("length", "m", "0 m", not_negative,
+                     "bearing length of " + slide + "; 0: its tilting is not considered"),
+           &Joint::length)
+      .add(defaulted("middle", "m", "0 m", any_number, "of that length, from the " + from), &Joint::middle)
+      .add(defaulted("width", "m", "0 m", not_negative, "between the two " + faces + ": lever of their friction"),
+           &Joint::width)
+      .add(defaulted("rolling_arm", "m", "0 m", not_negative,
+                     "lever arm k_r of rolling friction, for a " + slide.substr(slide.find(' ') + 1) + " on rollers"),
+           &Joint::rolling_arm)
+      .add(quantity("roller_radius", "m", positive, "of these rollers"), &Joint::roller_radius)
+      .check([](const Reading<Joint>& joint) {
+        if (joint.rolling_arm > 0 && joint.roller_radius == 0)
+          joint.refuse(&Joint::rolling_arm, "rolling_arm without roller_radius; give the rollers' radius");
+      });
 }
 
 Fields<Guide> guide() {
-  return Fields<Guide>()
-      .add(friction(), &RubbingJoint::friction)
-      .add(defaulted("length", "m", "0 m", not_negative,
-                     "bearing length of the slider; 0: its tilting is not considered"),
-           &RubbingJoint::length)
-      .add(defaulted("middle", "m", "0 m", any_number, "of that length, from the slider pin towards the extended end"),
-           &RubbingJoint::middle)
-      .add(defaulted("width", "m", "0 m", not_negative,
-                     "between the two guiding surfaces (bore of a cylinder): lever of their friction"),
-           &RubbingJoint::width)
-      .add(defaulted("rolling_arm", "m", "0 m", not_negative,
-                     "lever arm k_r of rolling friction, for a slider on rollers"),
-           &RubbingJoint::rolling_arm)
-      .add(quantity("roller_radius", "m", positive, "of these rollers"), &RubbingJoint::roller_radius)
+  Fields<Guide> fields;
+  fields.add(friction(), &Guide::friction);
+  return add_sliding(fields, "the slider", "slider pin towards the extended end",
+                     "guiding surfaces (bore of a cylinder)")
       .add(Fields<OffThePin>()
                .add(defaulted("slider_com", "m", "0 m", any_number,
                               "slider's centre of mass from its pin towards the extended end"),
@@ -80,8 +86,7 @@ Fields<Guide> guide() {
                .add(defaulted("force_offset", "m", "0 m", any_number,
                               "of the load's line from the slider pin, positive 90° ahead of the stroke"),
                     &OffThePin::load),
-           &Guide::off)
-      .check(check_guide);
+           &Guide::off);
 }
 
 // "crank pin" of crank_pin; of a linkage "pin A" of A and "slide ram" of ram.
@@ -175,29 +180,15 @@ const Tables<Reading<RubbingJoint>>& rubbing_tables() {
     using Joint = RubbingJoint;
     Tables<Reading<Joint>> tables;
     tables.named = true;
+    Fields<Joint> fields;
+    fields
+        .add(quantity("radius", "m", positive, "of a pin's journal; of a rolling bearing half its bore"),
+             &Joint::radius)
+        .add(friction(), &Joint::friction);
     tables.add("joint",
                "A joint with friction: of a pin ρ times the reaction, ρ = r sin(atan f) the radius of the friction "
                "circle; of a slide f N, from both edges where the reaction leaves its length",
-               Fields<Joint>()
-                   .add(quantity("radius", "m", positive, "of a pin's journal; of a rolling bearing half its bore"),
-                        &Joint::radius)
-                   .add(friction(), &Joint::friction)
-                   .add(defaulted("length", "m", "0 m", not_negative,
-                                  "bearing length of a slide; 0: its tilting is not considered"),
-                        &Joint::length)
-                   .add(defaulted("middle", "m", "0 m", any_number, "of that length, from the joint along the slide"),
-                        &Joint::middle)
-                   .add(defaulted("width", "m", "0 m", not_negative,
-                                  "between the two faces of a slide: lever of their friction"),
-                        &Joint::width)
-                   .add(defaulted("rolling_arm", "m", "0 m", not_negative,
-                                  "lever arm k_r of rolling friction, for a slide on rollers"),
-                        &Joint::rolling_arm)
-                   .add(quantity("roller_radius", "m", positive, "of these rollers"), &Joint::roller_radius)
-                   .check([](const Reading<Joint>& joint) {
-                     if (joint.rolling_arm > 0 && joint.roller_radius == 0)
-                       joint.refuse(&Joint::rolling_arm, "rolling_arm without roller_radius; give the rollers' radius");
-                   }));
+               add_sliding(fields, "a slide", "joint along the slide", "faces of a slide"));
     return tables;
   }();
   return made;

@@ -9,7 +9,7 @@
 
 namespace kurbel {
 
-// Of a slider-crank: main_bearing, crank_pin, slider_pin, guide: a table each, all without friction by default.
+// Joints of a slider-crank: main_bearing, crank_pin, slider_pin, guide; one table each, without friction by default.
 struct SliderCrankJointKeys {
   struct Guide : RubbingJoint {
     OffThePin off;
@@ -23,14 +23,14 @@ struct SliderCrankJointKeys {
 };
 Fields<SliderCrankJointKeys> joint_fields();
 MechanismJoints joints_of(const SliderCrankJointKeys& joints);
-// Null where none rubs.
+// Null if no joint has friction.
 std::shared_ptr<const JointFrictionSource> friction_of(const MechanismData& data, const MechanismJoints& joints,
                                                        const std::vector<ActsWithin>& within = {});
 
-// Of any other mechanism: tables by the joints' names, "crank_pin" or "crank pin"; of a linkage by the point of a pin and
-// the link that slides.
+// Joints of any other mechanism: tables by joint names, "crank_pin" or "crank pin"; for a linkage by the point of a pin or
+// the sliding link.
 const Tables<Reading<RubbingJoint>>& rubbing_tables();
-// None, with messages, where a name is no joint's or a value belongs to another sort of joint.
+// Empty, with messages, if a name is no joint or a value belongs to another type of joint.
 MechanismJoints joints_of(const MechanismData& data, const std::vector<Reading<RubbingJoint>>& joints);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// kinds.h — the executive mechanisms as a scene may name them, each with its table of keys.
+// kinds.h — the kinds of executive mechanisms, each with its table of keys.
 #pragma once
 
 #include <vector>

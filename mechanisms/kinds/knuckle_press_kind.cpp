@@ -32,10 +32,8 @@ Fields<Press> knuckle_press_linkage() {
            &Press::stroke_angle);
 }
 
-const Fields<Mounted<Press>>& knuckle_press_fields() {
-  static const auto made =
-      mounted(knuckle_press_linkage(), mounting("force on the ram, or a list of them", slider_loads()));
-  return made;
+Fields<Mounted<Press>> knuckle_press_fields() {
+  return mounted(knuckle_press_linkage(), mounting("force on the ram, or a list of them", slider_loads()));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "engine/numerics/deadline.h"
 #include "mechanisms/kinds/mechanism_keys.h"
 #include "mechanisms/linkage/travel.h"
-#include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -287,16 +286,14 @@ class LinkageForceBuilder {
 
 }  // namespace
 
-const Fields<LinkageForceKeys>& linkage_force_fields() {
-  static const auto made =
-      Fields<LinkageForceKeys>()
-          .add({.name = "springs", .doc = "springs and dampers between points, each under a name of its own"},
-               &LinkageForceKeys::springs, spring_tables())
-          .add({.name = "forces", .doc = "forces on points or between two, each under a name of its own"},
-               &LinkageForceKeys::forces, force_tables())
-          .add({.name = "couples", .doc = "torques between two links, each under a name of its own"},
-               &LinkageForceKeys::couples, couple_tables());
-  return made;
+Fields<LinkageForceKeys> linkage_force_fields() {
+  return Fields<LinkageForceKeys>()
+      .add({.name = "springs", .doc = "springs and dampers between points, each under a name of its own"},
+           &LinkageForceKeys::springs, spring_tables())
+      .add({.name = "forces", .doc = "forces on points or between two, each under a name of its own"},
+           &LinkageForceKeys::forces, force_tables())
+      .add({.name = "couples", .doc = "torques between two links, each under a name of its own"},
+           &LinkageForceKeys::couples, couple_tables());
 }
 
 std::vector<Mechanism> linkage_forces(const Section& section, const LinkageForceKeys& keys,

@@ -1,4 +1,4 @@
-// linkage_force_keys.h — springs, forces and couples within a linkage as a scene may give them.
+// linkage_force_keys.h — keys of springs, forces and couples within a linkage.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace kurbel {
 
-// Tables that the user names, all of one kind.
+// Tables of one kind with names given by the user.
 template <class K>
 Tables<Reading<K>> by_names(const char* name, const char* doc, const Fields<K>& fields) {
   Tables<Reading<K>> tables;
@@ -44,12 +44,12 @@ struct LinkageForceKeys {
   std::vector<Reading<PointForceKeys>> forces;
   std::vector<Reading<CoupleKeys>> couples;
 };
-const Fields<LinkageForceKeys>& linkage_force_fields();
+Fields<LinkageForceKeys> linkage_force_fields();
 
-// Each as a mechanism without inertia. What is wrong goes into the messages.
+// Each as a mechanism without inertia. Faults go into the messages.
 std::vector<Mechanism> linkage_forces(const Section& section, const LinkageForceKeys& keys,
                                       const std::shared_ptr<const Linkage>& linkage, double phase);
-// Adds an element for each on the node of the linkage, which the network has already.
+// Adds an element for each on the node of the linkage, which must be in the network.
 void put_linkage_forces(const Section& section, std::vector<Mechanism> forces, Network& net);
 
 }  // namespace kurbel

@@ -96,43 +96,38 @@ const Tables<Reading<LengthKeys>>& length_tables() {
   return made;
 }
 
-const Fields<LinkageKeys>& linkage_fields() {
-  static const auto made =
-      Fields<LinkageKeys>()
-          .add({.name = "points",
-                .doc = "the sketch: places of all points in any one position in which the linkage closes, A = [x, y]",
-                .required = true,
-                .effect = "variable_inertia multibody"},
-               &LinkageKeys::points, point_tables())
-          .add({.name = "unit", .doc = "of the sketch's coordinates", .required = true}, &LinkageKeys::unit,
-               {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}})
-          .add({.name = "links", .doc = "the moving links, each through points of the sketch", .required = true},
-               &LinkageKeys::links, link_tables())
-          .add({.name = "frame", .doc = "points that stand still: \"O C\"", .required = true}, &LinkageKeys::frame)
-          .add({.name = "slides", .doc = "links that slide on the frame or on a line of another link"},
-               &LinkageKeys::slides, slide_tables())
-          .add({.name = "lengths", .doc = "distances known better than by the sketch, which moves to them"},
-               &LinkageKeys::lengths, length_tables())
-          .add({.name = "driver", .doc = "the driving link, on the shaft; default: the first one"},
-               &LinkageKeys::driver)
-          .add({.name = "output",
-                .doc = "what the loads act on: a link that slides on the frame or rocks, or a point; default: the last "
-                       "link"},
-               &LinkageKeys::output)
-          .add(quantity(
-                   "output_along", "rad", any_number,
-                   "of a point as the output: the direction that its way and the loads count along; default: 0 deg"),
-               &LinkageKeys::output_along)
-          .add(gravity_key(), &LinkageKeys::gravity)
-          .add(defaulted("sketch_angle", "rad", "0 deg", any_number,
-                         "direction of the sketch's +x above the horizontal"),
-               &LinkageKeys::sketch_angle)
-          .add(mounting("force on an output that slides, along its way, or a list of them", slider_loads()),
-               &LinkageKeys::mounting)
-          .add({.name = "torque", .doc = "torque on an output that rocks, or a list of them"}, &LinkageKeys::torques,
-               rocker_loads())
-          .add(linkage_force_fields(), &LinkageKeys::within);
-  return made;
+Fields<LinkageKeys> linkage_fields() {
+  return Fields<LinkageKeys>()
+      .add({.name = "points",
+            .doc = "the sketch: places of all points in any one position in which the linkage closes, A = [x, y]",
+            .required = true,
+            .effect = "variable_inertia multibody"},
+           &LinkageKeys::points, point_tables())
+      .add({.name = "unit", .doc = "of the sketch's coordinates", .required = true}, &LinkageKeys::unit,
+           {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"in", 0.0254}})
+      .add({.name = "links", .doc = "the moving links, each through points of the sketch", .required = true},
+           &LinkageKeys::links, link_tables())
+      .add({.name = "frame", .doc = "points that stand still: \"O C\"", .required = true}, &LinkageKeys::frame)
+      .add({.name = "slides", .doc = "links that slide on the frame or on a line of another link"},
+           &LinkageKeys::slides, slide_tables())
+      .add({.name = "lengths", .doc = "distances known better than by the sketch, which moves to them"},
+           &LinkageKeys::lengths, length_tables())
+      .add({.name = "driver", .doc = "the driving link, on the shaft; default: the first one"}, &LinkageKeys::driver)
+      .add({.name = "output",
+            .doc = "what the loads act on: a link that slides on the frame or rocks, or a point; default: the last "
+                   "link"},
+           &LinkageKeys::output)
+      .add(quantity("output_along", "rad", any_number,
+                    "of a point as the output: the direction that its way and the loads count along; default: 0 deg"),
+           &LinkageKeys::output_along)
+      .add(gravity_key(), &LinkageKeys::gravity)
+      .add(defaulted("sketch_angle", "rad", "0 deg", any_number, "direction of the sketch's +x above the horizontal"),
+           &LinkageKeys::sketch_angle)
+      .add(mounting("force on an output that slides, along its way, or a list of them", slider_loads()),
+           &LinkageKeys::mounting)
+      .add({.name = "torque", .doc = "torque on an output that rocks, or a list of them"}, &LinkageKeys::torques,
+           rocker_loads())
+      .add(linkage_force_fields(), &LinkageKeys::within);
 }
 
 std::vector<std::string> words_in(const std::string& text) {
@@ -367,11 +362,9 @@ class SketchReader {
   bool sound_ = true;
 };
 
-void build_linkage(const Section& section, Network& net, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  auto keys = linkage_fields().read(section, messages);
+void build_linkage(const Section& section, const Reading<LinkageKeys>& keys, Network& net) {
   std::shared_ptr<const Linkage> linkage;
-  if (messages.all().size() == before) {
+  if (keys.sound()) {
     SketchReader reader(keys);
     if (const auto sketch = reader.read()) {
       linkage = std::make_shared<const Linkage>(*sketch);
@@ -383,25 +376,24 @@ void build_linkage(const Section& section, Network& net, Messages& messages) {
     net.ports[section.name] = {node, node};
     return;
   }
-  std::vector<Mechanism> forces = linkage_forces(section, keys.within, linkage, keys.mounting.phase);
-  for (const Mechanism& force : forces)
-    keys.mounting.within.push_back({force.name, *force.data.as<LinkageTravelData>()});
-  if (!keys.mounting.joints.empty() && forces.size() > JointFriction::most_applied)
+  Mounting mounting = keys.mounting;
+  std::vector<Mechanism> forces = linkage_forces(section, keys.within, linkage, mounting.phase);
+  for (const Mechanism& force : forces) mounting.within.push_back({force.name, *force.data.as<LinkageTravelData>()});
+  if (!mounting.joints.empty() && forces.size() > JointFriction::most_applied)
     keys.refuse(fmt::format("{} springs, forces and couples press on its joints with friction; at most {} may",
                             forces.size(), JointFriction::most_applied));
-  if (linkage->sketch().output.rocks()) keys.mounting.loads = keys.torques;
-  build_mechanism(section, LinkageData{linkage, linkage->sketch().gravity}, keys.mounting, {}, net, messages);
-  if (messages.all().size() == before) put_linkage_forces(section, std::move(forces), net);
+  if (linkage->sketch().output.rocks()) mounting.loads = keys.torques;
+  build_mechanism(section, LinkageData{linkage, linkage->sketch().gravity}, mounting, {}, net, keys.messages());
+  if (keys.sound()) put_linkage_forces(section, std::move(forces), net);
 }
 
 }  // namespace
 
 Kind linkage_kind() {
-  return on_a_shaft(
-      "linkage",
+  return kind_of<linkage_fields, build_linkage>(
+      on_a_shaft, "linkage",
       "any planar linkage, described by a sketch: points, links through them, pins and slides between links; "
-      "one link drives, φ is its angle from +x of the sketch. No cams and no gears within it",
-      linkage_fields().keys(), build_linkage);
+      "one link drives, φ is its angle from +x of the sketch. No cams and no gears within it");
 }
 
 }  // namespace kurbel

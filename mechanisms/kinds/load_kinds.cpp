@@ -6,14 +6,7 @@
 namespace kurbel {
 namespace {
 
-using PressLoad = LoadKeys<PressKeys>;
-using Constant = LoadKeys<ConstantForce>;
-using Opposing = LoadKeys<OpposingForce>;
-using Medium = LoadKeys<MediumResistance>;
-using Table = LoadKeys<TableKeys>;
-using Compressor = LoadKeys<CompressorKeys>;
-using Cylinder = LoadKeys<CylinderKeys>;
-using LinearMotor = LoadKeys<LinearMotorForce>;
+using namespace load_keys;
 
 // --- keys that several loads have ---
 

@@ -13,14 +13,7 @@
 namespace kurbel {
 namespace {
 
-using PressLoad = LoadKeys<PressKeys>;
-using Constant = LoadKeys<ConstantForce>;
-using Opposing = LoadKeys<OpposingForce>;
-using Medium = LoadKeys<MediumResistance>;
-using Table = LoadKeys<TableKeys>;
-using Compressor = LoadKeys<CompressorKeys>;
-using Cylinder = LoadKeys<CylinderKeys>;
-using LinearMotor = LoadKeys<LinearMotorForce>;
+using namespace load_keys;
 
 WorkingEnd working_end(bool from_greatest, const Mechanism& mechanism) {
   return {from_greatest ? mechanism.travel.greatest : mechanism.travel.least, from_greatest ? 1 : -1};

@@ -44,9 +44,8 @@ Fields<Shaper> shaper_linkage() {
            &Shaper::stroke_angle);
 }
 
-const Fields<Mounted<Shaper>>& quick_return_fields() {
-  static const auto made = mounted(shaper_linkage(), mounting("force on the ram, or a list of them", slider_loads()));
-  return made;
+Fields<Mounted<Shaper>> quick_return_fields() {
+  return mounted(shaper_linkage(), mounting("force on the ram, or a list of them", slider_loads()));
 }
 
 }  // namespace

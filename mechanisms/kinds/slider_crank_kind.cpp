@@ -17,40 +17,6 @@ namespace {
 
 using Crank = SliderCrankData;
 
-// A rod shorter than r + |e| lets the crank rock, if its pin comes within the rod's reach of the slider's line, and clearly
-// so: a stop that is hardly one is a change point that rounding would choose the branch of.
-void add_rod_faults(const SliderCrankData& d, DataFaults& faults) {
-  constexpr double hardly = 1e-6;
-  const double reach = d.radius + std::abs(d.offset), near = std::abs(d.offset) - d.radius;
-  const auto close_to = [&](double length) { return std::abs(d.rod_length - length) <= hardly * reach; };
-  if (d.rod_length <= near)
-    faults.push_back({"rod", fmt::format("rod = {}; must be > |offset| - radius = {}, else the rod cannot reach the "
-                                         "slider's line; lengthen the rod or the crank",
-                                         in_mm(d.rod_length), in_mm(near))});
-  else if (d.rocks() && (close_to(reach) || close_to(std::abs(near))))
-    faults.push_back(
-        {"rod", fmt::format("rod = {} differs by only {:.1e} of itself from the length at which crank and rod pass "
-                            "upright, so that rounding would choose the branch; lengthen or shorten it clearly",
-                            in_mm(d.rod_length),
-                            std::abs(d.rod_length - (close_to(reach) ? reach : std::abs(near))) / d.rod_length)});
-  else if (d.folds && !d.changes() && !d.rocks())
-    faults.push_back({"branch", fmt::format("branch = \"folds\" needs a rod of at most radius + |offset| = {}; the rod "
-                                            "is {} long: leave the branch out",
-                                            in_mm(reach), in_mm(d.rod_length))});
-}
-
-// The rod must reach the slider's line, and no body may have less inertia than its mass demands.
-DataFaults faults_of(const SliderCrankData& d) {
-  DataFaults faults;
-  add_rod_faults(d, faults);
-  const double least = d.crank_mass * d.crank_com * d.crank_com;
-  if (d.crank_inertia < least * (1 - 1e-12))
-    faults.push_back({"crank_inertia", fmt::format("crank_inertia = {:.6g} kg·m²; is about the axis and must be ≥ "
-                                                   "crank_mass · crank_com² = {:.6g} kg·m²",
-                                                   d.crank_inertia, least)});
-  return faults;
-}
-
 Key inertia_key(const char* name, const char* doc) { return defaulted(name, "kg*m2", "0 kg*m2", not_negative, doc); }
 
 Fields<Crank> slider_crank_linkage() {
@@ -118,15 +84,14 @@ struct SliderCrankKeys : Mounted<SliderCrankData> {
   DeformationKeys deformation;
 };
 
-const Fields<SliderCrankKeys>& slider_crank_fields() {
-  static const auto made = Fields<SliderCrankKeys>()
-                               .add(slider_crank_linkage(), &SliderCrankKeys::linkage)
-                               .add(mounting_without_joints("force on the slider, or a list of them", slider_loads()),
-                                    &SliderCrankKeys::mounting)
-                               .add(firing(), &SliderCrankKeys::firing)
-                               .add(joint_fields(), &SliderCrankKeys::joints)
-                               .add(deformation_fields(), &SliderCrankKeys::deformation);
-  return made;
+Fields<SliderCrankKeys> slider_crank_fields() {
+  return Fields<SliderCrankKeys>()
+      .add(slider_crank_linkage(), &SliderCrankKeys::linkage)
+      .add(mounting_without_joints("force on the slider, or a list of them", slider_loads()),
+           &SliderCrankKeys::mounting)
+      .add(firing(), &SliderCrankKeys::firing)
+      .add(joint_fields(), &SliderCrankKeys::joints)
+      .add(deformation_fields(), &SliderCrankKeys::deformation);
 }
 
 // Angle of the shaft at which this cylinder fires; none, with a message, where order and intervals do not fit.
@@ -190,11 +155,11 @@ bool put_phase(const Section& s, const FiringKeys& f, Mounting& mounting, Messag
   return true;
 }
 
-void build_slider_crank(const Section& s, Network& net, Messages& messages) {
-  const std::size_t before = messages.all().size();
-  auto mechanism = slider_crank_fields().read(s, messages);
-  put_phase(s, mechanism.firing, mechanism.mounting, messages);
-  const bool sound = messages.all().size() == before;
+void build_slider_crank(const Section& s, const Reading<SliderCrankKeys>& mechanism, Network& net) {
+  Messages& messages = mechanism.messages();
+  Mounting mounting = mechanism.mounting;
+  put_phase(s, mechanism.firing, mounting, messages);
+  const bool sound = mechanism.sound();
   const SliderCrankData& d = mechanism.linkage;
   DataFaults faults = faults_of(d);
   const bool friction = mechanism.joints.rub();
@@ -214,16 +179,16 @@ void build_slider_crank(const Section& s, Network& net, Messages& messages) {
              "rod = {} is shorter than radius + |offset|, so that the crank rocks; gaps and bending then decide how "
              "far it goes, beyond any arc that is known: lengthen the rod, or omit clearance and rod_flexibility",
              in_mm(d.rod_length))});
-  build_mechanism(s, d, mechanism.mounting, faults, net, messages, joints_of(mechanism.joints),
+  build_mechanism(s, d, mounting, faults, net, messages, joints_of(mechanism.joints),
                   deformation_of(mechanism.deformation, d, s, messages));
 }
 
 }  // namespace
 
 Kind slider_crank_kind() {
-  return on_a_shaft("slider-crank",
-                    "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)",
-                    slider_crank_fields().keys(), build_slider_crank);
+  return kind_of<slider_crank_fields, build_slider_crank>(
+      on_a_shaft, "slider-crank",
+      "crank, rod and slider; φ = 0 with the crank along the stroke (extended, without offset)");
 }
 
 }  // namespace kurbel

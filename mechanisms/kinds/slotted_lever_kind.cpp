@@ -28,10 +28,8 @@ Fields<Lever> slotted_lever_linkage() {
            &Lever::ground_angle);
 }
 
-const Fields<Mounted<Lever>>& slotted_lever_fields() {
-  static const auto made =
-      mounted(slotted_lever_linkage(), mounting("torque on the lever, or a list of them", rocker_loads()));
-  return made;
+Fields<Mounted<Lever>> slotted_lever_fields() {
+  return mounted(slotted_lever_linkage(), mounting("torque on the lever, or a list of them", rocker_loads()));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// link_forces.h — what acts along a travel within a linkage, as a mechanism without inertia.
+// link_forces.h — forces and torques along a travel within a linkage, as mechanisms without inertia.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace kurbel {
 
-// What this element does within a linkage; null: it is something else.
+// The force within a linkage of this element; null: the element is something else.
 const Mechanism* link_force_of(const Network::ShaftElement& element);
-// Those that act within this linkage: their elements stand behind its own. "press" has "press.return".
+// The forces within this linkage; their elements follow its own. "press" has "press.return".
 std::vector<const Mechanism*> link_forces_of(const Network& network, const std::string& component);
 
-// What a force or torque [N], [N·m] of this value along the travel does to the linkage's bodies, which stand in these poses.
+// Adds the actions of a force [N] or torque [N·m] along the travel on the bodies of the linkage in these poses.
 void add_actions(const LinkageTravelData& along, double value, const LinkPoses& poses, const PlanarLinkage& linkage,
                  std::vector<AppliedForce>& to);
 

@@ -1,8 +1,8 @@
-// assur_groups.h — a linkage taken apart: its joints, and the Assur groups that its links form behind the driving link.
+// assur_groups.h — structure of a linkage: its joints, and the Assur groups that its links form after the driving link.
 //
-// A group is a set of links that adds no degree of freedom, 3 n = 2 p with its joints to the links before it, and holds no
-// smaller one (Assur, 1914; theory 9.16). Two links make a dyad, named by its joints from outside to outside: RRR, RRP,
-// RPR, PRP, RPP (R a pin, P a slide). A set with 3 n < 2 p has more joints than it needs; it moves if its lengths allow it.
+// A group is a smallest set of links that adds no degree of freedom: 3 n = 2 p, with the joints to the links before it
+// (Assur, 1914; theory 9.16). Two links form a dyad, named by its joints from one outer joint to the other: RRR, RRP,
+// RPR, PRP, RPP (R: pin, P: slide). A set with 3 n < 2 p has redundant joints; it moves only for special lengths.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@
 
 namespace kurbel {
 
-// From the sketch's axes to the mechanism's: origin in the driving link's bearing, +x along the output's direction.
+// From the axes of the sketch to those of the mechanism: origin in the driving link's bearing, +x along the output.
 class SketchAxes {
  public:
   SketchAxes() = default;
   SketchAxes(const LinkageSketch& sketch, int bearing);
   SketchSpot spot(double x, double y) const;  // [m] → [m]
   SketchSpot direction(double angle) const;   // [rad] → unit vector
-  double turned() const { return turned_; }   // +x of the mechanism from the sketch's [rad]
+  double turned() const { return turned_; }   // angle of the mechanism's +x in the sketch [rad]
 
  private:
   long double x_ = 0, y_ = 0, cos_ = 1, sin_ = 0;
@@ -31,8 +31,8 @@ class SketchAxes {
 struct LinkageJoint {
   int a = LinkageSketch::frame, b = 0;
   bool slides = false;
-  int point = 0;     // of the sketch: the pin, or what slides
-  int carrier = 0;   // the body that has it; of a slide the other one has the line
+  int point = 0;     // point of the sketch: the pin, or the sliding point
+  int carrier = 0;   // the body with the point; for a slide, the other body has the line
   SketchSpot at;     // the point
   SketchSpot along;  // of the line, a unit vector
 
@@ -42,11 +42,11 @@ struct LinkageJoint {
 struct AssurGroup {
   enum class Form { rrr, rrp, rpr, prp, rpp, newton };
   Form form = Form::newton;
-  std::vector<int> links;   // of a dyad: its first and its second
-  std::vector<int> joints;  // of a dyad: the first's outer one, the inner one, the second's outer one
+  std::vector<int> links;   // of a dyad: first and second link
+  std::vector<int> joints;  // of a dyad: outer joint of the first link, inner joint, outer joint of the second link
   int group_class = 2;      // II: dyads; III: a link with three joints or more; IV …: sides of the closed contour
-  int order = 2;            // joints to the links before it
-  int superfluous = 0;      // 2 p − 3 n: equations that say nothing new if the linkage moves at all
+  int order = 2;            // number of joints to the links before it
+  int superfluous = 0;      // 2 p − 3 n: number of redundant closure equations, if the linkage can move
 
   bool is_dyad() const { return form != Form::newton; }
 };
@@ -54,13 +54,13 @@ struct AssurGroup {
 struct LinkageStructure {
   int bearing = -1;  // point of the driving link's bearing
   SketchAxes axes;
-  std::vector<LinkageJoint> joints;  // the driving link's bearing first, then those that others have on that link
+  std::vector<LinkageJoint> joints;  // the driving link's bearing first, then its other joints
   std::vector<AssurGroup> groups;
   std::vector<int> order;  // links: the driving one, then group by group
   int freedom = 0;         // 3 n − 2 p of the whole linkage
 };
 
-// Joints and groups. What keeps the driving link from moving all others, and nothing else, goes into the faults.
+// Joints and groups. `faults` receives only what prevents the driving link from moving all the others.
 LinkageStructure structure_of(const LinkageSketch& sketch, LinkageFaults& faults);
 
 // "RRR", "class III of order 3"

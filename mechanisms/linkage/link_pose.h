@@ -1,4 +1,4 @@
-// link_pose.h — where a link of a linkage stands: the image of its sketch, as a series in the driving link's angle.
+// link_pose.h — pose of a link: the image of its sketch, as a series in the angle of the driving link.
 #pragma once
 
 #include <cmath>
@@ -31,14 +31,14 @@ struct LinkPose {
     return {turn.cos * x - turn.sin * y, turn.sin * x + turn.cos * y};
   }
   Path operator()(SketchSpot s) const { return at + turned(s); }
-  // With this rotation, and a spot where it is known to be.
+  // The pose with this rotation in which the spot s is at `place`.
   static LinkPose through(const Direction& turn, SketchSpot s, const Path& place) {
     LinkPose pose;
     pose.turn = turn;
     pose.at = place - pose.turned(s);
     return pose;
   }
-  // The rotation that takes the sketch's vector `from` to `to`, of the same length.
+  // The rotation from the sketch's vector `from` to `to`, which has the same length.
   static Direction rotation(SketchSpot from, const Path& to) {
     const Taylor square(dot(from, from)), x(from.x), y(from.y);
     return {(to.x * x + to.y * y) / square, (to.y * x - to.x * y) / square};

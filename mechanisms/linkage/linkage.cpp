@@ -154,11 +154,6 @@ LinkPoses Linkage::poses(long double phi) const {
   return std::move(closed.poses);
 }
 
-bool Linkage::is_redundant() const {
-  return std::any_of(structure_.groups.begin(), structure_.groups.end(),
-                     [](const AssurGroup& g) { return g.superfluous > 0; });
-}
-
 SketchSpot Linkage::spot_of(int point) const {
   const LinkageSketch::Point& p = sketch_.points[place_in_list(point)];
   return structure_.axes.spot(p.x, p.y);

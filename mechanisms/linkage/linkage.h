@@ -1,8 +1,8 @@
-// linkage.h — a planar linkage over the angle of its driving link: where every link stands, how far the driving link turns.
+// linkage.h — a planar linkage over the angle of its driving link: poses of the links, range of the driving link.
 //
-// φ is the angle of the driving link from +x of the sketch, counter-clockwise: of the way from its bearing to the next of
-// its points. Axes of the mechanism: origin in that bearing; +x along the output's direction, of an output that rocks +x of
-// the sketch.
+// φ is the angle of the driving link from +x of the sketch, counter-clockwise, measured at the line from its bearing to the
+// next of its points. Axes of the mechanism: origin in that bearing; +x along the output's direction, for a rocking output
+// +x of the sketch.
 #pragma once
 
 #include <memory>
@@ -17,48 +17,46 @@
 
 namespace kurbel {
 
-// The least margin of a dyad along the motion (dyads.h), and where.
+// The minimum margin of a dyad along the motion (dyads.h), and its φ.
 struct LeastMargin {
   long double margin = 1, phi = 0;  // 1, [rad]
 };
 
 class Linkage {
  public:
-  // Takes it apart, goes through a turn of the driving link and says in faults() what is wrong; costs some milliseconds.
+  // Finds the structure, follows the motion over a turn of the driving link, fills faults(); takes some milliseconds.
   explicit Linkage(LinkageSketch sketch);
 
   const LinkageFaults& faults() const { return faults_; }
   const LinkageSketch& sketch() const { return sketch_; }
 
-  // --- of a linkage without faults ---
+  // --- for linkages without faults ---
   const LinkageStructure& structure() const { return structure_; }
   long double drawn_at() const { return drawn_at_; }           // φ of the sketch [rad]
-  const std::optional<CrankArc>& arc() const { return arc_; }  // of a driving link that locks; empty: it turns
-  int turns() const { return turns_; }                         // of the driving link until all stands where it stood
-  // Where all links stand. Throws std::runtime_error with the group and φ where it cannot be closed.
+  const std::optional<CrankArc>& arc() const { return arc_; }  // range of a driving link that locks, else empty
+  int turns() const { return turns_; }                         // turns of the driving link in a cycle
+  // Poses of all links. Throws std::runtime_error with the group and φ if the linkage cannot be closed there.
   LinkPoses poses(long double phi) const;
-  // Groups that hold more joints than they need; their reactions are not determined.
-  bool is_redundant() const;
 
-  SketchSpot spot_of(int point) const;      // of the sketch's point, in the mechanism's axes [m]
+  SketchSpot spot_of(int point) const;      // a point of the sketch in the mechanism's axes [m]
   SketchSpot centre_of(int link) const;     // centre of mass [m]
-  SketchSpot direction_of(int link) const;  // from its first point to its second one, a unit vector; of one point: +x
-  int output_point() const;                 // of an output that rocks: a bearing of it, else its first point
-  const std::vector<LeastMargin>& least_margins() const { return least_; }  // in the order of the groups; dyads alone
+  SketchSpot direction_of(int link) const;  // unit vector from its first to its second point; +x if it has one point
+  int output_point() const;                 // of a rocking output: its bearing, else its first point
+  const std::vector<LeastMargin>& least_margins() const { return least_; }  // in the order of the groups; only dyads
 
-  // Names that last as long as the program: of a link, of a joint ("pin A", "slide ram").
+  // Names of a link and of a joint ("pin A", "slide ram"), valid as long as the program runs.
   const char* link_name(int link) const { return link_names_[static_cast<std::size_t>(link)]; }
   const char* joint_name(std::size_t joint) const { return joint_names_[joint]; }
 
   // "class II: RRR (coupler, rocker), RRP (rod, ram); degrees of freedom 3·5 − 2·7 = 1"
   std::string structure_in_words() const;
-  // "coupler and rocker lie in one line": where a driving link that locks does so.
+  // Position in which the driving link locks, such as "coupler and rocker lie in one line".
   std::string locks_in_words() const;
   // "transmission angle of RRR (coupler, rocker) at least 41.2° (φ = 0°)"
   std::vector<std::string> transmission_in_words() const;
 
  private:
-  using Shifts = std::vector<std::vector<LinkShift>>;  // of the groups by Newton's method, in their order
+  using Shifts = std::vector<std::vector<LinkShift>>;  // of the groups solved by Newton's method, in their order
   struct Node {
     long double phi = 0;
     Shifts shifts;
@@ -67,7 +65,7 @@ class Linkage {
     explicit Closed(std::size_t links) : poses(links) {}
     LinkPoses poses;
     Shifts shifts;
-    std::vector<long double> margin;  // by group; of one by Newton's method 1
+    std::vector<long double> margin;  // by group; 1 for groups solved by Newton's method
     int failed = -1;                  // the group that cannot be closed
     GroupClosure how;                 // of that group
   };
@@ -79,7 +77,7 @@ class Linkage {
   bool start_at_sketch(Node& node);
   struct Way {
     std::vector<Node> nodes;
-    std::optional<Closed> stopped;  // by what
+    std::optional<Closed> stopped;  // the position that could not be closed
   };
   Way march(const Node& from, long double angle) const;
   void explore();
@@ -96,14 +94,14 @@ class Linkage {
   LinkageFaults faults_;
   std::vector<const char*> link_names_, joint_names_;
   long double drawn_at_ = 0, size_ = 0;
-  std::vector<Node> nodes_;  // ascending in φ; of one that turns over its cycle
+  std::vector<Node> nodes_;  // ascending in φ; over the cycle if the driving link turns fully
   std::optional<CrankArc> arc_;
   std::string lower_lock_, upper_lock_;
   int turns_ = 1;
   std::vector<LeastMargin> least_;
 };
 
-// As a kind of mechanism: copies share the linkage.
+// Data of this kind of mechanism; copies share the linkage.
 struct LinkageData {
   std::shared_ptr<const Linkage> linkage;  // without faults
   double gravity = 0;                      // [m/s²], ≥ 0
@@ -114,7 +112,7 @@ std::string locks_of(const LinkageData& data);
 int turns_of(const LinkageData& data);
 double drawn_at(const LinkageData& data);  // φ of the sketch [rad]
 std::vector<std::string> words_about(const LinkageData& data);
-// Why reactions have no values; empty: they have.
+// The reason why reactions are undetermined; empty: they are determined.
 std::string undetermined_reactions(const LinkageData& data);
 
 }  // namespace kurbel

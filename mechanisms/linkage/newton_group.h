@@ -1,9 +1,8 @@
-// newton_group.h — a group of any class by Newton's method on its closures, with its series in the driving link's angle.
+// newton_group.h — a group of any class by Newton's method on its closures, as series in the driving link's angle.
 //
-// Unknowns of each link: the shift of one of its points and its rotation, both from the sketch. A pin gives two closures
-// (the places differ in x, in y), a slide two (the directions differ, the point leaves the line). Solved in the sense of
-// least squares, so that closures that say nothing new do no harm; the series follow from the same matrix, order by order
-// (theory 9.18):
+// Unknowns of each link: the displacement of one of its points and its rotation, both from the sketch. A pin gives two
+// closures (differences in x and y), a slide two (difference of directions, distance of the point from the line). The
+// least-squares solution allows redundant closures; the series follow from the same matrix, order by order (theory 9.18):
 //     J u_k = −(coefficient k of the closures with u_k = 0)
 #pragma once
 
@@ -20,16 +19,16 @@ struct LinkShift {
 
 struct GroupClosure {
   bool closed = false;
-  long double misfit = 0;  // of closures that are too many, where the others are kept best [m]
-  bool singular = false;   // Newton's matrix has no full rank
+  long double misfit = 0;  // residual of redundant closures in the least-squares solution [m]
+  bool singular = false;   // Newton's matrix is rank deficient
 };
 
-// Adds the poses of the group's links. `shifts`: one for each of the links, near the solution by their values; then the
-// solution's series. `size` [m]: a length of the linkage.
+// Adds the poses of the group's links. `shifts`: one for each link; on entry values near the solution, on return the
+// series of the solution. `size` [m]: a characteristic length of the linkage.
 GroupClosure close_by_newton(const AssurGroup& group, const std::vector<LinkageJoint>& joints, long double size,
                              LinkPoses& poses, std::vector<LinkShift>& shifts);
 
-// Independent closures of all joints in the position of the sketch.
+// Number of independent closures of all joints in the position of the sketch.
 int closure_rank(const LinkageStructure& structure);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// sketch.h — a planar linkage as it is described: the places of its points in one position, links, slides, driving link.
+// sketch.h — description of a planar linkage: positions of its points in one configuration, links, slides, driving link.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace kurbel {
 
-// Axes of the sketch; any position in which the linkage closes will do. A link is a rigid body through its points; links
-// (and the frame) that share a point are pinned there, three links by two pins.
+// In the axes of the sketch; any configuration in which the linkage closes is allowed. A link is a rigid body through its
+// points; links (and the frame) with a common point are pinned there, three links by two pins.
 struct LinkageSketch {
-  static constexpr int frame = -1;  // the index of the body that stands still
+  static constexpr int frame = -1;  // index of the fixed body
   static constexpr int most_links = 16, most_points = 64;
   struct Point {
     std::string name;
@@ -22,20 +22,20 @@ struct LinkageSketch {
     double com_x = 0, com_y = 0;  // centre of mass, in the sketch [m]
     double inertia = 0;           // about its centre of mass [kg·m²], ≥ 0
   };
-  // The first point of `link` stays on a line of `on`, and the two do not turn against each other.
+  // The first point of `link` stays on a line of `on`, without relative rotation of the two.
   struct Slide {
     int link = 0, on = frame;
     double angle = 0;  // of the line from +x in the sketch [rad]
   };
-  // The way of a point of `link` along a direction, or the rotation of `link`: the angle of its first point's way to its
-  // second one from +x.
+  // The displacement of a point of `link` along a direction, or the rotation of `link`: the angle from +x of the line from
+  // its first to its second point.
   struct Output {
     int link = 0;
     int point = -1;    // −1: it rocks
     double angle = 0;  // of the direction from +x in the sketch [rad]
     bool rocks() const { return point < 0; }
   };
-  // A distance that is known better than by the sketch.
+  // A distance given more precisely than by the sketch.
   struct Length {
     int from = 0, to = 0;  // points
     double value = 0;      // [m], > 0
@@ -60,16 +60,16 @@ struct LinkageSketch {
   const std::string& name_of(int body) const;  // "frame", "rocker"
 };
 
-// What is wrong with a linkage.
+// A fault of a linkage.
 struct LinkageFault {
   std::string at;    // the part of the description: "points", "links", "slides", "lengths.AB", "links.rod"
   std::string text;  // what, got, allowed, next step
 };
 using LinkageFaults = std::vector<LinkageFault>;
 
-// Moves the sketch's points by as little as makes these lengths true and leaves all others of every link as they are
-// drawn, and the frame where it stands; centres of mass go with their links. Faults: lengths of no link, lengths that
-// say the same more than once, lengths with which the linkage does not close.
+// Moves the points of the sketch by the least amount that satisfies these lengths; all other lengths of the links and the
+// frame stay as drawn; centres of mass move with their links. Faults: lengths between points without a common link,
+// redundant lengths, lengths with which the linkage does not close.
 LinkageFaults take_lengths(LinkageSketch& sketch, const std::vector<LinkageSketch::Length>& lengths);
 
 }  // namespace kurbel

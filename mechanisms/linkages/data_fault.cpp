@@ -23,22 +23,7 @@ bool is_drag_link(const CrankRockerLoop& l) {
 
 std::string in_mm(double metres) { return fmt::format("{:.6g} mm", metres * 1e3); }
 
-void DataChecks::finite(const char* key, double value, const char* unit) {
-  if (!std::isfinite(value)) add(key, fmt::format("{} = {} {}; must be finite", key, value, unit));
-}
-void DataChecks::positive(const char* key, double value, const char* unit) {
-  if (!(value > 0 && std::isfinite(value)))
-    add(key, fmt::format("{} = {:.6g} {}; must be > 0 {}", key, value, unit, unit));
-}
-void DataChecks::not_negative(const char* key, double value, const char* unit) {
-  if (!(value >= 0 && std::isfinite(value)))
-    add(key, fmt::format("{} = {:.6g} {}; must be >= 0 {}", key, value, unit, unit));
-}
-
 void DataChecks::pivoted(const std::string& name, const LinkBody& link) {
-  not_negative((name + "_mass").c_str(), link.mass, "kg");
-  finite((name + "_com").c_str(), link.com, "m");
-  not_negative((name + "_inertia").c_str(), link.inertia, "kg m2");
   const double least = link.mass * link.com * link.com;
   if (link.inertia < least * (1 - 1e-12))
     add(name + "_inertia", fmt::format("{0}_inertia = {1:.6g} kg·m²; is about its fixed bearing and must be ≥ "
@@ -47,9 +32,6 @@ void DataChecks::pivoted(const std::string& name, const LinkBody& link) {
 }
 
 void DataChecks::floating(const std::string& name, const LinkBody& link, double carried_mass) {
-  not_negative((name + "_mass").c_str(), link.mass, "kg");
-  finite((name + "_com").c_str(), link.com, "m");
-  not_negative((name + "_inertia").c_str(), link.inertia, "kg m2");
   if (link.inertia > 0 && link.mass + carried_mass == 0)
     add(name + "_inertia", fmt::format("{0}_inertia = {1:.6g} kg·m² without mass; give {0}_mass, or leave the inertia "
                                        "out",
@@ -151,7 +133,7 @@ void check_loop_closes(const CrankRockerLoop& l, DataChecks& checks) {
   }
 }
 
-void throw_if_any(const char* mechanism, const DataFaults& faults) {
+void throw_if_any(const std::string& mechanism, const DataFaults& faults) {
   if (!faults.empty()) throw std::invalid_argument(fmt::format("{}: {}", mechanism, faults.front().text));
 }
 

@@ -1,4 +1,4 @@
-// data_fault.h — what is wrong with a mechanism's data, in words, and the checks that mechanisms share.
+// data_fault.h — faults of a mechanism's data with messages, and the checks shared by mechanisms.
 #pragma once
 
 #include <string>
@@ -14,13 +14,10 @@ struct DataFault {
 };
 using DataFaults = std::vector<DataFault>;
 
-// Collects faults of the values one by one.
+// Collects what is wrong with values together: of each alone the domain stands in its key (mechanisms/kinds).
 class DataChecks {
  public:
-  void finite(const char* key, double value, const char* unit);
-  void positive(const char* key, double value, const char* unit);
-  void not_negative(const char* key, double value, const char* unit);
-  // Mass, centre of mass and inertia; keys are name_mass, name_com, name_inertia.
+  // Of mass, centre of mass and inertia together; keys are name_mass, name_com, name_inertia.
   void pivoted(const std::string& name, const LinkBody& link);                            // inertia about its bearing
   void floating(const std::string& name, const LinkBody& link, double carried_mass = 0);  // central inertia
   void add(const std::string& key, std::string text) { faults_.push_back({key, std::move(text)}); }
@@ -32,30 +29,30 @@ class DataChecks {
   DataFaults faults_;
 };
 
-// Links of the loop crank – coupler – rocker – ground; the names are those of a scene's keys.
+// Links of the loop crank – coupler – rocker – ground, and their keys in the scene.
 struct CrankRockerLoop {
   double crank, coupler, rocker, ground;  // [m], > 0
   const char *crank_name, *coupler_name, *rocker_name, *ground_name;
 };
-// The crank turns fully and the rocker rocks (Grashof, 1883): crank + any other link < the sum of the two left.
+// The crank turns fully and the rocker rocks (Grashof, 1883): crank + any other link < sum of the remaining two.
 void check_crank_rocker(const CrankRockerLoop& loop, DataChecks& checks);
-// The loop can be closed, and links that pass through one line, or hardly do not, do so clearly.
+// The loop can be closed, and its lengths are not ambiguously near to those with a change point.
 void check_loop_closes(const CrankRockerLoop& loop, DataChecks& checks);
 
 // Throws std::invalid_argument with the first fault.
-void throw_if_any(const char* mechanism, const DataFaults& faults);
+void throw_if_any(const std::string& mechanism, const DataFaults& faults);
 
 // "12.5 mm"
 std::string in_mm(double metres);
 
-// Least and greatest sine of the angles from … to (from ≤ to).
+// Minimum and maximum sine of the angles from … to (from ≤ to).
 struct Range {
   double least, greatest;
 };
 Range sine_range(double from, double to);
 
-// Where two links of lengths a from A and b from B meet, left of the directed line A → B or right of it. The circles
-// must cut each other.
+// Point at the distance a_length from a and b_length from b, left or right of the directed line a → b. The circles must
+// intersect.
 PlanePoint meeting_point(PlanePoint a, double a_length, PlanePoint b, double b_length, bool left);
 
 }  // namespace kurbel

@@ -9,21 +9,13 @@ namespace kurbel {
 
 DataFaults faults_of(const FourBarData& d) {
   DataChecks checks;
-  checks.positive("crank", d.crank, "m");
-  checks.positive("coupler", d.coupler, "m");
-  checks.positive("rocker", d.rocker, "m");
-  checks.positive("ground", d.ground, "m");
   checks.pivoted("crank", d.crank_body);
   checks.floating("coupler", d.coupler_body);
   checks.pivoted("rocker", d.rocker_body);
-  checks.not_negative("gravity", d.gravity, "m/s2");
-  checks.finite("ground_angle", d.ground_angle, "rad");
   if (checks.sound())
     check_loop_closes({d.crank, d.coupler, d.rocker, d.ground, "crank", "coupler", "rocker", "ground"}, checks);
   return checks.take();
 }
-
-void validate(const FourBarData& d) { throw_if_any("four-bar", faults_of(d)); }
 
 std::vector<double> values_of(const FourBarData& d) {
   std::vector<double> values = {d.crank, d.coupler, d.rocker, d.ground, double(d.crossed), d.gravity, d.ground_angle};

@@ -7,14 +7,14 @@
 //            O──────────D── x  output: the rocker's angle ψ from +x, counter-clockwise
 //
 // φ is measured from +x to OA, counter-clockwise. Branches: open, B left of the line A → D; crossed, B right of it, which
-// is the mirror image run backwards. The rocker rocks (the crank is the shortest link: crank–rocker, 0 < |ψ| < π) or goes
-// round with the crank (the ground is: drag link, double crank).
-// A crank that cannot turn fully (double and triple rockers) rocks within CrankArc, on the branch that is given.
+// is the mirror image in reverse. The rocker rocks (shortest link: crank; crank–rocker, 0 < |ψ| < π) or turns fully with
+// the crank (shortest link: ground; drag link, double crank).
+// A crank that cannot turn fully (double and triple rockers) rocks within CrankArc, on the given branch.
 //
-// Where two links are as long as the two others (crank + ground = coupler + rocker, …) all pass through one line: a
-// change point. The motion goes on smoothly there; the branch is that of 0 < φ < π. Open parallelogram: ψ = φ; crossed:
-// the antiparallelogram. Kites whose crank is as long as the ground (or with one change point a turn) come back after two
-// turns (mechanisms/loops).
+// If two links together are as long as the other two (crank + ground = coupler + rocker, …), all links pass through one
+// line: a change point. The motion is continued smoothly; the branch is that of 0 < φ < π. Open parallelogram: ψ = φ;
+// crossed: the antiparallelogram. The cycle of kites with the crank as long as the ground (or with one change point per
+// turn) is two turns (mechanisms/loops).
 #pragma once
 
 #include <optional>
@@ -38,12 +38,11 @@ struct FourBarData {
 };
 
 DataFaults faults_of(const FourBarData& data);
-void validate(const FourBarData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const FourBarData& data);  // all of them
 LinkageDrawing drawing_of(const FourBarData& data);
-std::optional<CrankArc> arc_of(const FourBarData& data);  // of a crank that rocks
+std::optional<CrankArc> arc_of(const FourBarData& data);  // range of a rocking crank
 
-// Bodies: crank, coupler, rocker. For data without faults.
+// Bodies: crank, coupler, rocker. The data must be without faults.
 PlanarLinkage linkage_of(const FourBarData& data, long double phi);
 
 }  // namespace kurbel

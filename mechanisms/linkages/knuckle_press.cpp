@@ -68,25 +68,13 @@ void check_geometry(const KnucklePressData& d, DataChecks& checks) {
 
 DataFaults faults_of(const KnucklePressData& d) {
   DataChecks checks;
-  checks.positive("radius", d.radius, "m");
-  checks.positive("rod", d.rod, "m");
-  checks.finite("bearing_x", d.bearing_x, "m");
-  checks.finite("bearing_y", d.bearing_y, "m");
-  checks.positive("upper", d.upper, "m");
-  checks.positive("lower", d.lower, "m");
-  checks.finite("guide", d.guide, "m");
   checks.pivoted("crank", d.crank_body);
   checks.floating("rod", d.rod_body);
   checks.pivoted("upper", d.upper_body);
   checks.floating("lower", d.lower_body, d.ram_mass);
-  checks.not_negative("ram_mass", d.ram_mass, "kg");
-  checks.not_negative("gravity", d.gravity, "m/s2");
-  checks.finite("stroke_angle", d.stroke_angle, "rad");
   if (checks.sound()) check_geometry(d, checks);
   return checks.take();
 }
-
-void validate(const KnucklePressData& d) { throw_if_any("knuckle press", faults_of(d)); }
 
 std::vector<double> values_of(const KnucklePressData& d) {
   std::vector<double> values = {d.radius,   d.rod,     d.bearing_x,   d.bearing_y,

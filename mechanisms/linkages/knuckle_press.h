@@ -1,5 +1,5 @@
-// knuckle_press.h — the toggle: crank and rod work a knee joint between a link on a fixed bearing and a link to the
-// ram.
+// knuckle_press.h — knuckle-joint (toggle) press: crank and rod move the knee joint between a link on a fixed bearing and
+// a link to the ram.
 //
 //        G──────K──────[ram]─ y = guide   O  crank axis, origin           A  crank pin, OA = radius
 //         upper ⋮ lower                   G  upper link's bearing (bearing_x, bearing_y)
@@ -7,8 +7,8 @@
 //            A ─┘                         ram: on the line y = guide (by default through G), KB = lower towards +x
 //          O´ φ from +x to OA             output: the ram's position x from the crank axis
 //
-// With G on the guide the ram is at its far end when the links stand in line; a crank that carries the knee across the
-// line gives two working ends in a turn. Branches: knee left of the line A → G, or right of it.
+// With G on the guide, the ram is at its far end when both links are in line; if the crank moves the knee across this line,
+// there are two working ends per turn. Branches: knee left or right of the line A → G.
 #pragma once
 
 #include <vector>
@@ -33,11 +33,10 @@ struct KnucklePressData {
 };
 
 DataFaults faults_of(const KnucklePressData& data);
-void validate(const KnucklePressData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const KnucklePressData& data);  // all of them
 LinkageDrawing drawing_of(const KnucklePressData& data);
 
-// Bodies: crank, rod, upper link, lower link, ram. For data without faults.
+// Bodies: crank, rod, upper link, lower link, ram. The data must be without faults.
 PlanarLinkage linkage_of(const KnucklePressData& data, long double phi);
 
 }  // namespace kurbel

@@ -44,24 +44,13 @@ void check_geometry(const QuickReturnData& d, DataChecks& checks) {
 
 DataFaults faults_of(const QuickReturnData& d) {
   DataChecks checks;
-  checks.positive("radius", d.radius, "m");
-  checks.positive("pivot_distance", d.pivot_distance, "m");
-  checks.positive("lever", d.lever, "m");
-  checks.finite("lever_angle", d.lever_angle, "rad");
-  checks.positive("link", d.link, "m");
-  checks.finite("guide_height", d.guide_height, "m");
   checks.pivoted("crank", d.crank_body);
   checks.pivoted("lever", d.lever_body);
   checks.floating("block", {d.block_mass, 0, d.block_inertia});
   checks.floating("link", d.link_body, d.ram_mass);
-  checks.not_negative("ram_mass", d.ram_mass, "kg");
-  checks.not_negative("gravity", d.gravity, "m/s2");
-  checks.finite("stroke_angle", d.stroke_angle, "rad");
   if (checks.sound()) check_geometry(d, checks);
   return checks.take();
 }
-
-void validate(const QuickReturnData& d) { throw_if_any("quick-return", faults_of(d)); }
 
 std::vector<double> values_of(const QuickReturnData& d) {
   std::vector<double> values = {d.radius,       d.pivot_distance,   d.lever,      d.lever_angle,   d.link,

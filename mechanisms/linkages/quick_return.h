@@ -1,4 +1,4 @@
-// quick_return.h — crank and slotted lever that drive a ram: shaper and Whitworth's quick return.
+// quick_return.h — ram driven by crank and slotted lever: shaper and Whitworth quick return.
 //
 //            E────────────[ram]─ y = guide        O  crank axis, origin        A  crank pin and block, OA = radius
 //           /    link                             P  lever's bearing, pivot_distance below O on the −y axis
@@ -8,8 +8,8 @@
 //       P          output: the ram's position x from the crank axis
 //
 // pivot_distance > radius: the lever rocks (shaper). pivot_distance < radius: it turns fully (Whitworth), usually with
-// lever_angle = 180° and the guide through P. The working stroke of the shaper takes π + 2γ of the crank's turn and the
-// return π − 2γ, sin γ = radius/pivot_distance. The link points from E towards +x, or backwards towards −x.
+// lever_angle = 180° and the guide through P. The working stroke of the shaper takes the crank angle π + 2γ, the return
+// stroke π − 2γ, sin γ = radius/pivot_distance. The link points from E towards +x, or backward towards −x.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,7 @@ struct QuickReturnData {
   double pivot_distance = 0;        // OP [m], > 0, not radius
   double lever = 0;                 // PE [m], > 0
   double lever_angle = 0;           // from the slot to PE [rad]
-  double link = 0;                  // from E to the ram's pin [m], longer than E is ever away from the guide
+  double link = 0;                  // from E to the ram's pin [m], > maximum distance of E from the guide
   double guide_height = 0;          // of the ram's line above P [m]
   bool backward = false;            // the link points towards −x
   LinkBody crank_body, lever_body;  // com from O towards A, from P along the slot
@@ -40,11 +40,10 @@ struct QuickReturnData {
 };
 
 DataFaults faults_of(const QuickReturnData& data);
-void validate(const QuickReturnData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const QuickReturnData& data);  // all of them
 LinkageDrawing drawing_of(const QuickReturnData& data);
 
-// Bodies: crank, lever, block, link, ram. For data without faults.
+// Bodies: crank, lever, block, link, ram. The data must be without faults.
 PlanarLinkage linkage_of(const QuickReturnData& data, long double phi);
 
 }  // namespace kurbel

@@ -1,36 +1,49 @@
-// slider_crank.cpp — domain of the data, the loop as bodies and joints, the drawing.
+// slider_crank.cpp — checks of the lengths, the loop as bodies and joints, the drawing.
 #include "mechanisms/linkages/slider_crank.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 #include "mechanisms/linkages/link_bodies.h"
 
 namespace kurbel {
 
-void validate(const SliderCrankData& d) {
-  const auto require = [](bool holds, const char* what, double got, const char* domain) {
-    if (holds) return;
-    std::ostringstream message;
-    message << "slider-crank: " << what << " = " << got << "; must be " << domain;
-    throw std::invalid_argument(message.str());
-  };
-  const double values[] = {d.radius,   d.rod_length, d.offset,      d.crank_mass,  d.crank_com, d.crank_inertia,
-                           d.rod_mass, d.rod_com,    d.rod_inertia, d.slider_mass, d.gravity,   d.stroke_angle};
-  for (const double value : values) require(std::isfinite(value), "a value", value, "finite");
-  require(d.radius > 0, "radius", d.radius, "> 0 m");
-  require(d.rod_length > 0, "rod_length", d.rod_length, "> 0 m");
-  require(d.rod_length > std::fabs(d.offset) - d.radius, "rod_length", d.rod_length, "> |offset| - radius");
-  require(!d.folds || d.changes() || d.rocks(), "rod_length", d.rod_length,
-          "<= radius + |offset| for a rod that folds");
-  require(d.crank_mass >= 0, "crank_mass", d.crank_mass, ">= 0 kg");
-  require(d.rod_mass >= 0, "rod_mass", d.rod_mass, ">= 0 kg");
-  require(d.slider_mass >= 0, "slider_mass", d.slider_mass, ">= 0 kg");
-  require(d.rod_inertia >= 0, "rod_inertia", d.rod_inertia, ">= 0 kg m2");
-  const double least_inertia = d.crank_mass * d.crank_com * d.crank_com;
-  require(d.crank_inertia >= least_inertia * (1 - 1e-12), "crank_inertia", d.crank_inertia,
-          ">= crank_mass crank_com^2 (it is taken about the crank's axis)");
+namespace {
+
+// A rod shorter than r + |e| lets the crank rock, if its pin comes within the rod's reach of the slider's line, and clearly
+// so: a stop that is hardly one is a change point that rounding would choose the branch of.
+void add_rod_faults(const SliderCrankData& d, DataFaults& faults) {
+  constexpr double hardly = 1e-6;
+  const double reach = d.radius + std::abs(d.offset), near = std::abs(d.offset) - d.radius;
+  const auto close_to = [&](double length) { return std::abs(d.rod_length - length) <= hardly * reach; };
+  if (d.rod_length <= near)
+    faults.push_back({"rod", fmt::format("rod = {}; must be > |offset| - radius = {}, else the rod cannot reach the "
+                                         "slider's line; lengthen the rod or the crank",
+                                         in_mm(d.rod_length), in_mm(near))});
+  else if (d.rocks() && (close_to(reach) || close_to(std::abs(near))))
+    faults.push_back(
+        {"rod", fmt::format("rod = {} differs by only {:.1e} of itself from the length at which crank and rod pass "
+                            "upright, so that rounding would choose the branch; lengthen or shorten it clearly",
+                            in_mm(d.rod_length),
+                            std::abs(d.rod_length - (close_to(reach) ? reach : std::abs(near))) / d.rod_length)});
+  else if (d.folds && !d.changes() && !d.rocks())
+    faults.push_back({"branch", fmt::format("branch = \"folds\" needs a rod of at most radius + |offset| = {}; the rod "
+                                            "is {} long: leave the branch out",
+                                            in_mm(reach), in_mm(d.rod_length))});
+}
+
+}  // namespace
+
+DataFaults faults_of(const SliderCrankData& d) {
+  DataFaults faults;
+  add_rod_faults(d, faults);
+  const double least = d.crank_mass * d.crank_com * d.crank_com;
+  if (d.crank_inertia < least * (1 - 1e-12))
+    faults.push_back({"crank_inertia", fmt::format("crank_inertia = {:.6g} kg·m²; is about the axis and must be ≥ "
+                                                   "crank_mass · crank_com² = {:.6g} kg·m²",
+                                                   d.crank_inertia, least)});
+  return faults;
 }
 
 std::vector<double> values_of(const SliderCrankData& d) {

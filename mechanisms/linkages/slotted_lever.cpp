@@ -12,13 +12,9 @@ namespace kurbel {
 DataFaults faults_of(const SlottedLeverData& d) {
   constexpr double least_clearance = 1e-3;  // of the crank: nearer by the bearing the lever's speed has no bound
   DataChecks checks;
-  checks.positive("crank", d.crank, "m");
-  checks.positive("ground", d.ground, "m");
   checks.pivoted("crank", d.crank_body);
   checks.pivoted("lever", d.lever_body);
   checks.floating("block", {d.block_mass, 0, d.block_inertia});
-  checks.not_negative("gravity", d.gravity, "m/s2");
-  checks.finite("ground_angle", d.ground_angle, "rad");
   if (checks.sound() && !d.loop().changes() && std::fabs(d.ground - d.crank) < least_clearance * d.crank)
     checks.add("ground",
                fmt::format("ground = {} against crank = {}: the crank pin passes so close by the lever's bearing "
@@ -27,8 +23,6 @@ DataFaults faults_of(const SlottedLeverData& d) {
                            in_mm(d.ground), in_mm(d.crank)));
   return checks.take();
 }
-
-void validate(const SlottedLeverData& d) { throw_if_any("inverted slider-crank", faults_of(d)); }
 
 std::vector<double> values_of(const SlottedLeverData& d) {
   std::vector<double> values = {d.crank, d.ground, d.block_mass, d.block_inertia, d.gravity, d.ground_angle};

@@ -5,9 +5,9 @@
 //           ,·´ φ   ╲╲  ψ       slot: from D through A
 //          O─────────D── x      output: the lever's angle ψ from +x to the slot, counter-clockwise
 //
-// ground > crank: the lever rocks by 2 arcsin(crank/ground). ground < crank: it goes round with the crank (Whitworth).
-// ground = crank: the pin passes over the bearing, a change point, and the slot stands at ψ = φ/2 + 90°: the lever goes
-// round once in two turns of the crank.
+// ground > crank: the lever rocks by 2 arcsin(crank/ground). ground < crank: it turns fully with the crank (Whitworth).
+// ground = crank: the pin passes over the bearing, a change point, and ψ = φ/2 + 90°: the lever makes one turn in two
+// turns of the crank.
 #pragma once
 
 #include <vector>
@@ -31,11 +31,10 @@ struct SlottedLeverData {
 };
 
 DataFaults faults_of(const SlottedLeverData& data);
-void validate(const SlottedLeverData& data);                  // throws std::invalid_argument with the first fault
 std::vector<double> values_of(const SlottedLeverData& data);  // all of them
 LinkageDrawing drawing_of(const SlottedLeverData& data);
 
-// Bodies: crank, block, lever. For data without faults.
+// Bodies: crank, block, lever. The data must be without faults.
 PlanarLinkage linkage_of(const SlottedLeverData& data, long double phi);
 
 }  // namespace kurbel

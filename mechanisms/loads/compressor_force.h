@@ -8,8 +8,8 @@
 //     |   '.________1  4–1  suction        p = p₁
 //     +------------------ d
 //   F = (p − p_out) A on the piston, away from the working end
-// Valves open where d₂ = (s + c s) (p₁/p₂)^(1/n) − c s and d₄ = c s ((p₂/p₁)^(1/m) − 1): these are events. The share of
-// the stroke that draws in gas is the volumetric efficiency λ = 1 − c ((p₂/p₁)^(1/m) − 1).
+// Valves open at d₂ = (s + c s) (p₁/p₂)^(1/n) − c s and d₄ = c s ((p₂/p₁)^(1/m) − 1): these are events. The part of the
+// stroke with suction is the volumetric efficiency λ = 1 − c ((p₂/p₁)^(1/m) − 1).
 // Source: e.g. R. K. Rajput, Thermal Engineering, ch. "Air compressors" (clearance volume, volumetric efficiency).
 #pragma once
 
@@ -43,7 +43,7 @@ struct CompressorForce {
     return 1 - clearance * (std::pow(delivery / suction, 1 / expansion_exponent) - 1);
   }
 
-  // Mode of either stroke: 0 nearer to the working end than where the valve opens, 1 beyond.
+  // Mode in both strokes: 0 between the working end and the opening of the valve, 1 beyond.
   template <class T>
   T pressure(bool approach, int mode, const T& distance) const {
     const double dead = clearance * stroke;
@@ -57,7 +57,7 @@ struct CompressorForce {
     return -static_cast<double>(end.side) * area * (gas - outside);
   }
   bool uses_speed() const { return false; }
-  // At standstill valves stay shut between the pressures of both strokes: the gas holds the difference.
+  // At standstill the valves are closed between the pressures of both strokes: static forces up to the difference.
   Hold hold(const SliderState<double>& s) const {
     const double d = end.distance(s.x);
     return end.hold_beyond(area * (pressure(true, d < delivery_opens_at() ? 0 : 1, d) -
@@ -69,7 +69,7 @@ struct CompressorForce {
     g[1] = s.mode == 0 ? -beyond : 1;
   }
   int first_mode(const SliderState<double>& s) const { return end.distance(s.x) < opens_at(s.travel) ? 0 : 1; }
-  // After the sense of travel changed.
+  // After the direction of travel has changed.
   int turned_mode(const SliderState<double>& s) const {
     return std::abs(end.distance(s.x) - opens_at(s.travel)) <= 1e-12 * stroke ? s.mode : first_mode(s);
   }

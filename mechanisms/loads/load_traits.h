@@ -1,4 +1,4 @@
-// load_traits.h — what a load on a mechanism's output is able to do, by name, and the check of it.
+// load_traits.h — traits of a load on a mechanism's output, and the check of its members against them.
 #pragma once
 
 #include <concepts>
@@ -13,22 +13,22 @@
 
 namespace kurbel {
 
-// What a load on an output is, and the members that belong to each, with its local motion s.
+// Traits and the members required by each; s: the local motion.
 //   template <class T> T value(const SliderState<T>&) const;   every load: F [N]
 //   bool uses_speed() const;                                   whether F depends on v
 //   .holds, always with .opposes       Hold hold(s) const: range of forces at standstill [N]
-//   .in_pieces                         void guard(s, double* g) const: both ends of the piece that is the mode;
+//   .in_pieces                         void guard(s, double* g) const: both ends of the piece given by the mode;
 //                                      int first_mode(s), int next_mode(s, int which), std::string mode_name(s) const
-//   .turns_back                        int turned_mode(s) const: the piece after the sense of travel has changed
+//   .turns_back                        int turned_mode(s) const: the piece after the direction of travel has changed
 struct LoadTraits {
-  bool opposes = false;  // turns round with the sense of travel
+  bool opposes = false;  // changes its sign with the direction of travel
   bool holds = false;
   bool in_pieces = false;
   bool turns_back = false;
   EventKind kind = EventKind::law;  // of the event that ends a piece
 };
 
-// Whether it has the members that its traits promise, and no others that a trait gives a meaning to (sound.h).
+// Whether it has exactly the members required by its traits (sound.h).
 namespace sound {
 template <class L>
 concept Value = requires(const L& l, const SliderState<double>& s, const SliderState<Dual<1>>& dual) {

@@ -1,5 +1,5 @@
-// plain_forces.h — forces on a mechanism's output of a number or two: constant, against the motion, of a medium; a linear
-// motor.
+// plain_forces.h — forces on a mechanism's output with one or two parameters: constant, spring, opposing the motion,
+// resistance of a medium, linear motor.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct ConstantForce {
   bool uses_speed() const { return false; }
 };
 
-// F = −(F₀ + k (x − x₀)): a spring, pulled at F₀ > 0 where x = x₀.
+// F = −(F₀ + k (x − x₀)): a spring, in tension at x = x₀ for F₀ > 0.
 struct SpringForce {
   static constexpr LoadTraits is{};
   double stiffness = 0, free = 0, preload = 0;  // k [N/m], x₀ [m], F₀ [N]
@@ -34,7 +34,7 @@ struct SpringForce {
   bool uses_speed() const { return false; }
 };
 
-// F = −F₀ sgn v; holds the slider at standstill with up to F₀.
+// F = −F₀ sgn v; at standstill a static force up to F₀.
 struct OpposingForce {
   static constexpr LoadTraits is{.opposes = true, .holds = true};
   double force = 0;  // [N], ≥ 0
@@ -59,13 +59,13 @@ struct MediumResistance {
   bool uses_speed() const { return viscous != 0 || quadratic != 0; }
 };
 
-// Linear motor by its force–speed line, F = F₀ (σ − v/v₀): σ = sgn v where its commutation follows the motion, else the
-// sense that it always pushes in. The former gives nothing at standstill: it wants to be started.
+// Linear motor with the force–speed line F = F₀ (σ − v/v₀): σ = sgn v if the commutation follows the motion, else the
+// constant direction of its force. In the first case it has no force at standstill and must be started.
 struct LinearMotorForce {
   static constexpr LoadTraits is{.opposes = true, .holds = true};
   double force = 0;     // F₀ at standstill [N], > 0
   double velocity = 1;  // v₀ without load [m/s], > 0
-  int sense = 0;        // +1 towards the extended end, −1 the folded, 0 with the motion
+  int sense = 0;        // +1: towards the extended end, −1: the folded end, 0: with the motion
 
   template <class T>
   T value(const SliderState<T>& s) const {

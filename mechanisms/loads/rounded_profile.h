@@ -1,8 +1,8 @@
-// rounded_profile.h — straight pieces with their edges rounded: no jumps, no kinks, no events, the same work.
+// rounded_profile.h — piecewise linear profile with rounded edges: no jumps, no kinks, no events, the same work.
 //
 //     f_w = f ∗ κ,   κ(u) = 35/(32 w) (1 − u²)³ for |u| = |d/w| ≤ 1          three times differentiable
 //         = f(d) + Σ_k [jump_k (S − H)(u_k) + w kink_k (P − u_k H)(u_k)],   u_k = (d − d_k)/w,  S = ∫κ, P = ∫S
-// The convolution moves no area, but what lies within w of the ends of the travel.
+// The convolution preserves the area, except within w of the ends of the travel.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class RoundedProfile {
   };
 
   RoundedProfile() = default;
-  // A table of straight pieces; a period repeats it.
+  // From a piecewise linear curve, which may be periodic.
   RoundedProfile(const Curve& curve, double width) : before_(curve.before()), width_(width), period_(curve.period()) {
     const std::vector<double>&x = curve.x(), &y = curve.y();
     double value = before_, slope = 0;
@@ -33,7 +33,7 @@ class RoundedProfile {
       value = end, slope = rise;
     }
     if (period_ > 0) {
-      // The last point is the first again: one knot, and the pieces next to it seen from both sides.
+      // The last point is the first one: one knot, with the pieces on both sides.
       knots_.front().jump = y.front() - value;
       knots_.front().kink = knots_.front().slope - slope;
     } else {
@@ -62,7 +62,7 @@ class RoundedProfile {
     T sum = next == knots_.begin() ? T(before_) : (next - 1)->value + (next - 1)->slope * (d - (next - 1)->at);
     for (auto k = next; k != knots_.begin() && x - (k - 1)->at < width_; --k) sum = sum + rounded(*(k - 1), d, 0);
     for (auto k = next; k != knots_.end() && k->at - x < width_; ++k) sum = sum + rounded(*k, d, 0);
-    if (period_ > 0) {  // knots of the turn before and after
+    if (period_ > 0) {  // knots of the previous and the next period
       for (auto k = knots_.end(); k != knots_.begin() && x + period_ - (k - 1)->at < width_; --k)
         sum = sum + rounded(*(k - 1), d, period_);
       for (auto k = knots_.begin(); k != knots_.end() && k->at + period_ - x < width_; ++k)
@@ -72,7 +72,7 @@ class RoundedProfile {
   }
 
  private:
-  // What rounding adds near a knot, at d + moved.
+  // Correction by rounding near a knot, at d + moved.
   template <class T>
   T rounded(const Knot& k, const T& d, double moved) const {
     const T u = (d + (moved - k.at)) / width_;

@@ -1,16 +1,15 @@
-// slider_loads.h — forces on a mechanism's output, each a page of physics over the output's motion.
+// slider_loads.h — forces on a mechanism's output over its motion.
 //
-// Written for a slider; on an output that rocks read angle [rad] for position and N·m for N.
-// F is positive along +x, towards the extended end (the greatest x; the folded end is the least). Tables and profiles
-// are given over the distance d to the working end and are positive where they push the slider away from it; d = x_end
-// − x at an extended working end, x − x_end at a folded one.
+// Written for a slider; for a rocking output read angle [rad] for position and N·m for N.
+// F is positive along +x, towards the extended end (maximum x; the folded end is the minimum). Tables and profiles are
+// given over the distance d to the working end and are positive if they push the slider away from it; d = x_end − x at an
+// extended working end, x − x_end at a folded one.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "engine/elements/element.h"
 #include "engine/elements/event_kind.h"
@@ -25,11 +24,11 @@
 
 namespace kurbel {
 
-// A position this near to an edge, over the stroke, lies on it: rounding decides no piece.
+// Relative to the stroke, a position so near to an edge counts as on it, so that rounding errors do not select the piece.
 inline constexpr double on_edge = 1e-12;
 
-// The piece after the sense of travel has changed: it stays where it holds to round-off, so that an edge just passed is
-// not passed again.
+// The piece after the direction of travel has changed. It is kept if it is valid to rounding error, so that an edge just
+// passed is not passed again.
 template <class Law>
 int piece_kept(const Law& law, const SliderState<double>& s, int pieces) {
   if (s.mode < -1 || s.mode > pieces) return law.first_mode(s);
@@ -38,19 +37,19 @@ int piece_kept(const Law& law, const SliderState<double>& s, int pieces) {
   return holds ? s.mode : law.first_mode(s);
 }
 
-// Press force over travel: the nominal force within the last millimetres before the working end, on the working stroke
-// only; then break-through. It resists and never drives, and holds the slider against motion towards the end.
+// Press force over travel: the nominal force within the last millimetres before the working end, only in the working
+// stroke; then break-through. It never drives, and at standstill it holds against motion towards the end.
 struct PressForce {
   static constexpr LoadTraits is{
       .opposes = true, .holds = true, .in_pieces = true, .turns_back = true, .kind = EventKind::load_edge};
   WorkingEnd end;
-  Curve profile;  // straight pieces over the distance to the working end; nothing beyond them
+  Curve profile;  // piecewise linear over the distance to the working end; zero outside
   double stroke = 1;
 
   // nominal force F from d = travel on, reached within `rise`; drops to zero over `drop` from d = breakthrough on.
   static PressForce make(WorkingEnd end, double stroke, double force, double travel, double rise, double breakthrough,
                          double drop) {
-    // From the end outwards; beyond the end itself the force just holds.
+    // From the end outwards; beyond the end the force is constant.
     const double inner = breakthrough > 0 ? breakthrough : -stroke, begin = breakthrough > 0 ? inner - drop : inner;
     return {end, Curve({begin, inner, travel - rise, travel}, {0, force, force, 0}, Curve::Form::linear), stroke};
   }
@@ -62,7 +61,7 @@ struct PressForce {
   }
   bool uses_speed() const { return false; }
   Hold hold(const SliderState<double>& s) const {
-    // On an edge, the greater of both sides: it is a wall that holds whatever lies in its jump.
+    // On an edge, the greater value of both sides: any force within the jump is possible.
     const double d = end.distance(s.x), near = on_edge * stroke;
     return end.hold(
         std::max(profile.value_in(profile.piece(d - near), d), profile.value_in(profile.piece(d + near), d)));
@@ -87,9 +86,9 @@ struct PressForce {
   }
 };
 
-// Force over travel by table, with a branch of its own for the return stroke where one is given. At standstill it has
-// the value of that branch, and holds what the approaching one resists more, as gas between its valves does: the true
-// force then lies anywhere between the branches.
+// Force over travel by table, with a separate branch for the return stroke if given. At standstill the force is that of
+// the return branch plus a static force up to the difference of the branches, like gas between closed valves: the actual
+// force lies between the branches.
 struct TravelForce {
   static constexpr LoadTraits is{.holds = true, .in_pieces = true, .turns_back = true};
   WorkingEnd end;
@@ -142,7 +141,7 @@ struct AngleForce {
 };
 
 // One chamber of a cylinder by its pressure over travel: F = ∓A (p − p_out), away from the working end for A > 0. The
-// chamber on the other side of the piston has A < 0; both count from one end.
+// chamber on the other side of the piston has A < 0; both are measured from the same end.
 struct ChamberOverTravel : TravelForce {
   double area = 0, outside = 0;  // A [m²], p_out [Pa]
 
@@ -167,7 +166,7 @@ struct ChamberOverAngle : AngleForce {
   }
 };
 
-// PressForce with its edges rounded: the effect load_edges is off.
+// PressForce with rounded edges, for the effect load_edges off.
 struct RoundedPressForce {
   static constexpr LoadTraits is{.opposes = true, .holds = true};
   WorkingEnd end;
@@ -182,7 +181,7 @@ struct RoundedPressForce {
   Hold hold(const SliderState<double>& s) const { return end.hold(profile.value(end.distance(s.x))); }
 };
 
-// TravelForce or AngleForce with its edges rounded.
+// TravelForce or AngleForce with rounded edges.
 struct RoundedTableForce {
   static constexpr LoadTraits is{.holds = true};
   WorkingEnd end;
@@ -207,16 +206,16 @@ struct SliderLoad {
            SpringForce>::Any law;
   std::string name;  // "press.load"
   Account account = Account::useful;
-  bool mirrored = false;  // its diagram is a substitute for one that is not given (mirrored.h)
-  double rounding = 0;    // half width that edges are rounded over when they are not sharp [m] or [rad]; 0: not said
+  bool mirrored = false;  // its diagram is a default for a missing one (mirrored.h)
+  double rounding = 0;    // half width of the rounding of edges, if they are rounded [m] or [rad]; 0: not given
 
-  // What the law answers.
+  // Evaluates a question on the law.
   template <class Question>
   auto ask(const Question& question) const {
     return std::visit(question, law);
   }
 
-  bool can_be_rounded() const;  // straight pieces, and a width is given
+  bool can_be_rounded() const;  // piecewise linear, with a given width
   SliderLoad rounded() const;
 
   bool depends_on_travel() const {  // on the sign of the slider's speed
@@ -252,7 +251,7 @@ struct SliderLoad {
     });
   }
 
-  // Events: where the law has pieces, each lies between two guards, and the mode is the piece that is in force.
+  // Events: each piece of a law lies between two guards; the mode is the active piece.
   bool has_pieces() const {
     return ask([](const auto& l) { return l.is.in_pieces; });
   }
@@ -261,13 +260,13 @@ struct SliderLoad {
       if constexpr (std::decay_t<decltype(l)>::is.in_pieces) l.guard(s, g);
     });
   }
-  int next_piece(const SliderState<double>& s, int which) const {  // behind that end
+  int next_piece(const SliderState<double>& s, int which) const {  // the piece beyond that end
     return ask([&](const auto& l) {
       if constexpr (std::decay_t<decltype(l)>::is.in_pieces) return l.next_mode(s, which);
       return s.mode;
     });
   }
-  std::string piece_name(const SliderState<double>& s) const {  // for people
+  std::string piece_name(const SliderState<double>& s) const {  // for reports
     return ask([&](const auto& l) {
       if constexpr (std::decay_t<decltype(l)>::is.in_pieces) return l.mode_name(s);
       return std::string{};
@@ -276,12 +275,12 @@ struct SliderLoad {
   EventKind piece_kind() const {  // for programs
     return ask([](const auto& l) { return l.is.kind; });
   }
-  void take_first_piece(const SliderState<double>& s, int& mode) const {  // where the slider is
+  void take_first_piece(const SliderState<double>& s, int& mode) const {  // at the present position
     ask([&](const auto& l) {
       if constexpr (std::decay_t<decltype(l)>::is.in_pieces) mode = l.first_mode(s);
     });
   }
-  // The other branch, when the slider turns back within its stroke.
+  // Change of branch when the slider reverses within its stroke.
   bool follows_travel() const {
     return ask([](const auto& l) { return l.is.turns_back; });
   }

@@ -1,11 +1,11 @@
-// slider_state.h — motion of a mechanism's output as its loads see it, and the end that they count from.
+// slider_state.h — motion of a mechanism's output for its loads, and the end from which they are measured.
 #pragma once
 
 #include "engine/elements/element.h"
 
 namespace kurbel {
 
-// Motion of the slider as its loads see it.
+// Motion of the slider for its loads.
 template <class T>
 struct SliderState {
   T phi;           // crank angle [rad]
@@ -15,7 +15,7 @@ struct SliderState {
   int mode = 0;    // piece of the load's law, fixed between events
 };
 
-// Where the working end lies.
+// Position of the working end.
 struct WorkingEnd {
   double position = 0;  // x of that end [m]
   int side = 1;         // +1 extended, −1 folded
@@ -25,8 +25,8 @@ struct WorkingEnd {
     return static_cast<double>(side) * (position - x);
   }
   bool approached(int travel) const { return travel * side > 0; }
-  // What holds the output from going on towards this end with up to `force`, and with `more` > 0, of what resists that
-  // way more than the other.
+  // Static force up to `force` against motion towards this end; up to `more` > 0, the excess of the resistance in that
+  // direction over the other.
   Hold hold(double force) const { return side > 0 ? Hold{-force, 0} : Hold{0, force}; }
   Hold hold_beyond(double more) const { return more <= 0 ? Hold{} : hold(more); }
 };

@@ -1,5 +1,5 @@
-// planar_linkage.h — a mechanism at one angle of its crank as bodies and joints with their series: what its bodies in Simbody,
-// its reduced functions and its reactions all come from.
+// planar_linkage.h — a mechanism at one crank angle as bodies and joints with their series in φ: the common source of its
+// Simbody model, its reduced functions and its reactions.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace kurbel {
 
-// A mechanism at φ as bodies and the joints between them, every length and angle a series in φ. Axes of the mechanism,
-// origin on the crank's axis.
+// A mechanism at φ as bodies and joints; all lengths and angles are series in φ. Axes of the mechanism, origin on the
+// crank's axis.
 struct PlanarLinkage {
   static constexpr int frame = -1, most_bodies = 16;
   struct Body {
@@ -17,27 +17,27 @@ struct PlanarLinkage {
     double mass;          // [kg]
     long double inertia;  // central [kg·m²]
     Path com;             // [m]
-    Direction direction;  // of the link; a slider's that of its guide
+    Direction direction;  // of the link; for a slider: of its guide
   };
-  // A reaction is what body `from` does to body `on`: a pin's two forces, or a slide's normal force and moment about
-  // `at`.
+  // A reaction acts from body `from` on body `on`: the two force components of a pin, or the normal force of a slide and its
+  // moment about `at`.
   struct Joint {
     const char* name;  // "crank pin"
     int from, on;      // indices of bodies, or frame
     Path at;
     bool slides = false;
-    Direction along = {};  // of the slide
+    Direction along = {};  // direction of the slide
   };
   PlanarLinkage() { bodies.reserve(5), joints.reserve(7); }
-  std::vector<Body> bodies;  // the crank first, the one that the load acts on last
+  std::vector<Body> bodies;  // the crank first, the loaded body last
   std::vector<Joint> joints;
   int body_count = 0, joint_count = 0;
-  bool rocks = false;                 // the load is a torque on the last body; else a force along +x on …
+  bool rocks = false;                 // the load is a torque on the last body; else a force along +x at …
   Path load_at;                       // … this point of it
   double gravity = 0, elevation = 0;  // [m/s²]; of +x above the horizontal [rad]
   long double output[3] = {0, 0, 0};  // position and its derivatives by φ: [m] or [rad]
-  bool stands_still = false;          // the output does, for good: what rounding would leave of its motion is none
-  // Of a linkage that passes change points: what is 0 there and of one sign between them; reactions go with its inverse.
+  bool stands_still = false;          // the output never moves: its motion is set to zero instead of rounding errors
+  // With change points: zero there and of constant sign between them; reactions are proportional to the inverse.
   bool changes = false;
   long double sine = 1;
 
@@ -45,7 +45,7 @@ struct PlanarLinkage {
   void join(const Joint& joint) { joints.push_back(joint), ++joint_count; }
 };
 
-// Its reduced functions by sums over the links (theory 2.1, 2.2), as a ReducedSample, which says what is what:
+// Its reduced functions by sums over the links (theory 2.1, 2.2); members as in ReducedSample:
 //     I_r = Σ m v_S′² + J ϑ′²,   M_g = −g Σ m h_S′,   each with its derivatives by φ from the links' Taylor series.
 struct ClosedForm {
   long double inertia = 0, inertia_slope = 0, inertia_curvature = 0;

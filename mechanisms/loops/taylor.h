@@ -11,7 +11,7 @@ struct Taylor {
   long double c[order + 1] = {};
 
   Taylor() = default;
-  Taylor(long double constant) : c{constant} {}  // NOLINT: numbers stand in formulas
+  Taylor(long double constant) : c{constant} {}  // NOLINT: implicit, for numbers in formulas
   static Taylor variable(long double at) {
     Taylor t(at);
     t.c[1] = 1;
@@ -20,7 +20,7 @@ struct Taylor {
   long double value() const { return c[0]; }
   long double slope() const { return c[1]; }
   long double curvature() const { return 2 * c[2]; }
-  Taylor derivative() const {  // its last coefficient is lost
+  Taylor derivative() const {  // the last coefficient is unknown and set to 0
     Taylor t;
     for (int k = 0; k < order; ++k) t.c[k] = (k + 1) * c[k + 1];
     return t;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr long double turn = 2 * std::numbers::pi_v<long double>;
 
-// All links stand where they stood: their directions and the places of their joints.
+// Whether all links have returned: their directions and the positions of their joints.
 bool same_place(const PlanarLinkage& a, const PlanarLinkage& b) {
   const long double size = std::hypot(a.joints[1].at.x.value(), a.joints[1].at.y.value());
   const auto near = [](const Taylor& u, const Taylor& v, long double scale) {
@@ -53,7 +53,7 @@ double CrankCycle::within(double phi) const {
 
 double CrankCycle::angle() const { return static_cast<double>(turns_ * turn); }
 
-// Steps are halved until the output turns by no more than a bound, so that no turn of it is missed.
+// Steps are bisected until the rotation of the output is limited, so that no turn of it is missed.
 void CrankCycle::follow_output(const MechanismData& data, double from, double end) {
   constexpr double most = 0.5, first = 2 * std::numbers::pi / 64, least = 1e-9;
   double psi = output_at(data, from);
@@ -88,7 +88,7 @@ double CrankCycle::periodic_part(double phi, double output) const {
   return part - 2 * std::numbers::pi * std::round((part - near) / (2 * std::numbers::pi));
 }
 
-// The sine between the links that meet has simple zeros there.
+// The sine of the angle between the adjacent links has simple zeros there.
 void CrankCycle::find_change_points(const MechanismData& data) {
   constexpr int samples = 96;
   constexpr double shift = 0.37;  // none is a sample

@@ -1,5 +1,5 @@
-// deforming_events.cpp — when a deforming slider-crank's output turns round, a load's piece ends, a joint touches or
-// parts.
+// deforming_events.cpp — events of a deforming slider-crank: its output reverses, a load's piece ends, a joint comes into
+// contact or separates.
 #include <algorithm>
 #include <cmath>
 
@@ -59,7 +59,7 @@ void DeformingMechanismPool::fire(const Instant& now, int guard, int* mode) cons
         p.mechanism.loads[owner.index].next_piece(slider(p, now, m, owner.index), owner.which);
     return;
   }
-  // The slider turns round, and each load takes up the branch of the other stroke.
+  // The slider reverses, and each load changes to the branch of the other stroke.
   mode[p.at.mode] = mode[p.at.mode] == creeps ? (m.x_rate >= 0 ? 1 : -1) : -mode[p.at.mode];
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
     if (!p.mechanism.loads[k].depends_on_travel()) continue;
@@ -101,14 +101,14 @@ void DeformingMechanismPool::first_modes(const Instant& now, int* mode) const {
   for (const Placed& p : placed_) {
     const Motion m = motion(p, now);
     double rate = m.x_rate;
-    // At rest the crank's direction tells; on a dead centre the motion to come.
+    // At rest by the direction of the crank; at a dead centre by the following motion.
     if (std::abs(rate) < 1e-12 * p.mechanism.output_scale() * std::max(1.0, std::abs(m.w[0])))
       rate = m.w[0] != 0 ? m.x_bias : m.of_x[0];
     if (mode[p.at.mode] != creeps) mode[p.at.mode] = rate >= 0 ? 1 : -1;
     for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
       SliderState<double> s = slider(p, now, m, k);
       if (p.mechanism.loads[k].depends_on_travel()) {
-        if (mode[p.at.mode] == creeps) continue;  // takes its branches as they come
+        if (mode[p.at.mode] == creeps) continue;  // branches follow the state
         s.travel = mode[p.at.mode];
       }
       p.mechanism.loads[k].take_first_piece(s, mode[p.at.mode + 1 + static_cast<int>(k)]);

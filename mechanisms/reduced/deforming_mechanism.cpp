@@ -1,4 +1,4 @@
-// deforming_mechanism.cpp — what may deform together, its own states with their scales, and its words.
+// deforming_mechanism.cpp — valid combinations of deformations, internal states with scales, and the description.
 #include "mechanisms/reduced/deforming_mechanism.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 Eigen::Index entry(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-// What the crank feels while nothing deforms; negative: the masses cannot be those of bodies.
+// Effective inertia on the crank without deformation; negative: the masses are not possible for bodies.
 double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
   SliderCrankDynamics::Vector z{}, w{};
   z[SliderCrankDynamics::phi] = phi;

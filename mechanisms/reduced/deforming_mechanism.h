@@ -1,7 +1,7 @@
-// deforming_mechanism.h — a slider-crank with clearance in joints or a flexible rod as an element: its further degrees
-// of freedom are own states that are coupled to the crank by inertia (equations: slider_crank_dynamics.h).
-//     (m₁₁ − m₁₂ m₂₂⁻¹ m₂₁) α = Q₁ − m₁₂ m₂₂⁻¹ Q₂        what the crank's shaft feels
-//     q̈ = m₂₂⁻¹ (Q₂ − m₂₁ α)                            once its acceleration α is known
+// deforming_mechanism.h — a slider-crank with clearance in joints or a flexible rod as an element: its additional degrees
+// of freedom are internal states coupled to the crank by inertia (equations: slider_crank_dynamics.h).
+//     (m₁₁ − m₁₂ m₂₂⁻¹ m₂₁) α = Q₁ − m₁₂ m₂₂⁻¹ Q₂        effective inertia and torque on the crank's shaft
+//     q̈ = m₂₂⁻¹ (Q₂ − m₂₁ α)                            from its acceleration α
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace kurbel {
 
 class DeformingMechanismElement final : public MechanismElement {
  public:
-  // Throws std::invalid_argument for what clearance and flexibility cannot be had together with.
+  // Throws std::invalid_argument for data that cannot be combined with clearance or flexibility.
   explicit DeformingMechanismElement(Mechanism mechanism);
 
   const SliderCrankDynamics* dynamics() const override { return dynamics_.get(); }
@@ -29,12 +29,12 @@ class DeformingMechanismElement final : public MechanismElement {
   std::shared_ptr<const SliderCrankDynamics> dynamics_;
 };
 
-// Degrees of freedom of a model that mechanisms have besides their cranks.
+// Number of degrees of freedom of the mechanisms of a model in addition to their cranks.
 std::size_t further_coordinates(const Model& model);
 
 std::string joint_word(const JointClearance& joint);  // "crank_pin", for the names of states and channels
 
-// Modes of a placed one: sign of the slider's speed (or that it creeps), the piece of each load, each contact.
+// Modes of each mechanism: sign of the slider's speed (or creeping), piece of each load, mode of each contact.
 class DeformingMechanismPool final : public ElementPool {
  public:
   void place(Mechanism mechanism, std::shared_ptr<const SliderCrankDynamics> dynamics, const ShaftPorts& at);
@@ -67,7 +67,7 @@ class DeformingMechanismPool final : public ElementPool {
     std::shared_ptr<const SliderCrankDynamics> dynamics;
     ShaftPorts at;
     bool watches_travel = false;       // some load depends on the direction of travel
-    std::vector<int> own_slot = {};    // per free coordinate but φ, and input: of its rate's rate
+    std::vector<int> own_slot = {};    // per free coordinate except φ, and input: of its acceleration
     std::vector<int> shaft_slot = {};  // per input
     std::vector<int> rate_slot = {}, follower_slot = {};
 
@@ -84,10 +84,10 @@ class DeformingMechanismPool final : public ElementPool {
     int which;
   };
   struct Solved {
-    double inertia, torque;  // felt by the crank
-    Vector free, by_alpha;   // accelerations of the further coordinates at α = 0, and what α takes from them
+    double inertia, torque;  // effective, on the crank
+    Vector free, by_alpha;   // accelerations of the additional coordinates at α = 0, and their decrease per α
   };
-  // Places of the k-th further coordinate and of its rate among all own states.
+  // Indices of the k-th additional coordinate and of its rate among all internal states.
   static int at_own(const Placed& p, std::size_t k) { return p.at.own + static_cast<int>(k); }
   static int at_rate(const Placed& p, std::size_t k) { return p.at.own + static_cast<int>(p.further() + k); }
   Vector coordinates(const Placed& p, const Instant& now) const;
@@ -97,9 +97,9 @@ class DeformingMechanismPool final : public ElementPool {
   Vector reactions(const Placed& p, const Snapshot& s) const;
   template <class T>
   SliderState<T> slider(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m, std::size_t load) const;
-  // A slider that finds no rest under loads that turn with its travel creeps: they go over from one sense to the other
-  // as tanh(v/v₀), v₀ the creep speed, and take up their branches again beyond a few v₀.
-  static constexpr int creeps = 2;             // in place of ±1 as the sense of travel
+  // A slider that chatters under loads that depend on its direction of travel creeps: the loads change over between the
+  // directions as tanh(v/v₀), v₀ the creep speed, and return to their branches beyond a few v₀.
+  static constexpr int creeps = 2;             // instead of ±1 as the direction of travel
   static double creep_speed(const Placed& p);  // [m/s]
   template <class T>
   T force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m, std::size_t load) const;

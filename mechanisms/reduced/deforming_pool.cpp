@@ -1,4 +1,4 @@
-// deforming_pool.cpp — gathers the crank's motion and the own states, solves for what the shaft feels, scatters.
+// deforming_pool.cpp — gathers the crank's motion and internal states, solves for the effect on the shaft, scatters.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -66,7 +66,7 @@ template SliderState<double> DeformingMechanismPool::slider(const Placed& p, con
 template <class T>
 T DeformingMechanismPool::force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m,
                                    std::size_t load) const {
-  // Switched off by an operating sequence, with all of them or by itself (as in mechanism_pool.cpp).
+  // Switched off by an operating sequence, together with all loads or separately (as in mechanism_pool.cpp).
   if (!now.active[p.at.id]) return T(0.0);
   if (p.at.command >= 0 && !(now.command[p.at.command + 1 + static_cast<int>(load)] > 0.5)) return T(0.0);
   const SliderLoad& law = p.mechanism.loads[load];
@@ -108,7 +108,7 @@ DeformingMechanismPool::Solved DeformingMechanismPool::solve(const Placed& p, co
   const Matrix further = mass.bottomRightCorner(n, n);
   const Eigen::LLT<Matrix> factors(further);
   const Column coupling = mass.bottomLeftCorner(n, 1), by_alpha = factors.solve(coupling), alone = factors.solve(force);
-  // What moves with the crank only adds to its own inertia; rounding in trial steps that diverge takes away.
+  // Parts moving with the crank only add to its inertia; rounding in diverging trial steps may reduce it.
   const double inertia = std::max(mass(0, 0) - coupling.dot(by_alpha), p.dynamics->data().crank_inertia);
   Solved solved{inertia, -h[free[0]] - coupling.dot(alone), {}, {}};
   for (std::size_t k = 0; k < p.further(); ++k) solved.free[k] = alone(ix(k)), solved.by_alpha[k] = by_alpha(ix(k));
@@ -124,8 +124,7 @@ void DeformingMechanismPool::add_work(const Placed& p, const Instant& now, const
   if (p.dynamics->rod().count() > 0) work_rate[p.rod_account()] -= p.dynamics->damping_power(m);
 }
 
-// The rates of the own states hold what follow() needs until it makes them what they are: it comes in the same
-// evaluation.
+// Until follow(), in the same evaluation, the rates of the internal states store its input.
 void DeformingMechanismPool::add(const Instant& now, Sums& sums) const {
   for (const Placed& p : placed_) {
     const Motion m = motion(p, now);
@@ -289,7 +288,7 @@ DeformingMechanismPool::Vector DeformingMechanismPool::acceleration(const Placed
   return a;
 }
 
-// What the coordinates that are not free need to stay zero: reactions of the ideal joints.
+// Forces that keep the other coordinates at zero: reactions of the ideal joints.
 DeformingMechanismPool::Vector DeformingMechanismPool::reactions(const Placed& p, const Snapshot& s) const {
   const Motion m = motion(p, s.now);
   return p.dynamics->residual<double>(m, acceleration(p, s), load_force(p, s.now, m), s.now.mode + p.contact_mode());

@@ -1,10 +1,10 @@
-// extraction.h — which of two independent tabulations of a mechanism is taken.
+// extraction.h — selects one of two independent tabulations of a mechanism.
 #pragma once
 
 namespace kurbel {
 
-// Runs of one machine share its tables, so they cannot tell each other of the tables' errors. The second extraction
-// shares with the first nothing but the mechanism's data: other source, other pieces, other degree.
+// Runs of a machine share its tables, so their comparison does not show the errors of the tables. The second extraction
+// shares only the mechanism's data with the first: it has another source, other pieces and another degree.
 enum class Extraction { first, second };
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// mechanism.cpp — a mechanism with its tables and its travel, and what it says of itself until it is placed.
+// mechanism.cpp — a mechanism with its tables and its travel, and its properties as an element.
 #include "mechanisms/reduced/mechanism.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ double reversal_between(const ReducedMechanism& reduced, double from, double to)
   return 0.5 * (from + to);
 }
 
-// "; change points at 90° and 270°; …" of a mechanism that has something to say of its cycle.
+// "; change points at 90° and 270°; …" for a mechanism with a special cycle.
 std::string words_of(const CrankCycle& cycle) {
   std::string text;
   for (const double phi : cycle.change_points())
@@ -63,7 +63,7 @@ void require_on_arc(const Mechanism& mechanism, double phi) {
                                        mechanism.name, arc->near(phi) / degree, words_of_arc(mechanism)));
 }
 
-// I_r is least where the output stands still or near a sample.
+// I_r has its minimum where the output is at rest or near a sample.
 TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
   const int n = 1024 * reduced.cycle().turns();
   const auto& arc = reduced.cycle().arc();
@@ -191,7 +191,7 @@ MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(m
   if (mechanism_.is_force()) account = loads.front().account, further_accounts.erase(further_accounts.begin());
   if (mechanism_.friction) further_accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
   angle_period = cycle;
-  if (mechanism_.arc()) cycle = HUGE_VAL;          // it never comes round
+  if (mechanism_.arc()) cycle = HUGE_VAL;          // it never completes a turn
   rated = {force * mechanism_.output_scale(), 0};  // greatest force times half the stroke
   if (mechanism_.is_force()) cycle = 0;            // the linkage has it
   modes = 1 + static_cast<int>(loads.size()) +
@@ -211,7 +211,7 @@ std::string MechanismElement::describe() const {
          (mechanism_.arc() ? "; its " + words_of_arc(mechanism_) : words_of(mechanism_.reduced->cycle()));
 }
 
-// A crank of constant inertia has no rod and no joints: without variable inertia they cannot deform, either.
+// A crank with constant inertia has no rod and no joints, so that nothing can deform without variable inertia.
 ShaftForm MechanismElement::form_under(const Effects& effects) const {
   Mechanism changed = mechanism_;
   changed.friction = effects.joint_friction && mechanism_.joints

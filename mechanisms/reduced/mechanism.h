@@ -1,5 +1,5 @@
-// mechanism.h — a mechanism of one degree of freedom as an element: variable inertia, weight and the loads on its
-// output reduced to its crank.
+// mechanism.h — a mechanism of one degree of freedom as an element: variable inertia, weight and loads on its output,
+// reduced to its crank.
 //     M = −½ I_r′ ω² + M_g(φ) + Σ F x′(φ),   and I_r(φ) adds to the shaft's inertia            (theory 2.1, 2.2, 2.4)
 // The output slides (x [m], loads in N) or rocks (x is its angle [rad], loads in N·m).
 #pragma once
@@ -19,12 +19,12 @@
 
 namespace kurbel {
 
-// What a cycle of the crank does, one turn or two, read off the tables.
+// Figures of a cycle of the crank (one or two turns) from the tables.
 struct TravelOfTurn {
   double least = 0, greatest = 0;              // of the output's position [m] or [rad]
-  std::vector<double> reversals;               // crank angles where the output turns round, ascending [rad]
+  std::vector<double> reversals;               // crank angles at which the output reverses, ascending [rad]
   double mean_inertia = 0, least_inertia = 0;  // of I_r [kg·m²]
-  double winding = 0;                          // turns of the output in one of the crank; 0: it slides or rocks
+  double winding = 0;                          // turns of the output per turn of the crank; 0: it slides or rocks
 };
 TravelOfTurn travel_of_turn(const ReducedMechanism& reduced);
 
@@ -40,59 +40,59 @@ struct Mechanism {
   TravelOfTurn travel;
   std::vector<SliderLoad> loads;
   double phase = 0;                                             // added to the shaft's angle [rad]
-  std::shared_ptr<const JointFrictionSource> joints = nullptr;  // where joints have friction; else null
-  std::shared_ptr<const JointFriction> friction = nullptr;      // the effect joint friction is on; else null
+  std::shared_ptr<const JointFrictionSource> joints = nullptr;  // null: no friction in joints
+  std::shared_ptr<const JointFriction> friction = nullptr;      // null: the effect joint friction is off
   bool weightless = false;                                      // the effect gravity is off
-  bool mean_inertia = false;                                    // I_r is its mean: the effect variable inertia is off
-  bool in_the_loop = false;                        // its bodies are evaluated at every step: the effect multibody
-  std::vector<JointClearance> clearances = {};     // of a slider-crank, as the scene gives them
+  bool mean_inertia = false;                                    // I_r is constant: the effect variable inertia is off
+  bool in_the_loop = false;                        // the bodies are evaluated at every step: the effect multibody is on
+  std::vector<JointClearance> clearances = {};     // of a slider-crank, by the scene
   std::optional<RodFlexibility> flexibility = {};  // of its rod
 
   bool rocks() const { return data.rocks(); }  // the output is an angle
-  // What acts within a linkage: the travel of a spring, a force or a couple as the output, without inertia and weight.
+  // A force within a linkage: the output is the travel of a spring, force or couple; no inertia, no weight.
   bool is_force() const { return data.is_travel(); }
   bool has_weight() const;
   double stroke() const { return travel.greatest - travel.least; }
-  // Of x′: half the stroke; what goes round does so like the crank; what stands still has none of its own.
+  // Scale of x′: half the stroke; 1 if the output turns fully or never moves.
   double output_scale() const { return travel.winding != 0 || stroke() == 0 ? 1 : 0.5 * stroke(); }
-  double cycle() const { return reduced->cycle().angle(); }  // crank angle after which the links come back [rad]
-  // Of a crank that rocks; else null.
+  double cycle() const { return reduced->cycle().angle(); }  // crank angle of a cycle [rad]
+  // Range of a rocking crank; else null.
   const CrankArc* arc() const { return reduced->cycle().arc() ? &*reduced->cycle().arc() : nullptr; }
 
   // Some load depends on the direction of travel.
   bool watches_travel() const;
-  // Sign of x′; on a dead centre as the motion to come has it, in that direction of the crank.
+  // Sign of x′; at a dead centre the sign after it in this direction of the crank.
   int growth(double angle, int direction) const;
-  // Σ F of the loads on the output [N], [N·m] of one that rocks, while the crank comes through this angle [rad] with
-  // this speed [rad/s]: at an edge of a law by the piece that begins there. `acting`: which loads act, in their order;
-  // empty: all. Throws as require_on_arc.
+  // Σ F of the loads on the output [N], for a rocking output [N·m], at a crank angle [rad] and speed [rad/s]; at an edge of
+  // a law by the piece that begins there. `acting`: whether each load acts, in their order; empty: all act. Throws as
+  // require_on_arc.
   double load(double angle, double speed, const std::vector<bool>& acting = {}) const;
 
-  // The same with its tables, its travel and the ends that its loads count from taken from there.
+  // A copy with tables, travel and the ends of the loads from this extraction.
   Mechanism extracted_from(Extraction from) const;
 };
 
-// A network with all its mechanisms extracted from there: to be compiled for a run that confirms another,
+// A network with all mechanisms from this extraction, for a run that confirms another:
 //     compile_network(extracted_from(build_network(scene), Extraction::second), scene, effects)
-// has the same coordinates, states, modes, channels and figures as compile(scene, effects), and no error of tables in
-// common. Costs 1 … 20 ms a mechanism, once for equal data.
+// has the same coordinates, states, modes, channels and figures as compile(scene, effects), but no table errors in
+// common with it. Takes 1 … 20 ms per mechanism, once for equal data.
 Network extracted_from(Network network, Extraction from);
 
-// Some mechanism works from tables; without, a second extraction would confirm nothing.
+// Whether some mechanism uses tables; without tables a second extraction confirms nothing.
 bool has_tables(const Network& network);
 
-// "crank rocks between φ = 30° and 120°, where coupler and rocker lie in one line", of one that does.
+// For a rocking crank: "crank rocks between φ = 30° and 120°, where coupler and rocker lie in one line".
 std::string words_of_arc(const Mechanism& mechanism);
-// Why a motion ends at an end of the arc, −1 or 1, and what to do.
+// Message: why a motion ends at this end of the arc (−1 or 1), and the remedy.
 std::string limit_reached(const Mechanism& mechanism, int end);
-// Throws std::runtime_error where the crank cannot stand at this angle.
+// Throws std::runtime_error if the crank cannot reach this angle.
 void require_on_arc(const Mechanism& mechanism, double phi);
 
 class MechanismElement : public AnyShaftElement {
  public:
   explicit MechanismElement(Mechanism mechanism);
   const Mechanism& mechanism() const { return mechanism_; }
-  // Of one whose joints have clearance or whose rod bends; else null.
+  // Equations with clearance in joints or a flexible rod; else null.
   virtual const SliderCrankDynamics* dynamics() const { return nullptr; }
 
   InertiaAt inertia_at(double angle) const override {
@@ -108,13 +108,13 @@ class MechanismElement : public AnyShaftElement {
   Mechanism mechanism_;
 };
 
-// Null for elements of other kinds, and for what acts within a linkage.
+// Null for elements of other kinds, and for forces within a linkage.
 const MechanismElement* mechanism_of(const Network::ShaftElement& element);
-// Of a network as drawn, or of a model's, where it is as its effects have it. Null: no component of that name is one.
+// From a network by the scene, or of a model, by its effects. Null: no mechanism has this name.
 const Mechanism* find_mechanism(const Network& network, const std::string& component);
 
-// Modes of a placed mechanism: the sign of x′ first, then the piece of each load; with joint friction the signs that turn
-// of its joints' velocities, and the sides of its slides, behind these.
+// Modes of each mechanism: the sign of x′, then the piece of each load; with joint friction then the changing signs of the
+// joint velocities and the sides of the slides.
 class MechanismPool final : public ReactingPool {
  public:
   void place(Mechanism mechanism, ShaftPorts at);
@@ -129,7 +129,7 @@ class MechanismPool final : public ReactingPool {
   const std::vector<int>& side_modes() const override { return side_modes_; }
   const std::vector<int>& side_guards() const override { return side_guards_; }
   void find_sides(const Instant& now, const double* alpha, double* side) const override;
-  // Over travel or crank angle, whatever the speed; beside those of the sides of reactions.
+  // The guards depend on travel or crank angle, not on the speed, except those of the sides of reactions.
   bool guards_are_of_angle() const override { return true; }
   const std::vector<int>& reacting_shafts() const override { return reacting_shafts_; }
   void add_answered(const Instant& now, double alpha, double response, Reactions& sums) const override;
@@ -137,7 +137,7 @@ class MechanismPool final : public ReactingPool {
   void fire(const Instant& now, int guard, int* mode) const override;
   GuardLabel label(int guard, const Instant& now) const override;
   bool regularise(int guard, int* mode) const override;
-  // An operating sequence may switch the loads off; the links move on.
+  // An operating sequence may switch off the loads; the links continue to move.
   void set_timed_modes(double t, int* mode, char* active) const override;
   void first_modes(const Instant& now, int* mode) const override;
   void follow_directions(const Instant& now, int* mode) const override;
@@ -153,18 +153,18 @@ class MechanismPool final : public ReactingPool {
     bool has_weight = false;
     double output_scale = 1;      // of x′
     bool watches_travel = false;  // some load depends on the direction of travel
-    // Of one with joint friction: where what acts within it is placed, in the order of JointFriction::applied(); −1: not.
+    // With joint friction: indices of the forces within, in the order of JointFriction::applied(); −1: not placed.
     std::vector<int> within = {};
-    // Of the first load: behind that of the weight, which what acts within a linkage does not have.
+    // Account of the first load: after that of the weight, which forces within a linkage do not have.
     int load_account() const { return at.account + (mechanism.is_force() ? 0 : 1); }
   };
   struct GuardOwner {
     std::size_t placed;
-    int load;  // or the sign of x′, of a joint's velocity, of what a side of a slide bears
+    int load;  // or one of: sign of x′, sign of a joint velocity, side of a slide, limit of the arc
     int which;
     static constexpr int travel = -1, turning = -2, side = -3, limit = -4;
   };
-  // What acts at an angle: from the tables, or from the bodies.
+  // Reduced functions at an angle, from the tables or from the bodies.
   struct Reduced {
     double inertia, inertia_slope, position, ratio, weight;
   };
@@ -176,7 +176,7 @@ class MechanismPool final : public ReactingPool {
   }
   double load_force(const Placed& p, const Instant& now) const;
   Dual<2> load_slopes(const Placed& p, const Instant& now) const;  // by crank angle and crank speed
-  // What presses on joints: the loads on the output, what acts within.
+  // Forces on the joints: the load on the output, forces within.
   struct Acting {
     double load = 0, applied[JointFriction::most_applied] = {};
   };
@@ -184,7 +184,7 @@ class MechanismPool final : public ReactingPool {
   struct FrictionMemory;
   static JointFriction::Torque friction_torque(const Placed& p, const JointFriction::State& state, double response,
                                                JointFriction::Place& place);
-  // Of forces that outlive it.
+  // The state refers to `forces`, which must outlive it.
   JointFriction::State crank_state(const Placed& p, const Instant& now, double alpha, const Acting& forces) const;
   void add_friction(const Placed& p, const JointFriction::State& state, const JointFriction::Torque& friction,
                     Reactions& sums) const;

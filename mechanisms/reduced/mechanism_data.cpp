@@ -18,9 +18,9 @@ std::vector<PlanePoint> MechanismData::places(double phi) const {
 
 BodiesOf MechanismData::bodies_of() const {
   constexpr double off_change_points = 0.7;  // and off the dead centres
-  if (held_->validate) held_->validate();
   std::string kind = held_->drawing.name;
   kind[0] = static_cast<char>(std::tolower(kind[0]));
+  if (held_->faults) throw_if_any(kind, held_->faults());
   return {.kind = kind,
           .linkage = [held = held_, data = data_](long double phi) { return held->linkage(phi); },
           .place = held_->drawn_at.value_or(arc() ? arc()->middle : off_change_points),

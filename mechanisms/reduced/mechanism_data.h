@@ -1,21 +1,21 @@
-// mechanism_data.h — the description of a mechanism of any kind, as a value: all else comes from it.
+// mechanism_data.h — the description of a mechanism of any kind, as a value.
 //
-// A kind of mechanism is a struct D of lengths and masses; these functions stand beside it and are all that is ever asked
-// of it. D becomes a MechanismData by itself.
-//     std::vector<double> values_of(const D&);                  all of them: who is equal has the same tables
+// A kind of mechanism is a struct D of lengths and masses, with the following functions. D converts implicitly to
+// MechanismData.
+//     std::vector<double> values_of(const D&);                  all values: equal ones share their tables
 //     PlanarLinkage linkage_of(const D&, long double phi);      its bodies and joints, with their series in φ
-//     LinkageDrawing drawing_of(const D&);                      how it is drawn, and whether its output rocks
+//     LinkageDrawing drawing_of(const D&);                      its drawing, and the type of its output
 //     double D::gravity                                         [m/s²]
 // where there is something to say,
-//     void validate(const D&);                                  throws std::invalid_argument with what is wrong
+//     DataFaults faults_of(const D&);                           what is wrong with it
 //     std::vector<PlanePoint> places_of(const D&, double phi);  by which it is drawn, of a drawing that names no joints
 //     std::optional<CrankArc> arc_of(const D&);                 within which angles its crank rocks
 //     std::string locks_of(const D&);                           what happens at their ends, in words
 //     int turns_of(const D&);                                   of the crank until the links come back without change points
 //     double drawn_at(const D&);                                φ of a position in which its lengths are exact
 //     std::vector<std::string> words_about(const D&);           its structure, its transmission angles
-//     std::string undetermined_reactions(const D&);             why reactions have no values; empty: they have
-// and, where its joints are not known, or the output is none of its bodies', in place of Simbody's bodies
+//     std::string undetermined_reactions(const D&);             why reactions are undetermined; empty: they are not
+// and, if its joints are unknown or its output is not on one of its bodies, instead of the general Simbody model
 //     std::unique_ptr<MechanismBodies> own_bodies(const D&);
 #pragma once
 
@@ -37,7 +37,7 @@
 
 namespace kurbel {
 
-// What runs an exported component (library/fmi) holds no Simbody: tables come with the component's data.
+// The run-time of exported components (library/fmi) contains no Simbody: tables are in the component's data.
 #ifdef KURBEL_FMI_RUNTIME
 inline constexpr bool has_bodies = false;
 #else
@@ -49,13 +49,13 @@ class MechanismData {
   template <class D>
   requires requires(const D& data) { drawing_of(data); }
   MechanismData(D given) : data_(std::make_shared<const D>(std::move(given))) {
-    const D* const d = static_cast<const D*>(data_.get());  // as long as data_
+    const D* const d = static_cast<const D*>(data_.get());  // valid as long as data_
     Held held(typeid(D));
     held.values = values_of(*d);
     held.drawing = drawing_of(*d);
     held.gravity = d->gravity;
     held.linkage = [d](long double phi) { return linkage_of(*d, phi); };
-    if constexpr (requires { validate(*d); }) held.validate = [d] { validate(*d); };
+    if constexpr (requires { faults_of(*d); }) held.faults = [d] { return faults_of(*d); };
     if constexpr (requires { places_of(*d, 0.0); }) held.places = [d](double phi) { return places_of(*d, phi); };
     if constexpr (has_bodies && requires { own_bodies(*d); }) held.own_bodies = [d] { return own_bodies(*d); };
     if constexpr (requires { arc_of(*d); }) held.arc = arc_of(*d);
@@ -67,28 +67,28 @@ class MechanismData {
     held_ = std::make_shared<const Held>(std::move(held));
   }
 
-  // Null where it is of another kind.
+  // Null if it is of another kind.
   template <class D>
   const D* as() const {
     return kind() == typeid(D) ? static_cast<const D*>(data_.get()) : nullptr;
   }
   std::type_index kind() const { return held_->kind; }
-  // What acts along a travel within a linkage, which is no mechanism of its own.
+  // A force along a travel within a linkage, not a mechanism.
   bool is_travel() const { return kind() == typeid(LinkageTravelData); }
   const std::vector<double>& values() const { return held_->values; }
   PlanarLinkage linkage(long double phi) const { return held_->linkage(phi); }
   ClosedForm closed_form(long double phi) const { return closed_form_of(linkage(phi)); }
   const LinkageDrawing& drawing() const { return held_->drawing; }
-  std::vector<PlanePoint> places(double phi) const;    // by which it is drawn
+  std::vector<PlanePoint> places(double phi) const;    // of the drawing
   bool rocks() const { return held_->drawing.rocks; }  // the output is an angle
   double gravity() const { return held_->gravity; }
   const std::optional<CrankArc>& arc() const { return held_->arc; }  // empty: the crank turns
-  const std::string& locks() const { return held_->locks; }          // empty: as the named mechanisms do
+  const std::string& locks() const { return held_->locks; }          // empty: the text of the named mechanisms
   const std::vector<std::string>& about() const { return held_->about; }
   const std::string& undetermined() const { return held_->undetermined; }
 
   bool joints_are_known() const { return !held_->own_bodies; }
-  // What Simbody's bodies are made of. Throws std::invalid_argument with the first fault of the data.
+  // Input of the Simbody model. Throws std::invalid_argument with the first fault of the data.
   BodiesOf bodies_of() const;
   // Throws as bodies_of; null without Simbody.
   std::unique_ptr<MechanismBodies> make_bodies() const;
@@ -101,7 +101,7 @@ class MechanismData {
     LinkageDrawing drawing;
     double gravity = 0;
     std::function<PlanarLinkage(long double)> linkage;
-    std::function<void()> validate;
+    std::function<DataFaults()> faults;
     std::function<std::vector<PlanePoint>(double)> places;
     std::function<std::unique_ptr<MechanismBodies>()> own_bodies;
     std::optional<CrankArc> arc;
@@ -117,9 +117,9 @@ class MechanismData {
 
 inline std::unique_ptr<MechanismBodies> make_bodies(const MechanismData& data) { return data.make_bodies(); }
 
-// Costs 1 … 3 µs.
+// Takes 1 … 3 µs.
 ReducedSample closed_sample(const MechanismData& data, double phi);
-// The branch is right by construction: closure_determinant is 1.
+// closure_determinant is 1: the branch is right by construction.
 ReducedSample rounded(const ClosedForm& form);
 
 }  // namespace kurbel

@@ -1,6 +1,4 @@
 // mechanism_pool.cpp — gathers the crank's motion, applies the reduced functions, scatters torque and inertia.
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "mechanisms/reduced/mechanism.h"
@@ -15,7 +13,7 @@ const char* name_of_reversal(const Mechanism& m, bool now_growing) {
   return now_growing ? "folded dead centre" : "extended dead centre";
 }
 
-// A sequence that sets a mechanism or its loads has a command for it and, behind that, one for each load.
+// A sequence that sets a mechanism or its loads has a command for it, followed by one for each load.
 bool acts(const ShaftPorts& at, const Instant& now, std::size_t load) {
   return at.command < 0 || now.command[at.command + 1 + static_cast<int>(load)] > 0.5;
 }
@@ -26,7 +24,7 @@ void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   Placed placed{std::move(mechanism), std::move(at)};
   placed.has_weight = placed.mechanism.has_weight();
   placed.output_scale = placed.mechanism.output_scale();
-  // A guide's friction turns round with the slider.
+  // The friction of a guide reverses with the slider.
   const JointFriction* friction = placed.mechanism.friction.get();
   placed.watches_travel = friction || placed.mechanism.watches_travel();
   reacts_ = reacts_ || friction;
@@ -214,7 +212,7 @@ void MechanismPool::fire(const Instant& now, int guard, int* mode) const {
     if (side != without_events) side = -side;
     return;
   }
-  // Dead centre: the slider turns round, and each load takes up the branch of the other stroke.
+  // Dead centre: the slider reverses, and each load changes to the branch of the other stroke.
   mode[p.at.mode] = -mode[p.at.mode];
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
     if (!p.mechanism.loads[k].depends_on_travel()) continue;
@@ -251,15 +249,15 @@ void MechanismPool::first_modes(const Instant& now, int* mode) const {
   }
 }
 
-// Edges that go to and fro bear as it comes: by the same law, so that there is nothing to tell.
+// Edges that alternate follow the state: the law is the same, so that nothing is reported.
 bool MechanismPool::regularise(int guard, int* mode) const {
   const GuardOwner& owner = owners_[static_cast<std::size_t>(guard)];
   if (owner.load == GuardOwner::side) mode[side_mode(placed_[owner.placed], owner.which)] = without_events;
   return false;
 }
 
-// A crank that turns back within its stroke takes its loads onto the branch of the other sense of travel: while they do
-// not resist, their pieces are not watched, and on a branch of its own pieces lie elsewhere.
+// A crank that reverses within its stroke changes its loads to the branch of the other direction: while they do not
+// resist, their pieces are not guarded, and a separate branch has other pieces.
 void MechanismPool::follow_directions(const Instant& now, int* mode) const {
   for (const Placed& p : placed_) {
     if (!p.watches_travel) continue;
@@ -269,7 +267,7 @@ void MechanismPool::follow_directions(const Instant& now, int* mode) const {
   }
 }
 
-// Forces that the loads can hold against the output, besides what they exert there.
+// Static forces of the loads on the output, in addition to their forces there.
 Hold MechanismPool::load_hold(const Placed& p, const Instant& now) const {
   Hold sum;
   if (!is_loaded(p, now)) return sum;
@@ -286,7 +284,7 @@ void MechanismPool::add_holds(const Instant& now, Hold* shaft, Hold* element) co
   for (const Placed& p : placed_) {
     Hold hold;
     if (p.mechanism.friction) {
-      // Nothing asks what would hold a crank that moves, and reactions with friction are dear to find.
+      // The hold of a moving crank is not needed, and reactions with friction are expensive.
       if (now.direction[p.at.shaft] != 0 && now.speed[p.at.shaft] != 0) continue;
       hold = friction_hold(p, now);
     } else {

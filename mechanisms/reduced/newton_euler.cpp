@@ -6,9 +6,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <span>
 #include <stdexcept>
 
 #include "mechanisms/reduced/crank_cycle.h"
@@ -318,11 +316,6 @@ std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& l, std
     column.push_back(unit(unit.rows() - 1, c) * equations.length());
   }
   return columns;
-}
-
-double beside_change_point(const MechanismData& data, double phi) {
-  linkage_beside(data, phi);
-  return phi;
 }
 
 PlanarLinkage linkage_beside(const MechanismData& data, double& phi) {

@@ -6,9 +6,9 @@
 // counter-clockwise. A reaction is what the body `from` does to the body `on`. For each link i, forces and moments
 // about its centre of mass S:
 //     Σ R + W + F = m a_S,     Σ (P − S) × R + Σ M = I ε_i
-// 3 equations a link in as many unknowns: two of each joint (a pin's R_x, R_y; a slide's N across it and its moment)
-// and the balancing torque on the crank. Solved at once, in long double, for five cases: ω² = 1, ε = 1, weights, unit
-// load, what acts on links besides; every reaction is linear in these.
+// 3 equations per link; unknowns: two for each joint (R_x, R_y of a pin; normal force N and moment of a slide) and the
+// balancing torque on the crank. Solved in long double for five cases: ω² = 1, ε = 1, weights, unit load, other forces
+// on links; every reaction is linear in these.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@ struct Force2 {
   double x = 0, y = 0;  // [N]
   double magnitude() const { return std::hypot(x, y); }
   double direction() const { return std::atan2(y, x); }  // [rad]
-  // Seen from axes turned by `angle` against the frame.
+  // Components in axes rotated by `angle` relative to the frame.
   Force2 seen_from(double angle) const {
     const double c = std::cos(angle), s = std::sin(angle);
     return {c * x + s * y, c * y - s * x};
@@ -36,15 +36,15 @@ inline Force2 operator+(Force2 a, Force2 b) { return {a.x + b.x, a.y + b.y}; }
 inline Force2 operator-(Force2 a, Force2 b) { return {a.x - b.x, a.y - b.y}; }
 inline Force2 operator*(double s, Force2 a) { return {s * a.x, s * a.y}; }
 
-// On a body, besides its weight and the load on the output.
+// A force on a body other than its weight and the load on the output.
 struct AppliedForce {
-  int body = 0;       // of the linkage's
+  int body = 0;       // index in the linkage
   Force2 at, force;   // [m], [N]
   double moment = 0;  // [N·m]
 };
 
-// The crank's angle and motion, the load on the output (a force along +x at its pin [N], or a torque [N·m]), and what
-// acts on links besides.
+// Angle and motion of the crank, load on the output (a force along +x at its pin [N], or a torque [N·m]), other forces on
+// links.
 struct LinkageState {
   double phi = 0, omega = 0, alpha = 0, load = 0;
   std::vector<AppliedForce> applied = {};
@@ -52,9 +52,9 @@ struct LinkageState {
 
 struct LinkForces {
   const char* name = "";
-  double direction = 0;             // of the link; a slider's that of its guide [rad]
+  double direction = 0;             // of the link; for a slider: of its guide [rad]
   Force2 com;                       // centre of mass [m]
-  Force2 acceleration;              // of it [m/s²]
+  Force2 acceleration;              // of the centre of mass [m/s²]
   double omega = 0, alpha = 0;      // of the link [rad/s], [rad/s²]
   Force2 inertia_force;             // −m a [N]
   double inertia_couple = 0;        // −I ε, about its centre of mass [N·m]
@@ -65,20 +65,20 @@ struct LinkForces {
 
 struct JointForces {
   const char* name = "";
-  const char *from = "frame", *on = "frame";  // "frame", "crank": which body acts on which
+  const char *from = "frame", *on = "frame";  // names of the acting and the loaded body
   bool slides = false;
-  Force2 at;          // where it stands [m]
+  Force2 at;          // position [m]
   double along = 0;   // direction of a slide [rad]
   Force2 force;       // of `from` on `on` [N]
   double normal = 0;  // of a slide: positive 90° ahead of its direction [N]
   double moment = 0;  // of a slide on `on`, about `at` [N·m]
-  // On `on`: of a pin a couple [N·m], of a slide a force along it [N], which is not in `force`; what it takes [W], ≥ 0.
+  // Friction on `on`: couple of a pin [N·m], force along a slide [N], not included in `force`; its power loss [W], ≥ 0.
   double friction = 0, friction_power = 0;
-  // Of a slide whose length is known, where N acts beyond it: both ends bear, with these forces ahead and behind [N].
+  // If N acts outside the known length of a slide: contact at both ends, with these forces in front and behind [N].
   bool both_edges = false;
   double edge_front = 0, edge_back = 0;
 
-  // Of a slide: where N acts, along it from `at` [m]; beyond every guide if N = 0.
+  // Position of N along a slide from `at` [m]; infinite if N = 0.
   double point() const { return moment == 0 ? 0 : moment / normal; }
 };
 
@@ -87,48 +87,46 @@ struct LinkageForces {
   double output = 0, output_velocity = 0, output_acceleration = 0;  // [m] or [rad]
   std::vector<LinkForces> links;                                    // the crank first, the output last
   std::vector<JointForces> joints;
-  double torque = 0;          // of the shaft on the crank, positive when it drives counter-clockwise [N·m]
+  double torque = 0;          // of the shaft on the crank, positive counter-clockwise [N·m]
   Force2 shaking_force;       // of all inertia forces, on the frame [N]
   double shaking_moment = 0;  // of all inertia forces and couples about the crank's axis, on the frame [N·m]
   double reduced_inertia = 0, kinetic_energy = 0;             // I_r [kg·m²]; T [J]
-  double kinetic_rate = 0, weight_power = 0, load_power = 0;  // dT/dt and powers on the mechanism [W]; the
-                                                              // load's with what acts on links
+  double kinetic_rate = 0, weight_power = 0, load_power = 0;  // dT/dt and powers on the mechanism [W]; load
+                                                              // power includes other forces on links
   double residual = 0;           // of the equations of ideal joints, relative to their largest terms
-  double friction_residual = 0;  // of the friction laws, relative to the largest load that they ask for
+  double friction_residual = 0;  // of the friction laws, relative to the largest friction load
 
   double friction_loss() const;                        // of all joints [W]
-  double friction_loss(std::string_view joint) const;  // of those of this name [W]
+  double friction_loss(std::string_view joint) const;  // of the joints with this name [W]
 };
 
-// Throws std::runtime_error with the numbers where the equations are singular: in a position where the mechanism
-// cannot be moved by its crank.
+// Throws std::runtime_error with the numbers if the equations are singular: in a position in which the crank cannot move
+// the mechanism.
 LinkageForces forces_in(const PlanarLinkage& linkage, const LinkageState& state);
-// The links alone, with what is summed over them: no reactions, no torque, no powers of loads and weights.
+// Only the links and the sums over them: no reactions, no torque, no powers of loads and weights.
 LinkageForces motion_in(const PlanarLinkage& linkage, const LinkageState& state);
 
-// What friction does in a joint, on its body `on`, and the opposite on `from`: a couple of 1 N·m, or along a slide 1 N.
+// Unit friction load of a joint on its body `on`, with the reaction on `from`: a couple of 1 N·m, or 1 N along a slide.
 struct FrictionPlace {
   int joint = 0;
   bool couple = true;
 };
-// Of all joints in their order R_x, R_y [N], of a slide its normal force [N] and moment [N·m], by columns: for ω² = 1,
-// ε = 1, the weights, a unit load, each of what else is applied, each of the friction loads alone (theory 10.2). Last in each the balancing torque [N·m].
+// R_x, R_y [N] of each joint in order, for a slide its normal force [N] and moment [N·m]; last the balancing torque [N·m].
+// One column each for ω² = 1, ε = 1, weights, unit load, every applied force, every friction load alone (theory 10.2).
 std::vector<std::vector<long double>> unit_reactions(const PlanarLinkage& linkage,
                                                      std::span<const FrictionPlace> friction,
                                                      std::span<const std::vector<AppliedForce>> applied = {});
 
-// Of a mechanism that passes change points: φ itself, or if it lies nearer to one than a thousandth of what the sine there
+// The linkage at φ; of a mechanism that passes change points: at φ itself, or if it lies nearer to one than a thousandth of what the sine there
 // changes by in a radian, the place at that distance on its side. Reactions go with the inverse of the distance.
-double beside_change_point(const MechanismData& data, double phi);
-// The linkage there.
 PlanarLinkage linkage_beside(const MechanismData& data, double& phi);
 
-// Reactions that have no bound at change points, found by positions at two distances from each.
+// Reactions that are unbounded at change points, found from positions at two distances from each.
 struct UnboundedReactions {
   std::vector<double> at;      // φ [rad]
   std::vector<bool> of_joint;  // in the order of the linkage's joints
-  double beside = 0;           // φ from the place [rad] …
-  double greatest = 0;         // … at which the greatest of them is this [N]
+  double beside = 0;           // distance from the change point [rad] …
+  double greatest = 0;         // … at which the largest of them has this value [N]
   std::string words;           // with the numbers; empty: none
   bool any() const { return !at.empty(); }
 };

@@ -1,7 +1,7 @@
 // periodic_table.h — several functions of an angle with period 2π, tabulated together in adaptive polynomial pieces.
 //
-// [0, 2π) is cut into pieces, halved where a channel bends; every piece carries one polynomial per channel. A uniform
-// grid as fine as the shortest piece leads from the angle to its piece, so a look-up costs the same everywhere:
+// [0, 2π) is divided into pieces, which are bisected as needed; every piece has one polynomial per channel. A uniform grid
+// as fine as the shortest piece gives the piece of an angle, so a look-up takes constant time:
 //
 //     const auto cursor = table.locate(phi);          // wraps phi, finds the piece
 //     const double inertia = table.value(cursor, 0);  // channel 0 there
@@ -19,7 +19,7 @@
 
 namespace kurbel {
 
-// What a channel's error is compared with.
+// Scale of a channel's error.
 enum class ErrorScale {
   own_value,   // |value| at the same angle: for a channel that keeps its sign
   own_maximum  // largest |value| over the period: for a channel that passes through zero
@@ -28,10 +28,10 @@ enum class ErrorScale {
 struct ChannelSpec {
   std::string name;
   ErrorScale scale = ErrorScale::own_maximum;
-  double least_scale = 0;  // in the channel's unit, ≥ 0: a channel that is mere rounding noise is compared with this
+  double least_scale = 0;  // lower bound of the scale, for channels of rounding noise [unit of the channel], ≥ 0
 };
 
-// How well the pieces met fresh samples at check points between the nodes, and, where there is one, a second source.
+// Errors of the pieces against new samples at check points between the nodes and, if given, against a second source.
 struct TableReport {
   struct Channel {
     std::string name;
@@ -39,7 +39,7 @@ struct TableReport {
     double error = 0;    // largest measured error, relative to the channel's scale
   };
   std::size_t pieces = 0;   // in the finished table
-  std::size_t samples = 0;  // taken in all
+  std::size_t samples = 0;  // total number
   bool converged = false;   // every error at the check points within the tolerance
   std::vector<Channel> channels;
 };
@@ -49,26 +49,26 @@ class PeriodicTable {
   static constexpr std::size_t degree = 9;  // the highest
   static constexpr double period = 2 * std::numbers::pi;
 
-  // Where the pieces begin before they are halved. Two cuts whose shifts differ have no seam in common.
+  // The initial pieces. Two cuts with different shifts have no common boundary.
   struct Cut {
     std::size_t pieces = 16;      // in a period
-    double shift = 0;             // of the seams below 0, in first pieces: 0 … 1
+    double shift = 0;             // of the boundaries below 0, over the initial piece: 0 … 1
     std::size_t degree_used = 9;  // of the polynomials, 4 … degree
   };
 
-  // Writes all channels at an angle in [0, 2π], or up to a first piece outside where the seams are shifted.
+  // Writes all channels at an angle in [0, 2π], or up to an initial piece outside if the boundaries are shifted.
   using Sampler = std::function<void(double phi, std::span<double> values)>;
 
-  // A place in the table, good for every channel.
+  // A position in the table, valid for all channels.
   struct Cursor {
     const double* coefficients;  // of the piece, channel after channel
     double x;                    // −1 … 1 within the piece
   };
 
-  // Bisects pieces until each agrees with fresh samples to `tolerance` of every channel's scale, or there are
-  // max_pieces; report().converged and the errors say which. Samples of `other` show what all of the sampler's have in
-  // common, as lengths that are rounded: once a piece, the difference counts as error. Throws std::invalid_argument on an
-  // empty or senseless request.
+  // Bisects pieces until each agrees with new samples to `tolerance` of every channel's scale, or max_pieces is reached;
+  // see report().converged and the errors. Samples of `other`, one per piece, show errors common to all samples of the
+  // sampler, such as rounded lengths; the difference counts as error. Throws std::invalid_argument for an empty or invalid
+  // request.
   static PeriodicTable build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
                              std::size_t max_pieces, const Cut& cut, const Sampler& other = {});
   static PeriodicTable build(const Sampler& sampler, std::vector<ChannelSpec> channels, double tolerance,
@@ -76,7 +76,7 @@ class PeriodicTable {
     return build(sampler, std::move(channels), tolerance, max_pieces, Cut());
   }
 
-  // Any angle. One that is not finite gives values that are NaN.
+  // Any angle; non-finite angles give NaN.
   Cursor locate(double phi) const {
     if (!(phi >= 0 && phi < period)) {
       constexpr double rest = 2.4492935982947064e-16;  // of 2π beyond `period`
@@ -96,7 +96,7 @@ class PeriodicTable {
     return even + x * odd;
   }
 
-  // Derivative by the angle of what value() gives.
+  // Derivative of value() by the angle.
   static double slope(Cursor at, std::size_t channel) {
     const double* c = at.coefficients + channel * (degree + 1);
     double sum = 0;
@@ -104,13 +104,13 @@ class PeriodicTable {
     return sum * at.coefficients[-1];
   }
 
-  // Of a channel over the period: the pieces' own integrals, however sharply they bend.
+  // Mean of a channel over the period, exact for the polynomials.
   double mean(std::size_t channel) const;
 
   const TableReport& report() const { return report_; }
 
-  // All that it is but its report, to be kept; from these numbers it is the same to the last bit. Throws
-  // std::invalid_argument for numbers that are no table of so many channels.
+  // The table without its report, for storage; from_numbers gives an identical table, bit for bit. Throws
+  // std::invalid_argument if the numbers are not a table of so many channels.
   std::vector<double> numbers() const;
   static PeriodicTable from_numbers(std::span<const double> numbers, std::size_t channels);
 
@@ -121,7 +121,7 @@ class PeriodicTable {
   Cursor locate_wrapped(double phi) const;
 
   double cells_per_radian_ = 0, first_cell_ = 0;  // of angle 0, with its fraction
-  std::vector<std::uint32_t> grid_;  // cell → where its piece begins in pieces_; one more for an angle rounded up
+  std::vector<std::uint32_t> grid_;  // cell → index of its piece in pieces_; one more for an angle rounded up
   std::vector<double> pieces_;
   TableReport report_;
 };

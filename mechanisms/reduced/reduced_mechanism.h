@@ -1,10 +1,10 @@
-// reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody,
+// reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody
 // or, for runs that confirm others, from the loop equations in closed form.
 //
-// Of a crank that rocks the tables are over σ with φ = middle + reach · cos σ: there is no seam at the ends of its arc.
+// For a rocking crank the tables are over σ with φ = middle + reach · cos σ, which is smooth at the ends of the arc.
 //
-// Every channel is tabulated from samples of its own; none is the derivative of another's table, which would cost
-// digits.
+// Every channel is tabulated from its own samples; none is the derivative of another table, which would be less
+// accurate.
 //     M_d − M_c = I_r ε + ½ ω² I_r′ (theory 2.4)        power of a force F on the output: F x′ ω
 #pragma once
 
@@ -25,7 +25,7 @@ class ReducedMechanism {
     inertia_channel,            // I_r [kg·m²]
     inertia_slope,              // I_r′ [kg·m²/rad]
     inertia_curvature,          // I_r″ [kg·m²/rad²]
-    output_position_channel,    // x [m], or ψ [rad] of an output that rocks; so with the next two
+    output_position_channel,    // x [m], or ψ [rad] of a rocking output; also the next two
     output_velocity_ratio,      // x′ [m/rad]
     output_acceleration_ratio,  // x″ [m/rad²]
     gravity_torque_channel,     // M_g [N·m], positive when it drives
@@ -33,18 +33,18 @@ class ReducedMechanism {
     channel_count
   };
 
-  // Magnitudes that mark a channel as rounding noise: a channel smaller than these is tabulated relative to them.
+  // Magnitudes of rounding noise: the error of a smaller channel is relative to them.
   struct NoiseScales {
-    double inertia = 0;  // for I_r′ and I_r″; ten times it for I_r, which may vanish in a dead centre [kg·m²]
+    double inertia = 0;  // for I_r′ and I_r″; ten times this for I_r, which may vanish at a dead centre [kg·m²]
     double gravity_torque = 0;  // for M_g and M_g′ [N·m]
-    double output = 0;          // for x″, which an output that goes round evenly does not have [m/rad²]
+    double output = 0;          // for x″, which is zero for an output that turns uniformly [m/rad²]
     double reach = 1;           // for x on a crank's arc: its mean |x| [m]; 1 rad
   };
 
-  // The mechanism at one angle; each pair costs two polynomials.
+  // The mechanism at one angle; each pair takes two polynomials.
   class At {
    public:
-    // Of the cycle a turn's part: ½ where it takes two turns; what an output that goes round has wound.
+    // part: of the cycle in a turn, ½ for cycles of two turns; winding: turns of a fully turning output per crank turn.
     At(const PeriodicTable& table, double part, double winding, double phi)
         : cursor_(table.locate(part * phi)), wound_(winding * phi) {}
     double value(Channel channel) const {
@@ -68,12 +68,12 @@ class ReducedMechanism {
   };
 
   using Sampler = std::function<ReducedSample(double phi)>;
-  // Tabulates any mechanism. Whether the tolerance was reached within max_pieces: report(). `other`: a second source, whose
-  // differences count as errors.
+  // Tabulates any mechanism; report() shows whether the tolerance was reached with max_pieces. `other`: a second source;
+  // differences from it count as errors.
   ReducedMechanism(const Sampler& sampler, NoiseScales noise, double tolerance, std::size_t max_pieces,
                    const PeriodicTable::Cut& cut = {}, CrankCycle cycle = {}, const Sampler& other = {});
 
-  // Of a table that was made of it once.
+  // From a table made before.
   ReducedMechanism(PeriodicTable table, CrankCycle cycle);
   std::vector<double> numbers() const { return table_.numbers(); }
 
@@ -85,15 +85,15 @@ class ReducedMechanism {
   ValueAndSlope<double> output_velocity(double phi) const { return at(phi).output_velocity(); }
   ValueAndSlope<double> gravity_torque(double phi) const { return at(phi).gravity_torque(); }
 
-  // Over a cycle; of a crank that rocks the value in the middle of its arc.
+  // Mean over a cycle; for a rocking crank the value in the middle of its arc.
   double mean(Channel channel) const { return rocks_ ? at(cycle_.arc()->middle).value(channel) : table_.mean(channel); }
 
-  // Pieces, samples and the measured error of every channel; of the first extraction what the second differs by is in it.
+  // Pieces, samples and measured error of every channel; in the first extraction including the difference of the second.
   const TableReport& report() const { return table_.report(); }
 
  private:
   double on_arc(double phi) const;                                // σ
-  PeriodicTable::Sampler in_table(const Sampler& sampler) const;  // of one that outlives it
+  PeriodicTable::Sampler in_table(const Sampler& sampler) const;  // `sampler` must outlive the result
 
   CrankCycle cycle_;
   bool rocks_;
@@ -101,34 +101,34 @@ class ReducedMechanism {
   PeriodicTable table_;  // over part_ · φ, or σ
 };
 
-// Tolerance of tables unless asked otherwise: 1e-12 of I_r's value and of the other channels' maxima, halved for what
-// may lie between the check points.
+// Default tolerance of tables: 1e-12 of the value of I_r and of the maxima of the other channels, halved to allow for
+// errors between the check points.
 inline constexpr double table_tolerance = 0.5e-12;
 inline constexpr std::size_t table_max_pieces = 4096;
 
-// The second extraction: no seam is one of the first's, the polynomials are of another degree, and its errors so far
-// below the first's that the difference of two runs is the first's.
+// The second extraction has no boundary in common with the first and polynomials of another degree; its errors are so
+// much smaller that the difference of two runs is the error of the first.
 inline constexpr PeriodicTable::Cut second_cut = {23, 0.381966, 8};
 inline constexpr double second_tolerance = 0.04;  // of the first's
 
-// A mechanism as functions of its crank angle: the first extraction from Simbody (10 … 40 µs a sample), the second from
-// the sums over the links (planar_linkage.h, 1 … 3 µs a sample) with seams and polynomials of its own, so that the two have no
-// error in common. Kept for the life of the process and shared by all who ask with equal data. Throws as make_bodies
-// and MechanismBodies do. Safe to call from several threads.
+// A mechanism as functions of its crank angle: the first extraction from Simbody (10 … 40 µs per sample), the second from
+// sums over the links (planar_linkage.h, 1 … 3 µs per sample) with other boundaries and polynomials, so that the two have
+// no error in common. Kept for the life of the process and shared by calls with equal data. Throws as make_bodies and
+// MechanismBodies. Thread-safe.
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance = table_tolerance,
                                                          std::size_t max_pieces = table_max_pieces,
                                                          Extraction extraction = Extraction::first);
 
-// Tables as they were extracted, each beside what it is of: with them a machine is the same where no Simbody is.
+// Extracted tables with the data that they depend on: they give the same machine without Simbody.
 struct TableBook {
   struct Page {
-    std::string kind;             // of the mechanism's data, by the compiler
-    std::vector<double> of;       // all that a table depends on
+    std::string kind;             // type name of the mechanism's data
+    std::vector<double> of;       // all values that the table depends on
     std::vector<double> numbers;  // PeriodicTable::numbers()
   };
   std::vector<Page> pages;
 
-  // While it stands this thread takes its tables from the book; those that are not in it are entered.
+  // During its lifetime this thread takes its tables from the book and adds missing ones.
   class Open {
    public:
     explicit Open(TableBook& book);
@@ -141,11 +141,11 @@ struct TableBook {
   };
 };
 
-// For programs that compile scenes by the thousand and run none of them: tables of a few pieces of the closed forms in
-// place of all that are asked for, until told otherwise. For the whole process.
+// For programs that compile thousands of scenes without running them: replaces all tables by ones with a few pieces from
+// the closed forms, until switched off. For the whole process.
 void take_rough_tables(bool rough);
 
-// The same, always extracted afresh.
+// As reduce_mechanism, but always a new extraction.
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance = table_tolerance,
                                    std::size_t max_pieces = table_max_pieces,
                                    Extraction extraction = Extraction::first);

@@ -1,11 +1,11 @@
-// joint_contact.h — the contact of two surfaces in a joint with clearance: a force over depth and approach speed.
+// joint_contact.h — contact of two surfaces in a joint with clearance: force over depth and approach speed.
 //
-//     N = k c (δ/c)ⁿ (1 + λ δ̇), never less than 0        δ depth > 0, c the joint's gap       (Hunt and Crossley,
-//     T = μ N tanh(v_t/v₀)                               v_t speed of sliding                 J. Appl. Mech. 42, 1975)
-// k is the stiffness at the depth c, so that it is N/m for every n (Hertz: n = 3/2, a line of contact: n = 1).
-// In a normal impact of speed v in and v′ out, both > 0, whatever n, k and the mass:
+//     N = k c (δ/c)ⁿ (1 + λ δ̇), ≥ 0                      δ depth > 0, c the joint's gap       (Hunt and Crossley,
+//     T = μ N tanh(v_t/v₀)                               v_t sliding speed                    J. Appl. Mech. 42, 1975)
+// k refers to the depth c, so that its unit is N/m for every n (Hertz: n = 3/2, line contact: n = 1).
+// In a normal impact with the speed v before and v′ after it, both > 0, for any n, k and mass:
 //     λ v − ln(1 + λ v) = −λ v′ − ln(1 − λ v′)                                                                     (1)
-// Modes: in flight, touching, parting (they leave each other faster than the force could follow: no pulling).
+// Modes: in flight, touching, parting (the surfaces separate faster than they recover: zero force, no pulling).
 #pragma once
 
 #include <algorithm>
@@ -66,7 +66,7 @@ struct JointContact {
     return mode == touching ? parting : touching;
   }
 
-  // λ for v′ = e v at the speed v: (1) over λ v, by bisection.
+  // λ for v′ = e v at the speed v: bisection of (1) over λ v.
   static double damping_for(double restitution, double speed) {
     if (restitution >= 1) return 0;
     const auto surplus = [&](double u) { return u - std::log1p(u) + restitution * u + std::log1p(-restitution * u); };

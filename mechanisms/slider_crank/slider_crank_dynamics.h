@@ -1,12 +1,12 @@
-// slider_crank_dynamics.h — the slider-crank with gaps in its joints and a rod that bends: its equations of motion.
+// slider_crank_dynamics.h — equations of motion of the slider-crank with clearance in its joints and a flexible rod.
 //
 //     A′ = r e(φ) + e       e  rod's big end from the crank pin            S = B + f    f  slider pin from the rod's
 //     end B  = A′ + (l + U_e) e(β)                                             S_y = offset + y, θ tilt of the slider
-//   coordinates z = (φ; e_x, e_y; f_x, f_y; y, θ; q): what a joint without clearance, a rigid rod has not stays zero.
-//   S_y = A′_y + (l + U_e) sin β + f_y gives β, so that all coordinates but φ are small and keep their digits.
-//     M(z) z̈ + h(z, ż) = 0 over those that are free; for the others the left side is the joint's reaction.
-// The rod is a floating frame from A′ towards B, with the shape functions of rod_flexibility.h; masses that are not
-// those of a prismatic rod (its centre of mass, its inertia) move with the frame.
+//   coordinates z = (φ; e_x, e_y; f_x, f_y; y, θ; q); those of joints without clearance and of a rigid rod stay zero.
+//   S_y = A′_y + (l + U_e) sin β + f_y gives β, so that all coordinates except φ are small, with small rounding errors.
+//     M(z) z̈ + h(z, ż) = 0 for the free coordinates; for the others the left side is the joint's reaction.
+// The rod has a floating frame from A′ towards B, with the shape functions of rod_flexibility.h; deviations of its mass
+// distribution from that of a prismatic rod (centre of mass, inertia) move with the frame.
 #pragma once
 
 #include <array>
@@ -24,19 +24,19 @@
 
 namespace kurbel {
 
-// A gap in a joint of the slider-crank, as a scene gives it.
+// Clearance in a joint of the slider-crank, by the scene.
 struct JointClearance {
   enum class Joint { crank_pin, wrist_pin, guide };
   Joint joint = Joint::crank_pin;
   JointContact contact;
   double pin_radius = 0;      // of a pin, for its friction [m]
-  double half_length = 0;     // of the slider in its guide, to either side of its pin [m]
+  double half_length = 0;     // of the slider in its guide, on each side of its pin [m]
   double half_height = 0;     // [m]
   double slider_inertia = 0;  // about its pin [kg·m²]
   std::string name() const { return enumerator_words<Joint::guide>(joint); }  // "crank pin"
 };
 
-// Where the coordinates and their rates are, and what follows from them.
+// Coordinates and their rates, and the quantities that follow from them.
 template <class T>
 struct SliderCrankMotion {
   static constexpr std::size_t most = 7 + RodModes::most;
@@ -58,7 +58,7 @@ class SliderCrankDynamics {
   SliderCrankDynamics(const SliderCrankData& data, std::vector<JointClearance> clearances,
                       const std::optional<RodFlexibility>& rod, bool weightless);
 
-  // Coordinates that are free: φ first.
+  // The free coordinates, φ first.
   const std::vector<std::size_t>& free() const { return free_; }
   const RodModes& rod() const { return rod_; }
   const std::vector<JointClearance>& clearances() const { return clearances_; }
@@ -78,12 +78,11 @@ class SliderCrankDynamics {
   template <class T>
   SliderCrankMotion<T> motion(const std::array<T, most>& z, const std::array<T, most>& w) const;
 
-  // M z̈ + h over all coordinates; h with the loads' force on the slider, weight, elasticity and contacts in these
-  // modes.
+  // M z̈ + h over all coordinates; h includes the load on the slider, weight, elasticity and the contacts in these modes.
   template <class T>
   std::array<T, most> residual(const SliderCrankMotion<T>& m, const Vector& acceleration, const T& load,
                                const int* contact_mode) const;
-  // Column of M.
+  // A column of M.
   Vector inertia_column(const SliderCrankMotion<double>& m, std::size_t coordinate) const;
 
   double kinetic_energy(const SliderCrankMotion<double>& m) const;            // ½ żᵀ M ż
@@ -91,7 +90,7 @@ class SliderCrankDynamics {
   double elastic_energy(const SliderCrankMotion<double>& m) const;
   double contact_energy(const SliderCrankMotion<double>& m, const int* contact_mode) const;
   double weight_power(const SliderCrankMotion<double>& m) const;
-  double damping_power(const SliderCrankMotion<double>& m) const;                                // lost in the rod
+  double damping_power(const SliderCrankMotion<double>& m) const;                                // loss in the rod
   double contact_loss_power(const SliderCrankMotion<double>& m, const int* contact_mode) const;  // ≥ 0
 
   double acceleration_x(const SliderCrankMotion<double>& m, const Vector& acceleration) const;
@@ -154,8 +153,8 @@ SliderCrankMotion<T> SliderCrankDynamics::motion(const std::array<T, most>& z, c
   if (end >= 0) m.length = m.length + z[stretch], m.stretch_rate = w[stretch];
   const T rise = data_.offset + z[y] - z[f_y] - r * m.sin_phi - z[e_y];
   m.sin_beta = rise / m.length;
-  // Trial steps that diverge may leave the rod no way to lie; with a millionth of cos β their numbers stay numbers,
-  // large enough for the step control to refuse them.
+  // In diverging trial steps the rod may be too short; a minimum of 1e-6 for cos β keeps the results finite, and large
+  // enough to be rejected by the step control.
   constexpr double least_cosine = 1e-6;
   const T across = (m.length - rise) * (m.length + rise);
   m.cos_beta =
@@ -196,7 +195,7 @@ void SliderCrankDynamics::inertia_of_rod(const SliderCrankMotion<T>& m, const Bo
   const auto n = static_cast<std::size_t>(amplitudes()), bending = static_cast<std::size_t>(rod_.bending);
   const T* const q = m.z.data() + first_amplitude;
   const T* const v = m.w.data() + first_amplitude;
-  // First moments S of mass along and across, the moment of inertia J about A′, and what of the rates goes with them.
+  // First moments of mass along and across the rod, moment of inertia about A′, and their terms with rates.
   T s1(mass * data_.rod_com), s2(0.0), s1_rate(0.0), s2_rate(0.0), s1_acc(0.0), s2_acc(0.0);
   T inertia(data_.rod_inertia + mass * data_.rod_com * data_.rod_com), half_inertia_rate(0.0), turn(0.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -279,7 +278,7 @@ SliderCrankDynamics::Touch<T> SliderCrankDynamics::touch(const SliderCrankMotion
     const double p = place.corner % 2 == 0 ? joint.half_length : -joint.half_length, q = across * joint.half_height;
     const T c = cos(m.z[tilt]), s = sin(m.z[tilt]);
     t.arm_x = p * c - q * s, t.arm_y = p * s + q * c;
-    // From the middle, so that little is lost: p s + q (c − 1) + q.
+    // Measured from the middle to avoid cancellation: p s + q (c − 1) + q.
     const T half = sin(0.5 * m.z[tilt]);
     t.depth = across * (m.z[y] + p * s - 2.0 * q * half * half) - joint.contact.gap;
     t.rate = across * (m.w[y] + t.arm_x * m.w[tilt]);
@@ -294,7 +293,7 @@ SliderCrankDynamics::Touch<T> SliderCrankDynamics::touch(const SliderCrankMotion
   if (value_of(distance) == 0) return t;
   t.normal_x = ex / distance, t.normal_y = ey / distance;
   t.rate = t.normal_x * m.w[first] + t.normal_y * m.w[first + 1];
-  // Of the two surfaces where they touch: the rod's turns about its own end.
+  // Relative speed of the surfaces at the contact; the rod's surface rotates about the rod's end.
   t.sliding = t.normal_x * m.w[first + 1] - t.normal_y * m.w[first] +
               joint.pin_radius * (crank ? m.w[phi] : m.w[tilt]) - (joint.pin_radius + distance) * m.beta_rate;
   return t;
@@ -332,7 +331,7 @@ std::array<T, SliderCrankDynamics::most> SliderCrankDynamics::residual(const Sli
   const double r = data_.radius;
   const auto n = static_cast<std::size_t>(amplitudes());
   const T crank_turning = m.w[phi] * m.w[phi];
-  // Accelerations less that of gravity.
+  // Accelerations minus that of gravity.
   BodyAcceleration<T> a;
   a.a_x = -r * (m.cos_phi * crank_turning + m.sin_phi * acceleration[phi]) + (acceleration[e_x] - weight_x_);
   a.a_y = -r * (m.sin_phi * crank_turning - m.cos_phi * acceleration[phi]) + (acceleration[e_y] - weight_y_);

@@ -1,5 +1,5 @@
-// slider_crank_pose.h — where the slider-crank's rod and slider stand, with two derivatives by φ, also for dual numbers: what its
-// joints' reactions and friction are evaluated from at every step.
+// slider_crank_pose.h — pose of rod and slider of a slider-crank with two derivatives by φ, also for dual numbers; used at
+// every step for the reactions and the friction of its joints.
 #pragma once
 
 #include <cmath>
@@ -46,8 +46,8 @@ struct SliderCrankPose {
   void keep_side(const SliderCrankData& d) {
     using std::sqrt;
     const T r = d.radius, l = d.rod_length, e = d.offset;
-    // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; written with cos²φ they
-    // keep every digit.
+    // cos²β = (1 − sin β)(1 + sin β). Near l = r + |e| these factors vanish with 1 ± sin φ; cos²φ avoids the
+    // cancellation.
     const T cos_squared = cos_phi * cos_phi;
     const T below = is_negative(sin_phi) ? cos_squared / (T(1) - sin_phi) : T(1) + sin_phi;   // 1 + sin φ
     const T above = is_negative(-sin_phi) ? cos_squared / (T(1) + sin_phi) : T(1) - sin_phi;  // 1 − sin φ
@@ -67,7 +67,7 @@ struct SliderCrankPose {
   }
 
   // l = r + |e|. With h = (φ + π/2)/2, k = √r cos h and m = √r sin h (e < 0: the two exchanged), l cos β =
-  // 2 m √(|e| + k²) and r cos φ = 2 k m: m is gone from β′ = −k/√(|e| + k²).
+  // 2 m √(|e| + k²) and r cos φ = 2 k m: m cancels in β′ = −k/√(|e| + k²).
   void pass_upright(const SliderCrankData& d, T phi) {
     using std::cos;
     using std::sin;

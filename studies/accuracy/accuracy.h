@@ -1,13 +1,11 @@
-// accuracy.h — what accuracy costs: error bought per second, over integrators, tolerances and levels of modelling.
+// accuracy.h — the cost of accuracy: error against processor time, over integrators, tolerances and levels of modelling.
 //
-// Levels of modelling are a ladder: the bare rigid machine, then one effect more a rung, to all that the scene has
-// parameters for. Every level gets a reference by two independent methods at the tightest tolerance; what they differ by
-// is the least error that is ever stated. Then each method climbs the ladder of tolerances.
+// Levels of modelling form a series: the bare rigid machine, then one effect more per level, up to all that the scene
+// has parameters for. Every level has a reference by two independent methods at the tightest tolerance; their
+// difference is the smallest error that is ever stated. Then each method runs through all tolerances.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -23,10 +21,10 @@ struct AccuracyOptions {
   std::vector<double> tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
   std::vector<std::string> methods = {};  // of the reduced model; empty: all that apply
   bool multibody = true;
-  std::string figure = {};            // the one that questions are about; empty: the first
+  std::string figure = {};            // the figure that questions refer to; empty: the first
   std::optional<double> within = {};  // "how cheap is an error of at most this?" relative, against the fullest model
-  std::optional<double> budget = {};  // "how exact is what this much processor time buys?" [s]
-  double time = 60;                   // processor time that the whole study may take, about [s]
+  std::optional<double> budget = {};  // "how accurate is a result for this processor time?" [s]
+  double time = 60;                   // processor time for the whole study, about [s]
   int most_repetitions = 9;
   Watch watch = {};
 };
@@ -36,7 +34,7 @@ struct FollowedFigure {
   std::string name, unit;
 };
 
-// One level of modelling with its converged answer.
+// One level of modelling with its converged result.
 struct ModelLevel {
   // "energy method", "rigid", "with joint friction", "elastic: main_coupling", "elastic", "multibody"
   std::string name = {};
@@ -44,7 +42,7 @@ struct ModelLevel {
   std::size_t coordinates = 0;
   std::string first = {}, second = {};  // methods of the reference
   double tolerance = 0;                 // of both
-  double agreement = 0;                 // of the two trajectories, over scales: no error below it is told from it
+  double agreement = 0;                 // of the two trajectories, over scales: smaller errors cannot be resolved
   std::vector<double> value = {},
                       floor = {};  // per followed figure; NaN: the level does not yield it. floor: relative agreement
   std::vector<double> model_error = {};  // per followed figure: reference against that of the fullest level
@@ -56,16 +54,16 @@ inline constexpr double close_enough = 1e-3;
 // "rigid" → "rigid model", "with gear losses" → "model with gear losses", "elastic: shaft" → "model elastic in shaft alone".
 std::string model_called(const std::string& level);
 
-// One rung of the ladder of models: what the rungs before have, and one effect more.
+// One level in the series of models: the effects of the levels before, and one more.
 struct ModelRung {
   std::string name;               // "rigid", "with joint friction", "elastic", "all elastic", as the level's
   Effects effects;                // all that are on
   bool Effects::*adds = nullptr;  // null: the bare machine, or elasticity
-  bool of_scene = true;           // on in the scene; its own effects come first, so that they are a rung, too
+  bool of_scene = true;           // on in the scene; its own effects come first: its model is a level, too
 };
 
-// Rigid, then the effects that the scene has on, then those that it only has parameters for: what a rigid machine may
-// have, then elasticity, then what goes with elasticity. Mechanisms evaluated body by body: only where the scene asks.
+// Rigid, then the effects that the scene has on, then those that it only has parameters for: first those of a rigid machine,
+// then elasticity, then those that need elasticity. Mechanisms evaluated body by body: only if the scene has that on.
 std::vector<ModelRung> model_rungs(const Scene& scene);
 
 // One method at one tolerance on one level.
@@ -79,7 +77,7 @@ struct MeasuredSetting {
   double seconds = 0, fastest = 0, slowest = 0;  // processor time: median and spread
   int repetitions = 0;
   std::int64_t steps = 0, rejected = 0, flow_calls = 0, jacobian_calls = 0, events = 0;
-  double energy_drift = 0;      // residual of the energy balance over the energy turned over
+  double energy_drift = 0;      // residual of the energy balance over the energy converted
   bool on_level_front = false;  // no setting of the level has a smaller trajectory error in less time
   bool on_front = false;        // no setting at all has a smaller total error in the key figure in less time
 };
@@ -92,14 +90,14 @@ struct AccuracyStudy {
   std::string title, scene_file, scene_text;
   std::vector<FollowedFigure> figures;
   std::size_t key = 0;             // of the figures
-  std::vector<ModelLevel> levels;  // the ladder, up to `fullest`, by which the others are judged; then own solvers
+  std::vector<ModelLevel> levels;  // the series up to `fullest`, the reference of the others; then own solvers
   std::size_t fullest = 0;
-  std::size_t own = 0;  // of the scene's own effects
+  std::size_t own = 0;  // level with the scene's own effects
   std::vector<MeasuredSetting> settings;
   std::vector<Omission> omissions;
   std::vector<std::string> findings;  // sentences from the data; the first is the conclusion
   std::vector<std::string> answers;   // to --within and --budget
-  std::vector<std::string> notes;     // how far the models hold, of the fullest level
+  std::vector<std::string> notes;     // range of validity of the models, of the fullest level
   double seconds = 0;                 // of the whole study
   bool complete = true;
   std::string diagnosis;
@@ -107,13 +105,13 @@ struct AccuracyStudy {
   std::string name_of(const MeasuredSetting& s) const;  // "elastic, esdirk at 1e-05"
 };
 
-// Throws SceneError where the scene makes no machine, std::invalid_argument where the question names no figure of it.
+// Throws SceneError if no machine can be made from the scene, std::invalid_argument if `figure` is none of its figures.
 AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& options);
 
-// What the settings say: fronts, findings, answers. Part of measure_accuracy().
+// Evaluates the settings: fronts, findings, answers. Part of measure_accuracy().
 void judge_accuracy(AccuracyStudy& study, const AccuracyOptions& options);
 
-// Places of the settings that no other beats in both error (by more than a tenth) and time, cheapest first.
+// Indices of the settings that no other beats in both error (by more than a tenth) and time, cheapest first.
 std::vector<std::size_t> pareto_front(const std::vector<double>& error, const std::vector<double>& seconds);
 
 // Files: settings.csv. The study must outlive the findings.

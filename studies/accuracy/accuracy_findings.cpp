@@ -89,7 +89,7 @@ Rows settings_table(const AccuracyStudy& study) {
       });
 }
 
-// On a terminal the fronts alone, with the key figure; all settings are in the files.
+// On a terminal only the fronts, with the key figure; all settings are in the files.
 Rows front_table(const AccuracyStudy& study) {
   std::vector<const MeasuredSetting*> shown;
   for (const MeasuredSetting& s : study.settings)
@@ -116,7 +116,7 @@ Rows front_table(const AccuracyStudy& study) {
 
 std::string rung_time(const ModelLevel& m) { return std::isnan(m.seconds) ? "—" : milliseconds(m.seconds); }
 
-// On a terminal the ladder of models with what each rung lacks and costs.
+// On a terminal the series of models with error and cost of each.
 Rows rung_table(const AccuracyStudy& study) {
   using L = const ModelLevel&;
   const std::size_t rungs = std::min(study.fullest + 1, study.levels.size());
@@ -212,7 +212,7 @@ Text how_measured(const AccuracyStudy& study) {
           full.tolerance, model_called(full.name), 100 * close_enough, study.figures[study.key].name, study.seconds)};
 }
 
-// What a page shows of settings that were measured.
+// Plots and tables of the measured settings on the page.
 void show_measured(Findings& f, const AccuracyStudy& study) {
   const Chapter words = f.chapter("What it means"), plane = f.chapter("Model and numbers"),
                 motion = f.chapter("The motion"), figures = f.chapter("The figures"), numbers = f.chapter("Numbers"),

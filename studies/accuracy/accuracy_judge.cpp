@@ -1,4 +1,4 @@
-// accuracy_judge.cpp — what the measured settings say: fronts, sentences, answers.
+// accuracy_judge.cpp — evaluation of the measured settings: fronts, sentences, answers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class Judge {
     return fmt::format("{}, {}, measured {}", study_.name_of(s), duration(s.seconds), percent(total(s)));
   }
 
-  // What each level's key figure costs.
+  // Processor time for each level's key figure.
   void time_levels() {
     if (study_.figures.empty()) return;
     for (std::size_t level = 0; level < study_.levels.size(); ++level)
@@ -115,7 +115,7 @@ class Judge {
                 : fmt::format("Nothing tried yields {}", key());
   }
 
-  // From 1 % on, digit by digit, as far as it is told from the references.
+  // Increase of time for each power of ten in error, from 1 % on, as far as the references resolve it.
   std::string price_of_digits() const {
     std::string text;
     const MeasuredSetting* before = cheapest_within(1e-2);
@@ -134,7 +134,7 @@ class Judge {
                        dearer, told(*before));
   }
 
-  // Where tightening the tolerance is wasted, because the model is coarser.
+  // Where a tighter tolerance is useless because the model error dominates.
   std::string limit_of(std::size_t level) const {
     const ModelLevel& m = study_.levels[level];
     if (level == study_.fullest || std::isnan(m.model_error[study_.key])) return "";
@@ -163,7 +163,7 @@ class Judge {
         full().second, key(), model_called(full().name), full().floor[study_.key], full().agreement);
   }
 
-  // Against the cheapest reduced setting that is at least as exact.
+  // Against the cheapest reduced setting of at least the same accuracy.
   std::string price_of_multibody() const {
     double least = HUGE_VAL, most = 0;
     for (const MeasuredSetting& s : study_.settings) {
@@ -194,7 +194,7 @@ std::vector<std::size_t> pareto_front(const std::vector<double>& error, const st
     return seconds[a] != seconds[b] ? seconds[a] < seconds[b] : error[a] < error[b];
   });
   std::vector<std::size_t> front;
-  // Gains of less than a tenth are none: times wander by as much.
+  // Gains of less than a tenth are ignored: times scatter by as much.
   for (const std::size_t i : order)
     if (front.empty() || error[i] < 0.9 * error[front.back()]) front.push_back(i);
   return front;

@@ -1,4 +1,4 @@
-// accuracy_ladder.cpp — the ladder of methods and tolerances: the error of every rung, and the time that it takes.
+// accuracy_ladder.cpp — the sequence of methods and tolerances: error and time of every setting.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace kurbel {
 namespace {
 
-// A method whose trajectory is this near to what the references agree on has nothing more to gain.
+// A method whose trajectory differs from the references by this multiple of their agreement cannot improve.
 constexpr double floor_is_reached = 2;
 
-// An error of motion below which nothing more is asked of a level between, unless methods are named.
+// Motion error below which an intermediate level needs no further tolerances, unless methods are named.
 constexpr double enough_between = 1e-6;
 
 struct Climber {
@@ -33,8 +33,8 @@ std::vector<std::string> methods_for(const AccuracyWork& work, const LevelAtWork
   return methods;
 }
 
-// The integration with its peaks and cycles, as a user needs it; without samples and the audit of the energy. Once is
-// enough of a setting that is beaten by far.
+// The integration with its peaks and cycles, as a user needs it, without samples and energy audit. A setting far
+// slower than others is timed once.
 bool time_runs(MeasuredSetting& s, const AccuracyWork& work, const LevelAtWork& level) {
   constexpr double by_far = 1.5;
   std::vector<double> seconds;
@@ -104,14 +104,14 @@ void take_rung(AccuracyWork& work, Climber& c, double tolerance) {
     give_up(work, level.told.name, c.method, tolerance);
   }
   work.study.settings.push_back(s);
-  // One more rung at the floor shows that it is one.
+  // One more tolerance at the floor confirms it.
   if (difference <= floor_is_reached * level.told.agreement) c.open = false;
   if (level.between && work.options.methods.empty() && difference <= enough_between) c.open = false;
 }
 
 }  // namespace
 
-// Loose tolerances of all before tight ones of any, so that a study cut short is still one of all methods.
+// Loose tolerances of all methods before tight ones of any, so that a study cut short covers all methods.
 void climb_ladder(AccuracyWork& work) {
   std::vector<Climber> climbers;
   for (std::size_t i = 0; i < work.levels.size(); ++i)

@@ -65,7 +65,7 @@ class Rungs {
   std::vector<ModelRung> rungs_;
 };
 
-// What a run with these effects says of a machine's strain; empty where it fails.
+// Peak loads of a machine from a run with these effects; empty if it fails.
 std::map<std::string, double> peaks(const AccuracyWork& work, const Effects& effects) {
   std::map<std::string, double> found;
   const Result r = simulate(work.scene, effects, "", work.simulate_options("auto", 1e-6));
@@ -84,7 +84,7 @@ std::set<std::string> springs_of(const Model& model) {
   return names;
 }
 
-// The one elastic element that alone comes nearest to the full model's peaks.
+// The single elastic element that comes closest to the full model's peaks.
 std::optional<ModelRung> lean_rung(AccuracyWork& work, const Effects& full, const Model& model) {
   const std::set<std::string> candidates = springs_of(model);
   constexpr std::size_t most_candidates = 8;
@@ -130,7 +130,7 @@ std::vector<std::string> reference_methods(const LevelAtWork& level) {
   return methods;
 }
 
-// False: none that can be trusted, which is told.
+// False: no reliable reference, which is reported.
 bool make_reference(AccuracyWork& work, LevelAtWork& level) {
   ModelLevel& told = level.told;
   told.effects = level.model->effects.describe();
@@ -176,7 +176,7 @@ bool make_reference(AccuracyWork& work, LevelAtWork& level) {
   return true;
 }
 
-// The level of a rung, on top of those before; false: it makes no machine, or none that can be trusted.
+// The level of a model, on top of those before; false: it makes no machine, or no reliable one.
 bool add_level(AccuracyWork& work, const ModelRung& rung, bool between) {
   LevelAtWork level{.told = {.name = rung.name}, .model = {}, .tables = {}, .reference = {}, .between = between};
   try {
@@ -190,7 +190,7 @@ bool add_level(AccuracyWork& work, const ModelRung& rung, bool between) {
   return true;
 }
 
-// Without what a rung before added in vain.
+// Removes an effect that an earlier level added without success.
 void take_away(const ModelRung& in_vain, const Scene& scene, Effects& effects) {
   if (in_vain.adds) {
     effects.*(in_vain.adds) = false;
@@ -204,8 +204,8 @@ void take_away(const ModelRung& in_vain, const Scene& scene, Effects& effects) {
 
 std::vector<ModelRung> model_rungs(const Scene& scene) { return Rungs(scene).all(); }
 
-// What the scene has on is carried up though a rung fails: with the next effect it may run. What it has off is not, and
-// is begun only in the first third of the study's time.
+// Effects that the scene has on are kept even if a level fails, as it may run with the next effect. Effects that it
+// has off are not, and are started only in the first third of the study's time.
 void make_levels(AccuracyWork& work) {
   const std::vector<ModelRung> rungs = model_rungs(work.scene);
   const auto own = std::find_if(rungs.begin(), rungs.end(), [](const ModelRung& r) { return !r.of_scene; }) - 1;

@@ -99,8 +99,8 @@ Plot figure_cost(const AccuracyStudy& study, std::size_t figure) {
   return plot;
 }
 
-// Every setting by its numerical error and the error of its model: right of the diagonal the numbers are the coarser of
-// the two, left of it the model is, and a tighter tolerance buys nothing.
+// Every setting by its numerical error and its model error: right of the diagonal the numerical error dominates, left
+// of it the model error, and a tighter tolerance is useless.
 Plot error_plane(const AccuracyStudy& study) {
   const std::size_t k = study.key;
   Plot plot{.title = fmt::format("Error of the model against error of the numbers: {}", study.figures[k].name),

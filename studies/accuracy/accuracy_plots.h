@@ -1,4 +1,4 @@
-// accuracy_plots.h — error against processor time, of the motion and of figures; error of the model against the numbers'.
+// accuracy_plots.h — error against processor time, of the motion and of figures; model error against numerical error.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace kurbel {
 
-// Model and numbers together: what is bought per time, and which of the two is the coarser.
+// Model and numerical error together over time, and which of the two dominates.
 std::vector<Plot> total_plots(const AccuracyStudy& study);
-// Of every model with more than one setting.
+// For every model with more than one setting.
 std::vector<Plot> motion_cost_plots(const AccuracyStudy& study);
 std::vector<Plot> figure_cost_plots(const AccuracyStudy& study);
 

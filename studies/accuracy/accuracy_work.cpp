@@ -1,4 +1,4 @@
-// accuracy_work.cpp — options of the study's runs, its messages, how far trajectories are apart, times of repeated runs.
+// accuracy_work.cpp — options of the study's runs, messages, difference of trajectories, times of repeated runs.
 #include "studies/accuracy/accuracy_work.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// accuracy_work.h — what the parts of the study of accuracy share: levels at work, the settings measured, and the time.
+// accuracy_work.h — data shared by the parts of the accuracy study: levels in progress, measured settings, and time.
 #pragma once
 
 #include <limits>
@@ -17,14 +17,14 @@ namespace kurbel {
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double reference_tolerance = 1e-13;
 
-// A level at work.
+// A level in progress.
 struct LevelAtWork {
   ModelLevel told;
   std::shared_ptr<const Model> model;
   std::shared_ptr<WorkTables> tables;   // null: the work equation does not apply
   Result reference;                     // of the first method
   double end_angle = 0, end_speed = 0;  // of the reduction link
-  bool between = false;                 // asked for its error and its time alone, by the methods of its reference
+  bool between = false;                 // intermediate level: only error and time needed, by the reference's methods
 };
 
 struct AccuracyWork {
@@ -54,17 +54,17 @@ double trajectory_difference(const TrajectoryRecorder& a, const TrajectoryRecord
 // Median and spread of repeated runs [s].
 void set_times(MeasuredSetting& s, std::vector<double> seconds);
 
-// The time over that of the cheapest measured setting of its level that has no larger error, of the motion and of the key
-// figure; 0: there is none.
+// Ratio of the time to that of the cheapest measured setting of the same level with errors of the motion and the key
+// figure that are not larger; 0: there is none.
 double times_beaten(const AccuracyStudy& study, const MeasuredSetting& s, double seconds);
-// A method that is beaten by this factor at so many tolerances running is given up, which is said.
+// A method slower by this factor at this many successive tolerances is abandoned, which is reported.
 inline constexpr int hopeless = 2, hopeless_rungs = 2;
 void give_up(AccuracyWork& work, const std::string& level, const std::string& method, double tolerance);
 
-// accuracy_levels.cpp: the ladder of models, each with its reference by two methods. A level without one falls away.
+// accuracy_levels.cpp: the series of models, each with its reference by two methods. A level without a reference is omitted.
 void make_levels(AccuracyWork& work);
 
-// followed_figures.cpp: those whose errors are told, and how far off they are. `value` yields a figure by its name.
+// followed_figures.cpp: the figures whose errors are reported, and these errors. `value` yields a figure by its name.
 void follow_figures(AccuracyWork& work);
 void measure_figures(MeasuredSetting& s, const AccuracyWork& work, const LevelAtWork& level,
                      const std::function<double(const std::string&)>& value);

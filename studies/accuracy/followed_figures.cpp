@@ -1,4 +1,4 @@
-// followed_figures.cpp — which figures the study of accuracy follows, and how far off they are.
+// followed_figures.cpp — the figures followed by the study of accuracy, and their errors.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,7 +13,7 @@
 namespace kurbel {
 namespace {
 
-// Peaks first, the largest one before all; then what else is asked of a machine, in this order.
+// Peaks first, the largest one before all; then the other figures in this order.
 std::vector<const Figure*> worth_following(const Result& full, const Model& model, const std::string& wanted) {
   std::vector<const Figure*> peaks, others;
   const auto sound = [](const Figure& f) {
@@ -59,7 +59,7 @@ void follow_figures(AccuracyWork& work) {
       const Figure* f = like_in(level.reference, *full.reference.find(followed.name));
       const bool sound = f && f->error && std::isfinite(*f->error) && f->value != 0;
       level.told.value.push_back(sound ? f->value : not_known);
-      // Two runs may agree by luck: never below their tolerance.
+      // Two runs may agree by chance: never below their tolerance.
       level.told.floor.push_back(sound ? std::max(*f->error / std::abs(f->value), reference_tolerance) : not_known);
     }
 }

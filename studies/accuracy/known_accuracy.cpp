@@ -52,7 +52,7 @@ Json parsed(const std::filesystem::path& file, const std::string& text) {
 
 double number(const Json& value) { return value.is_number() ? value.get<double>() : HUGE_VAL; }
 
-// Of the motion and of the figures; one at its level's floor, to which the references agree, counts as exact.
+// Largest error of motion and figures; one at its level's floor, where the references agree, counts as exact.
 double largest_error(const Json& setting, const Json& level) {
   double error = number(setting.at("trajectory_error"));
   for (std::size_t i = 0; i < setting.at("figures").size(); ++i) {

@@ -1,6 +1,6 @@
-// known_accuracy.h — what `kurbel accuracy` measured of a scene, for a run that is told to use it (--setting FILE).
+// known_accuracy.h — what `kurbel accuracy` measured for a scene, for a run that uses it (--setting FILE).
 //
-// A run's figures depend on its scene and its options alone. What lies in a results folder is never looked for.
+// A run's figures depend on its scene and its options alone: results folders are not searched.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 namespace kurbel {
 
-// A method at a tolerance, and what it did to the scene's motion and figures.
+// A method at a tolerance, and its errors in motion and figures of the scene.
 struct KnownSetting {
-  std::string file;  // that says so
+  std::string file;  // the file that states it
   std::string method;
   double tolerance = 0;
   double error = 0;    // largest of the motion's and the figures' relative errors
@@ -20,12 +20,12 @@ struct KnownSetting {
   std::string describe() const;
 };
 
-// Of a scene's text: FNV-1a, 64 bits, as hexadecimal digits.
+// Fingerprint of a scene's text: FNV-1a, 64 bits, as hexadecimal digits.
 std::string fingerprint(const std::string& scene_text);
 
 // The cheapest setting of the model with these effects whose measured error is at most `accuracy`, from the summary
-// that `kurbel accuracy` wrote. Throws SceneError with the place in that file where it cannot be read, is none, is of
-// another scene, or has no setting for these effects that is exact enough.
+// written by `kurbel accuracy`. Throws SceneError with the place in that file if it cannot be read, is no such
+// summary, belongs to another scene, or has no sufficiently accurate setting for these effects.
 KnownSetting known_setting(const std::filesystem::path& summary, const Scene& scene, const Effects& effects,
                            double accuracy);
 

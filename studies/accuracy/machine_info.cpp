@@ -1,4 +1,4 @@
-// machine_info.cpp — asks the system; says "unknown processor" where it does not tell.
+// machine_info.cpp — from the operating system; "unknown processor" if it gives none.
 #include "studies/accuracy/machine_info.h"
 
 #include <fmt/format.h>

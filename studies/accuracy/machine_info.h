@@ -1,4 +1,4 @@
-// machine_info.h — the machine that times belong to: processor, compiler, versions of the libraries that count, date.
+// machine_info.h — the computer that times were measured on: processor, compiler, versions of relevant libraries, date.
 #pragma once
 
 #include <string>

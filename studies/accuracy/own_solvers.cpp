@@ -10,7 +10,7 @@
 namespace kurbel {
 namespace {
 
-// A level that shares the rigid model's answer but yields the motion of the link alone.
+// A level with the rigid model's result that yields only the motion of the link.
 std::size_t motion_level(AccuracyWork& work, const std::string& name) {
   const LevelAtWork& rigid = work.levels.front();
   ModelLevel told = rigid.told;
@@ -19,7 +19,7 @@ std::size_t motion_level(AccuracyWork& work, const std::string& name) {
   return work.study.levels.size() - 1;
 }
 
-// What was found of the link at the end of the run.
+// Motion of the link at the end of the run.
 void add_motion(AccuracyWork& work, MeasuredSetting s, double angle, double speed) {
   const LevelAtWork& rigid = work.levels.front();
   const Model& m = *rigid.model;

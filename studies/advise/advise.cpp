@@ -1,4 +1,4 @@
-// advise.cpp — screens order the effects by how little they seem to matter; runs decide.
+// advise.cpp — screens order the effects by estimated importance; runs decide.
 #include "studies/advise/advise.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
-#include "studies/advise/advise_screens.h"
 #include "studies/advise/settled.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/validity/idle_effects.h"
@@ -19,7 +18,7 @@ namespace {
 constexpr std::ptrdiff_t tried_completely = 5;  // units: 2⁵ sets are run one and all
 constexpr double held_out_step = 0.2;           // loads and speeds ± 20 %
 
-// A set that leaves out less than its cost's noise is no gain.
+// A set whose saving is within the noise of its cost is no gain.
 constexpr double same_time = 0.97;
 
 class Adviser {
@@ -106,13 +105,13 @@ class Adviser {
   }
   Deviation judge(const Result& full, const Result& other, const std::vector<std::string>& figures) const {
     Deviation found = deviation_of(changes_between(full, other, figures), options_.within);
-    // A figure of the full model that the other does not have counts as lost, unless nobody asked for it.
+    // A figure missing in the reduced model counts as lost, unless it was not requested.
     for (const Figure& f : full.figures)
       if (is_asked_for(f.name, figures) && !other.find(f.name))
         found.deviation = HUGE_VAL, found.error = 0, found.figure = f.name, found.within = false;
     return found;
   }
-  // The motion that is kept, too, where the full model's run has come to it.
+  // Also the steady motion, if the full model's run reaches it.
   Deviation with_settled(const Deviation& by_run, const std::optional<VariantRun>& full, const Scene& scene,
                          const EffectSet& on, const std::vector<std::string>& figures) const {
     if (!full || !full->failed.empty()) return by_run;
@@ -140,7 +139,7 @@ class Adviser {
       if (has_all_that_it_asks) try_set(on);
     }
   }
-  // Leaves out what the screens think least of, then what runs show to matter least, as long as a set stays within.
+  // Switches off the effects ranked least important, first by screens, then by runs, as long as a set stays within.
   void try_greedily() {
     const std::size_t n = a_.units.size();
     EffectSet on = all_;
@@ -169,7 +168,7 @@ class Adviser {
     refuse_to_drop();
     for (std::size_t k = 0; k < a_.units.size(); ++k) a_.kept_because.push_back(reason(k));
   }
-  // Where a screen expects an effect to matter and the run says it does not, the effect stays.
+  // An effect stays if a screen expects it to matter, even if a run does not confirm it.
   void refuse_to_drop() {
     EffectSet on = a_.tried[a_.chosen].on;
     bool changed = false;
@@ -180,7 +179,7 @@ class Adviser {
           std::all_of(a_.screens[k].begin(), a_.screens[k].end(), [](const Screen& s) { return s.needed; });
       if (!all_expect) continue;
       const TriedSet& alone = try_set(without(all_, k));
-      // A deviation that is small beside the tolerance settles the matter; one near it does not.
+      // A deviation far below the tolerance is decisive; one near it is not.
       if (alone.refused.empty() && alone.deviation + alone.error < 0.2 * options_.within) continue;
       on[k] = changed = true;
       kept_by_screens_.push_back(k);
@@ -216,7 +215,7 @@ class Adviser {
                          : fmt::format("stays: without it {} is {:.3g} % off", found->figure, 100 * found->deviation);
   }
 
-  // What is advised was run once more, as it will be: it stays within, and says how far processor times can be trusted.
+  // The recommended set is run once more: it must stay within, and the scatter of processor times is measured.
   void run_again() {
     TriedSet& chosen = a_.tried[a_.chosen];
     say("again with " + chosen.words, progress());
@@ -232,7 +231,7 @@ class Adviser {
           fmt::format("too uncertain to be judged at {:.3g} %: {}; a smaller run.accuracy judges them",
                       100 * options_.within, listed(chosen.not_judged, "and")));
   }
-  // The full model is not the whole truth where effects exclude each other.
+  // The full model is not the complete one if effects exclude each other.
   void judge_what_does_not_go_with_the_rest() {
     for (std::size_t k = 0; k < a_.units.size(); ++k) {
       if (all_[k]) continue;

@@ -2,7 +2,6 @@
 // run.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +15,11 @@ namespace kurbel {
 struct AdviseOptions {
   SimulateOptions simulate;
   double within = 0.01;              // relative deviation allowed of every figure
-  std::vector<std::string> figures;  // names or their beginnings; empty: all telling ones
+  std::vector<std::string> figures;  // names or their beginnings; empty: all significant ones
   bool held_out = true;              // check other figures and operating points too
 };
 
-// A set that was run against the full model, and how far the figures asked for deviate.
+// A set of effects that was run against the full model, and the deviations of the required figures.
 struct TriedSet : Deviation {
   EffectSet on = {};
   std::string words = {};
@@ -29,7 +28,7 @@ struct TriedSet : Deviation {
   std::string refused = {};  // why it did not run
 };
 
-// The recommended set at a point that took no part in the choice.
+// The recommended set at an operating point that was not used for the choice.
 struct HeldOut : Deviation {
   std::string what = {}, refused = {};  // "loads +20 % (load.torque)"
 };
@@ -43,7 +42,7 @@ struct Advice {
   std::vector<std::vector<Screen>> screens;  // per unit
   std::vector<TriedSet> tried;               // the full set first
   std::size_t chosen = 0;                    // among tried
-  std::vector<std::string> kept_because;     // per unit: why it stays, or why it goes
+  std::vector<std::string> kept_because;     // per unit: why it is kept or dropped
   std::vector<HeldOut> held_out;
   double time_spread = 0;  // of processor times: relative, between two runs of the chosen set
   std::vector<std::string> warnings;
@@ -51,7 +50,7 @@ struct Advice {
   bool complete = true;
 };
 
-// Never recommends a set that was not run. Throws std::invalid_argument where there is nothing to choose.
+// Never recommends a set that was not run. Throws std::invalid_argument if there is no choice.
 Advice advise(const Scene& scene, const AdviseOptions& options);
 
 // The advice must outlive the findings.

@@ -1,4 +1,4 @@
-// advise_findings.cpp — error bought and time saved on one plane, the screens and the runs behind the advice.
+// advise_findings.cpp — plot of error against time saved; the screens and runs behind the advice.
 #include "studies/advise/advise.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ Rows effect_table(const Advice& a) {
       });
 }
 
-// The least deviation first.
+// Smallest deviation first.
 Rows tried_table(const Advice& a) {
   std::vector<const TriedSet*> order;
   for (const TriedSet& t : a.tried) order.push_back(&t);

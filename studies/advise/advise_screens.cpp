@@ -1,4 +1,4 @@
-// advise_screens.cpp — what the run of the full model and its linearisation say about each effect before any other run.
+// advise_screens.cpp — estimates for each effect from the full model's run and its linearisation, before any other run.
 #include "studies/advise/advise_screens.h"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ double work_of(const Result& r, const std::string& line) {
   const auto found = r.energy.by_line.find(line);
   return found == r.energy.by_line.end() ? 0 : found->second;
 }
-// What shares of work are of: the driving work; of a machine that nothing drives, the energy that it has or gives away.
+// Reference of work shares: the driving work; for an undriven machine the energy that it has or releases.
 struct EnergyBase {
   double energy = 0;  // [J], > 0
   std::string name;
@@ -45,7 +45,7 @@ EnergyBase energy_base(const Result& r) {
   return {std::max(motion, 1e-300), "the energy of the motion"};
 }
 
-// The drive with every elastic element flexible and nothing else; none where it cannot be linearised.
+// The drive with every elastic element flexible and no other effect; empty if it cannot be linearised.
 std::optional<ModesStudy> frequency_domain(const Scene& scene, const std::vector<EffectUnit>& units) {
   Effects effects;
   for (const EffectUnit& unit : units)
@@ -104,7 +104,7 @@ class Screening {
     return screens;
   }
 
-  // ∫|τ dθ| over the energy that goes through, and the largest torque over its mean; ∞ about zero.
+  // ∫|τ dθ| over the energy transmitted, and the largest torque over its mean; ∞ for zero mean.
   std::pair<double, double> activity_and_swing(std::size_t twist, std::size_t torque) const {
     const TrajectoryRecorder& t = *full_.trajectory;
     double activity = 0, mean = 0, largest = 0;
@@ -147,7 +147,7 @@ class Screening {
                   nearest < near_a_mode};
   }
 
-  // The same response with all joints 10⁴ times as stiff: what they transmit of the same torques when nothing twists.
+  // The same response with all joints 10⁴ times as stiff: the torques transmitted without twist.
   void find_quasi_static() {
     LinearDrive stiff = modes_->drive;
     constexpr double factor = 1e4;
@@ -165,7 +165,7 @@ class Screening {
     const double swing = modes_->here.joints[joint].peak, still = quasi_static_.joints[joint].peak;
     if (!(still > 0) || !std::isfinite(swing)) return {};
     const double ratio = swing / still;
-    // What it adds to the greatest torque, mean included.
+    // Its contribution to the greatest torque, including the mean.
     const double mean = std::abs(modes_->here.joints[joint].mean), share = std::abs(swing - still) / (mean + still);
     return Screen{
         "quasi-static amplification", ratio,
@@ -211,7 +211,7 @@ class Screening {
                       : std::string("no joint is hit after flight: they stay in touch"),
             count > 0};
   }
-  // The rod under its own inertia, which goes mostly once and twice a turn.
+  // The rod under its own inertia, mainly of orders 1 and 2.
   std::vector<Screen> rods() const {
     double fastest = 0;  // of the link
     for (const Figure& f : full_.figures)

@@ -1,8 +1,8 @@
-// advise_screens.h — cheap looks at one effect each, from the run of the full model and from its linearisation.
+// advise_screens.h — quick estimates for one effect each, from the run of the full model and from its linearisation.
 //
-// activity ∫|τ dθ| over the driving work; swing of a torque; distance of the excitation orders from the modes; the
-// forced response at the operating point over the quasi-static one; torque reversals; share of losses. A screen has an
-// opinion, a run decides.
+// activity ∫|τ dθ| over the driving work; amplitude of a torque; distance of the excitation orders from the modes;
+// forced response at the operating point over the quasi-static one; torque reversals; share of losses. A screen only
+// estimates; the choice is made by runs.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ namespace kurbel {
 
 struct Screen {
   std::string name;     // "torque reversals"
-  double number = 0;    // what was found
+  double number = 0;    // its result
   std::string verdict;  // in words, with the number
-  bool needed = false;  // it expects the effect to matter at the tolerance
+  bool needed = false;  // the effect is expected to matter at the tolerance
 };
 
 // Per unit; empty where no screen applies. `within`: relative deviation allowed.

@@ -1,8 +1,8 @@
-// deviation.h — whether the figures of a leaner model stay within a tolerance of the fullest one's.
+// deviation.h — whether the figures of a reduced model stay within a tolerance of those of the full model.
 //
-// Of every figure the change d (of the model) and its error e (of the two runs) are judged apart, at tolerance τ:
+// For every figure the change d (of the model) and its error e (of the two runs) are assessed separately, at tolerance τ:
 //     within      d + e ≤ τ
-//     not judged  e > τ and d − e ≤ τ: no run at this accuracy could show that it is within, nor is it surely outside
+//     not judged  e > τ and d − e ≤ τ: runs of this accuracy cannot decide
 //     outside     all else
 #pragma once
 
@@ -14,8 +14,8 @@
 namespace kurbel {
 
 struct Deviation {
-  double deviation = 0;  // the greatest change of a figure that can be judged, over its own size
-  double error = 0;      // of the runs: no figure that is judged deviates by more than deviation + error
+  double deviation = 0;  // greatest change of a figure that can be judged, over its own size
+  double error = 0;      // of the runs: no judged figure deviates by more than deviation + error
   std::string figure = {};
   bool within = true;
   std::vector<std::string> not_judged = {};  // "peak_torque.pump (known to 3 %)"

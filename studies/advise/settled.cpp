@@ -1,4 +1,4 @@
-// settled.cpp — the steady motion's round, and what of it is compared.
+// settled.cpp — one period of the steady motion, and the figures compared.
 #include "studies/advise/settled.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// settled.h — figures of the motion that a machine keeps, for models to be judged by: a run's greatest peak is often
-// that of its start, and hides what differs afterwards.
+// settled.h — figures of the steady motion, for judging models: the greatest peak of a run is often that of its start
+// and hides differences of the later motion.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace kurbel {
 
-// One round of the motion that the scene's own start leads to (studies/steady): figures alone, with their errors.
+// One period of the steady motion after the scene's own start (studies/steady): figures only, with their errors.
 VariantRun settled(const Scene& scene, const Effects& effects, const Watch& watch);
 
-// Speeds, δ, peaks and RMS of torques over the round, against the fullest model's. `figures`: names or their beginnings,
-// as runs call them ("peak_torque" is cycle_peak_torque as well); empty: all of those.
+// Speeds, δ, peaks and RMS of torques over the period, against the full model. `figures`: names or their beginnings,
+// as in runs ("peak_torque" includes cycle_peak_torque); empty: all of these.
 Deviation settled_deviation(const Result& full, const Result& lean, const std::vector<std::string>& figures,
                             double tolerance);
 
-// Both together: the greater change, and an error that bounds them both.
+// Both combined: the greater change, and an error that bounds both.
 Deviation worse_of(const Deviation& a, const Deviation& b);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// contact_claims.cpp — clutches, limiters, belts and brakes: by the state at the end, and by what was seen on the way.
+// contact_claims.cpp — clutches, limiters, belts and brakes: by the final state and by records during the run.
 #include "studies/answers/contact_claims.h"
 
 #include <fmt/format.h>
@@ -39,13 +39,13 @@ class ContactJudge {
   bool is_kind(const std::string& component, const char* kind) const { return m_.network.kind_of(component) == kind; }
   const std::string& owner_of(const ElasticJoint& joint) const { return m_.network.joints[at(joint.joint)].component; }
 
-  // Of the speed of a component's shafts at the end; empty: not measured.
+  // Error of the speeds of a component's shafts at the end; empty: not measured.
   std::optional<double> error_of_speeds(const std::string& component) const {
     const auto found = result_.final_state.find(component);
     if (found == result_.final_state.end() || !found->second.speed.error) return {};
     return *found->second.speed.error + (found->second.speed_out ? found->second.speed_out->error.value_or(0) : 0);
   }
-  // What a speed on the way may be off by: as much as the worst figure of the run, of what is usual.
+  // Error of a speed during the run: the largest relative error of the run's figures, times the usual value.
   double error_on_the_way(double usual) const {
     return usual * (result_.errors_measured ? result_.measured_accuracy : result_.tolerance);
   }
@@ -115,7 +115,7 @@ class ContactJudge {
     claims_.back().in_conclusion = to_the_end;
   }
 
-  // Rigid belts are contacts; those that stretch keep what they slipped as a state of their own.
+  // Rigid belts are contacts; elastic ones have their slip as an internal state.
   void slipping_belts() {
     for (std::size_t e = 0; e < m_.elastic.size(); ++e)
       if (m_.elastic[e].slips && equations_.modes().slip[e] != 0 && is_kind(owner_of(m_.elastic[e]), "belt"))
@@ -128,7 +128,7 @@ class ContactJudge {
     for (const std::string& component : m_.network.components)
       if (is_kind(component, "belt") && !slipping_.count(component)) slips_at_times(component);
   }
-  // Of a belt that stretches or not.
+  // For an elastic or a rigid belt.
   void slips_at_times(const std::string& belt) {
     int count = 0;
     double first = 0, since = 0, slipping = 0;
@@ -148,8 +148,8 @@ class ContactJudge {
 
   // --- brakes ---
 
-  // A brake that is on and whose shaft still turns: put on by command, by its window of time, or on from the start and
-  // nothing but a load.
+  // An applied brake whose shaft still turns: applied by command, in its window of time, or from the start and acting
+  // as a load only.
   void brakes() {
     for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
       const Network::ShaftElement& element = m_.network.elements[e];
@@ -184,7 +184,7 @@ class ContactJudge {
   }
   void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque,
                      const std::string& slips) {
-    // What runs steadily with it slows down within a cycle alone.
+    // Shafts that run steadily with it slow down within a cycle only.
     const bool goes_on = result_.periods.steady && !result_.periods.run_down_begin;
     const double braked = outcome_.t - put_on,
                  more = speed * change < 0 && !goes_on ? std::abs(speed / change) : HUGE_VAL;

@@ -1,4 +1,4 @@
-// contact_claims.h — what slips where it should hold, and what should stop the machine and does not.
+// contact_claims.h — contacts that slip where they should hold, and brakes that should stop the machine and do not.
 #pragma once
 
 #include "studies/answers/slip_recorder.h"
@@ -6,9 +6,9 @@
 
 namespace kurbel {
 
-// Of a run that came to its end, in the modes of its end: closed clutches and belts that slip to the end or on the way; a
-// brake that is on and does not stop its shaft; in the list of claims alone clutches that engage, are open by command, or
-// overrun. `result` has the errors of its final state.
+// For a completed run, with the modes at its end: closed clutches and belts that slip to the end or temporarily; a
+// brake that is applied and does not stop its shaft; only in the list of claims: clutches that engage, are opened by
+// command, or overrun. `result` contains the errors of its final state.
 Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// key_figures.cpp — a rank for every figure, and the best of them.
+// key_figures.cpp — ranks all figures and selects the best.
 #include "studies/answers/key_figures.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr std::size_t most_peaks = 3;
 constexpr int never = 100;
 constexpr double stands_within_the_cycle = 2;  // (ω_max − ω_min)/ω_mid from there on: ω_min ≤ 0
 
-// Ranks of a figure of the link, and of the same of others.
+// Ranks of a figure of the link, and of the same figure of others.
 struct Ranked {
   std::string_view words;
   int of_link, of_others = of_link;
@@ -81,7 +81,7 @@ std::vector<std::size_t> chosen_figures(const Result& r, std::size_t most) {
   std::set<std::string> judged;
   if (r.model)
     for (const Figure& f : rating_figure_list(*r.model)) judged.insert(f.name);
-  // The peaks of torque by size, over what is usual there; the others in the order of the list.
+  // Peaks of torque by size over the usual torque; the others in the order of the list.
   std::vector<std::tuple<int, double, std::size_t>> ranked;
   std::vector<std::pair<double, std::size_t>> peaks;
   for (std::size_t i = 0; i < r.figures.size(); ++i) {
@@ -94,7 +94,7 @@ std::vector<std::size_t> chosen_figures(const Result& r, std::size_t most) {
       ranked.emplace_back(rank, 0, i);
   }
   std::stable_sort(peaks.begin(), peaks.end());
-  // The greatest of them comes first whatever is rated.
+  // The greatest one comes first, whichever figures have ratings.
   for (std::size_t k = 0; k < peaks.size(); ++k)
     ranked.emplace_back(k == 0 ? 0 : k < most_peaks ? 4 : 8, static_cast<double>(k), peaks[k].second);
   std::stable_sort(ranked.begin(), ranked.end());

@@ -48,13 +48,17 @@ void LinkRecorder::step(StepView& view) {
   const auto speed_at = [&](double t) { return view.at(t, state); };
   if (const double from = speed_at(view.t_previous()), to = speed_at(view.t()); from * to < 0) {
     reversal_ = find_root(speed_at, view.t_previous(), from, view.t(), to);
-    const double extreme = angle_in(view.at(reversal_));
-    low_ = std::min(low_, extreme), high_ = std::max(high_, extreme);
+    extreme_ = angle_in(view.at(reversal_));
+    low_ = std::min(low_, extreme_), high_ = std::max(high_, extreme_);
   }
   if (!turns) return;
   if (late_sense_ == -sense) {
-    last_change_ = reversal_;
-    if (++changes_ == 1) first_change_ = reversal_;
+    if (++changes_ == 1)
+      first_change_ = reversal_;
+    else
+      last_swing_ = std::abs(extreme_ - turned_back_);
+    if (changes_ == 2) first_swing_ = last_swing_;
+    last_change_ = reversal_, turned_back_ = extreme_;
   }
   late_sense_ = sense;
 }

@@ -1,15 +1,14 @@
-// link_recorder.h — an observer of the reduction link: how far it came, when it last turned, whether it goes to and fro.
+// link_recorder.h — an observer of the reduction link: its angle, when it last turned, whether it oscillates.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/run/run.h"
 
 namespace kurbel {
 
-// At the ends of steps; where it turns back, located on the solution. The link turns above 1e-3 of its usual speed; it
-// comes round in a sense at 1e-2 of it.
+// Evaluated at the ends of steps; reversals are located on the solution. The link turns above 1e-3 of its usual
+// speed; its sense of rotation is updated above 1e-2 of it.
 class LinkRecorder final : public Observer {
  public:
   LinkRecorder(const Model& model, double until) : m_(model), until_(until) {}
@@ -17,26 +16,31 @@ class LinkRecorder final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override {
     tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, turned_forwards_, late_from_, late_begin_,
-         late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_);
+         late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_,
+         extreme_, turned_back_, first_swing_, last_swing_);
   }
 
-  // Its greatest angle less that at the end, turns counted [rad].
+  // Its greatest angle minus the angle at the end, turns counted [rad].
   double fell_back() const { return foremost_ - angle_; }
-  // How often it came round from backwards to forwards.
+  // Number of reversals from backwards to forwards.
   int turned_forwards() const { return turned_forwards_; }
-  double backwards_since() const { return backwards_since_; }  // it last began to come backwards [s]
-  double turned_at() const { return turned_at_; }              // the end of the last step in which it turned [s]
+  double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
+  double turned_at() const { return turned_at_; }              // end of the last step in which it turned [s]
   // It has not turned for the last fiftieth of the time up to t.
   bool rests(double t) const { return t - turned_at_ > 0.02 * t; }
-  // In the last quarter of the time it turned in both senses, twice at least, gained less than a quarter of its way, and
-  // was as fast as a twentieth of its greatest speed.
+  // In the last quarter of the time it reversed at least twice, advanced by less than a quarter of the path covered,
+  // and reached more than a twentieth of its greatest speed.
   bool vibrates() const {
     return changes_ >= 2 && std::abs(angle_ - late_begin_) < 0.25 * way_ && late_fastest_ > 0.05 * fastest_;
   }
-  // Of its angle in that quarter [rad], and by its changes of sense there [Hz].
+  // Extreme angles in that quarter [rad], and frequency of its reversals there [Hz].
   double lowest() const { return low_; }
   double highest() const { return high_; }
   double frequency() const { return 0.5 * (changes_ - 1) / (last_change_ - first_change_); }
+  // Half the angle between two reversals, for the first two and the last two of that quarter [rad]; 0 below three reversals.
+  double first_amplitude() const { return 0.5 * first_swing_; }
+  double last_amplitude() const { return 0.5 * last_swing_; }
+  double time_of_swings() const { return last_change_ - first_change_; }  // from the first reversal to the last [s]
 
  private:
   const Model& m_;
@@ -48,6 +52,8 @@ class LinkRecorder final : public Observer {
   int late_sense_ = 0, changes_ = 0;
   double way_ = 0, low_ = 0, high_ = 0, fastest_ = 0, late_fastest_ = 0;
   double reversal_ = 0, first_change_ = 0, last_change_ = 0;  // [s]
+  double extreme_ = 0, turned_back_ = 0;                      // the angles at reversal_ and at last_change_
+  double first_swing_ = 0, last_swing_ = 0;
 };
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// motion_claims.cpp — stalls, runaways, motors that hang: judged by the state at the end and by what led there.
+// motion_claims.cpp — stalls, runaways, motors below breakdown speed: from the final state and the preceding motion.
 #include "studies/answers/motion_claims.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <stdexcept>
 
 #include "drivetrain/induction/induction_law.h"
 #include "engine/model/model.h"
@@ -25,6 +24,7 @@ constexpr double drives = 1e-6;           // of the usual torque: above it somet
 constexpr double far_away = 1.5;          // times the usual speed: nothing in the scene tells of such a one
 constexpr double turns_back_from = 1e-2;  // of the usual speed
 constexpr double disagree = 0.1;          // of the usual speed: shafts that a spring joins start apart
+constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 
 class Judge {
@@ -42,10 +42,10 @@ class Judge {
   double gain() const { return m_.gain_of_node[at(m_.reduction_node)]; }
   double speed() const { return gain() * now_.now.speed[shaft_]; }
   bool is_held() const { return equations_.at_standstill(shaft_) && now_.now.speed[shaft_] == 0; }
-  // Held, or at the end of springs that are held: it may tremble.
+  // Held, or at the end of springs that are held: small vibration is allowed.
   bool rests() const { return is_held() || recorder_.rests(outcome_.t); }
   bool is_commanded() const { return !m_.commands.empty(); }
-  // Of all that drives, reduced to the link [N·m].
+  // Torque of all drives, reduced to the link [N·m].
   double drive() const {
     double torque = 0;
     for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
@@ -53,7 +53,7 @@ class Judge {
         torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
     return torque;
   }
-  // A motor under torque whose own shaft stands.
+  // A motor under torque whose shaft stands.
   const MotorTorque* standing_motor() const {
     for (const MotorTorque& motor : m_.motors)
       if (!motor.prescribed && std::abs(torque_of(motor)) > drives * motor.rated_torque &&
@@ -71,7 +71,7 @@ class Judge {
     return stop == outcome_.events.rend() ? std::nullopt : std::optional(stop->t);
   }
 
-  // A brake that is on, by command or always, and whose shaft stands; null: none.
+  // An applied brake, by command or always, whose shaft stands; null: none.
   const std::string* brake_that_holds() const {
     for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
       const Network::ShaftElement& element = m_.network.elements[e];
@@ -81,13 +81,13 @@ class Judge {
     }
     return nullptr;
   }
-  // In force at the end; 1 where nothing commands it.
+  // Command in force at the end; 1 if there is none.
   double command_of(const std::string& component) const {
     for (std::size_t c = 0; c < m_.commands.size(); ++c)
       if (m_.commands[c].component == component) return equations_.modes().command[c].at(outcome_.t, m_.scene.sequence);
     return 1;
   }
-  // What would move the link if nothing held it, reduced to it [N·m]: all but what opposes motion.
+  // Torque that would move the link if nothing held it, reduced to it [N·m]: all except what opposes motion.
   double acts() const {
     double torque = 0;
     for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
@@ -102,7 +102,7 @@ class Judge {
       if (m_.relations[k].loss_account >= 0 && equations_.modes().loss_direction[k] == 0) list.push_back(k);
     return list;
   }
-  // "gear", "bearing": what opposes motion on shafts that stand, and gears that their losses hold.
+  // "gear", "bearing": components that oppose motion on standing shafts, and gears locked by their losses.
   std::string what_holds() const {
     if (const std::string* brake = brake_that_holds()) return fmt::format("\"{}\"", *brake);
     std::set<std::string> names;
@@ -116,7 +116,7 @@ class Judge {
     return text;
   }
 
-  // "the load", where one is among those that hold, or nobody is known; else their names.
+  // "the load", if a load is among those that hold, or nothing is known; else their names.
   std::string holders_beside(const char* load) const {
     const bool any_load = std::any_of(m_.network.elements.begin(), m_.network.elements.end(), [&](const auto& e) {
       return (e.element->account == Account::useful || e.element->cycle > 0) &&
@@ -128,7 +128,7 @@ class Judge {
 
   // --- claims ---
 
-  // `contacts`: where a clutch slips meanwhile, that is what holds no more.
+  // `contacts`: a clutch that slips meanwhile is the one that no longer holds.
   std::optional<Claim> stalls(Claims& contacts) const {
     const MotorTorque* motor = standing_motor();
     const std::optional<double> since = is_held() ? rest() : std::optional(recorder_.turned_at());
@@ -148,8 +148,8 @@ class Judge {
                    link(), {.at = since, .value = std::abs(torque), .limit = 0, .unit = "N*m"});
   }
 
-  // By more than half a turn from its foremost place, and for good, although nothing drives it backwards. What a sequence
-  // commands may be meant so, as long as anything drives.
+  // By more than half a turn from its foremost position, finally, and without a drive backwards. Motion commanded by
+  // a sequence may be intended, as long as anything drives.
   std::optional<Claim> backwards(const Result& r) const {
     const Sources sources(m_);
     if (r.begins_at > 0 || m_.scene.run.start.speed < 0 || sources.none()) return {};
@@ -178,7 +178,7 @@ class Judge {
                                m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
                    link(), of_speed(r, std::abs(speed()), limit));
   }
-  // Over a cycle of the rigid machine at constant speed: beyond which one do loads and drag hold what drives?
+  // Over a cycle of the rigid machine at constant speed: whether loads and drag balance the drive at some higher speed.
   bool settles_at_a_higher_speed() const try {
     constexpr double most = 100, step = 1.5;
     constexpr int places = 24;
@@ -199,7 +199,7 @@ class Judge {
     return false;
   }
 
-  // Held from the start, although something drives, and no brake that is on holds it.
+  // Held from the start although something drives, and not by an applied brake.
   std::optional<Claim> never_starts(double fastest) const {
     if (is_commanded() || !rests() || rest() || fastest > stands * m_.speed_scale || brake_that_holds()) return {};
     if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
@@ -211,7 +211,7 @@ class Judge {
                    link(), {.value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }
 
-  // By a brake that is on, or by what opposes motion against what acts; what never moved is told so first.
+  // By an applied brake, or by friction against the acting torque; a link that never moved is reported as such.
   std::optional<Claim> held(double fastest) const {
     if (!rests() && (now_.now.speed[shaft_] != 0 || gears_that_hold().empty())) return {};
     const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
@@ -229,7 +229,7 @@ class Judge {
     return claim;
   }
 
-  // Not once round, and hardly any speed left, although something drives.
+  // Less than one turn, and nearly at rest, although something drives.
   std::optional<Claim> never_gets_round(const Result& r, double fastest) const {
     if (is_commanded() || !r.cycles.empty() || m_.cycle == 0 || r.periods.run_down_begin || brake_that_holds())
       return {};
@@ -241,17 +241,25 @@ class Judge {
         link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }
 
-  // To and fro to the end, of what is to come to no steady motion and is not commanded.
+  // Oscillation to the end of a motion that should become steady and has no commands.
   std::optional<Claim> vibrates(const Periods& p) const {
     if (is_commanded() || p.steady || rests() || !recorder_.vibrates()) return {};
-    return claimed(
-        Predicate::vibrates,
-        fmt::format("\"{}\" vibrates to the end, between {:.1f}° and {:.1f}°", link(),
-                    recorder_.lowest() * 180 / std::numbers::pi, recorder_.highest() * 180 / std::numbers::pi),
-        link(), {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
+    return claimed(Predicate::vibrates, fmt::format("\"{}\" vibrates {}", link(), course_of_vibration()), link(),
+                   {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
+  }
+  // A lasting vibration by its range, one that decays or grows by its amplitudes.
+  std::string course_of_vibration() const {
+    const double first = recorder_.first_amplitude(), last = recorder_.last_amplitude();
+    const double degree = std::numbers::pi / 180, low = recorder_.lowest() / degree,
+                 high = recorder_.highest() / degree;
+    if (first == 0 || std::abs(last - first) < changes_by * first)
+      return fmt::format("to the end, between {:.1f}° and {:.1f}°", low, high);
+    return fmt::format("about {:.1f}°; the vibration {}: its amplitude {} from {:.3g}° to {:.3g}° in the last {:.3g} s",
+                       0.5 * (low + high), last < first ? "decays" : "grows", last < first ? "falls" : "rises",
+                       first / degree, last / degree, recorder_.time_of_swings());
   }
 
-  // An induction motor that its loads keep below its breakdown speed, where it gives less and less the slower it is.
+  // An induction motor held by its loads below its breakdown speed, where its torque falls with the speed.
   std::optional<Claim> hangs(const Periods& p) const {
     if (!p.steady || p.run_down_begin) return {};
     for (const MotorTorque& motor : m_.motors) {

@@ -1,4 +1,4 @@
-// motion_claims.h — does the machine do its work at all? What the motion of a run and the state at its end say.
+// motion_claims.h — does the machine do its work at all? Claims from the motion of a run and its final state.
 #pragma once
 
 #include "studies/answers/link_recorder.h"
@@ -7,13 +7,13 @@
 
 namespace kurbel {
 
-// Springs between shafts of which the scene gives a speed at the start to one alone, where the other one differs by more
+// Springs between shafts of which only one has a start speed in the scene, while that of the other differs by more
 // than a tenth of the usual speed.
 Claims start_claims(const std::shared_ptr<const Model>& model);
 
-// What of the motion is bad news, who holds the link, what slips (contact_claims.h); of a run that did not come to its end
-// that it stalls, alone. `equations`: in the modes of the run's end; `result` has its periods, figures, and the errors of
-// its final state.
+// Faults of the motion, what holds the link, what slips (contact_claims.h); for an incomplete run only that it
+// stalls. `equations`: in the modes at the run's end; `result` contains its periods, figures, and the errors of its
+// final state.
 Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips,
                      const LinkRecorder& link);
 

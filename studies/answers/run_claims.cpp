@@ -1,4 +1,4 @@
-// run_claims.cpp — a run that does what it should, in a sentence; and what keeps it from that.
+// run_claims.cpp — the result of a run in a sentence; and what is wrong with it.
 #include "studies/answers/run_claims.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-// What a sound run comes to.
+// The final motion of a run without faults.
 class RunWords {
  public:
   explicit RunWords(const Result& result) : r_(result), p_(result.periods) {}
@@ -50,11 +50,11 @@ class RunWords {
   }
 
  private:
-  // What still trembles in shafts that are held.
+  // Residual vibration in shafts that are held.
   bool all_but_rests(const Figure& last) const {
     return r_.model && std::abs(last.value) < 0.01 * r_.model->speed_scale;
   }
-  // The link comes to rest, or turns back, in every cycle: such a motion repeats, and has no speed that it keeps.
+  // The link stops or reverses in every cycle: such a motion repeats but has no steady speed.
   bool stands_within_the_cycle() const {
     const Figure* delta = figure(quantities::delta);
     return delta && delta->value + delta->error.value_or(0) >= 2;
@@ -77,14 +77,14 @@ class RunWords {
     evidence.at = p_.run_up_end;
     return claimed(Predicate::runs_steadily, std::move(text), link(), std::move(evidence));
   }
-  // ", held by "brake" against the 147 N·m that act": of a link that came to rest, where anything acts on it.
+  // ", held by "brake" against the 147 N·m that act": for a link at rest with a torque on it.
   std::string held() const {
     for (const Claim& c : r_.claims)
       if (c.predicate == Predicate::held_by && c.text.find(" against ") != std::string::npos)
         return ", " + c.text.substr(c.text.find(" is held by ") + 4);
     return {};
   }
-  // What began to turn forwards, or at rest, may turn backwards.
+  // A motion that began forwards, or at rest, may be backwards.
   std::string speed_and_sense(double value) const {
     return speed(value) + (value < 0 && r_.model && r_.model->scene.run.start.speed >= 0 ? " (backwards)" : "");
   }
@@ -100,7 +100,7 @@ class RunWords {
   const Periods& p_;
 };
 
-// Rests and motions of a shaft other than the link, in one sense, while the link turns.
+// Alternate rest and motion of a shaft other than the link, in one sense, while the link turns.
 void sticking_shafts(const Result& r, Claims& claims) {
   if (!r.model || !r.model->commands.empty() || !r.periods.steady) return;
   const std::string& link = r.model->network.nodes[at(r.model->reduction_node)].component;

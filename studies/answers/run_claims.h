@@ -1,22 +1,21 @@
-// run_claims.h — what a run claims before any figure: does the machine run, are its figures sure, does it bear what it
-// brings?
+// run_claims.h — claims of a run that precede its figures: does the machine run, are its figures confirmed, are its
+// limits kept?
 #pragma once
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "studies/findings/result.h"
 #include "studies/limits/verdicts.h"
 
 namespace kurbel {
 
-// Does it run, and is that sure? Bad news of the motion (Result::claims), else what it comes to, in a sentence.
-// `whose`: before each, where models are compared: "elastic model: ".
+// Does it run, and is that confirmed? Faults of the motion (Result::claims), otherwise its final motion in a
+// sentence. `whose`: prefix where models are compared: "elastic model: ".
 Claims run_claims(const Result& result, const std::string& whose = {});
 
-// A motor that steady motion uses beyond its rated torque, or current, `use` times; none of one that states a duty: that is
-// judged.
+// Steady motion loads a motor by `use` times its rated torque or current; none for a motor with a duty in the scene:
+// that is assessed separately.
 std::optional<Claim> overload_claim(const Model& model, const std::string& motor, const Estimate& use, bool by_torque,
                                     const std::string& of = "its steady motion");
 

@@ -1,7 +1,6 @@
 // slip_recorder.h — an observer of clutches, limiters and one-way clutches: when each slips, and under which command.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,16 +8,16 @@
 
 namespace kurbel {
 
-// A joint that slips is, by the command in force over a step:
+// State of a joint by the command in force over a step:
 //
 //     open       the command is 0
-//     locked     its sides turn together
-//     engaging   it slips, and has not locked since it was open, or the command is between 0 and 1
-//     let go     it slips at full command, and had locked
+//     locked     both sides turn together
+//     engaging   it slips and has not locked since it was open, or the command is between 0 and 1
+//     let go     it slips at full command after it had locked
 class SlipRecorder final : public Observer {
  public:
   enum class State { unknown, open, locked, engaging, let_go };
-  // How often a state was entered, first when [s], and the largest speed of slip in it [rad/s].
+  // How often and when first [s] a state was entered, and the largest slip speed in it [rad/s].
   struct Spell {
     int times = 0;
     double first = 0, fastest = 0;
@@ -27,7 +26,7 @@ class SlipRecorder final : public Observer {
   struct Joint {
     std::string component, kind;
     std::size_t elastic = 0;
-    int command = -1;        // −1: it is always closed
+    int command = -1;        // −1: always closed
     double usual_speed = 1;  // of its driving side [rad/s]
     State state = State::unknown;
     Spell open = {}, engaging = {}, let_go = {};

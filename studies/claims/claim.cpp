@@ -1,4 +1,4 @@
-// claim.cpp — the one place where claims are made, and their list for people.
+// claim.cpp — creation of claims, and the list of claims for people.
 #include "studies/claims/claim.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ bool is_shown(ClaimKind::Shows shows, const Evidence& e) {
   return shows == ClaimKind::Shows::above ? *e.value - error > limit : *e.value + error <= limit;
 }
 
-// A cell of a table, whose columns "|" would end.
+// A table cell; "|" would end its column.
 std::string cell(std::string text) {
   for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, "\\");
   return text;

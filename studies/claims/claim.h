@@ -1,8 +1,8 @@
-// claim.h — what a study says of a machine: a typed predicate that the motion shows, its evidence, and the sentence.
+// claim.h — a statement about a machine: a typed predicate shown by the motion, its evidence, and the sentence.
 //
 //     claimed(Predicate::limit_exceeded, "\"clutch\" gets too hot", "clutch", {.at = 1.2, .value = 1320, .limit = 1000, .error = 4, .unit = "J"})
 //
-// A claim is made by claimed() alone: none comes out where the evidence is not beyond its own error.
+// Claims are made by claimed() only; the result is empty if the evidence does not exceed its own error.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@
 
 namespace kurbel {
 
-// In the order in which an engineer asks.
+// Topics, in order of priority.
 enum class Topic {
   runs,     // does it do its work at all?
   sure,     // are its figures confirmed?
-  bears,    // does it bear what it brings? By how much not, where, and what value would mend it?
+  bears,    // are its limits kept? If not: by how much, where, and which value would remedy it?
   depends,  // which effect that is off would change the answer?
-  figures   // then what was asked for
+  figures   // then the requested figures
 };
 
 enum class Severity { note, warning, fault };
 
-// What can be claimed; within a topic and a severity what is worse comes first. claim_kinds.cpp says when each is true.
+// Possible claims; within a topic and a severity the worst come first. claim_kinds.cpp defines when each is true.
 enum class Predicate {
   // does it run?
   incomplete,
@@ -53,7 +53,7 @@ enum class Predicate {
   not_confirmed,
   machines_failed,
   outside_data,
-  // does it bear it?
+  // are limits kept?
   limit_exceeded,
   motor_overloaded,
   demand_missed,
@@ -75,7 +75,7 @@ enum class Predicate {
   // which effect matters?
   effect_matters,
   effects_suffice,
-  // what was asked for
+  // requested figures
   figures_told
 };
 inline constexpr Predicate last_predicate = Predicate::figures_told;
@@ -84,17 +84,17 @@ inline constexpr Predicate last_predicate = Predicate::figures_told;
 const char* name_of(Predicate predicate);
 const char* name_of(Severity severity);
 
-// What shows a claim. Values in SI; `error` ≥ 0 is of the value; what is not known is empty.
+// The evidence of a claim. Values in SI; `error` ≥ 0 belongs to the value; unknown entries are empty.
 struct Evidence {
   std::optional<double> at = {};     // [s]
-  std::optional<double> value = {};  // that was found
-  std::optional<double> limit = {};  // that it is held against
+  std::optional<double> value = {};  // value found
+  std::optional<double> limit = {};  // value allowed
   std::optional<double> error = {};
   std::string unit = {};
 };
 
-// The value of a key with which the claim would be none. `tried`: the machine was computed with it and with one worse by
-// 1 %; else it is an estimate.
+// The value of a key that removes the claim. `tried`: confirmed by computing the machine with it, and with one worse
+// by 1 %; otherwise an estimate.
 struct Remedy {
   std::string key;  // "shaft.diameter"
   double value = 0;
@@ -102,18 +102,18 @@ struct Remedy {
   bool tried = false;
 };
 
-// What is said with this predicate, wherever it is said.
+// The kind of claim of a predicate, common to all commands.
 struct ClaimKind {
-  // On which side of its limit the value must lie, error counted; without a limit the limit is zero.
+  // Side of the limit on which the value must lie by more than its error; without a limit the limit is zero.
   enum class Shows { anything, above, below };
   Predicate predicate;
   Topic topic;
   Severity severity;
   Shows shows;
   const char* when;      // its definition
-  const char* evidence;  // what at, value, limit are
+  const char* evidence;  // meaning of at, value, limit
   const char* sentence;  // an example
-  const char* where;     // commands that may say it
+  const char* where;     // commands that may make it
 };
 const ClaimKind& kind_of(Predicate predicate);
 std::span<const ClaimKind> claim_kinds();
@@ -122,18 +122,18 @@ std::string claims_in_markdown();
 
 struct Claim {
   Predicate predicate;
-  std::string text;  // without a full stop, as it is to be read
+  std::string text;  // without a full stop, as displayed
   std::string of;    // component; empty: the machine
   Evidence evidence;
   std::string load_case = {};  // of a limit: "start", "steady", …
-  std::string variant = {};    // of the machine that it is of: a [[case]]; empty: the machine as it is
+  std::string variant = {};    // the [[case]] that it belongs to; empty: the machine as it is
   std::optional<Remedy> remedy = {};
-  bool in_conclusion = true;  // false: it stands in the list of claims alone
+  bool in_conclusion = true;  // false: only in the list of claims
 
   Topic topic() const { return kind_of(predicate).topic; }
   Severity severity() const { return kind_of(predicate).severity; }
   bool is_bad() const { return severity() != Severity::note; }
-  // How many times its limit the value is; 0: it has none.
+  // Value over limit; 0: it has no limit.
   double share() const;
 
  private:
@@ -142,15 +142,15 @@ struct Claim {
   friend std::optional<Claim> claimed(Predicate, std::string, std::string, Evidence);
 };
 
-// None where nothing is said, or where the evidence does not lie on the side of its limit that the predicate asks for, by
-// more than its error. An unknown error counts as none.
+// Empty if the text is empty, or if the evidence is not on the side of its limit that the predicate requires by more
+// than its error. An unknown error counts as zero.
 std::optional<Claim> claimed(Predicate predicate, std::string text, std::string of = {}, Evidence evidence = {});
 
-// The same, in the list of claims alone.
+// The same, only for the list of claims.
 std::optional<Claim> claimed_aside(Predicate predicate, std::string text, std::string of = {}, Evidence evidence = {});
 
 using Claims = std::vector<Claim>;
-// Takes what was claimed.
+// Adds the claim if there is one.
 inline void add(Claims& claims, std::optional<Claim> claim) {
   if (claim) claims.push_back(std::move(*claim));
 }

@@ -1,4 +1,4 @@
-// claim_kinds.cpp — every claim: when it is true, what shows it, how it reads, who says it. The one list; docs/claims.md is made of it.
+// claim_kinds.cpp — the list of all claims: definition, evidence, wording, commands; the source of docs/claims.md.
 #include <algorithm>
 #include <array>
 
@@ -87,7 +87,9 @@ constexpr std::array kinds = {
               "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
     ClaimKind{vibrates, runs, note, anything,
               "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
-              "its last quarter, and gains less than a quarter of its way",
+              "its last quarter, and gains less than a quarter of its way; it decays or grows where the amplitude of "
+              "the last "
+              "two reversals differs by more than a tenth from that of the first two",
               "value: frequency [Hz]",
               "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
               "run, compare, steady"},

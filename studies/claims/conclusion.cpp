@@ -1,4 +1,4 @@
-// conclusion.cpp — the one place that chooses and orders what is said first.
+// conclusion.cpp — selects and orders the sentences of a conclusion.
 #include "studies/claims/conclusion.h"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ constexpr double least_error = 1e-3;  // of its number, that a headline tells
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_of_word(char c) { return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-// Digits, a point with digits, an exponent: how long the number is that begins here; 0: none does.
+// Length of the number (digits, point, exponent) that begins here; 0: none.
 std::size_t number_at(std::string_view text) {
   std::size_t n = 0;
   const auto digits = [&] {
@@ -35,10 +35,11 @@ std::size_t number_at(std::string_view text) {
   return n;
 }
 
-// As long as the word of letters and digits, with points within, that begins here.
+// Length of the word of letters, digits, points and hyphens that begins here.
 std::size_t word_at(std::string_view text) {
   std::size_t n = 0;
-  while (n < text.size() && (is_of_word(text[n]) || (text[n] == '.' && n + 1 < text.size() && is_of_word(text[n + 1]))))
+  while (n < text.size() && (is_of_word(text[n]) || ((text[n] == '.' || text[n] == '-') && n > 0 &&
+                                                     n + 1 < text.size() && is_of_word(text[n + 1]))))
     ++n;
   return n;
 }
@@ -49,8 +50,8 @@ std::string rounded(std::string_view number) {
   return significant_digits(number) > headline_digits ? headline_number(value_of(number)) : std::string(number);
 }
 
-// The same number with its point moved by so many places to the left: "35471600" by 6 is "35.4716". Its digits stay; noughts
-// at the end are dropped where the number had no point.
+// The number with its point moved by `places` to the left: "35471600" by 6 is "35.4716". Digits are unchanged;
+// trailing zeros are dropped if the number had no point.
 std::string with_point_moved(std::string_view number, int places) {
   std::string digits;
   int before = 0, exponent = 0;  // digits before the point
@@ -75,7 +76,7 @@ std::string with_point_moved(std::string_view number, int places) {
   return behind.empty() ? ahead : ahead + "." + behind;
 }
 
-// The unit that begins here, behind a blank, if it is one that people prefix: "N·m/rad"; else nothing.
+// The unit that begins here after a blank, if it takes prefixes: "N·m/rad"; else empty.
 std::string_view prefixed_unit_at(std::string_view text) {
   constexpr std::string_view units[] = {"N·m·s/rad", "N·m/rad", "N·m·s", "N·m", "N/m", "N", "J", "W", "Pa"};
   if (!text.starts_with(' ')) return {};
@@ -106,7 +107,7 @@ std::string without_exponent(std::string_view number) {
   return with_point_moved(number, 0);
 }
 
-// A number that has its unit from the one behind it ends the text, and what joins them: "12000 … ".
+// The text ends with a number that shares the unit of the following one, and a connector: "12000 … ".
 bool shares_the_unit(std::string_view text) {
   constexpr std::string_view joints[] = {" … ", "…",   " to ", " and ", " or ", ", ", " / ",
                                          "/",   " × ", " · ",  " + ",   " - ",  " − "};
@@ -117,7 +118,7 @@ bool shares_the_unit(std::string_view text) {
   });
 }
 
-// A minus that ends the text, with nothing or a blank before it.
+// Drops a minus at the end of the text, after nothing or a blank.
 void drop_minus(std::string& text) {
   for (const std::string_view minus : {std::string_view("-"), std::string_view("−")}) {
     if (!text.ends_with(minus)) continue;

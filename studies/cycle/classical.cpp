@@ -1,4 +1,4 @@
-// classical.cpp — looks through a compiled scene for what angle and speed of one link do not tell.
+// classical.cpp — finds in a compiled scene what angle and speed of one link do not determine.
 #include "studies/cycle/classical.h"
 
 #include <fmt/format.h>

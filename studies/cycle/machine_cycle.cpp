@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "engine/base/gauss.h"
 #include "engine/numerics/deadline.h"
@@ -25,13 +24,13 @@ MeanTorque mean_torque(RigidMachine& machine, double speed) {
   return {c.drive.mean(), c.load.mean()};
 }
 
-// One pass over the cycle from a kinetic energy: Picard's iteration on the collocation of each piece.
+// One pass over the cycle from an initial kinetic energy: Picard iteration on the collocation of each piece.
 class Pass {
  public:
   Pass(RigidMachine& machine, const std::vector<double>& breaks, double more_inertia)
       : machine_(machine), breaks_(breaks), more_(more_inertia), samples_(3) {}
 
-  // Kinetic energy at the end; negative where the machine stalls, at stalled_at.
+  // Kinetic energy at the end; negative if the machine stalls, at stalled_at.
   double run(double energy, double& growth, double& time) {
     for (auto& s : samples_) s.clear();
     growth = 1, time = 0;
@@ -117,7 +116,7 @@ class Pass {
   std::vector<std::vector<double>> samples_;
 };
 
-// Pieces short enough for the motor's slope, and for tables over speed, whose knots are no breaks.
+// Pieces short enough for the motor's slope and for tables over speed, whose knots are no breaks.
 std::vector<double> refined(RigidMachine& machine, const MachineCycle& cycle, double more_inertia, double speed) {
   const double inertia = machine.constant_inertia() + more_inertia + cycle.mechanism.value.mean();
   const double step = 1e-4 * speed;
@@ -143,7 +142,7 @@ struct Balance {
   MeanTorque mean;
 };
 
-// From next to standstill to beyond where the drive exceeds the load, if that comes to an end.
+// From nearly standstill up to a speed at which the load exceeds the drive, if there is one.
 std::vector<Balance> scan_of_speeds(RigidMachine& machine) {
   const double top = 2 * machine.model().speed_scale;
   std::vector<Balance> scan;
@@ -151,17 +150,17 @@ std::vector<Balance> scan_of_speeds(RigidMachine& machine) {
     Deadline::check();
     scan.push_back({speed, mean_torque(machine, speed)});
   };
-  // Evenly, and ever closer towards standstill: a soft motor works far below its no-load speed.
+  // Equidistant, and denser towards standstill: a soft motor runs far below its no-load speed.
   constexpr int steps = 80;
   for (double speed = 1e-5 * top; speed < top / steps; speed *= 1.6) look(speed);
   for (int i = 1; i <= steps; ++i) look(top * i / steps);
-  // Rated quantities need not be near where the machine runs: a series motor's R/κ is far below.
+  // Rated quantities may be far from the operating speed: a series motor's R/κ is far below.
   constexpr double farthest = 1e3;
   while (scan.back().mean.net() > 0 && scan.back().speed < farthest * top) look(1.1 * scan.back().speed);
   return scan;
 }
 
-// Where the net torque turns from driving to braking as the speed rises: the fastest such place, the slower ones as
+// The fastest speed at which the net torque changes from driving to braking with rising speed, the slower ones as
 // others. Speed 0: there is none.
 OperatingSpeed where_balance_falls(RigidMachine& machine, const std::vector<Balance>& scan) {
   OperatingSpeed found;
@@ -182,7 +181,7 @@ void set_slopes(RigidMachine& machine, OperatingSpeed& found) {
   found.drive_slope = (faster.drive - slower.drive) / (2 * step);
 }
 
-// Either the drive is too strong for every speed looked at, or too weak.
+// The drive is too strong at every examined speed, or too weak.
 [[noreturn]] void refuse_unbalanced(const RigidMachine& machine, const std::vector<Balance>& scan) {
   const auto best = std::max_element(scan.begin(), scan.end(),
                                      [](const Balance& a, const Balance& b) { return a.mean.net() < b.mean.net(); });
@@ -269,7 +268,7 @@ SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& c
     return result;
   }
   Pass pass(machine, breaks, more_inertia);
-  // Newton's method on T ↦ T after a cycle; the step is limited, so that a guess far off does not stall at once.
+  // Newton's method on T ↦ T after a cycle; steps are limited, so that a poor starting value does not stall at once.
   double energy = 0.5 * inertia * near * near;
   for (int i = 0; i < 60; ++i) {
     double growth = 0, time = 0;

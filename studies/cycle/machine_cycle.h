@@ -20,21 +20,21 @@ struct MachineCycle {
   MechanismInertia mechanism;    // I_em [kg·m²]
 };
 
-// Each function to this part of its largest value; the reduced inertia comes from tables good to 1e-12, whose seams must
-// not be taken for corners.
+// Relative tolerance of each function, over its largest value; the reduced inertia comes from tables accurate to
+// 1e-12, whose knots must not be taken for corners.
 inline constexpr double cycle_sampling = 1e-11;
-// Throws std::invalid_argument where the machine has no cycle (nothing repeats).
+// Throws std::invalid_argument if the machine has no cycle (nothing repeats).
 MachineCycle machine_cycle(RigidMachine& machine, double speed, double sampling = cycle_sampling);
 
-// Load edges of the cycle with its begin and end.
+// Load edges of the cycle, with its begin and end.
 std::vector<double> cycle_edges(RigidMachine& machine);
 
-// The drive cannot keep the machine going; what() says by how much.
+// The drive is too weak for steady motion; what() gives the deficit.
 struct WeakDrive : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-// Where the mean torque over a cycle vanishes at constant speed, and slows a faster machine: the operating speed.
+// The speed at which, held constant, the mean torque over a cycle vanishes and is negative at higher speed.
 struct OperatingSpeed {
   double speed = 0;            // [rad/s]
   double mean_drive = 0;       // [N·m]
@@ -42,16 +42,16 @@ struct OperatingSpeed {
   double drive_slope = 0;      // of mean M_d alone
   std::vector<double> others;  // further stable ones [rad/s]
 };
-// The fastest stable one. Throws std::invalid_argument in words: no torque depends on the speed (then any speed is
-// a steady one); nothing limits the speed; as WeakDrive, the drive is too weak, and by how much.
+// The fastest stable one. Throws std::invalid_argument with the reason: no torque depends on the speed (then any
+// speed is steady); nothing limits the speed; WeakDrive: the drive is too weak, with the deficit.
 OperatingSpeed operating_speed(RigidMachine& machine);
 
 // Steady motion with torques of angle and speed: the periodic solution of dT/dφ = M(φ, ω), T = ½ I ω² (theory 11.5),
-// with more inertia on the link. Found by Newton's method on the return map; spectrally accurate within each piece.
+// with additional inertia on the link. Newton's method on the return map; spectral accuracy within each piece.
 struct SteadyRigidCycle {
   bool found = false;
-  bool stalls = false;  // the machine does, from any speed: that there is no cycle is known
-  std::string why;      // none was found
+  bool stalls = false;  // the machine stalls from any speed: there is certainly no cycle
+  std::string why;      // why none was found
   Piecewise speed;      // ω(φ) [rad/s]
   Piecewise drive;      // M_d along it [N·m]
   Extreme fastest, slowest;
@@ -60,9 +60,9 @@ struct SteadyRigidCycle {
   double mid_speed() const { return 0.5 * (fastest.value + slowest.value); }
   double delta() const { return (fastest.value - slowest.value) / mid_speed(); }
 };
-// `more_inertia` is added to the constant inertia [kg·m²]; may be negative while the whole stays positive. `cycle`
-// gives the breaks, `near` a speed to begin with. A machine that stalls or has no steady cycle is no error: `why` says
-// it.
+// `more_inertia` is added to the constant inertia [kg·m²]; it may be negative as long as the sum is positive. `cycle`
+// gives the breaks, `near` the starting value of the speed. A machine that stalls or has no steady cycle is no error:
+// see `why`.
 SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& cycle, double more_inertia, double near);
 
 }  // namespace kurbel

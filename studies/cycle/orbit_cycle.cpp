@@ -1,4 +1,4 @@
-// orbit_cycle.cpp — a round is run once more and recorded step by step, then cut into pieces between its events.
+// orbit_cycle.cpp — integrates one more period, records it step by step, and cuts it into pieces between its events.
 #include "studies/cycle/orbit_cycle.h"
 
 #include <fmt/format.h>
@@ -60,7 +60,7 @@ class RoundRecorder final : public Observer {
   double way(Equations& equations, std::span<const double> y) const {
     return sense_ * (equations.angle_with_turns(at(m_.reduction_angle), y) - origin_);
   }
-  // Where the link has gone so far, within the step.
+  // Travel of the link so far, within the step.
   double time_at(StepView& view, double s) const {
     const double a = view.t_previous(), b = view.t();
     const auto beyond = [&](double t) { return way(view.equations(), view.at(t)) - s; };
@@ -119,7 +119,7 @@ AnyShaftElement::InertiaAt mechanism_inertia(const Model& m, double phi) {
   return sum;
 }
 
-// Of the way within [begin, begin + length) that is a whole number of rounds away.
+// The part of the travel within [begin, begin + length), modulo whole periods.
 double within(double s, double begin, double length) { return s - length * std::floor((s - begin) / length); }
 
 std::vector<double> edges_of_round(const RoundRecorder& recorder, double length) {
@@ -169,7 +169,7 @@ OrbitCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::vec
   const TrackedAngle& link = m.angles[at(m.reduction_angle)];
   const double omega = link.gain * equations.snapshot(map.start_time(), y).now.speed[link.shaft];
   const double sense = omega < 0 ? -1 : 1;
-  // Where time alone drives, the link may stand anywhere when a period begins: there its way is 0.
+  // If only time drives, the link may be at any angle when a period begins: its travel is 0 there.
   const bool anywhere = map.periodicity().by_time && !map.periodicity().angle_matters;
   const double origin = anywhere ? equations.angle_with_turns(at(m.reduction_angle), y) : 0;
   RoundRecorder recorder(m, sense, origin, nodes);

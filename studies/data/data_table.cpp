@@ -20,7 +20,7 @@ void put_number(std::string& text, double value, const NumberFormat& format) {
     fmt::format_to(std::back_inserter(text), "{}", value);
 }
 
-// Words with a comma, a quotation mark or a line end stand in quotation marks, those within doubled (RFC 4180).
+// Text with a comma, a quotation mark or a line end is quoted, inner quotation marks are doubled (RFC 4180).
 void put_words(std::string& text, const std::string& words) {
   if (words.find_first_of(",\"\n") == std::string::npos) return void(text += words);
   text += '"';

@@ -35,7 +35,7 @@ class JsonWriter {
   void put(std::monostate) { text += "null"; }
   void put(bool v) { text += v ? "true" : "false"; }
   void put(std::int64_t v) { fmt::format_to(std::back_inserter(text), "{}", v); }
-  // The shortest text that gives the same double again, and is seen to be none of a whole number.
+  // The shortest text that reproduces the double, and is recognisable as no integer.
   void put(double v) {
     if (!std::isfinite(v)) return put(std::monostate());
     const std::size_t begin = text.size();

@@ -1,4 +1,4 @@
-// number_text.h — numbers by their significant digits, as text.
+// number_text.h — numbers with a given number of significant digits, as text.
 #pragma once
 
 #include <charconv>

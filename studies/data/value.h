@@ -1,4 +1,4 @@
-// value.h — values that programs are handed: numbers, words, lists and records of them; their one text is JSON.
+// value.h — values for programs: numbers, words, lists and records of them, written as JSON.
 #pragma once
 
 #include <concepts>
@@ -21,7 +21,7 @@ struct Field;
 using List = std::vector<Value>;
 using Record = std::vector<Field>;  // in this order
 
-// Written with so many significant digits, where the others are written exactly: what is drawn.
+// Written with this number of significant digits, for plots; other numbers are written exactly.
 struct Rounded {
   double number = 0;
   int digits = 7;
@@ -69,7 +69,7 @@ class Value {
   decltype(auto) visit(F&& f) const {
     return std::visit(std::forward<F>(f), what_);
   }
-  // bool, std::int64_t, double, std::string, List or Record; null: it is another.
+  // bool, std::int64_t, double, std::string, List or Record; null: another type.
   template <class T>
   const T* as() const {
     return std::get_if<T>(&what_);
@@ -85,7 +85,7 @@ struct Field {
   Value value;
 };
 
-// Where a field is whole.
+// Defined here, where Field is a complete type.
 inline Value::Value() = default;
 inline Value::Value(const Value&) = default;
 inline Value::Value(Value&&) noexcept = default;
@@ -111,11 +111,11 @@ List each(const Items& items, F&& value) {
 
 inline Record estimate_record(const Estimate& e) { return {{"value", e.value}, {"error", e.error}}; }
 
-// Of JSON's text: a line a value, indented by two blanks; or all on one line, for the script of a page, with "\u003c"
-// for "<": neither "</script" nor "<!--" can arise.
+// Layout of JSON text: one value per line, indented by two blanks; or all on one line for the script of a page, with
+// "\u003c" for "<", so that neither "</script" nor "<!--" can occur.
 enum class JsonForm { indented, in_page };
 
-// A record as JSON. What is not UTF-8 is replaced, and characters that a terminal may obey are escaped.
+// A record as JSON. Invalid UTF-8 is replaced, and control characters are escaped.
 std::string json_text(const Record& record, JsonForm form = JsonForm::indented);
 
 }  // namespace kurbel

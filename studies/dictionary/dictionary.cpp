@@ -1,4 +1,4 @@
-// dictionary.cpp — the pages put together, and how a word is looked up.
+// dictionary.cpp — assembles the entries and looks up names and words.
 #include "studies/dictionary/dictionary.h"
 
 #include <fmt/format.h>
@@ -12,11 +12,12 @@
 #include "studies/dictionary/own_entries.h"
 #include "studies/dictionary/run_entries.h"
 #include "studies/dictionary/study_entries.h"
+#include "studies/dictionary/symbols.h"
 
 namespace kurbel {
 namespace {
 
-// "bending_1" is "bending_*"; the star goes no farther than a point, behind which the owner stands.
+// "bending_1" matches "bending_*"; the star ends at a point, after which the owner follows.
 bool fits(std::string_view pattern, std::string_view name) {
   const std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return pattern == name;
@@ -29,7 +30,7 @@ bool fits(std::string_view pattern, std::string_view name) {
   return false;
 }
 
-// What is asked for, as names are written: "Mean speed" → "mean_speed".
+// Converts a request to the form of names: "Mean speed" → "mean_speed".
 std::string as_name(std::string_view text) {
   std::string name;
   for (const char c : text) name += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -51,11 +52,48 @@ const Definition* find(std::string_view name) {
   return nullptr;
 }
 
-// The same, and the peaks of what elements bring along.
+// The same, including the peaks of element-specific quantities.
 const Definition* find_with_peaks(std::string_view name) {
   if (const Definition* found = find(name)) return found;
   for (const std::string_view prefix : {"cycle_peak_", "peak_"})
     if (name.starts_with(prefix)) return find(name.substr(prefix.size()));
+  return nullptr;
+}
+
+// "I₀", "I_0"; "ω²" of a formula is ω.
+std::string as_symbol(std::string_view text) {
+  std::string symbol;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    constexpr std::string_view below = "₀", squared = "²";  // the digits' last bytes ascend
+    if (text.substr(i).starts_with(squared)) {
+      ++i;
+    } else if (text.substr(i).starts_with(below.substr(0, 2)) && i + 2 < text.size() &&
+               static_cast<unsigned char>(text[i + 2]) < 0x8A) {
+      symbol += fmt::format("_{}", static_cast<unsigned char>(text[i + 2]) - 0x80);
+      i += 2;
+    } else {
+      symbol += text[i];
+    }
+  }
+  return symbol;
+}
+
+// One without a star goes first. Points of a plan are written with a prime, or as links are numbered.
+const Definition* find_symbol(std::string_view asked) {
+  const std::string symbol = as_symbol(asked);
+  for (const bool starred : {false, true})
+    for (const Definition& d : entries::of_symbols)
+      if (has_star(d) == starred && fits(d.name, symbol)) return &d;
+  return nullptr;
+}
+
+// "peak torque, main_coupling"; "thermal use of motor": what a page calls a figure, with its owner.
+const Definition* find_label(std::string_view asked) {
+  for (const entries::Label& l : entries::labels)
+    if (asked.starts_with(l.begin) && asked.ends_with(l.end)) return find(l.name);
+  if (asked.starts_with("largest ") && asked.find(" on ") != std::string_view::npos) return find("reaction");
+  for (const std::string_view owned : {", ", " of "})
+    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) return meant_by(asked.substr(0, end));
   return nullptr;
 }
 
@@ -112,16 +150,17 @@ const Definition* definition_of(const Name& name) {
 
 const Definition* meant_by(std::string_view asked) {
   if (const Definition* named = definition_of(asked)) return named;
+  if (const Definition* symbol = find_symbol(asked)) return symbol;
   const std::string name = as_name(asked);
   if (const Definition* named = definition_of(name)) return named;
   for (const Definition& d : dictionary())
     if (as_name(d.words) == name) return &d;
-  // "speed fluctuation", "δ": how the words begin, or the symbol at their end.
+  // "speed fluctuation", "δ": the begin of the words, or the symbol at their end.
   for (const Definition& d : dictionary()) {
     const std::string words = as_name(d.words);
     if (!name.empty() && (words.starts_with(name + "_") || words.ends_with("_" + name))) return &d;
   }
-  return nullptr;
+  return find_label(asked);
 }
 
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {
@@ -149,7 +188,7 @@ std::vector<std::string> names_like(std::string_view asked, std::size_t most) {
   if (const auto near = nearest(name, names)) take(*near);
   for (const std::string& one : names)
     if (name.size() > 2 && (one.find(name) != std::string::npos || name.find(one) != std::string::npos)) take(one);
-  // A word of it: "torque", "speed".
+  // A word within the name: "torque", "speed".
   for (std::size_t at = 0; at < name.size();) {
     const std::size_t end = std::min(name.find('_', at), name.size());
     const std::string part = name.substr(at, end - at);

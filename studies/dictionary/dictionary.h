@@ -1,7 +1,7 @@
-// dictionary.h — what a figure means: one definition in all commands, asked for by its quantity or by its name.
+// dictionary.h — the meaning of a figure: one definition for all commands, found by its quantity or by its name.
 //
-//     const Definition* d = definition_of(quantities::delta);   // of a typed quantity
-//     const Definition* d = definition_of("delta.press");         // as it is printed
+//     const Definition* d = definition_of(quantities::delta);   // by typed quantity
+//     const Definition* d = definition_of("delta.press");         // by printed name
 #pragma once
 
 #include <string>
@@ -13,19 +13,19 @@
 namespace kurbel {
 
 struct Definition {
-  std::string_view name = {};     // as the figure's name begins: "delta"; a star stands for any part: "bending_*"
+  std::string_view name = {};     // how the figure's name begins: "delta"; a star stands for any part: "bending_*"
   std::string_view words = {};    // "speed fluctuation δ"
   std::string_view unit = {};     // SI; empty: a plain number
-  std::string_view of = {};       // whose it is, behind the point: "shaft"; empty: the machine's, nothing stands behind
+  std::string_view of = {};       // owner, after the point: "shaft"; empty: the machine, nothing follows
   std::string_view theory = {};   // "2.6": page 2, equation 6; "15": a page; empty: none
-  std::string_view verbs = {};    // that print it: "run, compare"; empty: none does
+  std::string_view verbs = {};    // commands that print it: "run, compare"; empty: none
   std::string_view is = {};       // what it is
   std::string_view formula = {};  // empty: there is none
-  std::string_view is_not = {};   // what it is taken for; empty: nothing
+  std::string_view is_not = {};   // what it may be confused with; empty: nothing
 
   // "delta.SHAFT"
   std::string form() const;
-  // The definition and what stands beside it, in sentences.
+  // The complete entry, in sentences.
   std::string text() const;
   bool is_printed_by(std::string_view verb) const;
 };
@@ -33,20 +33,21 @@ struct Definition {
 // All of them: of channels, of runs, of steady cycles, of the other studies.
 const std::vector<Definition>& dictionary();
 
-// Null for quantities::other and its peaks, whose words are the element's own.
+// Null for quantities::other and its peaks, which are described by the element.
 const Definition* definition_of(const QuantityKind& what);
-// Of a figure, a channel or what a study calls its own: "delta.press", "delta", "peak_current.motor"; null: none.
+// Of a figure, a channel or a study's own name: "delta.press", "delta", "peak_current.motor"; null: none.
 const Definition* definition_of(std::string_view name);
-// Of a typed name, whose owner is known.
+// Of a typed name with known owner.
 const Definition* definition_of(const Name& name);
 
-// What a person may mean by it: its name as above, or its words: "mean speed", "speed fluctuation".
+// What a person may mean by it: its name as above, its words: "mean speed", a symbol: "R_12", "δ", or what a page calls it:
+// "peak torque, main_coupling".
 const Definition* meant_by(std::string_view asked);
-// Under which of these names a figure is told that is not told under the one asked for: δ of motion that does not
-// repeat, what is of a whole run and of a cycle; empty: under none.
+// The one of `names` that replaces a figure not given under `asked`: δ of motion that does not repeat; figures of a
+// whole run and of a cycle; empty: none.
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names);
 
-// Names that are like it, nearest first; at most so many.
+// Similar names, nearest first, at most `most`.
 std::vector<std::string> names_like(std::string_view asked, std::size_t most);
 
 }  // namespace kurbel

@@ -1,6 +1,6 @@
-// entries.h — what the rows of the dictionary share: the commands that print a figure.
+// entries.h — shared by the rows of the dictionary: the commands that print a figure.
 //
-// A row, as its header has it: name, words, unit, whose it is, theory, commands, what it is, formula, what it is not.
+// Columns of a row: name, words, unit, owner, theory, commands, definition, formula, what it is not.
 #pragma once
 
 #include "studies/dictionary/dictionary.h"

@@ -1,13 +1,13 @@
-// own_entries.h — what the states and outputs mean that elements bring along under words of their own.
+// own_entries.h — meaning of states and outputs that elements define under their own names.
 //
-// The peak of one over a run is called "peak_" and its name, over a steady cycle "cycle_peak_" and its name.
+// The peak of such a quantity over a run is called "peak_NAME", over a steady cycle "cycle_peak_NAME".
 #pragma once
 
 #include "studies/dictionary/entries.h"
 
 namespace kurbel::entries {
 
-// In the order in which a star is tried: what is more definite comes first.
+// Patterns with a star are tried in this order: the more specific ones come first.
 inline constexpr Definition of_elements[] = {
     {"current", "armature current", "A", "MOTOR", "4", of_files, "current in the armature of a direct-current motor",
      "", "the rated current"},

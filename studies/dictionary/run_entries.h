@@ -1,4 +1,4 @@
-// run_entries.h — what channels, figures of a whole run and figures of one cycle mean.
+// run_entries.h — meaning of channels, figures of a whole run and figures of one cycle.
 #pragma once
 
 #include "studies/dictionary/entries.h"
@@ -105,7 +105,7 @@ inline constexpr Definition of_channels_and_runs[] = {
      "A = ∫ M ω dt", "of one cycle: that is driving_work_per_cycle and its like"},
 };
 
-// Of the steady cycle, or of a run's last whole one.
+// Of the steady cycle, or of the last whole cycle of a run.
 inline constexpr Definition of_a_cycle[] = {
     // speeds and times
     {"cycle_max_speed", "greatest speed of a cycle, ω_max", "rad/s", "LINK", "2.6", of_cycles,
@@ -148,7 +148,7 @@ inline constexpr Definition of_a_cycle[] = {
      "half the way between the extreme angles of the shaft, of a machine whose reduction link does not turn in the "
      "mean",
      "½ (φ_max − φ_min)", "the amplitude of one order of the motion; for motion that is not a sine they differ"},
-    // the like of a whole run, of one steady cycle
+    // the same quantities for one steady cycle
     {"cycle_peak_torque", "peak torque of a steady cycle", "N*m", "COUPLING", "1.2", of_cycles,
      "the torque of greatest magnitude that the element transmits within one steady cycle, with its sign", "",
      "the peak of a whole run with its start and stop: peak_torque"},
@@ -195,7 +195,7 @@ inline constexpr Definition of_a_cycle[] = {
     {"work_per_cycle", "work of one account over a cycle", "J", "COMPONENT (account)", "1.3", of_cycles,
      "work of one component in one account, over one steady cycle; positive into the machine", "A = ∮ M dφ",
      "the sum over a line of the balance"},
-    // what swings, over the link's angle
+    // oscillating quantities, over the link's angle
     {"speed_order", "amplitude of an order of a speed", "rad/s", "ORDER.SHAFT", "11.10", of_cycles,
      "amplitude of the part of a shaft's speed that oscillates ORDER times in a turn of the reduction link, in steady "
      "motion, over the link's angle; a cycle of two turns has halves. Of a vibration about a place: ORDER times in its "

@@ -1,4 +1,4 @@
-// study_entries.h — what the figures mean that only one study has.
+// study_entries.h — meaning of the figures that belong to one study.
 #pragma once
 
 #include "studies/dictionary/entries.h"
@@ -158,7 +158,7 @@ inline constexpr Definition of_one_study[] = {
      "how many sets of effects were run before one was recommended"},
     {"settings_measured", "settings measured", "", "", "15", "accuracy",
      "how many combinations of model, method and tolerance were run"},
-    // what a scene gives; nobody prints them, but figures are taken for them
+    // data of the scene: not printed by any command, but figures are confused with them
     {"rated_speed", "rated speed", "rad/s", "MOTOR", "4", "",
      "the catalogue's speed at rated power, a key of the scene", "",
      "the speed at which it runs in the machine: operating_speed, mid_speed"},

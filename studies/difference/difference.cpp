@@ -31,7 +31,7 @@ bool FigureDifference::differs() const {
 }
 
 MachineDifference difference_between(const MachineQuestion& a, const MachineQuestion& b, const std::string& of) {
-  // The answers first: where one throws, as when it is interrupted, g++ 12 takes down twice what a braced list has made.
+  // Answers first: if one throws, for example on interruption, g++ 12 destroys elements of a braced list twice.
   MachineAnswer first = answer_of(a), second = answer_of(b);
   MachineDifference d{.of = of, .a = std::move(first), .b = std::move(second)};
   for (const Figure& f : d.a.figures) {

@@ -1,4 +1,4 @@
-// difference.h — two machines side by side: what differs between their scenes, and what that does to their figures.
+// difference.h — two machines compared: the differences of their scenes, and the effect on their figures.
 #pragma once
 
 #include <optional>
@@ -15,32 +15,32 @@ namespace kurbel {
 // A figure of both machines, in SI.
 struct FigureDifference {
   std::string name, unit;
-  std::optional<Estimate> a = {}, b = {};  // nothing: that machine has no such figure
-  double scale = 0;                        // what is usual of it
-  bool telling = false;                    // a peak, a speed, a fluctuation: worth a headline
+  std::optional<Estimate> a = {}, b = {};  // empty: that machine has no such figure
+  double scale = 0;                        // its usual magnitude
+  bool telling = false;                    // a peak, a speed, a fluctuation: relevant for a headline
 
   std::optional<Estimate> change() const;  // b − a
-  std::optional<double> relative() const;  // b/a − 1; nothing where a does not differ from nothing
-  double weight() const;                   // |b − a| over the greatest of |a|, |b| and what is usual
-  bool differs() const;                    // by more than both errors; where none is known, at all
+  std::optional<double> relative() const;  // b/a − 1; empty if a does not differ from zero
+  double weight() const;                   // |b − a| over the greatest of |a|, |b| and scale
+  bool differs() const;                    // by more than both errors; if none is known, at all
 };
 
 struct MachineDifference {
   std::string of;  // "run", "steady", "modes", "size"
   MachineAnswer a, b;
-  std::vector<FigureDifference> figures = {};  // in the order of the first machine, then those of the second alone
+  std::vector<FigureDifference> figures = {};  // in the order of the first machine, then those of the second only
   std::vector<SceneChange> changes = {};
 
   bool complete() const { return a.done() && b.done(); }
   const SpeedUnit& speed_unit() const { return a.speed_unit; }
 };
 
-// Puts the same question to two scenes. Throws SceneError for either, and std::invalid_argument.
+// Asks both scenes the same question. Throws SceneError for either, and std::invalid_argument.
 MachineDifference difference_between(const MachineQuestion& a, const MachineQuestion& b, const std::string& of);
 
 Findings findings_of(const MachineDifference& difference);
 
-// The same as a question to two scenes, of which the first is watched.
+// The same as a question to two scenes; progress is shown for the first.
 const std::vector<DeclaredOption>& difference_options();
 StudyOutput difference(const Inquiry& first, const Inquiry& second, const GivenOptions& given);
 

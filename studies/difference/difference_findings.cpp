@@ -1,4 +1,4 @@
-// difference_findings.cpp — what is said of two machines.
+// difference_findings.cpp — findings on the comparison of two machines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace kurbel {
 namespace {
 
-// Of files of one name the folders tell which is which.
+// Files of the same name are distinguished by their folders.
 std::string name_of(const MachineAnswer& m, const MachineAnswer& other) {
   const std::filesystem::path path(m.file);
   if (path.stem() != std::filesystem::path(other.file).stem()) return path.stem().string();
@@ -31,7 +31,7 @@ std::string percent(double relative) {
   return std::abs(relative) >= 10 ? fmt::format("× {:.3g}", 1 + relative) : fmt::format("{:+.3g} %", 100 * relative);
 }
 
-// The figures that differ, by how much; those that are worth a headline count as if it were more.
+// The differing figures by size; those relevant for a headline have a higher weight.
 std::vector<const FigureDifference*> by_size(const MachineDifference& d) {
   std::vector<const FigureDifference*> list;
   for (const FigureDifference& f : d.figures)
@@ -67,7 +67,7 @@ std::string conclusion(const MachineDifference& d) {
                      names.a, text, text.empty() ? "" : "; ", count, d.figures.size(), keys_in_words(d));
 }
 
-// In the unit that people read.
+// In the unit for people.
 Estimate read_in(const MachineDifference& d, const FigureDifference& f, const Estimate& figure) {
   return f.unit == "rad/s" ? figure / d.speed_unit().size : figure;
 }

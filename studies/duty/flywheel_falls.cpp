@@ -1,4 +1,4 @@
-// flywheel_falls.cpp — highest so far, and how far below it; turning points within a step by its dense output.
+// flywheel_falls.cpp — running maximum and the fall below it; extremes within a step by its dense output.
 #include "studies/duty/flywheel_falls.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ FlywheelFalls::FlywheelFalls(const Model& model) : sources_(model) {
   }
 }
 
-// In a motion that repeats the falls differ by rounding: the time is that of the first.
+// In a periodic motion the falls differ by rounding: the time is that of the first.
 void FlywheelFalls::Wheel::look(double t, double speed) {
   const double fall = highest - speed;
   if (speed > to + 0.01 * (from - to)) risen = true;
@@ -54,7 +54,7 @@ void FlywheelFalls::step(StepView& view) {
     if (!driven) w.highest = 0;  // what nothing drives runs down
     const double w0 = std::abs(w.gain * view.y_previous()[w.state]), w1 = std::abs(w.gain * view.y()[w.state]);
     see(view.t_previous(), w0);
-    // Within the step it may go beyond both ends; looked for only where that could count.
+    // Within the step it may exceed both ends; searched for only if it could matter.
     const double change = std::abs(w1 - w0), reach = 2 * (change + w.change);
     w.change = change;
     if (driven && (std::max(w0, w1) + reach > w.highest || w.highest - std::min(w0, w1) + reach > w.from - w.to))

@@ -1,4 +1,4 @@
-// flywheel_falls.h — how far flywheels fall in speed, and what they give thereby: of a press at its blow, of a punch.
+// flywheel_falls.h — speed drops of flywheels and the energy they give, for example in the stroke of a press or punch.
 //
 //     fall = max (|ω(t₁)| − |ω(t₂)|), t₁ < t₂, while something drives
 //     speed_drop = fall/|ω(t₁)|,   energy_given = ½ J (ω(t₁)² − ω(t₂)²)
@@ -20,7 +20,7 @@ class FlywheelFalls final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override { tape(wheels_); }
 
-  // Of all flywheels whose inertia is given; `seen`: in a run.
+  // For all flywheels whose inertia is given; `seen`: observed in a run.
   static void tell(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureTeller& tell);
 
  private:
@@ -32,10 +32,10 @@ class FlywheelFalls final : public Observer {
     std::size_t state = 0;    // in y
     double highest = 0;       // |ω| so far [rad/s]
     double from = 0, to = 0;  // of the greatest fall [rad/s]
-    double low_at = 0;        // when it was lowest in that: the first of falls that are alike [s]
+    double low_at = 0;        // time of the minimum; of equal falls the first [s]
     double alike = 0;         // the fall at that time [rad/s]
-    bool risen = false;       // since then
-    double change = 0;        // of |ω| in the step before [rad/s]
+    bool risen = false;       // the speed has risen since then
+    double change = 0;        // of |ω| in the previous step [rad/s]
     void look(double t, double speed);
     void remember(Tape& tape) { tape(highest, from, to, low_at, alike, risen, change); }
   };

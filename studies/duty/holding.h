@@ -1,7 +1,7 @@
-// holding.h — with how much reserve closed clutches and limiters hold.
+// holding.h — torque reserve of closed clutches and limiters.
 //
-//     torque_reserve = M_s/max |τ|     τ: what it transmits while it is closed for good and does not slip; told where that
-//                                      is more than a millionth of M_s
+//     torque_reserve = M_s/max |τ|     τ: transmitted while it is closed for good and does not slip; given if this
+//                                      exceeds a millionth of M_s
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace kurbel {
 
-// Largest torques that clutches hold, to be looked for along with the others.
+// Largest torques held by clutches, located together with the other extremes.
 std::vector<ExtremeOf> held_torques_of(const Model& model);
-// From those that the run is known to have held.
+// From the held torques found in the run.
 void tell_reserves(const Model& model, FigureTeller& tell);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// motor_currents.h — currents of induction motors that are states (two-axis model), squared and summed over the run.
+// motor_currents.h — currents of induction motors that are states (two-axis model), squared and integrated over the run.
 //
 //     effective current of a line:  i² = ½ |i_s|²,  of the rotor, referred to the stator: ½ |i_r|²
 #pragma once
@@ -14,7 +14,7 @@ class MotorCurrents final : public Observer {
  public:
   struct Motor {
     std::string component;
-    std::vector<std::size_t> stator, rotor;   // own states: parts of their space vectors
+    std::vector<std::size_t> stator, rotor;   // internal states: components of the space vectors
     double usual = 1;                         // order of magnitude [A]
     std::vector<double> on_stator, on_rotor;  // ∫ i² dt up to the end of each step [A²·s]
     void remember(Tape& tape) { tape(on_stator, on_rotor); }
@@ -28,7 +28,7 @@ class MotorCurrents final : public Observer {
   void remember(Tape& tape) override { tape(time_, motors_); }
 
   const std::vector<Motor>& motors() const { return motors_; }
-  // Of a line from a time to another; between the ends of steps straight.
+  // ∫ i² dt of a line between two times, interpolated linearly within steps.
   double stator_square(const Motor& motor, double begin, double end) const;
 
  private:

@@ -1,9 +1,6 @@
 // motor_figures.cpp — quadratures of the motors' torques as figures.
 #include "studies/duty/motor_figures.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "drivetrain/induction/induction_law.h"
 #include "drivetrain/motors/motors.h"
 #include "engine/numerics/index.h"
@@ -11,8 +8,8 @@
 namespace kurbel {
 namespace {
 
-// Synchronous speed of an induction motor at the mains that follows its static curve, and whose field nothing reverses;
-// none: no heat of slip is told.
+// Synchronous speed of an induction motor at the mains with a static curve whose field is never reversed; empty: no
+// heat of slip is given.
 std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor) {
   const auto* data = m.network.data.find<InductionData>(motor.component);
   const bool transient = std::any_of(m.own_states.begin(), m.own_states.end(), [&](const OwnStatePlace& own) {
@@ -24,7 +21,7 @@ std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor
                                                                  : std::nullopt;
 }
 
-// Null: no law gives the current by the torque, whose sign a reversed series motor turns round.
+// Null: no law gives the current from the torque, whose sign changes for a reversed series motor.
 const ArmatureCurrent* armature_current(const Model& m, const MotorTorque& motor) {
   const auto* current = m.network.data.find<ArmatureCurrent>(motor.component);
   const bool reversed = std::any_of(m.scene.sequence.steps.begin(), m.scene.sequence.steps.end(),
@@ -37,9 +34,9 @@ std::optional<double> rated_torque(const Model& m, const MotorTorque& motor) {
   return rating ? rating->torque : std::nullopt;
 }
 
-// The cycle by which a motor's heating is judged: the last one of a motion that repeats. Where commands change it, the
-// last may be the lightest: then the one that heats the most of all that come again, in speed and in heat, so that
-// neither a start nor what a switching leaves behind counts. Null: none comes again.
+// The cycle for a motor's heating: the last one of a periodic motion. If commands change the motion, the last may be
+// the lightest: then the one with most heating among the repeated ones (in speed and in heat), so that starts and
+// transients after switching do not count. Null: none repeats.
 const CycleRecord* cycle_that_heats(const MotorRun& run, std::size_t i) {
   if (run.equations.model().commands.empty()) return run.last;
   constexpr double alike = 0.02;
@@ -82,7 +79,7 @@ class OneMotor {
     if (!rated) return;
     tell("thermal_use", [&]() -> std::optional<Found> {
       if (!(*rated > 0)) return {};
-      // Without a cycle, in steady motion, by the torque at the end: all that varies has faded.
+      // Without a cycle, in steady motion, by the final torque: all that varies has decayed.
       if (m_.cycle == 0 && !run_->last && run_->steady) return Found{std::abs(torque_at_end()) / *rated, 1, run_->end};
       const CycleRecord* cycle = m_.cycle > 0 ? cycle_that_heats(*run_, i_) : nullptr;
       if (!cycle) return {};
@@ -110,7 +107,7 @@ class OneMotor {
   double work() const { return driving_work(m_, motor_.component, run_->work); }
   double torque_at_end() const { return motor_.torque(run_->equations.snapshot(run_->end, run_->y)); }
 
-  // Of an armature: the RMS value by the torque's integrals, the peak by its greatest torque.
+  // For an armature: the RMS value from the torque's integrals, the peak from its greatest torque.
   void armature_currents(const ArmatureCurrent& law) {
     const auto rms = [&law](double torque, double of_square) {
       return std::sqrt(std::max(0.0, law.by_mean * torque + law.by_square * of_square));
@@ -152,7 +149,7 @@ class OneMotor {
     }
   }
 
-  // Heat of slip that steady motion makes in a second: by its last cycle, without one by the torque at the end.
+  // Power of slip heat in steady motion: from the last cycle, without one from the final torque.
   double steady_slip_power(double synchronous) const {
     if (run_->last)
       return (synchronous * run_->last->of_motors[2 * i_] - driving_work(m_, motor_.component, run_->last->work)) /
@@ -161,7 +158,7 @@ class OneMotor {
     const Snapshot& s = run_->equations.snapshot(run_->end, run_->y);
     return torque * (synchronous - m_.gain_of_node[at(motor_.node)] * s.now.speed[m_.shaft_of_node[at(motor_.node)]]);
   }
-  // Heat of slip up to run-up's end: that of the run less what steady motion makes of it.
+  // Heat of slip until the end of run-up: that of the run minus that of steady motion.
   std::optional<double> start_heat(double synchronous) const {
     if (!run_->after_run_up || (!run_->last && !run_->steady)) return {};
     const double all = synchronous * mean() - work();

@@ -10,7 +10,7 @@ namespace {
 
 enum class Told { neither, drives, stops };
 
-// What of a component takes commands that drive or stop.
+// Kind of a component's commands that drive or stop.
 enum class Role { none, motor, clutch, brake };
 Role role_of(const Model& m, const std::string& component) {
   for (const Network::Joint& joint : m.network.joints)

@@ -1,9 +1,8 @@
-// stopping.h — how long the reduction link takes to stand, and how far it still turns, from the signal that stops it.
+// stopping.h — stopping time and stopping angle of the reduction link, from the signal that stops it.
 //
-// Commands that drive: a motor or a clutch that is given more than 0, a brake that is let go. Commands that stop: a motor
-// or a clutch that is taken away, a motor that is reversed against what it was told, a brake that is set. The signal is
-// the first that stops after whatever drove last: a command, a clutch that locked, the link that began to move. What is
-// told to loads is none.
+// Driving commands: a motor or clutch receives more than 0, a brake is released. Stopping commands: a motor or clutch
+// is switched off, a motor is reversed, a brake is applied. The signal is the first stopping command after the last
+// driving event: a command, a clutch that locked, the start of the link. Commands to loads do not count.
 #pragma once
 
 #include <optional>
@@ -15,9 +14,9 @@ namespace kurbel {
 
 struct Stopping {
   double time = 0, angle = 0;  // of the link [s], [rad]
-  double at = 0;               // it stands then [s]
+  double at = 0;               // time of standstill [s]
 };
-// The first stop of a run; empty: the link does not come to rest, or nothing tells it to.
+// The first stop of a run; empty: the link does not come to rest, or no command stops it.
 std::optional<Stopping> first_stopping(const Model& model, const EventLog& events);
 
 }  // namespace kurbel

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array names = {"run_up", "steady_motion", "run_down"};
 
-// A moment at which works and energy are known.
+// A time at which works and energy are known.
 struct Border {
   double t = 0, energy = 0;
   std::array<double, 4> work{};

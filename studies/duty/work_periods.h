@@ -1,7 +1,7 @@
-// work_periods.h — run-up, steady motion and run-down with their borders, the same wherever they are told, and their works.
+// work_periods.h — run-up, steady motion and run-down: their borders, the same everywhere, and their works.
 //
-//     run-up          from the start to where the speed enters the range of steady motion for good     (run/periods.h)
-//     steady motion   from there to where the last source goes off, or to the end
+//     run-up          from the start until the speed finally enters the range of steady motion     (run/periods.h)
+//     steady motion   from there until the last source is switched off, or to the end
 //     run-down        from there to standstill, or to the end
 //
 //     A_d + A_u + A_h + A_w = ΔE      driving, useful, harmful works, that of weights; kinetic and stored energy
@@ -23,8 +23,8 @@ std::array<double, 4> works_by_kind(const Model& model, std::span<const double> 
 // Per account, up to a state of audited equations [J].
 std::vector<double> works_done(const Equations& equations, std::span<const double> y);
 
-// Useful work over what was spent on it and on losses: driving work, that of weights, and what stored energy gave. So it is
-// at most 1 while harmful works take, whether the period closes or not; none where nothing useful was done.
+// Useful work over the work spent: driving work, work of weights, and the decrease of stored energy. It is at most 1
+// as long as harmful work is negative, whether the period closes or not; empty if there is no useful work.
 //     η = −A_u/(A_d + A_w − ΔE)
 std::optional<double> efficiency_of(double driving, double useful, double weight, double energy);
 
@@ -33,7 +33,7 @@ struct WorkPeriod {
   double begin = 0, end = 0;     // [s]
   std::array<double, 4> work{};  // by Account: driving, useful, harmful, weight [J]
   double energy = 0;             // ΔE, of kinetic and stored energy as they are at both ends [J]
-  double residual() const;       // ΔE less all works: what the balance leaves open [J]
+  double residual() const;       // ΔE minus all works: residual of the balance [J]
   std::optional<double> efficiency() const { return efficiency_of(work[0], work[1], work[3], energy); }
 };
 
@@ -43,17 +43,17 @@ struct WholeRun {
   std::vector<double> work;                                     // per account [J]
 };
 
-// The periods of a run between two times, without works; none where the motion is not steady.
+// The periods of a run between two times, without works; empty if the motion is not steady.
 std::vector<WorkPeriod> three_periods(const Periods& periods, double begin, double end);
 
-// The same with their works: `works_at` tells those from the start up to a border; where it cannot, there are none. Energy
-// at a border is that at the begin of the cycle around it, and what was done since.
+// The same with their works: `works_at` gives the works from the start to a border; empty if it cannot. The energy at
+// a border is that at the begin of its cycle plus the works since then.
 std::vector<WorkPeriod> work_periods(const Model& model, const Periods& periods, const std::vector<CycleRecord>& cycles,
                                      const WholeRun& whole,
                                      const std::function<std::optional<std::array<double, 4>>(double t)>& works_at);
 
-// "work_of_run_up.driving" … "work_of_run_up.energy": their errors are told, not judged, as a border may be another in
-// another run.
+// "work_of_run_up.driving" … "work_of_run_up.energy": their errors are reported, not judged, as borders may differ
+// between runs.
 void tell_works(const Model& model, const std::vector<WorkPeriod>& periods, FigureTeller& tell);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// effect_study.cpp — one run with everything, one run less each effect.
+// effect_study.cpp — one run with all effects, one run without each.
 #include "studies/effects/effect_study.h"
 
 #include <fmt/format.h>
@@ -14,14 +14,14 @@
 namespace kurbel {
 namespace {
 
-// The greatest change that the errors allow.
+// The greatest change consistent with the errors.
 double largest(const LeftOut& l) {
   double most = 0;
   for (const FigureChange& c : l.changes) most = std::max(most, c.relative + c.error);
   return most;
 }
 
-// What the full model cannot have, and how much that is.
+// Effects excluded from the full model, and their greatest change.
 std::string beyond(const EffectStudy& s) {
   std::string text;
   for (const LeftOut& l : s.left_out) {
@@ -56,7 +56,7 @@ std::string conclusion_of(const EffectStudy& s) {
   const std::string off = most.from_nothing
                               ? std::string("within its error")
                               : fmt::format("{:.3g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
-  // Where four digits do not tell them apart the two are not told.
+  // The two values are omitted if four digits do not distinguish them.
   text = most.relative < 1e-2
              ? fmt::format("The strongest effect is {}: without it {} is {}", strongest->effect.words, most.figure, off)
              : fmt::format("The strongest effect is {}: without it {} is {} instead of {}, {}", strongest->effect.words,

@@ -1,5 +1,5 @@
-// effect_study.h — what each effect changes and costs: the full model, and the model without one effect at a time. An
-// effect that does not go with all the others is judged in their place.
+// effect_study.h — change and cost of each effect: the full model against the model without that effect. An effect
+// that is incompatible with others is assessed in a model without those.
 #pragma once
 
 #include <string>
@@ -12,15 +12,15 @@
 
 namespace kurbel {
 
-// The run without it; `failed`: why the machine cannot run without it.
+// The run without the effect; `failed`: why the machine cannot run without it.
 struct LeftOut : VariantRun {
   EffectUnit effect = {};
-  std::vector<FigureChange> changes = {};  // of the figures that both have, the greatest first
+  std::vector<FigureChange> changes = {};  // of the figures that both runs have, the greatest first
   ModelSize saved = {};                    // states, nonzeros, guards that the effect adds
   long events_added = 0;
   double time_ratio = 0;  // processor time of the full model over that without
-  // What it does not go with, in words: it is judged by the machine without those, with and without it. Empty: it is
-  // part of the full model.
+  // The incompatible effects, in words: the effect is assessed in the model without them, with and without it. Empty:
+  // it is part of the full model.
   std::string in_place_of = {};
 };
 
@@ -30,7 +30,7 @@ struct EffectStudy {
   Result full;
   ModelSize size;
   std::vector<LeftOut> left_out;   // ranked by their greatest change
-  std::vector<std::string> notes;  // how far the models hold, and what went along with an effect
+  std::vector<std::string> notes;  // range of validity of the models, and what else was switched with an effect
   std::string conclusion;
 };
 
@@ -38,7 +38,7 @@ struct EffectStudy {
 LeftOut study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
                                  std::size_t unit, const VariantRuns& runs);
 
-// Throws std::invalid_argument where the scene has no effect to leave out.
+// Throws std::invalid_argument if the scene has no effect that can be switched off.
 EffectStudy study_effects(const Scene& scene, const SimulateOptions& options);
 
 // The study must outlive the findings.

@@ -16,7 +16,7 @@ std::string percent(const FigureChange& change) {
                                                     : fmt::format("{:.3g} %", 100 * change.relative);
 }
 
-// The error apart: what the runs leave open of the change.
+// The error separately: the uncertainty of the change from the runs.
 std::string error_of(const FigureChange& change) {
   return change.from_nothing && change.relative > 1 ? std::string("—") : fmt::format("± {:.1g} %", 100 * change.error);
 }
@@ -98,7 +98,7 @@ Record left_out_record(const LeftOut& l) {
   return record;
 }
 
-// Change against cost: what lies on the left above costs little and matters.
+// Change against cost: at the upper left are effects with low cost and large influence.
 Plot plane(const EffectStudy& s) {
   Plot plot{.title = "What each effect changes, and what it costs (theory 14.1)",
             .x = {"time with the effect over time without", "×"},

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "engine/events/equations.h"
-#include "engine/model/model.h"
 
 namespace kurbel {
 namespace {
@@ -30,7 +29,7 @@ bool is_usual(const EffectUnit& unit) {
                      [&](const EffectFlag& flag) { return unit.name == flag.name && flag.is_usual(); });
 }
 
-// What to do with a setting: which of its values are multiplied.
+// Values of a setting that are multiplied.
 enum class Scales { nothing, value, abscissa };
 using Choice = std::function<Scales(const Key&, const Setting&)>;
 
@@ -46,8 +45,8 @@ void multiply(Setting& setting, Scales which, double factor) {
     for (double& value : *y) value *= factor;
 }
 
-// Chosen values in a section and the tables within it, times the factor: the keys that were given. What stands there by
-// default goes along, so that it keeps to the others.
+// Multiplies chosen values in a section and its nested tables; returns the keys given. Default values are multiplied
+// as well, to keep the proportions.
 std::vector<std::string> scale(Section& section, const Choice& chosen, double factor) {
   std::vector<std::string> changed;
   for (Setting& setting : section.settings) {
@@ -63,7 +62,7 @@ std::vector<std::string> scale(Section& section, const Choice& chosen, double fa
   return changed;
 }
 
-// Of these keys' values, where they were given.
+// For these keys' values, if given.
 Choice given_of(std::set<std::string> keys) {
   return [keys = std::move(keys)](const Key& key, const Setting& setting) {
     return setting.given && keys.count(key.name) ? Scales::value : Scales::nothing;
@@ -76,8 +75,8 @@ bool is_load(const Section& section) { return section.kind->name == "load" || se
 
 std::vector<EffectUnit> effect_units(const Scene& scene) {
   std::vector<EffectUnit> units;
-  // A gearbox is elastic only with flanks or supports that are. Asked of the network as drawn: with all of them elastic
-  // at once a shaft without inertia may be left, and one of them alone still be worth a model.
+  // A gearbox is elastic only if its flanks or supports are. Decided on the network as described: with all of them
+  // elastic at once, a shaft without inertia may remain, while one alone is a valid model.
   std::set<std::string> elastic;
   const Network network = build_network(scene);
   for (const Network::Joint& joint : network.joints)
@@ -109,7 +108,7 @@ Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const Eff
 EffectSet fullest_set(const Scene& scene, const std::vector<EffectUnit>& units, std::optional<std::size_t> keep) {
   const EffectSet all(units.size(), true);
   if (makes_machine(scene, effects_of(scene, units, all))) return all;
-  // What is part of the machine comes first: without it a mechanism may be too simple to exclude anything.
+  // Parts of the machine come first: without them a mechanism may be too simple to exclude anything.
   const auto rank = [&](std::size_t k) {
     return is_usual(units[k]) ? 0 : k == keep ? 1 : on_in(scene, units[k]) ? 2 : 3;
   };
@@ -164,7 +163,7 @@ ModelSize size_of(const Model& model) {
 }
 
 std::string with_effects(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on) {
-  // Without the old table, in either of its forms; a table ends where the next one begins.
+  // Removes the old table in either form; a table ends where the next one begins.
   std::string text;
   bool inside = false;
   for (std::size_t begin = 0; begin < scene.text.size();) {

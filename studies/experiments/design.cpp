@@ -21,7 +21,7 @@ constexpr const char* designs = "allowed: grid:21x3, sobol:4096, lhs:500, random
   throw std::invalid_argument(fmt::format("--design {}: {}; {}", in_quotes(text), why, designs));
 }
 
-// Steele, Lea, Flood 2014: every bit of the result hangs on every bit of x.
+// Steele, Lea, Flood 2014: every bit of the result depends on every bit of x.
 std::uint64_t splitmix(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15u;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;

@@ -1,9 +1,9 @@
-// design.h — which variants a sweep computes: the values of row i are a function of i alone (and of the seed), so that
-// shards, threads and resumed sweeps compute the same rows.
+// design.h — the variants of a sweep: the values of row i depend on i (and the seed) only, so that shards, threads
+// and resumed sweeps compute the same rows.
 //
 //   grid:21x3      every combination; the last parameter changes fastest
 //   sobol:4096     points of low discrepancy (Sobol; Joe and Kuo 2008), shifted by the seed
-//   lhs:500        Latin hypercube: each of 500 equal parts of every range is met once (McKay, Beckman, Conover 1979)
+//   lhs:500        Latin hypercube: one point in each of 500 equal parts of every range (McKay, Beckman, Conover 1979)
 //   random:500     independent points
 //   saltelli:1024  N (k + 2) rows for Sobol indices: A, A with each column from B, B (Saltelli et al. 2010)
 #pragma once
@@ -21,7 +21,7 @@ class Design {
  public:
   enum class Kind { grid, sobol, lhs, random, saltelli, variants };
 
-  // Throws std::invalid_argument in words. "grid" without steps is for lists alone.
+  // Throws std::invalid_argument with the reason. "grid" without steps is for lists only.
   Design(const std::string& text, std::vector<SweptParameter> parameters, std::uint64_t seed);
   explicit Design(VariantTable table);
 
@@ -29,7 +29,7 @@ class Design {
   const std::string& text() const { return text_; }
   std::size_t rows() const { return rows_; }
   const std::vector<SweptParameter>& parameters() const { return parameters_; }
-  // Of saltelli: N; else the rows.
+  // For saltelli N, otherwise the number of rows.
   std::size_t base() const { return base_; }
   // In the parameters' units.
   std::vector<double> row(std::size_t i) const;

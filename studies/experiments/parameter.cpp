@@ -1,4 +1,4 @@
-// parameter.cpp — ranges and lists as they are written on a command line or in a table.
+// parameter.cpp — parsing of ranges and lists from the command line or a table.
 #include "studies/experiments/parameter.h"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/scene/messages.h"
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "engine/tables/table_file.h"
 
@@ -19,12 +20,6 @@ namespace {
 constexpr const char* variations =
     "write a range \"main_coupling.stiffness=500..1500 kN*m/rad\" or a list \"flywheel.inertia=200,400,800 kg*m2\"";
 constexpr std::size_t most_values = 1'000'000;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
-}
 
 // A number and what stands behind it.
 struct Numbered {
@@ -148,7 +143,7 @@ SweptParameter parse_heading(const TableHeading& heading, const std::string& fil
   return p;
 }
 
-// Plain numbers in a column stay numbers; a column with anything else is one of words.
+// Plain numbers in a column remain numbers; a column with any other text is one of words.
 void fill_column(SweptParameter& p, const std::vector<std::vector<std::string>>& cells, std::size_t k,
                  std::vector<std::vector<double>>& rows) {
   const bool numbers = std::all_of(cells.begin(), cells.end(), [&](const auto& row) {

@@ -1,4 +1,4 @@
-// clear_away.cpp — by descriptors throughout; a link within is deleted or moved itself, never followed.
+// clear_away.cpp — works on descriptors; links within are deleted or moved, never followed.
 #include "studies/files/clear_away.h"
 
 #include <fcntl.h>
@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <vector>
 
 namespace kurbel {
@@ -22,7 +21,7 @@ std::vector<std::string> names_in(int folder) {
   return names;
 }
 
-// All of it: what a killed writer had begun holds nothing but its own files.
+// Deletes all: the unfinished set of a killed writer contains only its own files.
 void delete_all(int folder) {
   for (const std::string& name : names_in(folder)) {
     if (unlinkat(folder, name.c_str(), 0) == 0 || (errno != EISDIR && errno != EPERM)) continue;
@@ -34,12 +33,12 @@ void delete_all(int folder) {
 bool move_without_replacing(int from, const std::string& name, int to, const std::string& new_name) {
   if (renameat2(from, name.c_str(), to, new_name.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS) return false;
-  // A file system that cannot tell: looked at first.
+  // For file systems without this flag: check first.
   if (faccessat(to, new_name.c_str(), F_OK, AT_SYMLINK_NOFOLLOW) == 0) return (errno = EEXIST, false);
   return renameat(from, name.c_str(), to, new_name.c_str()) == 0;
 }
 
-// Under its own name, or, where the new set has a file of that name, as NAME.kept-1, -2, …
+// Under its own name or, if the new set has a file of that name, as NAME.kept-1, -2, …
 void take_over(int from, const std::string& name, int to) {
   for (int n = 0; n < 1000; ++n)
     if (move_without_replacing(from, name, to, n == 0 ? name : fmt::format("{}.kept-{}", name, n)) || errno != EEXIST)
@@ -61,7 +60,7 @@ void part(int folder, const std::string& prefix, const std::set<std::string>& ow
         take_over(folder, name, target);
         continue;
       }
-      // A folder of that name in the new set is made only for what is taken over.
+      // The folder in the new set is made only if files are moved there.
       for (const std::string& file : names_in(inner.get()))
         if (!own.contains(whole + "/" + file)) mkdirat(target, name.c_str(), 0777);
       const Descriptor there = open_folder(target, name);
@@ -100,7 +99,7 @@ void clear_replaced(int parent, const std::string& name, const std::string& targ
   const auto own = files_of_set(folder.get());
   const Descriptor there = open_folder(parent, target);  // without one, nothing is taken over
   part(folder.get(), "", own.value_or(std::set<std::string>{}), there.get());
-  // The manifest goes last: as long as anything of the set is there, it tells whose it is.
+  // The manifest is deleted last: it identifies the set as long as any of its files exist.
   const std::vector<std::string> left = names_in(folder.get());
   if (left.size() == 1 && left[0] == manifest_name) unlinkat(folder.get(), manifest_name, 0);
   unlinkat(parent, name.c_str(), AT_REMOVEDIR);
@@ -120,7 +119,7 @@ void clear_abandoned(int parent) {
     if (!is_folder) {
       unlinkat(parent, name.c_str(), 0);
     } else if (staged->replaced || files_of_set(opened.get())) {
-      // Complete: it was moved aside, and is the result where none followed; or was replaced, or about to replace.
+      // A complete set: moved aside, and restored if no successor exists; or replaced, or about to replace.
       if (!staged->replaced || !move_without_replacing(parent, name, parent, staged->target))
         clear_replaced(parent, name, staged->target);
     } else {

@@ -1,4 +1,4 @@
-// clear_away.h — what was replaced, and what writers that were killed have left; what is not kurbel's is never lost.
+// clear_away.h — removes replaced result sets and remains of killed writers; files that are not kurbel's are never lost.
 #pragma once
 
 #include <optional>
@@ -9,22 +9,22 @@
 
 namespace kurbel {
 
-// Every result set holds it: a first line by which the folder is known as kurbel's, then the files with their SHA-256.
+// In every result set: a first line that marks the folder as kurbel's, then the files with their SHA-256.
 inline constexpr const char* manifest_name = "set.sha256";
 inline constexpr const char* manifest_begin = "# kurbel result set 1\n";
 
-// The files that a folder's manifest names; nothing: it has none.
+// The files named in a folder's manifest; empty: there is none.
 std::optional<std::set<std::string>> files_of_set(int folder);
 
-// A folder of this process with all that is in it.
+// Deletes a folder of this process with its contents.
 void delete_own(int parent, const std::string& name);
 
-// Takes files that are not of the set over into `target`, deletes the set's own, then the folder. What cannot be taken
-// over stays, and the folder with it. Any number of processes may do this at once.
+// Moves files that are not of the set into `target`, deletes the set's own files, then the folder. Files that cannot
+// be moved stay, and so does the folder. Safe for any number of concurrent processes.
 void clear_replaced(int parent, const std::string& name, const std::string& target);
 
-// In this folder: only what bears a staged name, belongs to this user and has no living writer. A set that was moved
-// aside and not followed by another one is moved back.
+// Clears this folder: only entries with a staged name that belong to this user and have no living writer. A set that
+// was moved aside without a successor is moved back.
 void clear_abandoned(int parent);
 
 }  // namespace kurbel

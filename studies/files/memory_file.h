@@ -1,4 +1,4 @@
-// memory_file.h — a file in memory, for libraries that write to a path alone; its bytes are then put where they belong.
+// memory_file.h — a file in memory, for libraries that can only write to a path; its bytes are then stored elsewhere.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace kurbel {
 
 class MemoryFile {
  public:
-  MemoryFile();              // throws std::runtime_error where there is no memory for it
-  std::string path() const;  // as long as this stands
+  MemoryFile();              // throws std::runtime_error if memory is insufficient
+  std::string path() const;  // valid as long as this object
   std::string bytes() const;
 
  private:

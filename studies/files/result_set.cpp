@@ -1,4 +1,4 @@
-// result_set.cpp — put together beside, then exchanged.
+// result_set.cpp — written next to the target, then exchanged.
 #include "studies/files/result_set.h"
 
 #include <fcntl.h>
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -36,8 +35,8 @@ fs::path resolved(const fs::path& folder) {
   return path;
 }
 
-// Why what stands under a name cannot be replaced by a result set, as it looks now; nothing: another writer put
-// something else in its place meanwhile.
+// Why the current content of a name cannot be replaced by a result set; empty: another writer has meanwhile replaced
+// it.
 std::optional<std::string> why_not_replaced_now(int parent, const std::string& name, const fs::path& path) {
   struct stat status {};
   if (fstatat(parent, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return "";
@@ -64,7 +63,7 @@ std::string why_not_replaced(int parent, const std::string& name, const fs::path
   return fmt::format("{} is replaced all the time; give another folder", path.string());
 }
 
-// A folder that is worked in, or that a disk is mounted on, cannot change places with another one.
+// A folder that is a working directory or a mount point cannot be exchanged.
 std::string why_not_moved(const fs::path& path) {
   std::error_code error;
   const fs::path here = fs::current_path(error);
@@ -145,7 +144,7 @@ void ResultSet::add(const std::string& long_name, std::string_view text) {
   }
   const Descriptor file = make_file(inner ? inner.get() : folder_.get(), inner ? name.substr(slash + 1) : name);
   append(file.get(), shown(name), text);
-  // The disk may begin; flush_all waits for it.
+  // Starts writing to disk; flush_all waits for it.
   sync_file_range(file.get(), 0, 0, SYNC_FILE_RANGE_WRITE);
   files_.emplace_back(name, sha256(text));
 }
@@ -190,7 +189,7 @@ void ResultSet::put_in_place(const std::string& made_by, bool complete) {
   }
 }
 
-// In one step. False: somebody else came between, to be tried again.
+// In one step. False: another process interfered, try again.
 bool ResultSet::placed() {
   if (!exchange_known_) return placed_by_two_moves();
   const int folder = parent_.get();

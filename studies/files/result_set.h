@@ -1,12 +1,12 @@
-// result_set.h — the files of one run as one thing: there together, or not at all.
+// result_set.h — the files of one run as a unit: all of them are there, or none.
 //
-//   ResultSet set("results/press/run");                 // a fresh folder beside, which nobody sees
+//   ResultSet set("results/press/run");                 // a new hidden folder next to the target
 //   set.add("summary.json", text);
 //   set.put_in_place("kurbel run press.toml", true);    // flushed, then exchanged in one step
 //
-// What stood there is whole until then and gone afterwards; files in it that were not kurbel's are taken over. The
-// manifest set.sha256 names all files with their SHA-256 (`sha256sum -c set.sha256` checks them) and the run that they
-// are of; by it a folder is known as kurbel's. A folder without it that holds anything is never replaced.
+// The previous contents stay complete until then and are deleted afterwards; files that were not kurbel's are kept.
+// The manifest set.sha256 names all files with their SHA-256 (`sha256sum -c set.sha256` checks them) and the run that
+// made them; it marks a folder as kurbel's. A non-empty folder without it is never replaced.
 #pragma once
 
 #include <filesystem>
@@ -19,32 +19,32 @@
 
 namespace kurbel {
 
-// Where a run that was interrupted or failed leaves what it has: FOLDER.incomplete.
+// Where a run that was interrupted or failed stores its partial results: FOLDER.incomplete.
 std::filesystem::path incomplete_place(const std::filesystem::path& folder);
 
-// Why no result set can be put into a folder, with a next step; empty: it can. To be asked before anything runs.
+// Why no result set can be put into a folder, with a next step; empty: it can. To be checked before any run.
 std::string why_no_results_in(const std::filesystem::path& folder);
 
 class ResultSet {
  public:
-  // Clears away first what killed writers have left there. Throws std::runtime_error where nothing can be written.
+  // First removes what killed writers have left there. Throws std::runtime_error if the folder cannot be written.
   explicit ResultSet(const std::filesystem::path& folder);
-  ~ResultSet();  // what was not put in place is gone
+  ~ResultSet();  // deletes what was not put in place
   ResultSet(const ResultSet&) = delete;
   ResultSet& operator=(const ResultSet&) = delete;
 
   // "report.html" or "plots/torque.svg"; a name too long for a file system is shortened. Throws std::runtime_error.
   void add(const std::string& name, std::string_view text);
-  // Another program may write into the set's folder, and is named what it wrote. As long as it holds this descriptor,
-  // nobody takes the folder for abandoned.
+  // Another program may write into the set's folder; adopt() adds its file. As long as it holds this descriptor, the
+  // folder does not count as abandoned.
   int folder() const { return folder_.get(); }
   void adopt(const std::string& name);
 
-  // Throws std::runtime_error; then all is as it was.
+  // Throws std::runtime_error; then nothing has changed.
   void put_in_place(const std::string& made_by, bool complete);
 
-  // As on a file system that knows no exchange: the old set is moved aside, then the new one in. Killed in between, the
-  // next run moves the old one back.
+  // For file systems without atomic exchange: the old set is moved aside, then the new one in. If killed in between,
+  // the next run moves the old one back.
   void do_without_exchange() { exchange_known_ = false; }
 
  private:

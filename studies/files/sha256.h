@@ -1,4 +1,4 @@
-// sha256.h — SHA-256 (FIPS 180-4), by which a result set tells whether it is whole.
+// sha256.h — SHA-256 (FIPS 180-4), to check whether a result set is complete.
 #pragma once
 
 #include <string>

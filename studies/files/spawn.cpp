@@ -1,4 +1,4 @@
-// spawn.cpp — between fork and exec nothing but calls of the system.
+// spawn.cpp — only system calls between fork and exec.
 #include "studies/files/spawn.h"
 
 #include <fcntl.h>
@@ -29,7 +29,7 @@ pid_t start(const std::vector<std::string>& words, int folder, int kept, bool di
   const int nothing = open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, stream);
   if (kept >= 0) fcntl(kept, F_SETFD, 0);
-  // What this program ignores, others need not.
+  // Restores signals that this program ignores.
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_DFL);
   if (folder < 0 || fchdir(folder) == 0) execvp(arguments[0], arguments.data());

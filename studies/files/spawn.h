@@ -1,4 +1,4 @@
-// spawn.h — other programs, started by name and arguments; no shell reads them.
+// spawn.h — starts other programs by name and arguments, without a shell.
 #pragma once
 
 #include <sys/types.h>
@@ -8,14 +8,14 @@
 
 namespace kurbel {
 
-// Whether PATH leads to a program.
+// Whether a program is found by PATH.
 bool is_installed(const std::string& program);
 
-// Starts a program found by PATH, silent, to go on by itself. −1: it could not be started.
+// Starts a program found by PATH, without output and detached. −1: it could not be started.
 pid_t spawn(const std::vector<std::string>& words);
 
-// The same for work of this program: in a folder, with `kept` left open for it (−1: nothing), and killed with this
-// program. True: there is such a program, and it ended with 0.
+// Starts and waits, for work of this program: in a folder, with `kept` left open (−1: none), killed together with
+// this program. True: the program exists and ended with 0.
 bool run_and_wait(const std::vector<std::string>& words, int folder, int kept = -1);
 
 }  // namespace kurbel

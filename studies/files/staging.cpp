@@ -1,4 +1,4 @@
-// staging.cpp — folders and files by descriptors, so that nobody can slip a link in between.
+// staging.cpp — folders and files by descriptors, so that no link can be inserted in between.
 #include "studies/files/staging.h"
 
 #include <dirent.h>
@@ -70,7 +70,7 @@ bool is_same(int descriptor, int folder, const std::string& name) {
 }
 
 void for_each_name(int folder, const std::function<void(const std::string&)>& visit) {
-  // A descriptor of its own: the position within a folder belongs to it.
+  // A separate descriptor: it has its own position within the folder.
   const int own = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (own < 0) return;
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(fdopendir(own), closedir);
@@ -119,14 +119,14 @@ std::optional<Staged> staged_of(std::string_view name) {
   return Staged{replaced, std::string(name.substr(1, name.size() - tail - 1))};
 }
 
-// Between making and locking somebody may have taken it for abandoned, and cleared it away: then the name is gone.
+// Between creation and locking another process may have treated it as abandoned and removed it: the name is then gone.
 bool lock_own(int descriptor, int folder, const std::string& name) {
   if (flock(descriptor, LOCK_EX) != 0 && !knows_no_locks(errno)) return false;
   return is_same(descriptor, folder, name);
 }
 
-// The name is looked at again under the lock: its writer may have put it in place and gone meanwhile, and then this is
-// the result itself.
+// The name is checked again under the lock: its writer may have put it in place and ended meanwhile; it is then the
+// result itself.
 bool lock_abandoned(int descriptor, int folder, const std::string& name) {
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     struct stat status {};

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <stdexcept>
 
 #include "studies/files/clear_away.h"
@@ -24,13 +23,13 @@ bool put_in_place(int folder, const std::string& staged, const std::string& name
   if (existing == Existing::replace) return renameat(folder, staged.c_str(), folder, name.c_str()) == 0;
   if (renameat2(folder, staged.c_str(), folder, name.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS) return false;
-  // A file system that cannot rename so: a second name is given where there is none, then the first one taken away.
+  // For file systems without such a rename: a second name is linked if free, then the first one removed.
   if (linkat(folder, staged.c_str(), folder, name.c_str(), 0) != 0) return false;
   unlinkat(folder, staged.c_str(), 0);
   return true;
 }
 
-// Gone at the end, unless it was put in place.
+// Deleted at the end, unless put in place.
 struct StagedFile {
   int folder;
   std::string name;

@@ -1,7 +1,6 @@
 // figure_changes.cpp — figures of two runs side by side.
 #include "studies/findings/figure_changes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,8 +9,8 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of a rated quantity
 
-// What matters of a speed or a work is how it compares with the machine's own: a shaft that trembles at the end at a
-// hundredth of its speed, or a loss of a thousandth of what is driven, tells little however much it changes of itself.
+// Changes of speeds and works are related to the machine's own values: residual vibration at a hundredth of the
+// speed, or a loss of a thousandth of the driving work, is insignificant even if its relative change is large.
 bool is_judged_by_the_machine(const QuantityKind& what) {
   return is_one_of(what, {quantities::max_speed, quantities::min_speed, quantities::steady_speed, quantities::mid_speed,
                           quantities::mean_speed, quantities::final_speed, quantities::work});

@@ -1,4 +1,4 @@
-// figure_text.cpp — digits end where the error begins, or where a table has enough of them.
+// figure_text.cpp — digits end at the error, or at the digits of a table.
 #include "studies/findings/figure_text.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int digits_without_error = 6, digits_if_exact = 12;
 
-// Decimal exponent of the first significant digit. By printing it: a logarithm is off by one next to powers of ten.
+// Decimal exponent of the first significant digit, from its text: a logarithm may be off by one next to powers of ten.
 int exponent_of(double x) {
   const std::string text = fmt::format("{:.16e}", std::abs(x));
   return std::atoi(text.c_str() + text.find('e') + 1);
@@ -24,7 +24,7 @@ int exponent_of(double x) {
 
 double power_of_ten(int exponent) { return std::strtod(fmt::format("1e{}", exponent).c_str(), nullptr); }
 
-// The value with its last digit at 10^place, as a number would be written: fixed from 1e-4 to 1e9.
+// The value with its last digit at 10^place, in fixed notation from 1e-4 to 1e9.
 std::string written(double value, int place) {
   const double magnitude = std::abs(value);
   if (value == 0 || (magnitude >= 1e-4 && magnitude < 1e9)) {
@@ -43,7 +43,7 @@ double rounded_to(double value, int place) {
   return std::strtod(fmt::format("{:.{}e}", value, std::min(digits, 17)).c_str(), nullptr);
 }
 
-// Count of units 10^place that the error fills, rounded up; a whole number but for round-off stays.
+// Number of units 10^place in the error, rounded up; whole numbers are kept despite round-off.
 double units_of(double error, int place) { return std::ceil(error / power_of_ten(place) * (1 - 1e-12)); }
 
 std::string error_text(double units, int place) {
@@ -59,7 +59,7 @@ int last_place_of_error(double size) {
   return size < 2 * power_of_ten(place) ? place - 1 : place;
 }
 
-// More than half a unit of the value's last digit: what is printed of the value does not say so itself.
+// More than half a unit of the value's last digit, which the printed value does not imply.
 bool shows(const Estimate& estimate, const FigureText& text) {
   if (text.error.empty() || text.error == "± 0") return false;
   const std::size_t point = text.value.find('.'), exponent = text.value.find('e');
@@ -88,7 +88,7 @@ FigureText figure_text(const Estimate& estimate, int most_digits) {
     if (units >= 20) units = units_of(size, ++place);
     return {written(rounded_to(value, least_place) + 0.0, least_place), error_text(units, place)};
   }
-  // The place of the error's last digit is the value's, too.
+  // The value ends at the place of the error's last digit.
   double shown = rounded_to(value, place), units = units_of(size + std::abs(value - shown), place);
   while (units >= 20) {  // 19.8 units and half a one for the value's rounding are 2 of the next place
     shown = rounded_to(value, ++place);

@@ -1,11 +1,11 @@
-// figure_text.h — a figure and its numerical error as people read them: the one form of terminal, report and README.
+// figure_text.h — a figure and its numerical error in readable form, the same in terminal, report and README.
 //
 //   6257.169983 ± 5.3e-5   →  "6257.17"  "± 0.00006"
 //   0.104382 ± 0.0112      →  "0.104"    "± 0.012"
 //
-// The error is rounded up to one significant digit, to two where the first is a 1. The value ends at the same place, so that what
-// its rounding does counts as error; or it ends before, after six digits (nine in long forms), and the error is that of the
-// computation alone. No error is known: six digits. An error of 0 stands for what is exact by construction.
+// The error is rounded up to one significant digit, to two if the first is a 1. The value ends at the same digit, and
+// its rounding counts as error; or it ends before, after six digits (nine in long forms), and the error is that of
+// the computation alone. Unknown error: six digits. An error of 0 means exact by construction.
 #pragma once
 
 #include <string>
@@ -26,17 +26,17 @@ struct FigureText {
 
 FigureText figure_text(const Estimate& estimate, int most_digits = digits_in_tables);
 
-// A figure on a tile: rounded as a headline rounds, and below it what is known where that is more.
+// A figure on a tile: rounded as in a headline; `known` shows its further digits, if any.
 struct TileText {
   std::string value, known, error;  // "6257", "6257.17", ""
 };
 TileText tile_text(const Estimate& estimate, int digits = 0);  // digits: 0: by the error
 
-// "6082.2 ± 0.6 N·m"; where the error is less than half of the value's last place, or none is known, "6257.17 N·m"; where it is
-// more than the value, what that is less than: "less than 15 s".
+// "6082.2 ± 0.6 N·m"; "6257.17 N·m" if the error is less than half a unit of the last digit, or unknown; if it
+// exceeds the value, the upper bound: "less than 15 s".
 std::string with_error(const Estimate& estimate, std::string_view unit);
 
-// As a sentence has it, four digits in a unit that is read easily: 19092.63 N·m → "19.09 kN·m"; a speed in its unit.
+// For sentences: four digits in a readable unit: 19092.63 N·m → "19.09 kN·m"; a speed in its unit.
 std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed = {});
 
 // A figure in a row of a table: a speed in the scene's unit, all else in SI.
@@ -46,10 +46,10 @@ struct FigureCells {
 FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed,
                          int most_digits = digits_in_tables);
 
-// What a column of errors says where none was measured.
+// Text in a column of errors if none was measured.
 std::string error_cell(const Estimate& estimate);
 
-// A table for a terminal: rows aligned in columns, the first `text_columns` and the last one on the left, the others on the
+// A table for a terminal: aligned columns, the first `text_columns` and the last one on the left, the others on the
 // right. UTF-8 safe.
 std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t text_columns);
 

@@ -1,18 +1,16 @@
-// findings.h — what a study found, each thing said once; terminal, JSON, page and files of tables are renderings of it (output.h).
+// findings.h — results of a study, each stated once; terminal, JSON, page and table files are renderings of it (output.h).
 //
 //   Findings f{.title = "Size of the flywheel", .conclusion = "420 kg·m² keep δ below 0.05."};
-//   const Chapter results = f.chapter("Results");   // chapters stand on the page as they are declared,
-//   f.say(results, table_of(…).column(…));          // statements within them, and on the terminal, as they are said
+//   const Chapter results = f.chapter("Results");   // chapters appear on the page in the order of declaration,
+//   f.say(results, table_of(…).column(…));          // statements within them, and on the terminal, in the order of calls
 //   f.draw(results, [&] { return plot_of(study); });
 //   f.tell("operating_point", Record{{"speed", 31.4}});
 #pragma once
 
 #include <algorithm>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -26,79 +24,79 @@
 
 namespace kurbel {
 
-// Of summary.json: one higher whenever a program that reads it has to change.
+// Version of summary.json: increased by one whenever programs that read it must change.
 inline constexpr int summary_version = 2;
 
-// Sentences, a line each.
+// Sentences, one per line.
 struct Sentences {
   std::vector<std::string> lines;
   std::string title = {};    // of the card on the page
-  std::string heading = {};  // on the terminal, above
-  std::string indent = {};   // on the terminal, before each: "  note: "
+  std::string heading = {};  // on the terminal
+  std::string indent = {};   // on the terminal, before each line: "  note: "
   std::string key = {};      // of the list in JSON; empty: none
   bool terminal = true, page = true;
-  bool apart = false;  // on the terminal, by a blank line before it
+  bool apart = false;  // on the terminal, preceded by a blank line
 };
 
 enum class Chapter : std::size_t {};
 
 using Cards = std::vector<Card>;
 
-// Made only when a page is: plots cost. Or what is for the page alone.
+// Made only when a page is made, as plots are costly; or content for the page only.
 struct Drawn {
   std::function<Cards()> cards;
 };
 
 struct Statement {
-  std::optional<Chapter> chapter;  // of the page; none: not on it
+  std::optional<Chapter> chapter;  // on the page; none: not there
   std::variant<Rows, Sentences, Field, Drawn> what;
 };
 
-// A screen of a terminal: the conclusion, what it is about, key figures, a few words, as many notes as fit.
+// One terminal screen: conclusion, subject, key figures, a few sentences, as many notes as fit.
 struct Brief {
   std::string about;                    // one line
   Rows figures;                         // at most most_figures rows
-  std::vector<std::string> words = {};  // a line each
-  std::vector<std::string> notes = {};  // shortened where they are long
-  std::string more = {};                // what all of it has besides
+  std::vector<std::string> words = {};  // one per line
+  std::vector<std::string> notes = {};  // shortened if long
+  std::string more = {};                // what the full output adds
 
   static constexpr std::size_t most_figures = 12, most_of_conclusion = 6, width = 110;
-  static constexpr std::size_t most_lines = 23;  // two more tell where the files are
+  static constexpr std::size_t most_lines = 23;  // two more lines name the files
 };
 
-// In the unit of its definition.
+// A key figure in the unit of its definition.
 KeyFigure key_figure(std::string name, const Estimate& value, std::string means, std::string note = {}, int digits = 0);
 
 struct Findings {
-  // What the terminal's text begins with.
+  // How the terminal's text begins.
   enum class Opening { conclusion, title_and_conclusion, title };
 
   std::string title, subtitle = {};
   std::string page_title = {};  // empty: the title
-  std::string scene_file = {};  // for programs; empty: not told
-  std::string speed_unit = {};  // that people are told speeds in, for programs; empty: there are none
-  Claims claims = {};           // what the conclusion is made of
+  std::string scene_file = {};  // for programs; empty: not given
+  std::string speed_unit = {};  // unit of speeds for people, reported to programs; empty: no speeds
+  Claims claims = {};           // the conclusion is made from them
   bool complete = true;
-  std::string diagnosis = {};    // of a run that failed on its way
-  std::string unconfirmed = {};  // why the accuracy asked for is not sure; empty: it is, or none was to be confirmed
+  std::string diagnosis = {};    // of a run that failed
+  std::string unconfirmed = {};  // why the requested accuracy is not confirmed; empty: it is, or it was not requested
   Opening opening = Opening::conclusion;
-  bool tells_diagnosis = true;  // to programs, of what is incomplete
-  bool tells_complete = true;   // to programs; not by those that are always complete
+  bool tells_diagnosis = true;  // to programs, if incomplete
+  bool tells_complete = true;   // to programs; false for studies that are always complete
   std::string footer = {};      // versions
   std::vector<KeyFigure> figures = {};
   std::vector<std::string> chapters = {};
   std::vector<Statement> statements = {};
   std::vector<NamedTable> tables = {};
-  std::optional<Brief> brief = {};  // what a terminal is told unless all is asked for; none: all
+  std::optional<Brief> brief = {};  // short form for the terminal, unless all is requested; none: always the full form
 
-  // The same in terminal, page and JSON, in one line.
+  // The same in terminal, page and JSON, on one line.
   std::string conclusion() const { return in_one_line(concluded(claims)); }
   void claim(std::optional<Claim> made) { add(claims, std::move(made)); }
   void claim(Predicate what, std::string sentence) { claim(claimed(what, std::move(sentence))); }
   void claim(Claims made) {
     claims.insert(claims.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
   }
-  // What a study comes to, in a sentence.
+  // The result of a study, in a sentence.
   void conclude(bool whole, std::string sentence) {
     claim(whole ? Predicate::figures_told : Predicate::incomplete, std::move(sentence));
   }
@@ -112,7 +110,7 @@ struct Findings {
     chapters.push_back(std::move(with_title));
     return static_cast<Chapter>(chapters.size() - 1);
   }
-  // The one with this title, begun where there is none yet.
+  // The chapter with this title, added if there is none yet.
   Chapter chapter_named(const std::string& title) {
     const auto found = std::find(chapters.begin(), chapters.end(), title);
     return found == chapters.end() ? chapter(title) : static_cast<Chapter>(found - chapters.begin());
@@ -122,23 +120,23 @@ struct Findings {
     for (std::string& line : words.lines) line = readable(line);
     statements.push_back({in, std::move(words)});
   }
-  // On the page alone.
+  // On the page only.
   void show(Chapter in, Card card) {
     statements.push_back({in, Drawn{[cards = Cards{std::move(card)}] { return cards; }}});
   }
   void show(Chapter in, const Formulas& formulas) {
     for (const FormulaCard& formula : formulas.cards()) show(in, Card(formula));
   }
-  // The same, made when the page is: a Plot, std::optional<Plot>, or list of plots.
+  // The same, evaluated when the page is made: a Plot, std::optional<Plot>, or list of plots.
   template <class Made>
   void draw(Chapter in, Made made) {
     statements.push_back({in, Drawn{[made = std::move(made)] { return cards_of(made()); }}});
   }
-  // Programs alone.
+  // For programs only.
   void tell(std::string key, Value value) {
     statements.push_back({std::nullopt, Field{std::move(key), std::move(value)}});
   }
-  // Notes in terminal, JSON and page, where what is missing of an incomplete study stands with them.
+  // Notes in terminal, JSON and page; for an incomplete study with what is missing.
   void note(Chapter in, const std::vector<std::string>& notes, const std::string& indent = "  ");
   // The scene's text, folded.
   void show_scene(const std::string& file, const std::string& text);

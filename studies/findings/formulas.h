@@ -1,4 +1,4 @@
-// formulas.h — formulas with numbers put in, one after the other.
+// formulas.h — formulas with numbers inserted, in sequence.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace kurbel {
 
 class Formulas {
  public:
-  // "δ = (ω_max − ω_min)/ω_m"; the same with numbers put in, and the result.
+  // The formula "δ = (ω_max − ω_min)/ω_m"; the same with numbers inserted, and the result.
   template <class... Values>
   Formulas& add(std::string title, std::string symbols, fmt::format_string<Values...> numbers, Values&&... values) {
     cards_.push_back({.title = std::move(title),
@@ -21,7 +21,7 @@ class Formulas {
                       .numbers = fmt::format(numbers, std::forward<Values>(values)...)});
     return *this;
   }
-  // Below the last one.
+  // A note below the last one.
   Formulas& note(std::string words) { return cards_.back().note = std::move(words), *this; }
 
   const std::vector<FormulaCard>& cards() const { return cards_; }

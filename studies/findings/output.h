@@ -1,4 +1,4 @@
-// output.h — a study's findings as they are handed out: text for the terminal, JSON, a page, tables.
+// output.h — renderings of a study's findings: text for the terminal, JSON, a page, tables.
 #pragma once
 
 #include <concepts>
@@ -14,28 +14,30 @@
 namespace kurbel {
 
 // The renderings of findings, each in its own file: render_terminal.cpp, render_json.cpp, render_page.cpp.
-// `all_digits`: of figures nine instead of six.
+// `all_digits`: nine digits of figures instead of six.
 std::string terminal_text(const Findings& findings, bool all_digits = false);
-// In short: at most Brief::most_lines lines of Brief::width columns; empty where there is no short form.
+// Short form: at most Brief::most_lines lines of Brief::width columns; empty if there is none.
 std::string brief_text(const Findings& findings);
-// Sentence by sentence on lines of at most Brief::width columns.
+// A sentence a line, as terminal_text has it.
+std::string conclusion_text(const Findings& findings);
+// Sentence by sentence on lines of at most Brief::width columns, as brief_text has it.
 std::string headline_text(const Findings& findings);
-// What summary.json holds.
+// The contents of summary.json.
 Record summary_of(const Findings& findings);
 Report page_of(const Findings& findings);
 
-// What is handed out, with what belongs to it; rendered when it is asked for.
+// Findings with all that belongs to them; rendered on request.
 struct StudyOutput : Findings {
-  std::vector<std::pair<std::string, std::string>> files = {};  // what is no table: name and text
-  std::string next = {};  // what to do with it, where files are written: {scene}, {summary} stand for their names
-  std::shared_ptr<const void> study = {};  // what page and files are made of, where it is kept here
+  std::vector<std::pair<std::string, std::string>> files = {};  // other than tables: name and text
+  std::string next = {};  // next step for the user when files are written: {scene}, {summary} stand for their names
+  std::shared_ptr<const void> study = {};  // data of page and files, if owned here
 
   std::string text(bool all_digits = false) const { return terminal_text(*this, all_digits); }
   std::string json() const { return json_text(summary_of(*this)); }
   Report report() const { return page_of(*this); }
 };
 
-// Of a study with a function findings_of. It must outlive the output; one that is handed over is kept by it.
+// For a study with a function findings_of. An lvalue must outlive the output; an rvalue is kept by it.
 template <class Study>
 requires requires(const std::remove_reference_t<Study>& s) {
   { findings_of(s) } -> std::same_as<Findings>;

@@ -1,4 +1,4 @@
-// plots.h — curves out of rows: what studies say most often when they plot.
+// plots.h — curves from rows: the common cases of plots in studies.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ inline Series dashed(Series series) {
   series.dashed = true;
   return series;
 }
-// Markers alone.
+// Markers only.
 inline Series marks(Series series) {
   series.points = true, series.line = false;
   return series;
@@ -39,7 +39,7 @@ inline double largest_of(const Plot& plot) {
   return largest;
 }
 
-// From SI into the unit in which values up to `largest` are read easily.
+// Converts from SI into a readable unit for values up to `largest`.
 inline Plot in_readable_unit(Plot plot, const std::string& si_unit, double largest, const SpeedUnit& speed = {}) {
   const ReadableUnit unit = readable_unit(largest, si_unit, speed);
   plot.y.unit = unit.unit;

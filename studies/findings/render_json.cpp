@@ -8,7 +8,7 @@
 namespace kurbel {
 namespace {
 
-// What is said of a key again stands in the place of what was said first.
+// A repeated key replaces its earlier value.
 void put(Record& summary, const std::string& key, Value value) {
   const auto said = std::find_if(summary.begin(), summary.end(), [&](const Field& field) { return field.key == key; });
   if (said == summary.end())
@@ -34,7 +34,7 @@ DataCell cell_of(const Value& value) {
   return number && std::isfinite(*number) ? *number : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Typed, beside the words of the conclusion.
+// The typed claim, in addition to the words of the conclusion.
 Record claim_record(const Claim& c) {
   Record record = {{"name", name_of(c.predicate)},
                    {"of", c.of},

@@ -23,7 +23,7 @@ std::string definition_id(const std::string& figure) {
   return known ? std::string(known->name) : "";
 }
 
-// Of the rows that people see.
+// For the rows shown to people.
 std::vector<std::string> definition_ids(const Rows& rows) {
   std::vector<std::string> ids;
   if (rows.means.empty()) return ids;
@@ -45,13 +45,13 @@ void show(Cards& cards, const Rows& rows) {
 void show(Cards& cards, const Sentences& words) {
   if (words.page && !words.lines.empty()) cards.push_back(Text{.title = words.title, .body = joined(words.lines)});
 }
-// A plot of nothing is none.
+// An empty plot is omitted.
 bool shows_nothing(const Card& card) {
   const Plot* plot = std::get_if<Plot>(&card);
   return plot && !plot->map &&
          std::all_of(plot->series.begin(), plot->series.end(), [](const Series& s) { return s.x.empty(); });
 }
-// Numbers in what is drawn, as people read them.
+// Converts numbers in texts of a plot to readable form.
 void make_readable(Plot& plot) {
   for (std::string* text : {&plot.title, &plot.note}) *text = readable(*text);
   for (Series& series : plot.series) series.name = readable(series.name);
@@ -72,7 +72,7 @@ void show(Cards& cards, const Drawn& drawn) {
 }
 void show(Cards&, const Field&) {}
 
-// What the page shows, each once, in the dictionary's order.
+// Definitions of the figures shown, each once, in the dictionary's order.
 std::vector<Meaning> meanings_of(const Report& page) {
   std::set<std::string, std::less<>> shown;
   for (const KeyFigure& figure : page.figures) shown.insert(figure.means);
@@ -136,7 +136,7 @@ void Findings::show_scene(const std::string& file, const std::string& text) {
   show(chapter("Scene"), Text{.title = file, .body = text, .verbatim = true, .folded = true});
 }
 
-// "629.3 kN", "85.5 MPa": as it is said of forces and stresses.
+// "629.3 kN", "85.5 MPa": the form for forces and stresses.
 void in_readable_unit(KeyFigure& figure) {
   constexpr double large = 1e4;
   if (!(std::abs(figure.value) >= large)) return;

@@ -1,4 +1,4 @@
-// render_terminal.cpp — findings as text: columns by display width, statements in the order in which they are said.
+// render_terminal.cpp — findings as text: columns by display width, statements in the order given.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -26,7 +26,7 @@ std::string right(const std::string& text, std::size_t columns) {
 std::string opening_of(const Findings& f) {
   std::string text;
   if (f.opening != Findings::Opening::conclusion) text += f.title + "\n";
-  if (f.opening != Findings::Opening::title) text += f.conclusion() + "\n";
+  if (f.opening != Findings::Opening::title) text += conclusion_text(f) + "\n";
   return text;
 }
 
@@ -44,7 +44,7 @@ void say(std::string& text, const Sentences& words, bool) {
 void say(std::string&, const Field&, bool) {}
 void say(std::string&, const Drawn&, bool) {}
 
-// At most so many columns; what is cut off stands in the report.
+// At most `columns` columns; the rest is in the report.
 std::string shortened(const std::string& text, std::size_t columns) {
   static const std::string told_elsewhere = " … (report)";
   if (width(text) <= columns) return text;
@@ -55,7 +55,7 @@ std::string shortened(const std::string& text, std::size_t columns) {
   return text.substr(0, blank == std::string::npos || blank < bytes / 2 ? bytes : blank) + told_elsewhere;
 }
 
-// Broken between words; lines behind the first are indented.
+// Wrapped between words; lines after the first are indented.
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns, const std::string& indent) {
   std::vector<std::string> lines;
   std::string line;
@@ -131,6 +131,10 @@ std::string terminal_text(const Findings& findings, bool all_digits) {
   for (const Statement& s : findings.statements)
     std::visit([&](const auto& what) { say(text, what, all_digits); }, s.what);
   return text;
+}
+
+std::string conclusion_text(const Findings& findings) {
+  return fmt::format("{}", fmt::join(concluded(findings.claims), "\n"));
 }
 
 std::string headline_text(const Findings& findings) {

@@ -1,4 +1,4 @@
-// report.cpp — helpers for those who fill a report: colours, readable units, the versions at its foot.
+// report.cpp — helpers for filling a report: colours, readable units, versions in the footer.
 #include "studies/findings/report.h"
 
 #include <fmt/format.h>

@@ -1,15 +1,15 @@
-// rows.h — a table said once: rows of values described by columns; terminal, JSON, page and files are renderings of it.
+// rows.h — a table stated once: rows of values described by columns; terminal, JSON, page and files are renderings of it.
 //
 //   table_of("critical_speeds", "Strongest critical speeds", study.critical)
 //       .column("speed", "speed [1/min]", &CriticalSpeed::speed, {.factor = 30 / pi})
 //       .column("mode", "mode", &CriticalSpeed::mode)
 //       .only_for_programs("harmonic", &CriticalSpeed::harmonic)
 //
-//   data_of(angles)                          // a table for a file alone
+//   data_of(angles)                          // a table for a file only
 //       .in_file("phi", "rad", std::identity())
 //       .in_file("M_d", "N*m", torque, 9)    // nine digits in CSV
 //
-// A column has a key for programs, a heading for people, or both; programs get the value in SI, people its reading.
+// A column has a key for programs, a heading for people, or both; programs get the value in SI, people a formatted text.
 #pragma once
 
 #include <fmt/format.h>
@@ -33,13 +33,13 @@
 
 namespace kurbel {
 
-// --- readings, for people ---
+// --- formatting for people ---
 
-// How people read a number.
+// How a number is formatted.
 struct ReadAs {
   double factor = 1;  // from SI
   int digits = 6;
-  const char* otherwise = "—";  // what is not finite, or is not there
+  const char* otherwise = "—";  // for values that are not finite or not present
 };
 
 inline std::string read_as(double v, const ReadAs& r = {}) {
@@ -65,10 +65,10 @@ std::string read_as(const T& v, const InWords& in_words) {
 struct Column {
   std::string key, heading;                  // empty: not for programs; not for people
   bool for_people = true;                    // even under an empty heading
-  std::vector<Value> values = {};            // a row each, where there is a key, or a file's column
-  std::vector<std::string> texts = {};       // a row each, where it is for people
-  std::vector<std::string> long_texts = {};  // the same with all digits; empty: no others
-  std::optional<DataColumn> in_file = {};    // none: it stands in no file
+  std::vector<Value> values = {};            // one per row, if there is a key or a file column
+  std::vector<std::string> texts = {};       // one per row, if it is for people
+  std::vector<std::string> long_texts = {};  // the same with all digits; empty: as `texts`
+  std::optional<DataColumn> in_file = {};    // none: in no file
 };
 
 struct Rows {
@@ -77,18 +77,18 @@ struct Rows {
   std::string heading = {};  // on the terminal, above; empty: none
   std::vector<Column> columns = {};
   std::size_t count = 0;
-  std::size_t for_programs = SIZE_MAX;                         // at most
-  std::optional<std::vector<std::size_t>> for_people = {};     // which; none: all
-  std::size_t text_columns = 1, text_columns_on_terminal = 1;  // leading ones; the others are numbers, on the right
+  std::size_t for_programs = SIZE_MAX;                         // at most this many
+  std::optional<std::vector<std::size_t>> for_people = {};     // indices of the shown rows; none: all
+  std::size_t text_columns = 1, text_columns_on_terminal = 1;  // leading text columns; the rest: numbers, on the right
   bool terminal = true, page = true, even_if_empty = false;
   bool folded = false;                        // on the page
-  bool apart = true;                          // on the terminal, by a blank line before it
+  bool apart = true;                          // on the terminal, preceded by a blank line
   std::vector<std::vector<Tone>> tones = {};  // report.h
   std::vector<std::string> means = {};        // per row, the name of its figure in the dictionary; none, or one each
 
-  List list() const;                                                           // as programs get it
-  DataTable data() const;                                                      // its columns for files
-  std::vector<std::string> headings() const;                                   // as people read it
+  List list() const;                                                           // for programs
+  DataTable data() const;                                                      // columns for files
+  std::vector<std::string> headings() const;                                   // for people
   std::vector<std::vector<std::string>> texts(bool all_digits = false) const;  // without the headings
   bool shown_to_people() const { return (count > 0 && (!for_people || !for_people->empty())) || even_if_empty; }
 };
@@ -101,7 +101,7 @@ class RowsOf : public Rows {
     key = std::move(of_key), title = std::move(of_title), count = rows.size();
   }
 
-  // `get` is a member or a function of a row; `read` a ReadAs, or a function that makes words of what `get` gives.
+  // `get` is a member or a function of a row; `read` a ReadAs, or a function that formats the result of `get`.
   template <class Get, class Read = ReadAs>
   RowsOf& column(std::string its_key, std::string its_heading, Get get, Read read = {}) {
     Column& made = columns.emplace_back(Column{std::move(its_key), std::move(its_heading)});
@@ -140,8 +140,8 @@ class RowsOf : public Rows {
                   [](const Estimate& e) { return with_error(e, ""); });
   }
 
-  // For people: `get` gives FigureText or FigureCells of a row and a number of digits; a column of values, and one of their
-  // errors.
+  // For people: `get` returns FigureText or FigureCells for a row and a number of digits; one column of values, one
+  // of errors.
   template <class Get>
   RowsOf& value_and_error(std::string its_heading, const Get& get) {
     const auto value = [&](const T& row, int digits) { return std::invoke(get, row, digits).value; };
@@ -151,12 +151,12 @@ class RowsOf : public Rows {
                            [&](const T& row) { return std::invoke(get, row, digits_in_tables).error; });
   }
 
-  // The last column stands in a file, too, under its key. Digits: significant ones of numbers.
+  // Writes the last column into a file as well, under its key. `digits`: significant ones of numbers.
   RowsOf& also_in_file(std::optional<std::string> unit = {}, int digits = 12) {
     columns.back().in_file = {columns.back().key, std::move(unit), {digits}};
     return *this;
   }
-  // In a file alone. `get` gives a number, or std::optional of one (what is not finite is not known), or words.
+  // Only in a file. `get` returns a number, or std::optional of one (not finite: not known), or words.
   template <class Get>
   RowsOf& in_file(std::string name, std::optional<std::string> unit, Get get, int digits = 12) {
     only_for_programs(std::move(name), std::move(get)).also_in_file(std::move(unit), digits);
@@ -164,7 +164,7 @@ class RowsOf : public Rows {
     return *this;
   }
 
-  // Whose rows are figures: `get` gives a row's name in the dictionary.
+  // For rows that are figures: `get` returns a row's name in the dictionary.
   template <class Get>
   RowsOf& explained_by(Get get) {
     for (const T& row : rows_) means.push_back(std::invoke(get, row));
@@ -196,7 +196,7 @@ class RowsOf : public Rows {
   std::shared_ptr<const std::vector<T>> owned_;
 };
 
-// Of rows that live as long as columns are added; rows made for it are kept.
+// For rows that live while columns are added; temporary rows are kept.
 template <class T>
 RowsOf<T> table_of(std::string key, std::string title, const std::vector<T>& rows) {
   return {std::move(key), std::move(title), std::span<const T>(rows), nullptr};
@@ -207,7 +207,7 @@ RowsOf<T> table_of(std::string key, std::string title, std::vector<T>&& rows) {
   const std::span<const T> view(*kept);
   return {std::move(key), std::move(title), view, std::move(kept)};
 }
-// Of rows that stand in a file alone.
+// For rows that are only in a file.
 template <class T>
 RowsOf<T> data_of(const std::vector<T>& rows) {
   return table_of("", "", rows);
@@ -216,10 +216,10 @@ template <class T>
 RowsOf<T> data_of(std::vector<T>&& rows) {
   return table_of("", "", std::move(rows));
 }
-// 0, 1, … count − 1: rows of what is numbered.
+// 0, 1, … count − 1: rows of numbered items.
 std::vector<std::size_t> numbers_below(std::size_t count);
 
-// Rows of words under headings, for people alone.
+// Rows of text under headings, for people only.
 using Lines = std::vector<std::vector<std::string>>;
 Rows words_table(const std::string& title, const std::vector<std::string>& headings, const Lines& lines);
 

@@ -1,4 +1,4 @@
-// thin.cpp — buckets, two survivors each.
+// thin.cpp — buckets with two remaining points each.
 #include "studies/findings/thin.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ void thin_by_extremes(std::vector<double>& x, std::vector<double>& y, std::size_
 std::vector<std::size_t> drawn_by_chance(std::size_t count, std::size_t limit) {
   std::vector<std::size_t> kept;
   std::mt19937_64 generator(20260101);
-  // Knuth, The Art of Computer Programming 2, 3.4.2, algorithm S: each of the rest with the chance that is left.
+  // Knuth, The Art of Computer Programming 2, 3.4.2, algorithm S: each remaining item with the remaining probability.
   for (std::size_t i = 0; i < count && kept.size() < limit; ++i) {
     const double share = static_cast<double>(generator() >> 11) * 0x1p-53;
     if (share * static_cast<double>(count - i) < static_cast<double>(limit - kept.size())) kept.push_back(i);

@@ -1,4 +1,4 @@
-// thin.h — fewer points of a curve, with every peak kept: the smallest and largest value of each bucket survive.
+// thin.h — reduces the points of a curve and keeps every peak: the smallest and largest value of each bucket remain.
 #pragma once
 
 #include <cstddef>
@@ -6,14 +6,14 @@
 
 namespace kurbel {
 
-// Leaves a curve of at most `limit` (≥ 4) points as it is; else keeps its first and last point and, of each bucket, the
-// smallest and the largest value, in their order. Buckets are equally wide in x, as on a screen, so that a curve may be
-// thinned again and again while it grows; where x does not ascend they hold equally many points.
+// A curve of at most `limit` (≥ 4) points is unchanged; otherwise the first and last point and the smallest and
+// largest value of each bucket remain, in order. Buckets are equally wide in x, as on a screen, so that a growing
+// curve may be thinned repeatedly; if x does not ascend, they hold equally many points.
 void thin_by_extremes(std::vector<double>& x, std::vector<double>& y, std::size_t limit);
 
-// Which of `count` points of a cloud stay where at most `limit` may: all, or so many drawn by chance, ascending, the same
-// at each call. Every second, third … point would be a pattern of its own: of a grid some columns alone, of Sobol's
-// sequence a part of the square.
+// Which of `count` points of a cloud remain if at most `limit` may: all, or a random selection, ascending, the same
+// at each call. Every second, third … point would form a pattern: of a grid only some columns, of Sobol's sequence a
+// part of the square.
 std::vector<std::size_t> drawn_by_chance(std::size_t count, std::size_t limit);
 
 }  // namespace kurbel

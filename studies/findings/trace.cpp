@@ -2,7 +2,6 @@
 #include "studies/findings/trace.h"
 
 #include <cmath>
-#include <optional>
 
 #include "engine/numerics/roots.h"
 #include "studies/findings/thin.h"
@@ -82,7 +81,7 @@ void TraceRecorder::record(double t, std::span<const double> y, Equations& equat
   if (model_->cycle > 0 && !only_jumps) follow_cycle(t, angle, sources_.drive(equations.modes().active));
 }
 
-// A turn of the run-down is none of the cycles that figures are of.
+// A turn of the run-down is not among the cycles for figures.
 void TraceRecorder::keep_open_cycle() {
   if (any_driven_ && !open_driven_) return;
   if (open_driven_ && !any_driven_) traces_->last_cycles.clear();
@@ -123,7 +122,7 @@ void TraceRecorder::follow_cycle(double t, double angle, bool driven) {
 
 void TraceRecorder::begin(double t, std::span<const double> y, Equations& equations) { record(t, y, equations, false); }
 
-// Where the link passes from one turn to the next, so that a cycle begins and ends there and not at the sample after it.
+// Where the link passes from one turn to the next, so that cycles begin and end there and not at the next sample.
 std::optional<double> TraceRecorder::border_between(double from, double to, StepView& view) const {
   const auto turns = [&](double t) {
     return view.equations().snapshot(t, view.at(t)).node_angle[model_->reduction_node] / model_->cycle;

@@ -26,16 +26,16 @@ struct CycleTraces {
   std::vector<Trace> traces;
 };
 
-// What a run leaves for plots, whoever integrated it.
+// Data of a run for plots, independent of the integrator.
 struct Traces {
   std::vector<Trace> over_time;
-  std::deque<CycleTraces> last_cycles;  // whole ones, at most two, the latest last; while something drives, if ever
+  std::deque<CycleTraces> last_cycles;  // whole ones, at most two, the latest last; driven ones, if any
   const Trace* find(const std::string& name) const;
   static std::string node_key(int node) { return "twist_to_link." + std::to_string(node); }
 };
 
-// Follows the steps of the integrator, which are short where something happens, and both sides of every jump. Beside
-// the model's channels:
+// Records at the steps of the integrator, which are short at fast changes, and on both sides of every jump. In
+// addition to the model's channels:
 //   twist_to_link.NODE  angle of a node reduced to the reduction link, less the link's own angle [rad]
 //   kinetic_energy, stored_energy, work.driving, work.useful, work.harmful, work.weight [J]
 class TraceRecorder final : public Observer {
@@ -58,9 +58,9 @@ class TraceRecorder final : public Observer {
   std::vector<std::size_t> over_angle_;  // traces that are also followed over the angle
   CycleTraces open_;
   double turn_ = 0;          // number of the open cycle
-  bool open_whole_ = false;  // it was seen from its beginning
+  bool open_whole_ = false;  // it was recorded from its beginning
   bool open_driven_ = false,
-       any_driven_ = false;  // something drove all through it; a whole one is kept that was driven
+       any_driven_ = false;  // driven throughout; a whole driven cycle is preferred
   Sources sources_;
   std::vector<double> now_;
 };

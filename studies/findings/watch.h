@@ -1,4 +1,4 @@
-// watch.h — who watches a study at work: whether it is to stop, how far it has come, what it does.
+// watch.h — observer of a running study: stop request, progress, log.
 #pragma once
 
 #include <atomic>
@@ -8,9 +8,9 @@
 namespace kurbel {
 
 struct Watch {
-  const std::atomic<bool>* interrupted = nullptr;                               // set: stop, keep what there is
-  std::function<void(const std::string& what, double fraction)> progress = {};  // 0 … 1 of what is said
-  std::function<void(const std::string&)> log = {};                             // what was compiled, chosen, run
+  const std::atomic<bool>* interrupted = nullptr;                               // set: stop and keep the results
+  std::function<void(const std::string& what, double fraction)> progress = {};  // 0 … 1 of the named work
+  std::function<void(const std::string&)> log = {};                             // what was compiled, selected, run
 
   bool stopped() const { return interrupted && interrupted->load(); }
   void at(const std::string& what, double fraction) const {

@@ -9,6 +9,7 @@ namespace kurbel {
 namespace {
 
 constexpr double least_change = 1e-8, least_step_of_range = 1e-7, within_errors = 1e-4;
+constexpr int most_updates = 4;
 
 // −1, +1: u stands on that bound, and the sum of squares would fall beyond it.
 std::vector<int> bounds_pressed(const Eigen::VectorXd& u, const Eigen::VectorXd& gradient) {
@@ -46,22 +47,27 @@ BoundedFit fit_within_bounds(const BoundedProblem& problem, const Eigen::VectorX
   if (!first) return fit;
   fit.r = *first;
   double lambda = 1e-3;
+  std::optional<int> age;  // steps since the derivatives were computed; none: they must be
   for (;;) {
-    const auto derivative = problem.derivative(fit.u, fit.r);
-    if (!derivative) return fit;
-    fit.jacobian = *derivative;
+    if (!age) {
+      const auto derivative = problem.derivative(fit.u, fit.r);
+      if (!derivative) return fit;
+      fit.jacobian = *derivative, age = 0;
+    }
     fit.on_bound = bounds_pressed(fit.u, fit.jacobian.transpose() * fit.r);
     Eigen::MatrixXd j = fit.jacobian;  // of what is held: 0, and so is its step
     for (Eigen::Index k = 0; k < j.cols(); ++k)
       if (fit.on_bound[static_cast<std::size_t>(k)] != 0) j.col(k).setZero();
     const bool all_held = j.isZero(0);
-    if (all_held || fit.steps >= most_steps) {
+    if ((all_held || fit.steps >= most_steps) && age == 0) {
       fit.converged = all_held;
       return fit;
     }
     bool accepted = false;
     double hoped = 0;
-    for (int tries = 0; tries < 16 && !accepted; ++tries, lambda *= 4) {
+    const double damping = lambda;
+    const int most_tries = all_held || fit.steps >= most_steps ? 0 : *age > 0 ? 3 : 16;
+    for (int tries = 0; tries < most_tries && !accepted; ++tries, lambda *= 4) {
       const Eigen::VectorXd full = damped_step(j, fit.r, lambda);
       const Eigen::VectorXd u = (fit.u + full).cwiseMax(0).cwiseMin(1);
       const Eigen::VectorXd moved = u - fit.u;
@@ -71,14 +77,22 @@ BoundedFit fit_within_bounds(const BoundedProblem& problem, const Eigen::VectorX
       const bool cut_off = (moved - full).cwiseAbs().maxCoeff() > least_step_of_range;
       if (cut_off && expected <= 0) continue;
       if (moved.cwiseAbs().maxCoeff() < least_step_of_range || expected < least_change * fit.cost()) {
+        if (*age > 0) break;
         fit.converged = true;
         return fit;
       }
       const auto r = problem.residuals(u);
       if (!r || !(r->squaredNorm() < fit.cost())) continue;
       const double gain = (fit.cost() - r->squaredNorm()) / expected;
+      // Broyden's update serves while the steps gain what they promise.
+      fit.jacobian += (*r - fit.r - fit.jacobian * moved) * moved.transpose() / moved.squaredNorm();
+      age = gain > 0.5 && gain < 2 && *age < most_updates ? std::optional(*age + 1) : std::nullopt;
       fit.u = u, fit.r = *r, accepted = true;
       lambda *= gain > 0.75 ? 1.0 / 40 : gain > 0.25 ? 0.25 : 1;  // the loop multiplies by four
+    }
+    if (!accepted && *age > 0) {
+      age.reset(), lambda = damping;
+      continue;
     }
     if (!accepted) {  // as near as the errors of what is computed let it come
       fit.converged = hoped < within_errors * fit.cost();

@@ -1,7 +1,8 @@
-// bounded_fit.h — least squares within bounds, and what the data say of the unknowns there.
+// bounded_fit.h — least squares within bounds, and how well the data determine the unknowns.
 //
 //     min ½ |r(u)|²,  0 ≤ u ≤ 1      Levenberg–Marquardt; unknowns that press against a bound are held there
-//                                    (Nocedal, Wright 2006, 10.3; Kelley 1999, 5.4)
+//                                    (Nocedal, Wright 2006, 10.3; Kelley 1999, 5.4);
+//                                    derivatives are renewed by Broyden 1965 between those that are computed
 //     Cov u = (Jᵀ J)⁻¹ s²            of residuals over their deviations; s² = |r|²/(m − p) where it exceeds 1
 //
 // Unknowns are scaled to their ranges, residuals to their deviations.
@@ -17,9 +18,9 @@
 namespace kurbel {
 
 struct BoundedProblem {
-  // r(u), 0 ≤ u ≤ 1; nothing: it cannot be computed there.
+  // r(u), 0 ≤ u ≤ 1; empty: it cannot be computed there.
   std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd& u)> residuals;
-  // ∂r/∂u, where r is known; nothing: it cannot be computed.
+  // ∂r/∂u for known r; empty: it cannot be computed.
   std::function<std::optional<Eigen::MatrixXd>(const Eigen::VectorXd& u, const Eigen::VectorXd& r)> derivative;
 };
 
@@ -28,31 +29,31 @@ struct BoundedFit {
   Eigen::MatrixXd jacobian;  // at u
   int steps = 0;
   bool converged = false;
-  std::vector<int> on_bound;  // per unknown −1: on its lower one, with |r| falling beyond; +1: the upper; 0: within
+  std::vector<int> on_bound;  // per unknown −1: at the lower bound, |r| falling beyond; +1: the upper; 0: within
   double cost() const { return r.squaredNorm(); }
 };
 
-// At most so many steps; converged where the next one would change |r|² by less than 1e-8 of it, or u by less than 1e-7.
+// At most `most_steps`; converged if the next step would change |r|² by less than 1e-8 of it, or u by less than 1e-7.
 BoundedFit fit_within_bounds(const BoundedProblem& problem, const Eigen::VectorXd& start, int most_steps = 40);
 
-// Unknowns that a combination joins: moved along it, what is compared does not change.
+// A combination of unknowns that cannot be determined: the compared data do not change along it.
 struct SharedDirection {
-  std::vector<std::size_t> unknowns;  // the largest parts first
-  std::vector<double> parts;          // of the unit vector, in columns of equal length
+  std::vector<std::size_t> unknowns;  // largest components first
+  std::vector<double> parts;          // components of the unit vector, for columns of equal length
   double singular_value = 0;          // of J with columns of equal length, over the largest
 };
 
 struct Determination {
   Eigen::MatrixXd covariance;                 // of u; rows of unknowns on bounds and without influence are zero
-  std::vector<bool> known;                    // per unknown: within its bounds, and no undetermined direction moves it
-  std::vector<std::size_t> no_trace;          // unknowns that nothing compared depends on
-  std::vector<SharedDirection> undetermined;  // combinations that the data do not see
-  double correlation(std::size_t i, std::size_t k) const;  // 0 where one of them is not known
+  std::vector<bool> known;                    // per unknown: within its bounds and in no undetermined direction
+  std::vector<std::size_t> no_trace;          // unknowns without influence on the compared data
+  std::vector<SharedDirection> undetermined;  // combinations that the data do not determine
+  double correlation(std::size_t i, std::size_t k) const;  // 0 if one of them is not known
 };
 
-// `jacobian`: of residuals over their deviations. `floor`: singular values of J with columns of equal length below so
-// much of the largest are no information (errors of the derivatives). `scores`: where residuals scatter together, a row
-// Jᵀ d for each observation of that scatter d: Cov = A Σ Jᵀd dᵀJ A, A = (Jᵀ J)⁻¹ (White 1980); none: Cov = A.
+// `jacobian`: of residuals over their deviations. `floor`: smaller singular values of J with columns of equal length,
+// relative to the largest, are noise (errors of the derivatives). `scores`: for correlated residuals, a row Jᵀ d for
+// each observation of their scatter d: Cov = A Σ Jᵀd dᵀJ A, A = (Jᵀ J)⁻¹ (White 1980); none: Cov = A.
 Determination determined_by(const Eigen::MatrixXd& jacobian, const std::vector<int>& on_bound, double floor,
                             const Eigen::MatrixXd& scores = {});
 

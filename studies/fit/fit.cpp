@@ -64,7 +64,7 @@ class FitWork {
     for (int round = 0; round < rounds; ++round)
       for (std::size_t r = 0; r < count; ++r) {
         problem_.active.assign(count, false), problem_.active[r] = true;
-        const bool enough = static_cast<std::size_t>(problem_.comparisons()[r].size()) > 2 * problem_.unknowns_of(r);
+        const bool enough = static_cast<std::size_t>(problem_.comparisons()[r].size()) > problem_.unknowns_of(r);
         if (enough && (count > 1 || round > 0))
           if (const BoundedFit found = problem_.fit(alone[r], most_steps); found.r.size() > 0) alone[r] = found.u;
         if (problem_.residuals(alone[r])) problem_.weigh(r, alone[r]);

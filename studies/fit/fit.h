@@ -1,5 +1,5 @@
-// fit.h — parameters of a machine from measured records: values with errors, what the records cannot tell, what is left,
-// and predictions of other records.
+// fit.h — parameters of a machine from measured records: values with errors, what the records cannot determine,
+// residuals, and predictions of other records.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace kurbel {
 // A record to be predicted: "full.toml at 3060 rpm against full.csv".
 struct PredictionRequest {
   std::string given;
-  std::size_t like = 0;  // compared, held, and with unknowns of its own as this record
+  std::size_t like = 0;  // index of the record whose comparison, held speed and own unknowns are used
   MachineQuestion scene = {};
   std::optional<double> mean_speed = {};  // to be held [rad/s]; none: that of the record `like`
   std::string against = {};               // a measured file; empty: none
@@ -44,21 +44,21 @@ struct Correlation {
   double value = 0;
 };
 
-// Of a record's channel: what is left between it and the machine.
+// Residual between a channel of a record and the machine.
 struct ChannelResidual {
   std::string record, channel, unit;
   std::string of = {};                    // "points", "orders"
   std::size_t count = 0;                  // values compared
   double rms = 0;                         // of the residual
   std::optional<double> range_part = {};  // over the measured range; of orders over the greatest amplitude
-  std::optional<double> scatter = {};     // of the mean, RMS of the deviations
-  double correlation_length = 1;          // values that go together, τ ≥ 1: 1 of noise
+  std::optional<double> scatter = {};     // of the mean: RMS of the deviations
+  double correlation_length = 1;          // number of correlated values, τ ≥ 1: 1 for noise
   double alike = 0;                       // correlation of measured and fitted points
   double peak = 0, peak_fitted = 0;       // greatest magnitude of the points
   std::optional<double> times() const { return scatter && *scatter > 0 ? std::optional(rms / *scatter) : std::nullopt; }
 };
 
-// Of a record over the angle, or of one that is predicted.
+// For a record over the angle, or a predicted one.
 struct OrderFigure {
   std::string record, channel, unit;
   double order = 0;
@@ -69,7 +69,7 @@ struct OrderFigure {
   std::optional<double> amplitude_error = {}, phase_error = {};  // 95 %, of a prediction
 };
 
-// Of a record over time: RMS within a band of frequencies (Hann's window).
+// For a record over time: RMS within a frequency band (Hann window).
 struct BandResidual {
   std::string record, channel, unit;
   double from = 0, to = 0;  // [Hz]
@@ -78,18 +78,18 @@ struct BandResidual {
 
 struct EffectTried {
   std::string words, failed = {};
-  double reduction = 0;  // of the weighted sum of squares, refitted: 1 − with/without
+  double reduction = 0;  // of the weighted sum of squares after refitting: 1 − with/without
 };
 
-// An unknown as the other records find it.
+// An unknown as determined by the other records.
 struct WithoutRecord {
   std::string record, name, unit;
   double value = 0, fitted = 0;       // in its unit
-  std::optional<double> errors = {};  // the difference over the standard error
+  std::optional<double> errors = {};  // difference over the standard error
   double rms = 0, rms_fitted = 0;     // of that record's residual over the deviations: predicted, fitted
 };
 
-// What a record shows: points over its axis, with 95 % where it is predicted.
+// The curve of a record over its axis, with 95 % limits if it is predicted.
 struct Curve95 {
   std::string record, channel, unit;
   Over over = Over::angle;
@@ -101,16 +101,16 @@ struct Prediction {
   std::optional<Estimate> delta = {};  // (max − min)/mid of the first speed, 95 %
   std::optional<double> measured_delta = {};
   std::optional<HeldQuantity> held = {};
-  // Against the file, over the angle about the mean: what is left, and what taking the fitted record for it would leave.
+  // Against the file, over the angle about the mean: RMS of the prediction's residual, and with the fitted record in its place.
   std::optional<double> rms = {}, rms_of_fitted_record = {};
-  std::optional<double> inside = {};  // part of the points within 95 %
+  std::optional<double> inside = {};  // fraction of the points within 95 %
 };
 
 struct FitStudy {
   std::string title, scene_file, scene_text;
   SpeedUnit speed_unit;
   std::vector<FittedUnknown> unknowns;
-  std::vector<Correlation> correlations;  // the strongest first
+  std::vector<Correlation> correlations;  // strongest first
   std::vector<std::string> confounded;    // a sentence for each combination that the data cannot separate
   std::vector<ChannelResidual> residuals;
   std::vector<OrderFigure> orders, predicted_orders;
@@ -121,8 +121,8 @@ struct FitStudy {
   std::vector<Prediction> predictions;
   std::vector<std::string> held;  // "half: load.torque = 7.9 N·m keeps 3000 rpm"
   Eigen::MatrixXd covariance;     // of the unknowns in their units
-  std::string errors_from;        // "scatter of 47 cycles", "what is left"
-  double chi_squared = 0;         // over its degrees of freedom, by scatter; 0: none is known
+  std::string errors_from;        // "the scatter of cycles", …
+  double chi_squared = 0;         // over its degrees of freedom, by scatter; 0: not known
   std::size_t values = 0, runs = 0;
   int steps = 0;
   bool converged = false;
@@ -140,15 +140,15 @@ FitStudy fit_machine(const FitOptions& options);
 struct FitState {
   BoundedFit best;
   Determination determined;
-  Eigen::MatrixXd covariance;  // of u, with what the residuals leave
-  double interval = 1.96;      // 95 % over the standard error (Student)
+  Eigen::MatrixXd covariance;  // of u, including the residuals
+  double interval = 1.96;      // factor from standard error to 95 % (Student)
 };
 void try_starts(FitProblem& problem, const FitOptions& options, FitState& state, FitStudy& study);
 void leave_records_out(FitProblem& problem, const FitState& state, FitStudy& study);
 void try_off_effects(FitProblem& problem, const FitState& state, FitStudy& study);
 void predict(FitProblem& problem, const FitOptions& options, const FitState& state, FitStudy& study);
 
-// The orders that are told of records over the angle: those compared, else the first eight of the cycle.
+// The orders reported for records over the angle: those compared, otherwise the first eight of the cycle.
 std::vector<double> told_orders(const RecordRequest& request, const FitRecord& record);
 
 Findings findings_of(const FitStudy& study);

@@ -1,4 +1,4 @@
-// fit_problem.h — machines and records as one problem of least squares: residuals and derivatives by runs in threads.
+// fit_problem.h — machines and records as one least-squares problem: residuals and derivatives by runs in threads.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace kurbel {
 
 class FitProblem {
  public:
-  // Throws as read_record, parse_unknowns and RecordMachine do; std::invalid_argument for more unknowns than data.
+  // Throws as read_record, parse_unknowns and RecordMachine do; std::invalid_argument if there are more unknowns than data.
   FitProblem(std::vector<RecordRequest> requests, const std::vector<std::string>& free, int jobs, Watch watch);
 
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
@@ -24,34 +24,34 @@ class FitProblem {
   Eigen::Index size() const { return static_cast<Eigen::Index>(unknowns_.size()); }
   std::size_t values_compared() const;
 
-  // What the scenes say, brought within the bounds; of what no scene says the middle.
+  // Values in the scenes, limited to the bounds; the middle of the range if no scene gives the value.
   Eigen::VectorXd given() const;
-  // Steps of the derivatives, so long that errors of the runs are below a thousandth of each difference, within
-  // 0.001 … 0.05 of the range: second differences over 1e-7 of it show those errors (Moré, Wild 2011). False: the
-  // machine does not run there; failure() says why.
+  // Chooses the steps of the derivatives so that errors of the runs are below a thousandth of each difference, within
+  // 0.001 … 0.05 of the range; second differences over 1e-7 of it show these errors (Moré, Wild 2011). False: the
+  // machine does not run there, see failure().
   bool choose_steps(const Eigen::VectorXd& u);
-  double noise() const { return noise_; }  // that is left in the derivatives, over their size: the worst
+  double noise() const { return noise_; }  // largest relative error of the derivatives
 
-  // From u on. Records that are not `active` do not count; with another set of effects for each record where given.
+  // Starts from u. Only `active` records count; `effects` replaces the effects for single records.
   BoundedFit fit(const Eigen::VectorXd& u, int most_steps = 40);
   std::vector<bool> active;
   std::vector<std::optional<Effects>> effects;
 
-  // Of all active records: residuals over their deviations, 0 of the others. Nothing: one cannot be computed.
+  // Residuals over deviations for all active records, 0 for the others. Empty: one cannot be computed.
   std::optional<Eigen::VectorXd> residuals(const Eigen::VectorXd& u);
   const std::vector<Response>& responses() const { return responses_; }  // of the last u
   const std::string& failure() const { return failure_; }
   std::size_t runs() const { return runs_; }
 
-  // What each record shows with u, in values compared. Of the last u's responses.
+  // The values of a record to be compared, at u. From the responses at the last u.
   Eigen::VectorXd shown(std::size_t record, const Eigen::VectorXd& u) const;
-  // Weights of a record by what it leaves; of the last u's responses.
+  // Weights a record by its residuals, from the responses at the last u.
   void weigh(std::size_t record, const Eigen::VectorXd& u);
-  std::size_t unknowns_of(std::size_t record) const;  // that what it shows may depend on
+  std::size_t unknowns_of(std::size_t record) const;  // number of unknowns that may affect it
 
-  // Runs of one machine at many u, in threads. Throws OutOfTime where it is interrupted.
+  // Runs of one machine at many u, in threads. Throws OutOfTime on interruption.
   std::vector<Response> responses_of(const RecordMachine& machine, const std::vector<Eigen::VectorXd>& at);
-  // Two u around it by the unknown's step, within the bounds.
+  // u decreased and increased by the unknown's step, within the bounds.
   std::pair<Eigen::VectorXd, Eigen::VectorXd> around(const Eigen::VectorXd& u, std::size_t unknown, double step) const;
   double step_of(std::size_t unknown) const { return steps_[unknown]; }
 
@@ -61,7 +61,7 @@ class FitProblem {
     Eigen::VectorXd u;
   };
   std::vector<Response> compute(const std::vector<RecordMachine>& machines, const std::vector<Item>& items);
-  // Below and above u by each unknown's step; u itself where the machine does not run there, or a bound is.
+  // u decreased and increased by each unknown's step; u itself if the machine does not run there, or at a bound.
   struct Sides {
     Eigen::VectorXd below, above;      // u
     Eigen::VectorXd r_below, r_above;  // residuals

@@ -172,7 +172,8 @@ OptionsOf<FitAsked> options() {
   texts("over", &FitAsked::over, "angle (steady; default), time (run) or modes" + record);
   texts("free", &FitAsked::free,
         "an unknown with its bounds: \"rotor.inertia=0.005..0.05 kg*m2\"; \"each: KEY=…\" one for every record; \"gain "
-        "of TABLE=0.9..1.1\", \"shift of TABLE=-2..2 deg\", \"dead centre of TABLE=-2..2 deg\"; \"shift=…\", \"gain of "
+        "of TABLE=0.9..1.1\", \"offset of TABLE=-0.1..0.1 bar\", \"shift of TABLE=-2..2 deg\", \"dead centre of "
+        "TABLE=-2..2 deg\"; \"shift=…\", \"gain of "
         "CHANNEL=…\", \"offset of CHANNEL=…\", \"pattern of CHANNEL=1,2\" of a record" +
             record);
   texts("hold", &FitAsked::hold,

@@ -119,13 +119,15 @@ std::vector<double> RecordMachine::values_of(const Eigen::VectorXd& u) const {
 }
 
 void RecordMachine::change_tables(Scene& scene, const Eigen::VectorXd& u) const {
+  using Kind = Unknown::Kind;
   for (const std::size_t k : tables_) {
     const Unknown& unknown = unknowns_[k];
     CurveData* const table = table_at(scene.components, unknown.of);
     const double by = unknown.si(u[static_cast<Eigen::Index>(k)]);
-    const bool gain = unknown.kind == Unknown::Kind::table_gain;
-    for (double& y : table->y) y *= gain ? by : 1;
-    for (double& x : table->x) x += gain ? 0 : by;
+    const bool gain = unknown.kind == Kind::table_gain, offset = unknown.kind == Kind::table_offset;
+    for (double& y : table->y) y = gain ? y * by : offset ? y + by : y;
+    for (double& x : table->x) x += gain || offset ? 0 : by;
+    if (unknown.kind == Kind::dead_centre && request_.over == Over::time) scene.run.start.angle += by;
   }
 }
 
@@ -164,6 +166,8 @@ Response RecordMachine::run(const Scene& given, const Effects& effects) const {
     if (std::none_of(known.begin(), known.end(), [&](const Channel& k) { return k.name == c.channel; }))
       return {.failed = "its run has no " + c.channel};
     response.channels.push_back({signal_of(result, c.channel)});
+    if (std::any_of(unknowns_.begin(), unknowns_.end(), [&](const Unknown& u) { return u.is_pattern_of(c.channel); }))
+      response.channels.back().angle = signal_of(result, "angle" + c.channel.substr(c.channel.find('.')));
   }
   return response;
 }
@@ -307,11 +311,14 @@ Eigen::VectorXd ComparedRecord::compared(const Eigen::VectorXd& points) const {
 Eigen::VectorXd ComparedRecord::points_of(const Response& response, const std::vector<Unknown>& unknowns,
                                           const Eigen::VectorXd& u) const {
   using Kind = Unknown::Kind;
-  double shift = 0;
+  double shift = 0, dead_centre = 0;  // over time the latter is in the start's angle
   for (std::size_t k = 0; k < unknowns.size(); ++k)
-    if (unknowns[k].concerns(number_) &&
-        (unknowns[k].kind == Kind::record_shift || unknowns[k].kind == Kind::dead_centre))
-      shift += unknowns[k].si(u[static_cast<Eigen::Index>(k)]);
+    if (unknowns[k].concerns(number_)) {
+      const double by = unknowns[k].si(u[static_cast<Eigen::Index>(k)]);
+      shift += unknowns[k].kind == Kind::record_shift ? by : 0;
+      dead_centre += unknowns[k].kind == Kind::dead_centre ? by : 0;
+    }
+  if (record_.over == Over::angle) shift += dead_centre;
   const auto points = static_cast<Eigen::Index>(record_.at.size());
   Eigen::VectorXd all(static_cast<Eigen::Index>(record_.channels.size()) * points);
   for (std::size_t c = 0; c < record_.channels.size(); ++c) {
@@ -324,19 +331,24 @@ Eigen::VectorXd ComparedRecord::points_of(const Response& response, const std::v
         shown[i] = record_.reach.empty() ? response.channels[c].signal.at(record_.at[k] + shift)
                                          : response.channels[c].mean(record_.at[k] + shift, record_.reach[k]);
     }
-    const double mean = shown.mean();
+    double gain = 1, offset = 0;
+    Eigen::VectorXd pattern = Eigen::VectorXd::Zero(points);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const Unknown& unknown = unknowns[k];
       if (!unknown.concerns(number_) || unknown.of != record_.channels[c].channel) continue;
       const double by = unknown.si(u[static_cast<Eigen::Index>(k)]);
-      if (unknown.kind == Kind::gain) shown *= by;
-      if (unknown.kind == Kind::offset) shown.array() += by;
-      if (unknown.kind != Kind::cosine && unknown.kind != Kind::sine) continue;
+      if (unknown.kind == Kind::gain) gain *= by;
+      if (unknown.kind == Kind::offset) offset += by;
+      if (!unknown.is_pattern_of(unknown.of)) continue;
       for (Eigen::Index i = 0; i < points; ++i) {
-        const double angle = unknown.order * record_.at[static_cast<std::size_t>(i)];
-        shown[i] += mean * by * (unknown.kind == Kind::cosine ? std::cos(angle) : std::sin(angle));
+        const double at = record_.at[static_cast<std::size_t>(i)];
+        const double angle =
+            record_.over == Over::angle ? at : response.channels[c].angle->at(at + shift) - dead_centre;
+        const double turned = unknown.order * angle;
+        pattern[i] += by * (unknown.kind == Kind::cosine ? std::cos(turned) : std::sin(turned));
       }
     }
+    shown = (gain * shown.array() * (1 + pattern.array()) + offset).matrix();
   }
   return all;
 }

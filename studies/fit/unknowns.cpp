@@ -64,7 +64,7 @@ class Reader {
     if (made.range.is_list()) refuse(text_, "must be a range, e.g. \"rotor.inertia=0.005..0.05 kg*m2\"");
     if (made.kind == Kind::key && made.of == "shift") made.kind = Kind::record_shift;
     if (made.kind == Kind::gain && !of_a_channel(made.of)) made.kind = Kind::table_gain;
-    if ((made.kind == Kind::gain || made.kind == Kind::offset) && !of_a_channel(made.of)) refuse_channel(made.of);
+    if (made.kind == Kind::offset && !of_a_channel(made.of)) made.kind = Kind::table_offset;
     made.name = words_ + made.of;
     take_unit(made);
     return each_of(made);
@@ -99,8 +99,9 @@ class Reader {
     auto unit = parse_unit(u.range.unit, error);
     const Dimension dimension = parse_unit(wanted, error)->dimension;
     if (unit) *unit = wanted_as(*unit, dimension);
-    // A table's shift is in the unit of what it stands over.
-    if (unit && u.kind != Kind::table_shift && unit->dimension != dimension)
+    // A table's shift is in the unit of what it stands over, its offset in that of its values.
+    const bool of_table = u.kind == Kind::table_shift || u.kind == Kind::table_offset;
+    if (unit && !of_table && unit->dimension != dimension)
       refuse(text_, fmt::format("is {}; must be {}", name_of(unit->dimension), name_of(dimension)));
     u.factor = unit ? unit->factor : 1;
   }
@@ -108,13 +109,16 @@ class Reader {
   // One of its own for every record that has it, or one for all.
   std::vector<Unknown> each_of(const Unknown& made) const {
     std::vector<Unknown> list;
-    const bool between = !made.moves_machine() || made.kind == Kind::dead_centre;
+    for (const FitRecord& other : records_)
+      if (made.kind == Kind::record_shift && !only_ && other.over != records_[0].over)
+        refuse(text_, fmt::format("is of records over unlike axes; give one of each record, e.g. \"{}: shift=…\"",
+                                  other.name));
     for (std::size_t r = 0; r < records_.size(); ++r) {
       const bool in_it = (made.kind != Kind::gain && made.kind != Kind::offset && made.kind != Kind::cosine &&
                           made.kind != Kind::sine) ||
                          has_channel(records_[r], made.of);
       if (only_ ? *only_ != r : !in_it) continue;
-      if (between && records_[r].over == Over::mode && made.kind == Kind::record_shift)
+      if (made.kind == Kind::record_shift && records_[r].over == Over::mode)
         refuse(text_, fmt::format("{} holds modes, which have no shift", records_[r].file));
       Unknown u = made;
       if (each_ || only_) u.record = r, u.name = records_[r].name + ": " + made.name;
@@ -142,8 +146,8 @@ class Reader {
     }
     for (const Unknown& u : list)
       for (std::size_t r = 0; r < records_.size(); ++r)
-        if (u.concerns(r) && has_channel(records_[r], u.of) && records_[r].over != Over::angle)
-          refuse(text_, fmt::format("{} is not over the angle, where a pattern repeats", records_[r].file));
+        if (u.concerns(r) && has_channel(records_[r], u.of) && !u.of.starts_with("speed."))
+          refuse(text_, fmt::format("{} is no speed, of which an encoder repeats a pattern each turn", u.of));
     return list;
   }
 

@@ -1,4 +1,4 @@
-// deformed_mechanism.cpp — torque and reactions of one instant, read off the element that made it.
+// deformed_mechanism.cpp — torque and reactions at one instant, taken from the element.
 #include "studies/forces/deformed_mechanism.h"
 
 #include <algorithm>
@@ -71,7 +71,7 @@ void DeformedMechanism::find_reactions(const Snapshot& s, double omega, double a
     (crank ? pin : wrist) =
         gap > 0 ? (crank ? -normal / gap : normal / gap) * Force2{z[first], z[first + 1]} : Force2{};
   }
-  // The crank in equilibrium: what the pin does to the rod, the frame does to the crank, and its inertia and weight.
+  // Equilibrium of the crank: forces of the pin and the frame, its inertia and weight.
   const SliderCrankData& d = dynamics_->data();
   const double c = std::cos(z[C::phi]), n = std::sin(z[C::phi]), moment = d.crank_mass * d.crank_com;
   const Force2 inertia{-moment * (c * omega * omega + n * alpha), moment * (c * alpha - n * omega * omega)};

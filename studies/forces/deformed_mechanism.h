@@ -1,8 +1,8 @@
-// deformed_mechanism.h — forces in a mechanism as the machine's own equations have them, bent rod and gaps included.
+// deformed_mechanism.h — forces in a mechanism from the machine's own equations, including bent rod and gaps.
 //
-//     M = I(φ, q) ε − Q        torque of the shaft on the crank, from what its elements add to its shaft
-// Reactions of a slider-crank that deforms: the left sides of slider_crank_dynamics.h for what stays zero in an ideal
-// joint, the contact's force in a joint with a gap. They are what figures of ideal joints and rigid links miss.
+//     M = I(φ, q) ε − Q        torque of the shaft on the crank; Q: torques of the elements on this shaft
+// Reactions of a slider-crank that deforms: for an ideal joint the left sides of slider_crank_dynamics.h that belong
+// to constrained motion, for a joint with a gap the contact force. Ideal joints and rigid links do not show them.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace kurbel {
 
 struct MachineForces {
   double torque = 0;             // of the shaft on the crank [N·m]
-  std::vector<double> reaction;  // of one that deforms: magnitudes, in the order of its joints [N]
+  std::vector<double> reaction;  // of a deforming mechanism: magnitudes, in the order of its joints [N]
 };
 
 class DeformedMechanism {
@@ -32,10 +32,10 @@ class DeformedMechanism {
 
   std::shared_ptr<const Model> model_;
   std::size_t element_ = 0;          // of the network
-  std::vector<std::size_t> within_;  // what acts within it, where it is a linkage
+  std::vector<std::size_t> within_;  // elements within it, if it is a linkage
   const SliderCrankDynamics* dynamics_ = nullptr;
   int force_channel_ = -1;
-  std::size_t own_ = 0;  // first of its own states
+  std::size_t own_ = 0;  // first of its internal states
 };
 
 }  // namespace kurbel

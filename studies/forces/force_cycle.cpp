@@ -1,4 +1,4 @@
-// force_cycle.cpp — how the errors of a cycle's figures grow and are dropped; its works, and the efficiency that they make.
+// force_cycle.cpp — increase and removal of errors of a cycle's figures; its works and efficiency.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,10 +63,10 @@ void ForceCycle::drop_errors(bool of_motion) {
 
 namespace {
 
-// Of what goes to and fro in a cycle: what quadrature and rounding leave of works that cancel.
+// Of the energy exchanged in a cycle: quadrature and rounding errors of works that cancel.
 constexpr double nothing_left = 1e-9;
 
-// Why the works of a cycle make no efficiency; empty: they do.
+// Why the works of a cycle do not give an efficiency; empty: they do.
 std::string why_no_efficiency(const ForceCycle& c, double spent, double uncertain) {
   constexpr double nothing = 0.5, enough = 0.05;  // of what is spent: an efficiency is not to be less certain
   if (!(uncertain <= nothing * spent))
@@ -81,8 +81,8 @@ std::string why_no_efficiency(const ForceCycle& c, double spent, double uncertai
 
 }  // namespace
 
-// What goes in on balance over the cycle is input, what comes out is useful unless its account says harmful. What the
-// motion itself stores or gives up is neither: η = A_useful/(A_in − ΔT), which lies within 0 … 1 by the balance.
+// Net input over the cycle is input, net output is useful unless its account is harmful. The change of kinetic energy
+// is neither: η = A_useful/(A_in − ΔT), which lies within 0 … 1 by the balance.
 void judge_works(ForceCycle& c) {
   constexpr double rounding = 1e-12;  // of what goes to and fro
   constexpr double steady = 1e-6;     // of the input: less is no change of the motion's energy

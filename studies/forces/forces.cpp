@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -23,8 +21,8 @@
 namespace kurbel {
 namespace {
 
-// What the machine's own equations have otherwise than rigid links in ideal joints, pointwise at most: an error of every
-// figure that it touches.
+// Largest difference at any position between the machine's own equations and rigid links with ideal joints: an error
+// of every figure concerned.
 struct Missed {
   double torque = 0, greatest_torque = 0;
   double scale = 0;                        // of torques, by what the joints' forces make at their places
@@ -91,18 +89,17 @@ std::string words_of(const Missed& missed, const ForceCycle& cycle) {
   return text + "; the greatest difference at an angle is counted as an error of every figure";
 }
 
-// Of the machine, and with them of the joints: motion and forces follow the same laws.
+// Effects of the machine, also used for the joints, so that motion and forces follow the same laws.
 Effects effects_of(const AskedMechanism& asked, const ForcesOptions& options) {
   if (options.effects) return *options.effects;
   Effects effects = asked.scene.effects;
-  // Joints with clearance, or at a rod that bends, know no friction by the reactions of ideal ones.
+  // Joints with clearance, or at a bending rod, have no friction law by ideal reactions.
   if (!effects.joint_clearance && !effects.flexible_rod)
     effects.joint_friction = effects.joint_friction || asked.mechanism().joints != nullptr;
   return effects;
 }
 
-// A problem under loads from outside of their data. Of a table that another problem left, too, that is said once, however
-// far either went.
+// Adds the extrapolation of a problem's load tables. A table also left in another problem is mentioned once only.
 void tell_outside_data(Forces& out, const std::vector<std::string>& sentences, ForceCycle& cycle, bool simulated) {
   if (sentences.empty()) return;
   const auto table = [](const std::string& told) { return told.substr(0, told.find(", and the motion goes to")); };
@@ -255,8 +252,8 @@ std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effec
 
 namespace {
 
-// Of the crank, where the mean torques of drive and loads of the rigid machine balance, as `size` and `reduce` take it; none:
-// no torque depends on the speed, nothing balances, or a sequence sets what drives.
+// Crank speed at which the mean torques of drive and loads of the rigid machine balance, as in `size` and `reduce`;
+// empty: no torque depends on the speed, nothing balances, or a sequence controls the drive.
 std::optional<double> operating_speed_of(const MachineMotion& machine) try {
   const Model& m = machine.model();
   if (!m.scene.sequence.steps.empty() || machine.start_speed() < 0) return {};

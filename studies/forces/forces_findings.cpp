@@ -53,7 +53,7 @@ std::string torque_in_words(const ForceCycle& c) {
   return fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque));
 }
 
-// The heaviest of all joints.
+// The joint with the largest force.
 const NamedPeak& heaviest(const ForceCycle& c) {
   const NamedPeak* most = &c.reactions.front();
   for (const NamedPeak& r : c.reactions)
@@ -61,7 +61,7 @@ const NamedPeak& heaviest(const ForceCycle& c) {
   return *most;
 }
 
-// With its error where that shows.
+// With its error if that is visible.
 std::string efficiency_text(const ForceCycle& c) {
   constexpr double shows = 5e-5;
   const double value = c.efficiency->value, error = c.efficiency->error.value_or(0);
@@ -170,7 +170,7 @@ Rows harmonic_table(const ForceCycle& c, bool on_terminal) {
   return table;
 }
 
-// Of a slide that the scene gives, the table says where its reaction acts.
+// For a slide given in the scene, the table states where its reaction acts.
 bool is_given(const Forces& f, const JointForces& j) {
   const std::vector<RubbingJoint>& given = f.joints.joints;
   return std::any_of(given.begin(), given.end(), [&](const RubbingJoint& r) { return r.name == j.name; });

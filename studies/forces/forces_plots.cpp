@@ -24,7 +24,7 @@ struct ForceCurve {
   Role role;
 };
 
-// In the order of drawing: the rigid machine behind, the machine itself in front.
+// In drawing order: the rigid machine behind, the machine itself in front.
 std::vector<ForceCurve> curves_of(const Forces& f) {
   std::vector<ForceCurve> curves;
   if (f.rigid) curves.push_back({&*f.rigid, "simulated, rigid", Role::rigid});
@@ -86,8 +86,8 @@ Plot point_plot(const Forces& f, std::size_t joint, const RubbingJoint& given) {
   Plot plot = angle_plot(fmt::format("Where the reaction of the {} acts, along it from its pin", given.name),
                          "point of action");
   plot.note = "Beyond its ends both edges are in contact.";
-  // Where N passes through zero the point goes to infinity: omitted where it is as far beyond the ends as these are
-  // apart.
+  // Where N passes through zero the point goes to infinity: it is omitted if it is farther beyond the ends than these
+  // are apart.
   double crank = 0;
   for (P p : f.prescribed->positions) crank = std::max(crank, p.forces.joints[1].at.magnitude());
   const double reach = given.length > 0 ? 1.5 * given.length : 3 * crank;

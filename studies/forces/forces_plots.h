@@ -9,12 +9,12 @@
 
 namespace kurbel {
 
-double force_of(const JointForces& joint);  // magnitude, or a slide's normal force with its sign [N]
+double force_of(const JointForces& joint);  // magnitude, or a slide's normal force with sign [N]
 Plot torque_plot(const Forces& forces);
 std::vector<Plot> reaction_plots(const Forces& forces);
-// Of every pin, in the frame and turning with each link that turns.
+// For every pin, relative to the frame and to each rotating link.
 std::vector<Plot> polar_plots(const Forces& forces);
-// `along`, `across`: how the axes are called.
+// `along`, `across`: names of the axes.
 std::vector<Plot> shaking_plots(const Forces& forces, const std::string& along, const std::string& across);
 Plot harmonic_plot(const ForceCycle& cycle);
 Plot counterweight_plot(const Forces& forces);

@@ -1,8 +1,6 @@
 // forces_record.cpp — forces of a cycle for programs and for files; those of a slider-crank by the names of its joints, too.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "studies/forces/forces_findings.h"
 
 namespace kurbel {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -66,7 +65,7 @@ class Builder {
   void balance();
   void collect_curve();
 
-  // Of a link's motion: without the reactions, which cost the most.
+  // Motion of the links only, without reactions, which take most time.
   PositionForces moving_at(double phi, CrankMotion motion) {
     PositionForces p;
     const PlanarLinkage linkage = statics_.linkage(phi);
@@ -85,7 +84,7 @@ class Builder {
     found.scale = scale;
     return found;
   }
-  // Of positions that are even over the cycle: all of them, and every other one.
+  // From equidistant positions: all of them, and every other one.
   Estimate mean(const LinkageQuantity& value, const LinkageQuantity& weight) const {
     const auto with_step = [&](std::size_t step) {
       double sum = 0, weights = 0;
@@ -244,7 +243,7 @@ void Builder::find_orders() {
   cycle_.torque_mean.widen(rounding_of_forces * moment_);
 }
 
-// The works of a cycle make its change of kinetic energy: what is left over is every work's error.
+// The works of a cycle equal its change of kinetic energy: the residual is an error of every work.
 void Builder::balance() {
   constexpr double nothing = 1e-9;  // of the largest power
   double scale = 0, left = -cycle_.kinetic_change.value;

@@ -27,8 +27,8 @@ constexpr int rounds_undriven = 40;      // what nothing drives comes to rest, o
 constexpr std::size_t most_edges = 200;  // events of a cycle; of more none is looked at from both sides
 constexpr double near_edge = 1e-7;       // of the crank: a run meets an edge this near to where its law has it [rad]
 
-// Motion and forces of the crank when it comes past given angles. What stands on one side of an edge is looked at on that
-// side of the machine's event, wherever within its tolerances the run meets it: laws and motion change there together.
+// Motion and forces of the crank when it passes given angles. A value on one side of an edge is taken on that side of
+// the machine's event, wherever the run locates it within its tolerances: laws and motion change there together.
 class PassageRecorder final : public Observer {
  public:
   PassageRecorder(std::size_t tracked, int node, const DeformedMechanism& forces, const std::vector<Abscissa>& where,
@@ -47,7 +47,7 @@ class PassageRecorder final : public Observer {
     const auto beyond = [&](double t) {
       return direction_ * (equations.angle_with_turns(tracked_, view.at(t)) - targets_[passed.size()]);
     };
-    // Each within the whole step, so that no target moves for those asked for beside it.
+    // Each is located within the whole step, so that targets do not depend on others requested.
     const double from = view.t_previous();
     while (passed.size() < targets_.size()) {
       Deadline::check();
@@ -93,7 +93,7 @@ class StepEnds final : public Observer {
   std::vector<double> t_, angle_;
 };
 
-// Edges of the loads in every cycle of several, and those that events make, once each.
+// Edges of the loads in each of several cycles, and edges by events, once each.
 std::vector<double> edges_of_all(const std::vector<double>& loads, double cycle, int cycles,
                                  const std::vector<double>& events) {
   constexpr double same = 1e-7;
@@ -169,7 +169,7 @@ std::optional<SimulatedMotion> MachineMotion::motion_of(const Orbit& found, Outp
   return motion;
 }
 
-// Of the tracked angle, which does not know how the crank sits on its shaft.
+// In terms of the tracked angle, without the phase of the crank on its shaft.
 std::vector<double> MachineMotion::targets_of(const std::vector<Abscissa>& where, double origin) const {
   std::vector<double> targets;
   for (const Abscissa& a : where) targets.push_back(origin + a.place() - crank_.phase);
@@ -202,7 +202,7 @@ Orbit MachineMotion::orbit() const {
   }
 }
 
-// The same machine with its dense tables taken rougher; null: it has none.
+// The same machine with coarser dense tables; null: it has none.
 std::shared_ptr<const Model> MachineMotion::model_elsewhere() const {
   constexpr double rougher = 4;
   if (tables_within(model_->scene) == 0) return nullptr;
@@ -241,7 +241,7 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
   }
 }
 
-// Once round: by how much the crank turns, and the angles of what happens on the way.
+// One period: rotation of the crank, and the angles of its events.
 struct MachineMotion::Window {
   double begin = 0, way = 0;   // of the crank [rad]
   std::vector<double> events;  // its angles [rad]
@@ -354,7 +354,7 @@ MachineMotion::Sampled MachineMotion::one_run(const std::vector<Abscissa>& where
 
 namespace {
 
-// What the speed has still to change, over its mean; ∞: the changes do not shrink.
+// Remaining change of the speed, over its mean; ∞: the changes do not decrease.
 double left_to_come(const MotionAlong* before, const MotionAlong& now, double noise) {
   const double first = now.motion.front().omega, last = now.motion.back().omega, mean = std::abs(now.mean_speed());
   if (!before) return std::abs(last - first) / mean;
@@ -370,7 +370,7 @@ std::string not_closed(double closure, bool before, double to_come) {
 
 }  // namespace
 
-// The last cycle that begins and ends at a multiple of the cycle, in the crank's own angle.
+// The last cycle between multiples of the cycle, in the crank's own angle.
 std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, const std::string& why,
                                                          Account out) const {
   const double tolerance = std::max(settings_.accuracy, 1e-12) / 10, cycle = loads.cycle();
@@ -407,7 +407,7 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   motion.others.push_back({std::move(loose), 1});
   if (std::isfinite(to_come)) motion.others.push_back({sped_up(along, std::copysign(to_come, closure)), 1});
   if (before) {
-    // Changes that do not shrink go on as they grew, from the middle of the last two cycles to that of the next two.
+    // Changes that do not decrease continue with their growth, from the middle of the last two cycles to that of the next two.
     constexpr double most_grown = 100;  // from next to no change at all nothing can be told
     const double grew = std::abs(closure / closure_of(*before));
     const double times = closure == 0             ? 1

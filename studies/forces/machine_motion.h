@@ -1,8 +1,8 @@
-// machine_motion.h — the second problem's motion: how the compiled machine moves the crank in the cycle that it keeps.
+// machine_motion.h — motion of the second problem: how the compiled machine moves the crank in its steady cycle.
 //
-// The machine is the scene's, with its effects, and the cycle that of its steady motion (engine/orbit/orbit.h): where the
-// scene's own start leads to; of a machine that rests in the end, the last one that it keeps before. Where nothing comes again, the last whole cycle of the scene's run stands in for it, and by
-// how much its next cycles would differ is an error of every figure.
+// The machine is the scene's, with its effects; the cycle is its steady motion (engine/orbit/orbit.h) after the
+// scene's own start, or the last one before it comes to rest. If nothing repeats, the last whole cycle of the scene's
+// run is used instead, and the expected change of the following cycles is an error of every figure.
 #pragma once
 
 #include <memory>
@@ -19,22 +19,22 @@
 namespace kurbel {
 
 struct SimulatedMotion {
-  // Another motion, by which the figures of this one are uncertain: `times` the difference of the two.
+  // Another motion, for the uncertainty of the figures: `times` the difference of both.
   struct Other {
     MotionAlong motion;
     double times = 1;
   };
   MotionAlong along;
-  std::vector<MachineForces> machine;  // at each of its abscissae, by the machine's own equations
+  std::vector<MachineForces> machine;  // at each abscissa, by the machine's own equations
   std::vector<Other> others;
-  std::vector<std::string> outside_data;  // what it takes from beyond the ends of tables
-  bool kept = false;                      // by the machine: its steady motion
-  bool deforms = false;                   // the mechanism does
+  std::vector<std::string> outside_data;  // extrapolation of tables
+  bool kept = false;                      // it is the machine's steady motion
+  bool deforms = false;                   // the mechanism deforms
   std::string effects;                    // of the machine, in words
   std::string description;
 };
 
-// The compiled machine, asked for the motion of a mechanism's crank.
+// The compiled machine, for the motion of a mechanism's crank.
 class MachineMotion {
  public:
   MachineMotion(const AskedMechanism& asked, const Effects& effects, const ForcesOptions& options);
@@ -42,9 +42,9 @@ class MachineMotion {
   double start_speed() const;  // of the crank [rad/s]
   double rated_speed() const;
   const Model& model() const { return *model_; }
-  bool deforms() const;     // its joints have clearance, or its rod bends
-  bool is_elastic() const;  // its shafts twist
-  // What went wrong and what is not steady is told in `notes`. Empty where the crank goes through no whole cycle.
+  bool deforms() const;     // joint clearance or bending rod
+  bool is_elastic() const;  // twisting shafts
+  // Errors and unsteady motion are reported in `notes`. Empty if the crank completes no cycle.
   struct Account {
     std::vector<std::string>& notes;
     bool& complete;
@@ -84,7 +84,7 @@ class MachineMotion {
   void check_sense(const MotionAlong& along, int direction) const;
 
   const ForcesOptions& options_;
-  Moment at_;  // that the model is of
+  Moment at_;  // of the model
   std::string mechanism_;
   RunSettings settings_;
   std::string effects_;
@@ -93,26 +93,26 @@ class MachineMotion {
   DeformedMechanism forces_;
 };
 
-// Of the same machine without elasticity, to be drawn behind it. Empty where the machine is rigid itself, or where the
-// rigid one makes no machine or turns the crank through no whole cycle.
+// The same machine without elasticity, drawn behind it. Empty if the machine is rigid itself, or if no rigid machine
+// can be made or its crank completes no cycle.
 std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effects& effects, OutputLoads& loads,
                                         const ForcesOptions& options);
 
-// What a quantity that is looked at once a cycle has still to change, from its course so far: the change over the last
-// quarter of it, going on as a geometric sequence with the ratio q to the quarter before: d q/(1 − q); swinging,
-// q < 0: |d|. ∞ where the changes do not shrink (a runaway at any rate: q = 1), 0 where they are below `noise`.
+// Remaining change of a quantity sampled once per cycle: the change d over the last quarter of its course, continued
+// as a geometric sequence with the ratio q to the quarter before: d q/(1 − q); for q < 0 (oscillating) |d|. ∞ if the
+// changes do not shrink (constant growth: q = 1), 0 if they are below `noise`.
 double still_to_come(const std::vector<double>& course, double noise);
 
-// Of the first problem, and where it comes from.
+// Crank speed of the first problem, and its source.
 struct CrankSpeed {
   double value = 0;  // [rad/s]
   std::string source;
 };
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options);
 
-// Names scene and mechanism.
+// Sets the names of scene and mechanism.
 void describe(const AskedMechanism& asked, Forces& out);
-// How the first problem was posed, and notes on what it leaves out.
+// Description of the first problem, and notes on what it omits.
 void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, Forces& out,
                     ForceCycle& cycle);
 

@@ -27,8 +27,8 @@ Findings made(std::string conclusion, Rows table, const FormulaCard& formula) {
   return f;
 }
 
-// Of the figures of a bevel pair. δ₂ is the difference of the shaft angle and δ₁, and an angle's rounding weighs by its
-// tangent in z_v.
+// Errors of a bevel pair's figures. δ₂ is the difference of the shaft angle and δ₁, and the rounding error of an
+// angle is multiplied by its tangent in z_v.
 struct BevelErrors {
   explicit BevelErrors(const BevelPair& b) {
     const Moved<BevelPair> near = moved(b);

@@ -1,4 +1,4 @@
-// bevel_worm.h — what `kurbel gears` says about a bevel or a worm pair.
+// bevel_worm.h — findings of `kurbel gears` for a bevel or a worm pair.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace kurbel {
 
-// Both throw std::invalid_argument in words.
+// Both throw std::invalid_argument with the reason.
 Findings findings_of(const BevelPair& pair);
 Findings findings_of(const WormPair& pair, std::optional<double> worm_speed = {});  // [rad/s]
 

@@ -1,4 +1,4 @@
-// figure_errors.cpp — things with one number moved.
+// figure_errors.cpp — pairs with one number changed.
 #include "studies/gears/figure_errors.h"
 
 #include <fmt/format.h>
@@ -10,14 +10,14 @@
 namespace kurbel {
 namespace {
 
-// A number of such data, and by how much it is moved.
+// A number of the data, and its change.
 template <class Data>
 struct GivenNumber {
   std::function<double&(Data&)> number;
   double by;
 };
 
-// Each place down and up; what the solver refuses is no neighbour.
+// Each number decreased and increased; pairs refused by the solver are omitted.
 template <class T, class Data>
 void add_moved(const Data& data, const std::vector<GivenNumber<Data>>& places,
                const std::function<T(const Data&)>& solve, Moved<T>& list) {
@@ -63,7 +63,7 @@ void add_given(const GearPairData& d, PairPlaces& places) {
   }
 }
 
-// The pair by its centre distance and shifts, and with tips as they came out.
+// The pair described by its centre distance and shifts, with the resulting tips.
 GearPairData by_results(const GearPair& p) {
   GearPairData d = p.data;
   d.centre_distance = std::abs(p.centre_distance);
@@ -78,7 +78,7 @@ void add_results(const GearPair& p, const std::function<GearPair(const GearPairD
   for (const std::size_t i : {0UL, 1UL})
     places.push_back({[i](D x) -> double& { return *x.shift[i]; }, part_moved*(1 + std::abs(*d.shift[i]))});
   add_moved(d, places, solve, list);
-  // A tip that keeps the clearance is as uncertain as the centre distance that it is taken from.
+  // A tip that keeps the clearance has the uncertainty of the centre distance.
   GearPairData tipped = d;
   PairPlaces tips;
   for (const std::size_t i : {0UL, 1UL}) {

@@ -1,13 +1,13 @@
-// figure_errors.h — what rounding may have done to a figure of a closed form, and the tables that tell it.
+// figure_errors.h — rounding errors of figures from closed forms, and the tables that show them.
 //
-// Backward: each given number, and each result in between that others are made of, is moved by a small part h of itself
-// (2⁻³⁰; what is counted in modules by h of 1 + |x|). A figure f is uncertain by what a few units of rounding at all of
-// these places do to it,
+// Backward error: each given number, and each intermediate result used by others, is changed by a small part h of
+// itself (2⁻³⁰; values in modules by h of 1 + |x|). The uncertainty of a figure f is the effect of a few units of
+// rounding at all of these places,
 //
 //     Δf = 8 ε (|f| + s + Σₖ |f(k moved) − f|/h),   ε = 2⁻⁵²,
 //
-// with the larger of the moves down and up, and s the size of terms that f is the difference of. Given numbers are taken
-// as they stand in the scene: tolerances of manufacture are no part of it.
+// with the larger of the changes down and up, and s the size of terms whose difference is f. Given numbers are exact:
+// manufacturing tolerances are not included.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ inline constexpr double in_millimetres = 1e3;  // a length [m] times this is in 
 inline constexpr double part_moved = 0x1p-30;
 inline constexpr double units_of_rounding = 8 * std::numeric_limits<double>::epsilon();
 
-// The same thing with one number moved down, and up; none where no such thing exists.
+// The same object with one number changed down, and up; empty if no such object exists.
 template <class T>
 using Moved = std::vector<std::array<std::optional<T>, 2>>;
 
@@ -39,7 +39,7 @@ Moved<GearPair> moved(const GearPair& pair);
 Moved<BevelPair> moved(const BevelPair& pair);
 Moved<WormPair> moved(const WormPair& pair);
 
-// Δf of `get` of a thing, in its unit; NaN where the figure is not finite, or where no moved thing has it.
+// Δf of `get`, in its unit; NaN if the figure is not finite, or if no changed object has it.
 template <class T, class Get>
 double error_by_rounding(const T& here, const Moved<T>& moved, Get get, double terms = 0) {
   const double value = std::invoke(get, here);
@@ -54,15 +54,15 @@ double error_by_rounding(const T& here, const Moved<T>& moved, Get get, double t
   return std::isfinite(sum) ? units_of_rounding * sum : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Largest of them, of those that are known; NaN: none is.
+// Largest known one; NaN: none is known.
 double largest_error(std::span<const double> errors);
-// For people, in their unit: rounded up to one digit, to two where the first is a 1, "2e-13", "1.2"; "0": exact; "—": not known.
+// As text, in its unit: rounded up to one digit, to two if the first is a 1, "2e-13", "1.2"; "0": exact; "—": not known.
 std::string error_text(double error);
-// SI to a unit in which gears are told: 1000 for "mm" and "mrad".
+// Factor from SI to a unit used for gears: 1000 for "mm" and "mrad".
 double in_unit(const std::string& unit);
 
-// A row a quantity: name, symbol, a value of each thing, the largest error of them, unit. For programs a record a thing, with
-// KEY and KEY_error.
+// One row per quantity: name, symbol, a value for each object, their largest error, unit. For programs a record per
+// object, with KEY and KEY_error.
 template <class T>
 class MeasuredQuantities {
  public:
@@ -82,7 +82,7 @@ class MeasuredQuantities {
                                Read read = {}) {
     return add<Of>(key, {std::move(name), std::move(symbol)}, std::move(unit), get, read, error_);
   }
-  // Of an error that is not that of rounding.
+  // For an error other than rounding.
   template <class Of, class Read = ReadAs>
   MeasuredQuantities& quantity_with(ErrorOf error, const std::string& key, std::string name, std::string symbol,
                                     std::string unit, Of get, Read read = {}) {
@@ -101,7 +101,7 @@ class MeasuredQuantities {
   const std::vector<Record>& records() const { return records_; }
 
  private:
-  // Numbers; what is counted or is so or not has no error.
+  // Floating-point results have an error; counts and flags do not.
   template <class Of>
   static constexpr bool is_measured = std::is_floating_point_v<std::decay_t<std::invoke_result_t<Of, const T&>>>;
 

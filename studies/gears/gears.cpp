@@ -23,7 +23,7 @@ GearStage stage_of(const std::string& name, GearPair pair, std::optional<double>
   return stage;
 }
 
-// The stages of one gearbox; the speed goes on from stage to stage.
+// The stages of one gearbox; the speed is transmitted from stage to stage.
 void add_gearbox(const std::string& gearbox, const GearStages& given, std::optional<double> speed, Gears& gears,
                  std::vector<std::string>& without_module) {
   for (std::size_t k = 0; k < given.stages.size(); ++k) {

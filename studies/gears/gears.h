@@ -1,4 +1,4 @@
-// gears.h — the gear pairs of a scene, or one alone: geometry, verdicts, and what they give to the drive.
+// gears.h — the gear pairs of a scene, or a single pair: geometry, verdicts, and parameters for the drive.
 #pragma once
 
 #include <functional>
@@ -19,22 +19,22 @@ struct GearStage {
   MeshStiffness stiffness;
   std::vector<GearVerdict> verdicts;
   std::optional<double> speed = {};  // of wheel 1 [rad/s]
-  Moved<GearPair> moved = {};        // what its figures' errors are found by
+  Moved<GearPair> moved = {};        // for the errors of its figures
 
-  // What rounding may have done to a figure of the pair, in its unit; NaN: not known.
+  // Rounding error of a figure of the pair, in its unit; NaN: not known.
   template <class Get>
   double error_of(Get get, double terms = 0) const {
     return error_by_rounding(pair, moved, get, terms);
   }
 };
 
-// Stiffness after ISO 6336-1 B lies between −8 % and +5 % of it for loads of 100 … 1600 N/mm (as it is quoted; the standard itself was not at hand),
-// for pairs that the method was fitted for; of others nothing is known (NaN).
+// Error of the stiffness after ISO 6336-1 B: −8 % … +5 % for loads of 100 … 1600 N/mm (as quoted; the standard itself
+// was not available), within the range of the method; otherwise unknown (NaN).
 double stiffness_error(const MeshStiffness& stiffness, double value);
-// A wheel's moment of inertia by straight pieces of its outline: their number doubled, twice the difference, and
-// rounding.
+// Error of a wheel's moment of inertia computed from a polygonal outline: twice the change when the number of
+// segments is doubled, plus rounding.
 double inertia_error(const GearStage& stage, std::size_t wheel);
-// Of j_bn, j_wt and what is made of them: what is below 10⁻¹² modules is told as none.
+// Of j_bn, j_wt and derived values: values below 10⁻¹² modules are reported as zero.
 double backlash_error(const GearStage& stage, const std::function<double(const GearPair&)>& get);
 
 struct Gears {
@@ -52,8 +52,8 @@ template <class Asked>
 class OptionsOf;
 const OptionsOf<GearsOptions>& gears_options();
 
-// Every stage of the scene's gearboxes whose module is given. Throws std::invalid_argument in words where there is
-// none, or none of that name.
+// Every stage of the scene's gearboxes whose module is given. Throws std::invalid_argument with the reason if there
+// is none, or none of that name.
 Gears find_gears(const Scene& scene, const GearsOptions& options);
 
 // A pair without a scene. Throws std::invalid_argument.

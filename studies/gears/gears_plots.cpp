@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "studies/findings/plots.h"
+#include "studies/gears/rack_cutting.h"
 
 namespace kurbel {
 namespace {
@@ -121,8 +122,14 @@ GearView drawing_of(const GearStage& s) {
 }
 
 std::vector<Plot> plots_of(const GearStage& s) {
-  return {sliding_plot(s), specific_plot(s.pair), thickness_plot(s.pair.wheel[0], 0),
-          thickness_plot(s.pair.wheel[1], 1)};
+  std::vector<Plot> list;
+  for (const int i : {0, 1})
+    if (const MeshedWheel& w = s.pair.wheel[static_cast<std::size_t>(i)]; !w.internal())
+      list.push_back(cutting_plot(w, i + 1));
+  for (Plot& plot : std::vector<Plot>{sliding_plot(s), specific_plot(s.pair), thickness_plot(s.pair.wheel[0], 0),
+                                      thickness_plot(s.pair.wheel[1], 1)})
+    list.push_back(std::move(plot));
+  return list;
 }
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// gears_plots.h — the turning drawing of a gear pair, and plots along its path of contact.
+// gears_plots.h — the animated drawing of a gear pair, and plots along its path of contact.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace kurbel {
 
-// Places along the path of contact, both ends [m].
+// Points along the path of contact, including both ends [m].
 std::vector<double> along_path(const GearPair& pair);
 
 GearView drawing_of(const GearStage& stage);

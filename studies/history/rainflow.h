@@ -9,13 +9,12 @@ struct LoadCycle {
   double range = 0, mean = 0, count = 0;  // count ½ or 1
 };
 
-// Ranges in the order in which the rules close them. Values between reversals do not matter. A turn back by no more than
-// `least` is none: without it the ripple of rounding about a settled load counts as cycles, and the more of them the
-// finer it is sampled.
+// Ranges in the order in which the rules close them. Values between reversals have no effect. Reversals up to `least`
+// are ignored: otherwise rounding errors about a settled load would count as cycles, the more the finer the sampling.
 std::vector<LoadCycle> rainflow(const std::vector<double>& history, double least = 0);
 
-// Amplitude of as many equal full cycles as are counted that does the same damage at a Wöhler exponent m > 0:
-// (Σ n (range/2)^m/Σ n)^(1/m); 0 without cycles.
+// Amplitude of the same number of equal full cycles with the same damage at a Wöhler exponent m > 0: (Σ n
+// (range/2)^m/Σ n)^(1/m); 0 without cycles.
 double equivalent_amplitude(const std::vector<LoadCycle>& cycles, double exponent);
 
 }  // namespace kurbel

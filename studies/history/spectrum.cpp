@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-// A sine near a spectrum's k-th line, which is higher than its neighbours.
+// A sine near the k-th line of a spectrum, a local maximum.
 SpectralLine located(const AmplitudeSpectrum& s, std::size_t k) {
   const double before = s.amplitude[k - 1], here = s.amplitude[k], after = s.amplitude[k + 1];
   const double sense = after >= before ? 1 : -1, ratio = std::max(before, after) / here;
@@ -23,7 +23,7 @@ SpectralLine located(const AmplitudeSpectrum& s, std::size_t k) {
   return {{(static_cast<double>(k) + sense * delta) * s.resolution, 0.0}, {here / gain, 0.0}};
 }
 
-// By amplitude; what lies within two lines of 0 is the mean's.
+// By amplitude; lines within two lines of 0 belong to the mean.
 std::vector<SpectralLine> lines_in(const AmplitudeSpectrum& s) {
   std::vector<SpectralLine> lines;
   for (std::size_t k = 2; k + 1 < s.amplitude.size(); ++k)
@@ -42,7 +42,7 @@ AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step) {
   std::size_t n = 16;
   while (2 * n <= values.size()) n *= 2;
   const std::vector<double> tail(values.end() - static_cast<std::ptrdiff_t>(n), values.end());
-  // The mean as the window sees it, so that it leaks into no line.
+  // The mean weighted by the window, so that it leaks into no line.
   std::vector<double> window(n), windowed(n);
   double weight = 0, mean = 0;
   for (std::size_t k = 0; k < n; ++k) {
@@ -97,7 +97,7 @@ std::vector<double> resampled_over_angle(const std::vector<double>& angle, const
     if (b <= a) continue;
     for (; next <= b; next += step) {
       if (next < a) continue;
-      // Cubic through four neighbours (Lagrange); where the angle does not grow throughout, straight.
+      // Cubic interpolation through four neighbours (Lagrange); linear where the angle is not monotonic.
       const double x[4] = {angle[i - 1], a, b, angle[i + 2]};
       double sum = 0;
       if (x[0] < a && b < x[3]) {

@@ -1,40 +1,39 @@
-// spectrum.h — frequencies and orders of a simulated torque: whole run, and by speed along a run-up.
+// spectrum.h — frequencies and orders of a simulated torque: over the whole run, and over speed along a run-up.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "engine/base/estimate.h"
 
 namespace kurbel {
 
-// Amplitudes over frequency (or order) of evenly sampled values: Hann window, amplitudes of sines kept. Mean removed.
+// Amplitudes over frequency (or order) of equidistant values: Hann window, scaled to amplitudes of sines. Mean removed.
 struct AmplitudeSpectrum {
-  std::vector<double> frequency;  // [Hz], or orders where sampled over turns
+  std::vector<double> frequency;  // [Hz], or orders if sampled over turns
   std::vector<double> amplitude;  // in the values' unit
-  double resolution = 0;          // distance of two lines
+  double resolution = 0;          // distance between lines
 };
 
-// values at distance `step` [s, or turns]. Takes the largest power of two of them from the end. Throws
-// std::invalid_argument for fewer than 16 values or a step that is not > 0.
+// Values at distance `step` [s, or turns]; the last power of two of them is used. Throws std::invalid_argument for
+// fewer than 16 values or a step that is not > 0.
 AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step);
 
-// A sine among the values, located between the lines of Hann's window (theory 15.3), which gives two of them the ratio
+// A sine among the values, located between the lines of a Hann window (theory 15.3) by the ratio of two of them,
 //     |X_(k+1)|/|X_k| = (1 + δ)/(2 − δ),   |X_k| = A sin(πδ)/(πδ (1 − δ²))
-// where it lies δ lines above the k-th, alone. What another sine, a decay or a change of frequency does to it is seen in
-// three windows half as long, the first half of the whole, its middle and its last: twice the greatest difference is the
-// error, for they may happen to see none of it.
+// if it lies δ lines above the k-th, alone. The influence of other sines, decay or change of frequency is estimated
+// from three windows half as long (first half, middle, last half): the error is twice the greatest difference, since
+// each of them may miss it by chance.
 struct SpectralLine {
   Estimate frequency;  // [Hz], or orders
   Estimate amplitude;  // in the values' unit
 };
 
-// The strongest ones, the strongest first; none of fewer than 32 values. A line's greatest amplitude alone would lack up
-// to 15 % of a sine between two lines.
+// The strongest lines in descending order; none for fewer than 32 values. The greatest amplitude of a line alone may
+// be up to 15 % too small for a sine between two lines.
 std::vector<SpectralLine> strongest_lines(const std::vector<double>& values, double step, std::size_t count);
 
-// Errors at least twice the distances to what another spectrum of the same has there: all of the amplitude where that
-// has nothing.
+// Increases errors to at least twice the differences to another spectrum of the same quantity: to the whole amplitude
+// if it has no such line.
 void widen_errors(std::vector<SpectralLine>& lines, const AmplitudeSpectrum& other);
 
 // The same quantity, sampled at equal steps of the angle by cubic interpolation, while the angle grows.

@@ -1,4 +1,4 @@
-// torque_history.cpp — runs the scene, reads the torque off its samples, and takes it apart.
+// torque_history.cpp — runs the scene, reads the torque from its samples, and analyses it.
 #include "studies/history/torque_history.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ Scene recorded(Scene scene, const HistoryWanted& wanted, const std::string& comp
   return scene;
 }
 
-// Samples of the first of these channels that is there.
+// Samples of the first of these channels that exists.
 std::vector<double> column(const TrajectoryRecorder& t, const std::vector<Name>& names, const std::string& asked) {
   for (const Name& name : names)
     for (std::size_t k = 0; k < t.channels().size(); ++k)
@@ -44,8 +44,8 @@ std::vector<double> every_second(const std::vector<double>& values) {
   return thinned;
 }
 
-// How far a smooth quantity may rise between the samples about its greatest (sense = 1) or least one (−1): the parabola
-// through three has its vertex within half a step of the middle one, |second difference|/8 away at most.
+// Bound on how far a smooth quantity exceeds the samples about its greatest (sense = 1) or least one (−1): the
+// parabola through three has its vertex within half a step of the middle one, at most |second difference|/8 away.
 double hidden(const std::vector<double>& values, double sense) {
   const auto less = [sense](double a, double b) { return sense * a < sense * b; };
   const auto i = static_cast<std::size_t>(std::max_element(values.begin(), values.end(), less) - values.begin());
@@ -53,14 +53,14 @@ double hidden(const std::vector<double>& values, double sense) {
   return std::abs(values[i - 1] - 2 * values[i] + values[i + 1]) / 8;
 }
 
-// The run locates its peak on the continuous solution; the other extreme is that of the samples.
+// The run locates its peak on the continuous solution; the other extreme is taken from the samples.
 void find_extremes(TorqueHistory& h, const Figure* peak) {
   const auto [low, high] = std::minmax_element(h.value.begin(), h.value.end());
   h.greatest = {*high, h.run_error};
   h.least = {*low, h.run_error};
   if (h.run_error) h.greatest.widen(hidden(h.value, 1)), h.least.widen(hidden(h.value, -1));
   if (!peak) return;
-  // What comes later and is larger by rounding is the same peak.
+  // A later value that is larger by rounding belongs to the same peak.
   const double most = std::abs(peak->value);
   h.greatest.value = std::min(h.greatest.value, most);
   h.least.value = std::max(h.least.value, -most);
@@ -93,7 +93,7 @@ std::vector<double> over_turns(std::vector<double> angle, const std::vector<doub
   return resampled_over_angle(angle, values, 2 * pi * turns);
 }
 
-// Orders of the link's turn; what half as many samples give counts as error, too.
+// Orders of the link's rotation; the change with half as many samples counts as error, too.
 void find_orders(TorqueHistory& h) {
   constexpr double turns = 1.0 / 64;
   const std::vector<double> resampled = over_turns(h.angle, h.value, turns);

@@ -1,8 +1,8 @@
-// torque_history.h — a torque of the simulated scene over time, and what it is made of.
+// torque_history.h — a torque of the simulated scene over time, and its components in frequency.
 //
-// The run is that of `kurbel run`: the same start, operating sequence, contacts, and effects, tightened until its
-// figures are confirmed. What is read off its samples has an error of two parts: what the run's torque lacks, measured
-// at its peak, and twice what half as many samples, or half the window, change.
+// The run is that of `kurbel run`: the same start, operating sequence, contacts and effects, with tolerances reduced
+// until its figures are confirmed. Results from its samples have an error of two parts: the error of the run's
+// torque, measured at its peak, and twice the change with half as many samples or half the window.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@
 namespace kurbel {
 
 struct TorqueHistory {
-  std::string component;  // whose torque it is
+  std::string component;  // the component of the torque
   std::string channel;
   std::vector<double> time, speed, angle, value;  // speed and angle of the reduction link
   AmplitudeSpectrum spectrum, orders;
@@ -26,20 +26,20 @@ struct TorqueHistory {
   std::vector<LoadCycle> cycles;  // of more than `resolution` in range, the largest first
   Estimate greatest, least;
   Estimate equivalent_amplitude;    // of the cycles at m = 5
-  std::optional<double> run_error;  // of the torque [N·m]; empty: the run was not confirmed, and no error is known
-  double resolution = 0;            // ranges up to this are the run's error, or no run tells
+  std::optional<double> run_error;  // of the torque [N·m]; empty: the run was not confirmed, its error is unknown
+  double resolution = 0;            // smaller ranges are below the run's error, or unknown
   bool complete = true;
   std::string diagnosis;
 };
 
 struct HistoryWanted {
   std::string torque;  // of a component: "main_coupling"
-  std::string link;    // component whose turns the orders count
-  double highest = 0;  // samples are enough for swings of up to this [rad/s]
+  std::string link;    // component whose turns define the orders
+  double highest = 0;  // highest frequency that the samples must resolve [rad/s]
   Watch watch = {};
 };
 
-// Throws std::invalid_argument where the scene has no such torque, SceneError where it makes no machine.
+// Throws std::invalid_argument if the scene has no such torque, SceneError if it makes no machine.
 TorqueHistory simulate_torque(const Scene& scene, const Effects& effects, const HistoryWanted& wanted);
 
 // Wöhler exponent of `equivalent_amplitude`.

@@ -1,4 +1,4 @@
-// barred_ranges.cpp — along the sweep over the speeds, joint by joint: where is a load beyond what it may be?
+// barred_ranges.cpp — finds along the speed sweep, joint by joint, where a load exceeds its allowable value.
 #include "studies/limits/barred_ranges.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr double nothing = 1e-6;     // of the rated torque: a swing below it is none
 constexpr double end_within = 1e-6;  // of the limit: where the load is so near to it, a range ends
 
-// A load against what it may be [N·m].
+// A load and its allowable value [N·m].
 struct Use {
   double load = 0, limit = 0;
   std::string reason;
@@ -23,8 +23,8 @@ struct Use {
   double share() const { return limit > 0 ? load / limit : load > 0 ? HUGE_VAL : 0; }
 };
 
-// By the limit that is used most; factors of a standard are taken from the limit, so that loads are torques. Not by T_KN: at speeds that the machine does not keep its mean torque is what drive and
-// load leave over for accelerating, not what it would be where the speed is held.
+// By the limit with the highest utilisation; factors of a standard reduce the limit, so that loads are torques. Not by T_KN: at
+// speeds that are not held, the mean torque is the accelerating excess of drive over load, not that at constant speed.
 Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
   const DriveLimits& l = joint.limits;
   Use most{0, HUGE_VAL, ""};
@@ -42,7 +42,7 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
     consider(amplitude,
              amplitude * *l.shaft.endurance * l.polar_modulus / l.shaft.fatigue_stress(amplitude, load.middle().value),
              "endurance_limit");
-  // Heat grows with the square of the swing.
+  // Heat grows with the square of the amplitude.
   if (l.power > 0 && load.power.value > 0)
     consider(load.swing.value, load.swing.value * std::sqrt(l.power / load.power.value), "dissipated_power");
   return most;
@@ -98,7 +98,7 @@ class Along {
     range.everywhere = range.from <= sweep_.front().speed && range.to >= sweep_.back().speed;
     out_.push_back(std::move(range));
   }
-  // Straight between two points of the sweep, or where the excess vanishes.
+  // By linear interpolation between two points of the sweep, or at the root of the excess.
   double edge_between(std::size_t i, const Use& before, const Use& now) const {
     const double a = sweep_[i - 1].speed, b = sweep_[i].speed, fa = before.excess(), fb = now.excess();
     if (!std::isfinite(fa) || !std::isfinite(fb)) return std::isfinite(fa) ? a : b;
@@ -120,7 +120,7 @@ class Along {
   std::vector<BarredRange>& out_;
 };
 
-// A resonance within the sweep bars at least what the rule says around it; ranges that meet become one.
+// A resonance within the sweep bars at least the range of the rule; touching ranges are merged.
 void bar_by_class(const LimitedJoint& joint, std::size_t j, const std::vector<SpeedLoads>& sweep,
                   const std::function<std::vector<JointLoad>(double)>& at, std::vector<BarredRange>& out) {
   std::vector<BarredRange> found;

@@ -1,13 +1,13 @@
-// barred_ranges.h — speeds at which the drive must not run for long.
+// barred_ranges.h — speed ranges in which the drive must not run continuously.
 //
-// A joint with limits is barred where its steady load exceeds any of them but T_KN (theory 12.9). One without is barred
-// by a rule:
+// A joint with limits is barred where its steady load exceeds any of them except T_KN (theory 12.9). A joint without
+// limits is barred by a rule:
 //     T_W > f · max(|T_mean|, T_rated)                                                 (theory 12.12)
-// Loads are torques without factors of a standard, which make the limit smaller instead: T_W ≤ T_KW/(S_t S_f).
-// A ship's shaft is barred where its stress exceeds τ_C of UR M68, which falls with the speed; around a resonance from
-// 16 n_c/(18 − λ_c) to (18 − λ_c) n_c/16 at the least (drivetrain/couplings/shaft_rating.h).
-// T_rated: the drive's rated torque, reduced to this joint; it does not vanish with the mean. Where the halves of a joint
-// may part and its torque changes sign, T_W > |T_mean|, it hammers: told apart.
+// Loads are torques without the factors of a standard; these reduce the limit instead: T_W ≤ T_KW/(S_t S_f).
+// A ship's shaft is barred where its stress exceeds τ_C of UR M68, which falls with the speed; around a resonance at
+// least from 16 n_c/(18 − λ_c) to (18 − λ_c) n_c/16 (drivetrain/couplings/shaft_rating.h).
+// T_rated: the drive's rated torque, reduced to this joint; it does not vanish with the mean. A joint with backlash
+// whose torque changes sign, T_W > |T_mean|, hammers: reported separately.
 #pragma once
 
 #include <functional>
@@ -22,11 +22,11 @@ struct BarredRange {
   enum class By { limit, rule, sign };
   std::size_t joint = 0;
   double from = 0, to = 0;     // [rad/s]
-  double limit = 0, peak = 0;  // where it is exceeded most [N·m]
+  double limit = 0, peak = 0;  // at the largest excess [N·m]
   std::string reason;          // "vibratory_torque", "1 × rated torque", "torque changes sign", …
   By by = By::limit;
-  bool everywhere = false;  // no speed of the range looked at is free of it
-  double worst = 0;         // speed where the limit is exceeded most [rad/s]
+  bool everywhere = false;  // the whole examined range is barred
+  double worst = 0;         // speed of the largest excess [rad/s]
 };
 const char* name_of(BarredRange::By by);
 
@@ -36,17 +36,17 @@ struct SpeedLoads {
   std::vector<JointLoad> joints;
 };
 
-// `sweep` by ascending speed. Ends of ranges lie between two of its points: found by roots where `at` tells the loads
-// at any speed, else straight between them.
+// `sweep` by ascending speed. Ends of ranges between two of its points are found as roots if `at` gives the loads at
+// any speed, otherwise by linear interpolation.
 std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, const std::vector<SpeedLoads>& sweep,
                                        double factor,
                                        const std::function<std::vector<JointLoad>(double speed)>& at = {});
 
-// How much of what it may bear a joint bears at one speed of the link: of the limit that is used most, without limits of
-// the rule's.
+// Load of a joint over its allowable load at one speed of the link: for the limit with the highest utilisation;
+// without limits, for that of the rule.
 double share_of_bearable(const LimitedJoint& joint, const JointLoad& load, double speed, double factor);
 
-// The one that exceeds its limit most, those by limits first; null: none.
+// The range with the largest excess, those by limits first; null: none.
 const BarredRange* worst_of(const std::vector<BarredRange>& ranges);
 
 }  // namespace kurbel

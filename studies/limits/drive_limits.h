@@ -1,4 +1,4 @@
-// drive_limits.h — what the joints of a drive may bear, as the scene's components state it.
+// drive_limits.h — allowable loads of a drive's joints, from the scene's components.
 #pragma once
 
 #include <string>
@@ -20,15 +20,15 @@ struct DriveLimits : CouplingLimits {
 };
 
 struct LimitedJoint {
-  std::string name;  // of its component; numbered where that has several: "shaft.2"
+  std::string name;  // of its component; numbered if it has several: "shaft.2"
   std::string component;
   int joint = 0;          // in the network
-  ToldTorque told = {};   // of it
-  bool stands = false;    // it holds what does not turn, a housing: the drive's rated torque says nothing of it
+  ToldTorque told = {};   // the joint's torque
+  bool stands = false;    // it holds a stationary part (housing): the drive's rated torque does not apply
   double rated = 0;       // torque of the drive at its rated point, reduced to this joint [N·m]
   double turns = 0;       // its speed over the reduction link's
-  bool has_play = false;  // backlash is stated: where its torque changes sign, it hammers
-  int loss_account = -1;  // of what its damping takes; −1: none
+  bool has_play = false;  // backlash is given: it hammers when its torque changes sign
+  int loss_account = -1;  // of its damping losses; −1: none
   DriveLimits limits = {};
 
   // Of UR M68, at a speed of the link [rad/s].
@@ -39,7 +39,7 @@ struct LimitedJoint {
 
 // Of all elastic joints of a model, in its order.
 std::vector<LimitedJoint> limited_joints(const Model& model);
-// The same joints in a model of the same scene with other effects, whose network may be numbered otherwise.
+// The same joints in a model of the same scene with other effects, whose network may have other numbers.
 std::vector<LimitedJoint> joints_of(const Model& other, const std::vector<LimitedJoint>& joints);
 bool any_limits(const std::vector<LimitedJoint>& joints);
 

@@ -27,7 +27,7 @@ void HeatRecorder::begin(double /*t*/, std::span<const double> y, Equations& equ
 }
 
 void HeatRecorder::step(StepView& view) {
-  // Below this share of the heat so far a step has made none: rounding of the quadrature.
+  // Below this fraction of the heat so far a step generates none: rounding of the quadrature.
   constexpr double nothing = 1e-13;
   for (Heated& h : heated_) {
     const double now = heat_of(h, view.y(), view.equations()), made = now - h.before;

@@ -1,4 +1,4 @@
-// heat_recorder.h — an observer of what slips: its heat by engagements, and how long it slips.
+// heat_recorder.h — an observer of slipping components: heat per engagement, and slip time.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace kurbel {
 
-// An engagement lasts from where a component begins to turn work into heat to where it ends that: by locking, by rest,
-// by its release. Its heat is what the component's harmful work says, no second physics. Of named components only.
+// An engagement lasts from the begin of heat generation in a component to its end by locking, standstill or release.
+// Its heat is the component's harmful work, with no separate model. Only for named components.
 class HeatRecorder final : public Observer {
  public:
   struct Heated {
@@ -17,7 +17,7 @@ class HeatRecorder final : public Observer {
     std::vector<std::size_t> accounts = {};             // its harmful works
     double total = 0, largest = 0;                      // heat of the run, of the hottest engagement [J]
     double slips = 0;                                   // time in which it made heat [s]
-    double before = 0, engagement = 0, hottest_at = 0;  // heat seen [J], of the engagement under way [J]; its end [s]
+    double before = 0, engagement = 0, hottest_at = 0;  // heat so far, of the current engagement [J]; hottest: end [s]
     void remember(Tape& tape) { tape(total, largest, slips, before, engagement, hottest_at); }
   };
   explicit HeatRecorder(const std::vector<std::string>& components);

@@ -1,4 +1,4 @@
-// joint_loads.cpp — a round of the steady motion is run once more; integrals by Gauss's rule within every step.
+// joint_loads.cpp — integrates one more period of the steady motion; integrals by Gauss's rule within every step.
 #include "studies/limits/joint_loads.h"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/follow_period.h"
-#include "engine/run/recorders.h"
 #include "engine/values/dense_tables.h"
 
 namespace kurbel {
@@ -41,7 +40,7 @@ class Integrals final : public Observer {
   double turned() const { return turned_; }
   double slowest() const { return slowest_; }
 
-  // Pieces so short that the highest harmonic makes no more than half a turn in one.
+  // Intervals in which the highest harmonic turns by at most half a turn.
   void step(StepView& view) override {
     const double a = view.t_previous(), h = view.t() - a;
     const int pieces = 1 + static_cast<int>(2 * harmonics * h / round_);
@@ -72,7 +71,7 @@ class Integrals final : public Observer {
   double turned_ = 0, slowest_ = HUGE_VAL;
 };
 
-// S_f and the strongest frequency of a swing; what lies above the harmonics, by Parseval, counts as just above them.
+// S_f and the strongest frequency of an alternating torque; the part above the harmonics (Parseval) counts as just above.
 void add_frequencies(const Integrals::Sums& sums, double time, double noise, JointLoad& load) {
   const double mean = sums.first / time, rounded = 1e-12 * mean * mean;
   const double all = std::max(0.0, 2 * (sums.square / time - mean * mean));
@@ -90,7 +89,7 @@ void add_frequencies(const Integrals::Sums& sums, double time, double noise, Joi
   if (!(sum > noise * noise)) load.frequency = 0;  // it does not swing
 }
 
-// Once round from a fixed point.
+// One period from a fixed point.
 SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::vector<LimitedJoint>& joints,
                    double tolerance) {
   const Model& m = map.model();
@@ -130,19 +129,19 @@ SteadyLoads follow_loosely(const Orbit& orbit, const std::vector<LimitedJoint>& 
 constexpr std::array<Estimate JointLoad::*, 6> measured = {&JointLoad::mean,  &JointLoad::upper,    &JointLoad::lower,
                                                            &JointLoad::swing, &JointLoad::weighted, &JointLoad::power};
 
-// `open`: part of the rated torque that the search leaves open, or that dense tables are off by.
+// `open`: fraction of the rated torque left uncertain by the search or by dense tables.
 void add_errors(const SteadyLoads& other, double open, const std::vector<LimitedJoint>& joints, SteadyLoads& loads) {
   for (std::size_t i = 0; i < loads.joints.size(); ++i)
     for (const auto what : measured) {
       Estimate& value = loads.joints[i].*what;
       const double scale = what == &JointLoad::power ? std::abs(value.value) : joints[i].rated;
       value.error = (rounding + open) * std::max(scale, std::abs(value.value));
-      // Without a second one the figure is only known as far as the search was asked to go.
+      // Without a second one the error of the figure is the accuracy of the search.
       value.widen(other.found ? std::abs(value.value - (other.joints[i].*what).value) : 1e-4 * std::abs(value.value));
     }
 }
 
-// All speeds keep, and nothing comes round: the torques of that moment.
+// All speeds are constant and nothing repeats: the torques of that moment.
 SteadyLoads constant_loads(const Orbit& orbit, const std::shared_ptr<const Model>& machine,
                            const std::vector<LimitedJoint>& joints) {
   Equations equations(machine, false);
@@ -184,7 +183,7 @@ SteadyLoads steady_loads(const Orbit& orbit, const std::shared_ptr<const Model>&
                (orbit.polished ? 0 : orbit.still_changes) + left_by_tables(machine->scene), joints, loads);
     return loads;
   }
-  // What comes to rest does its work before: that is no lasting load.
+  // A machine that comes to rest does its work before: that is no lasting load.
   if (orbit.kind != Orbit::Kind::equilibrium) return {.words = orbit.words};
   SteadyLoads loads = constant_loads(orbit, machine, joints);
   add_errors(loads, 1e-9, joints, loads);

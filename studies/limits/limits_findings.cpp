@@ -26,7 +26,7 @@ Tone tone_of(Compliance state) {
                                              : Tone::fair;
 }
 
-// The load without its factors, with its error where that shows.
+// The load without its factors, with its error if visible.
 std::string load_text(const Verdict& v) {
   if (!v.assessed) return "—";
   const ReadableUnit unit = readable_unit(v.limit, v.unit);
@@ -36,7 +36,7 @@ std::string load_text(const Verdict& v) {
   return fmt::format("{} ± {} {}", value, read_as(unit.factor * v.error / v.factor, {.digits = 2}), unit.unit);
 }
 
-// A rule that bars all speeds tells no range to keep away from; it stands in the notes.
+// A rule that bars all speeds gives no range to avoid; it is in the notes.
 bool is_told_first(const BarredRange& b) { return !(b.everywhere && b.by == BarredRange::By::rule); }
 
 std::string range_text(const BarredRange& b, const SpeedUnit& unit) {
@@ -49,7 +49,7 @@ std::string excess_text(const BarredRange& b) {
   return fmt::format(": up to {} where {} are allowed", told_shortly(b.peak, "N*m"), told_shortly(b.limit, "N*m"));
 }
 
-// Ranges of several joints that overlap are one to keep away from.
+// Overlapping ranges of several joints count as one.
 std::size_t number_apart(std::vector<BarredRange> ranges) {
   std::sort(ranges.begin(), ranges.end(), [](const BarredRange& a, const BarredRange& b) { return a.from < b.from; });
   std::size_t number = 0;
@@ -61,7 +61,7 @@ std::size_t number_apart(std::vector<BarredRange> ranges) {
   return number;
 }
 
-// A limit's key as people read it: "vibratory torque".
+// A limit's key in words: "vibratory torque".
 std::string in_words(std::string key) {
   std::replace(key.begin(), key.end(), '_', ' ');
   return key;
@@ -72,7 +72,7 @@ std::string in_words(std::string key) {
 std::string reason_in_words(const BarredRange& range) { return in_words(range.reason); }
 
 Rows verdict_table(const std::vector<Verdict>& verdicts) {
-  // What matters first: a narrow page shows the left of it.
+  // The most important column first, as a narrow page shows the left part.
   constexpr std::size_t at_use = 1;
   Rows table =
       table_of("verdicts", "Limits of the components", verdicts)

@@ -1,4 +1,4 @@
-// ratings.cpp — figures of what is rated, and the verdicts on them.
+// ratings.cpp — figures of rated components, and the verdicts on them.
 #include "studies/limits/ratings.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace kurbel {
 namespace {
 
-// A component's own, or that of one of its segments; a continuous shaft is judged by the torque in its middle.
+// The component's own joint, or one of its segments; a continuous shaft is assessed by the torque at its middle.
 bool is_joint_of(const std::string& joint, const std::string& component) {
   if (joint == component) return true;
   return joint.starts_with(component + ".") && !joint.ends_with(".in") && !joint.ends_with(".out");
@@ -34,7 +34,7 @@ std::string load_case_at(const Result& r, std::optional<double> at) {
   if (!at || !r.model || r.begins_at > 0) return load_case::run;
   const std::vector<SequenceStep>& steps = r.model->scene.sequence.steps;
   std::size_t taken = 0, told = 0;  // steps; commands of the one under way
-  // Those that are due at the start leave no event.
+  // Steps due at the start have no event.
   const auto due_at_once = [](const SequenceStep& step) {
     return (step.when == SequenceStep::When::at || step.when == SequenceStep::When::after) && step.value <= 0;
   };
@@ -51,7 +51,7 @@ std::string load_case_at(const Result& r, std::optional<double> at) {
   return p.run_up_end && *at <= *p.run_up_end ? load_case::start : load_case::steady;
 }
 
-// What would mend a verdict: words, and where it is a key's value that.
+// Remedy of a verdict: words, and the key's value if there is one.
 struct Mend {
   std::string words = {};
   std::optional<Remedy> remedy = {};
@@ -59,7 +59,7 @@ struct Mend {
   std::string more = {};  // behind the words of a remedy
 };
 
-// What a run found of one component, against what it states.
+// Results of a run for one component, against its ratings.
 class Rater {
  public:
   Rater(const Result& result, const std::string& component, const std::string& only_case, std::vector<Verdict>& out)
@@ -87,7 +87,7 @@ class Rater {
     return only_case_.empty() ? load_case_at(result_, at) : only_case_;
   }
   bool is_steady(std::optional<double> at) const { return load_case_of(at) == load_case::steady; }
-  // `mends` tells what would hold; it gets how many times too large the value may be.
+  // `mends` gives the remedy for the factor by which the value may be too large.
   template <class Mends>
   Verdict& add(const char* requirement, const Estimate& value, std::optional<double> at, double limit, const char* unit,
                const Mends& mends) {
@@ -106,7 +106,7 @@ class Rater {
     out_.push_back(std::move(v));
     return out_.back();
   }
-  // The value that was found by computing the machine with it; not finite: none was, and what is known is an estimate.
+  // The value found by computing the machine with it; not finite: none was found, and the remedy is an estimate.
   void take_tried(Verdict& v) const {
     const auto found = result_.remedies_tried.find(name_of_remedy(v));
     if (found != result_.remedies_tried.end() && std::isfinite(found->second))
@@ -154,7 +154,7 @@ class Rater {
       if (joint.component == component_ && joint.element) return joint.element->capacity;
     return 0;
   }
-  // Null: it holds while it is closed.
+  // Null: it holds while closed.
   const Claim* slips_closed() const {
     const auto found = std::find_if(result_.claims.begin(), result_.claims.end(), [&](const Claim& c) {
       return c.of == component_ &&
@@ -178,7 +178,7 @@ class Rater {
     if (b.reserve && peak) {
       const bool slips = std::abs(peak->value) >= b.limit * (1 - 1e-9);
       add("reserve against slip: S |τ| ≤ M", *b.reserve * abs(*peak), peak->at, b.limit, "N*m", [&](double times) {
-        // A belt that slips limits its torque: what it would have to transmit is not known.
+        // A slipping belt limits its torque: the torque without slip is not known.
         if (slips) return Mend{.more = "; the belt slips, so that the torque without slip is larger and not known"};
         return Mend{.remedy = remedy("pretension", b.pretension * times, "N")};
       });
@@ -186,7 +186,7 @@ class Rater {
     }
   }
 
-  // Of its segments.
+  // Over its segments.
   const Figure* largest_torque() const {
     const Figure* largest = nullptr;
     for (const Figure& f : result_.figures)
@@ -195,7 +195,7 @@ class Rater {
     return largest;
   }
 
-  // S_z is of starts. DIN 740-2: where they weigh more than the mean torque, how much of that acts is not known here, and none counts.
+  // S_z is for starts. DIN 740-2: where they exceed the mean torque, the acting part of that is unknown here, and none counts.
   void coupling(const CouplingLimits& limits) {
     const Figure* largest = largest_torque();
     if (limits.maximum > 0 && largest) {
@@ -231,7 +231,7 @@ class Rater {
     if (factor != 1) v.factors = fmt::format("K_A = {:g}", factor);
   }
 
-  // The extremes of the whole run, start included: no endless alternation, but no less than that of any part of it.
+  // The extremes of the whole run including the start: not repeated continuously, but a bound for every part of it.
   void cycle_of_stress(const ShaftKeys& shaft) {
     const double modulus = shaft.polar_modulus();
     JointLoad widest, largest;
@@ -293,7 +293,7 @@ class Rater {
     const auto mends = [&](double times) {
       return Mend{fmt::format("by an estimate it holds from a rated torque of {:.4g} N·m on", enough(rated * times))};
     };
-    // Continuous duty is that of the steady motion, where the run comes to one: a start is soon forgotten.
+    // Continuous duty is that of the steady motion, if the run reaches it: the heating of a start decays.
     const bool continuous = !rating.duty.time && !rating.duty.share && result_.find(quantities::run_up_time, "");
     if (const Figure* use = continuous ? found("thermal_use." + component_) : nullptr) {
       const bool changes = result_.model && !result_.model->commands.empty();
@@ -301,7 +301,7 @@ class Rater {
                   : "RMS torque of the steady cycle: √(∫ M² dt/T) ≤ M_N",
           rated * abs(*use), use->at, rated, "N*m", mends);
     } else {
-      // What makes the same heat ∫ M² dt as M_N in the time for which it is stated.
+      // The same heat ∫ M² dt as M_N during the rated time.
       const double span = result_.until - result_.begins_at,
                    part = rating.duty.time ? *rating.duty.time / span : rating.duty.share.value_or(1);
       add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", abs(*rms), {}, rated * std::sqrt(part), "N*m", mends);
@@ -416,7 +416,7 @@ std::vector<Verdict> judge_ratings(const Result& result, const std::string& only
   if (!result.complete || !result.model) return verdicts;
   for (const std::string& component : result.model->network.components)
     Rater(result, component, only_case, verdicts).all();
-  // Beside ratings alone, none of which says that all is well: that it slips is said anyway.
+  // A verdict of a slipping component is kept only beside others; the slip itself is reported anyway.
   if (std::none_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.assessed && !v.gives_way; }))
     std::erase_if(verdicts, [](const Verdict& v) { return v.gives_way; });
   return verdicts;

@@ -1,4 +1,4 @@
-// run_up.cpp — where the way from rest leads, how long it takes, and its peaks by three runs.
+// run_up.cpp — final motion of a start from rest, its duration, and its peaks by three runs.
 #include "studies/limits/run_up.h"
 
 #include <fmt/format.h>
@@ -62,7 +62,7 @@ class Search {
     return true;
   }
 
-  // The same machine, standing and unloaded at first; does it come to the same motion?
+  // The same machine, initially standing and unloaded; whether it reaches the same motion.
   bool make_from_rest() {
     out_.made = true;
     Scene scene = machine_->scene;
@@ -107,7 +107,7 @@ class Search {
             .progress = {}};
   }
 
-  // A link that stands in steady motion tells nothing; then it is where the search for the steady motion found it.
+  // A link that stands in steady motion is no criterion; the end is then where the search found the steady motion.
   bool find_end() {
     const Model& m = *machine_;
     out_.until = orbit_->state.t;
@@ -155,7 +155,7 @@ class Search {
       const std::vector<RunUp::Peak> coarse = peaks(looser * tolerance, false);
       const std::vector<RunUp::Peak> elsewhere = peaks(tolerance, true);
       for (std::size_t i = 0; i < joints_.size(); ++i) {
-        // Of two peaks alike in size either may be the larger.
+        // Of two peaks of similar size either may be the larger.
         const auto apart = [&](const RunUp::Peak& other) {
           return std::abs(std::abs(other.torque.value) - std::abs(out_.peaks[i].torque.value));
         };

@@ -1,4 +1,4 @@
-// verdicts.cpp — every limit against what the steady motion and the run-up bring.
+// verdicts.cpp — compares every limit with the loads of steady motion and run-up.
 #include "studies/limits/verdicts.h"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ class Judge {
  private:
   using Factor = std::pair<const char*, double>;
 
-  // `key`: of the limit in the scene, with which it would hold; null: the section carries it.
+  // `key`: of the limit in the scene; its required value is given; null: the section is decisive.
   Verdict& add(std::string requirement, const Estimate& value, double limit, std::string unit, const char* load_case,
                std::string note, const char* key = nullptr) {
     Verdict v{joint_.name,     std::move(requirement), value.value, limit, std::move(unit),
@@ -69,7 +69,7 @@ class Judge {
     out_.push_back(std::move(v));
     return out_.back();
   }
-  // A torque that counts with factors.
+  // A torque with factors of a standard.
   void counted(const char* requirement, const Estimate& torque, double limit, const std::vector<Factor>& factors,
                const std::string& note, const char* key, const char* load_case = load_case::steady) {
     double factor = 1;
@@ -116,7 +116,7 @@ class Judge {
     counted(requirement::maximum, abs(load_.largest()), limits_.maximum, {{"S_t", temperature}}, "", "maximum_torque");
   }
 
-  // A stress that goes with the largest torque, by `per` of it; `steady_factor` counts in steady motion alone.
+  // A stress proportional to the largest torque, by `per`; `steady_factor` applies in steady motion only.
   void largest(const char* requirement, double limit, const char* unit, double per, const Factor& steady_factor,
                const std::string& note) {
     const std::string also = note.empty() ? "" : "; " + note;
@@ -231,7 +231,7 @@ std::string numbers_in_words(const Verdict& v) {
                      v.note.empty() ? "" : "; " + v.note);
 }
 
-// Of those in that state the one that is nearest to its limit, or farthest beyond it; null: none is.
+// Of the verdicts in that state the one nearest to its limit, or farthest beyond it; null: none.
 const Verdict* worst_of(const std::vector<Verdict>& verdicts, Compliance state) {
   const Verdict* worst = nullptr;
   for (const Verdict& v : verdicts)
@@ -239,7 +239,7 @@ const Verdict* worst_of(const std::vector<Verdict>& verdicts, Compliance state) 
   return worst;
 }
 
-// The verdict that all are judged by: what is exceeded before what is undecided, what holds, and what is not assessed.
+// The decisive verdict: exceeded before undecided, held, and not assessed.
 const Verdict* decisive(const std::vector<Verdict>& verdicts) {
   for (const Compliance state :
        {Compliance::exceeded, Compliance::undecided, Compliance::holds, Compliance::not_assessed})
@@ -256,7 +256,7 @@ std::string left_open(const std::vector<Verdict>& verdicts) {
   return fmt::format("not assessed: {}{}", name_of(*first), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-// Of those that are assessed.
+// Summary of the assessed ones.
 std::string sum_up(const std::vector<Verdict>& all, const Verdict& worst, const std::string& what) {
   const auto count = [&](Compliance state) {
     return std::count_if(all.begin(), all.end(), [&](const Verdict& v) { return v.state() == state; });

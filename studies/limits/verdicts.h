@@ -1,10 +1,10 @@
-// verdicts.h — do the joints hold what they bear? DIN 740-2, and the shear stress of shafts.
+// verdicts.h — assesses the loads of joints against their limits: DIN 740-2, and the shear stress of shafts.
 //
 //     K_A S_t |T_mean| ≤ T_KN                      mean of the steady motion
 //     S_t (T_N + S_z T_S) ≤ T_Kmax                 T_N + T_S: largest torque from rest to the steady motion
 //     S_t S_f T_W ≤ T_KW,   P_W ≤ P_KW             alternating part of the steady motion
 //     K_A |T|/W_p ≤ τ_allowable                    largest torque of the steady motion; without K_A of the run-up
-//     a shaft's swinging stress by its maker, Goodman, yield, UR M68: drivetrain/couplings/shaft_rating.h
+//     a shaft's alternating stress by its maker, Goodman, yield, UR M68: drivetrain/couplings/shaft_rating.h
 //                                                                               (theory 12.9, 12.10, 12.14 … 12.16)
 #pragma once
 
@@ -17,35 +17,34 @@
 
 namespace kurbel {
 
-// not_assessed: the command does not compute the load case, or knows a bound that is beyond the limit.
+// not_assessed: the command does not compute the load case, or knows only a bound that exceeds the limit.
 enum class Compliance { holds, exceeded, undecided, not_assessed };
 const char* name_of(Compliance compliance);
 
-// What a verdict is of: the same limit on the same load case has the same verdict in every command.
+// Load cases of a verdict: the same limit on the same load case has the same verdict in every command.
 namespace load_case {
 inline constexpr const char* start = "start";                          // from rest, or the run-up of a run
-inline constexpr const char* steady = "steady";                        // the motion that the machine keeps
+inline constexpr const char* steady = "steady";                        // the machine's steady motion
 inline constexpr const char* passing = "resonance passed";             // below the operating speed
-inline constexpr const char* run_down = "run-down";                    // after the last source went off
-inline constexpr const char* run = "run";                              // all that was simulated
-inline constexpr const char* speed_range = "steady, range of speeds";  // held at each of them
-// "after step 2 of the sequence" else
+inline constexpr const char* run_down = "run-down";                    // after the last source is switched off
+inline constexpr const char* run = "run";                              // the whole simulation
+inline constexpr const char* speed_range = "steady, range of speeds";  // held at each speed
+// otherwise "after step 2 of the sequence"
 }  // namespace load_case
 
-// One requirement on one component, in one load case. A torque that counts with factors of a standard is
-// value = factor · load.
+// One requirement on one component, in one load case. With the factors of a standard, value = factor · load.
 struct Verdict {
   std::string component, requirement;  // "vibratory torque: S_t S_f T_W ≤ T_KW"
   double value = 0, limit = 0;
   std::string unit;
-  std::string note;        // where it is exceeded it begins with what would mend it
+  std::string note;        // if exceeded, it begins with the remedy
   double error = 0;        // of the value
-  bool bound = false;      // the value is only known to be no more than this
-  bool gives_way = false;  // at its limit it slips: what it was to bear is only known to be more
+  bool bound = false;      // the value is only an upper bound
+  bool gives_way = false;  // it slips at its limit: the required torque is at least the value
   std::string load_case = load_case::run;
   double factor = 1;
   std::string factors = {};           // "S_t = 1.2, S_f = 1.41"
-  std::optional<Remedy> remedy = {};  // the key's value from which on it holds
+  std::optional<Remedy> remedy = {};  // value of the key from which on it holds
   bool assessed = true;
   bool error_known = true;
   std::optional<double> at = {};  // of a run's figure [s]
@@ -55,12 +54,12 @@ struct Verdict {
   bool holds() const { return state() == Compliance::holds; }
 };
 
-// Largest steady swing at the speeds below the operating one: what a quick passage stays below.
+// Largest steady amplitude below the operating speed: an upper bound for a quick passage.
 struct Passing {
   double torque = 0, speed = 0;  // with its sign [N·m], of the link [rad/s]
 };
 
-// What is required of a shaft's stress, wherever it is judged.
+// Requirements on the stress of a shaft, the same everywhere.
 namespace requirement {
 inline constexpr const char* maximum = "maximum torque: S_t (T_N + S_z T_S) ≤ T_Kmax";
 inline constexpr const char* shear = "shear stress: K_A |T|/W_p ≤ τ_allowable";  // K_A in steady motion
@@ -72,39 +71,39 @@ inline constexpr const char* upper_range = "UR M68, all of 0.8 < λ ≤ 1.05: (�
 inline constexpr const char* passing = "UR M68, passing at λ ≤ 0.8: (τ_max − τ_min)/2 ≤ τ_T";
 }  // namespace requirement
 
-// What counts against the endurance limit, and of what it is made.
+// The stress compared with the endurance limit, and its composition.
 struct Fatigue {
   Estimate stress;   // [Pa]
-  std::string note;  // where it is exceeded it begins with what would mend it
+  std::string note;  // if exceeded, it begins with the remedy
 };
 Fatigue fatigue_of(const ShaftRating& shaft, const Estimate& amplitude, const Estimate& mean);
 
-// A limit of a load case that is not computed here; `why`: who does.
+// A limit of a load case that is not computed here; `why`: the command that computes it.
 Verdict not_assessed(std::string component, std::string requirement, double limit, std::string unit,
                      const char* load_case, std::string why);
 
 // "1 of 3 ratings EXCEEDED, worst "clutch", heat of an engagement: 132 % of the limit, 1320 J of 1000 J; …", with the
-// value that would mend it; "all 3 ratings hold, the nearest "belt", …", and what is not assessed; empty: nothing is judged.
+// remedy; "all 3 ratings hold, the nearest "belt", …", and what is not assessed; empty: nothing is assessed.
 // `what`: "rating".
 std::string sentence_of(const std::vector<Verdict>& verdicts, const std::string& what);
 
-// A claim for each; the worst one's sentence is that of all, and stands in the conclusion.
+// One claim per verdict; the worst one has the sentence for all, which is in the conclusion.
 Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& what);
-// "it holds from diameter = 87.92 mm on, and does not 1 % below"; of what was not tried "by an estimate it holds …".
-// `than`: "from … on" or "up to".
+// "it holds from diameter = 87.92 mm on, and does not 1 % below"; without trial "by an estimate it holds …". `up_to`:
+// "up to" instead of "from … on".
 std::string in_words(const Remedy& remedy, bool up_to = false);
 
-// Rounded up to the four digits that are shown, to a hundredth of the last one; with a minus sign down.
+// Rounded up to the four displayed digits, to a hundredth of the last one; rounded down for negative values.
 double enough(double value);
-// "shaft.diameter for shear stress: …": by which a run knows the remedies that were tried.
+// "shaft.diameter for shear stress: …": the key under which a run stores a tried remedy.
 std::string name_of_remedy(const Verdict& verdict);
 
-// Of all joints that have limits. Loads and peaks are of `joints`, in this order; passing is asked where there is no
-// run-up, and may be empty.
+// Verdicts of all joints with limits. Loads and peaks belong to `joints`, in this order; passing is used if there is
+// no run-up, and may be empty.
 std::vector<Verdict> judge(const std::vector<LimitedJoint>& joints, const SteadyLoads& loads, const RunUp& run_up,
                            const std::vector<Passing>& passing, const SpeedUnit& speed_unit);
 
-// S_t (T_N + S_z T_S): T_N may act in full or not yet when the peak comes; the error covers both.
+// S_t (T_N + S_z T_S): T_N may act in full or not yet at the time of the peak; the error covers both.
 Estimate start_torque(const DriveLimits& limits, const Estimate& peak, const Estimate& mean);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// excitation_lines.cpp — gathers them from the model, its laws and [operation], each once.
+// excitation_lines.cpp — collects lines from the model, its laws and [operation], each once.
 #include "studies/margins/excitation_lines.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::string readable(std::string name) {
   return name;
 }
 
-// Shafts that turn equally fast.
+// Shafts of equal speed.
 struct SpeedGroup {
   double ratio = 1;  // of their speed over the reduction link's, > 0
   std::string name;  // of the heaviest part
@@ -75,12 +75,12 @@ class LineList {
   }
 
  private:
-  // "3×" of the reduction link, and where all turn equally fast; else "3× pump".
+  // "3×" for the reduction link, and if all shafts have the same speed; else "3× pump".
   std::string label(double k, const SpeedGroup& group) const {
     const std::string times = fmt::format("{:.5g}×", k);
     return groups_.size() == 1 ? times : times + " " + group.name;
   }
-  // Of an order of the reduction link: by the shaft of whose turn it is a half or a whole multiple, the link first.
+  // For an order of the reduction link: by a shaft for which it is a half or whole multiple, the link first.
   std::string label_of_order(double order) const {
     for (const SpeedGroup& group : groups_) {
       const double k = order / group.ratio;
@@ -89,7 +89,7 @@ class LineList {
     return label(order, groups_.front());
   }
 
-  // One that is there already learns what else it is.
+  // An existing line gets the further source.
   void add(ExcitationLine line) {
     for (ExcitationLine& there : lines_) {
       const double scale = std::max(there.at(speed_), line.at(speed_));
@@ -132,7 +132,7 @@ class LineList {
              .harmonic = r,
              .in_scene = true});
   }
-  // What has no common period is smeared over the link's own orders: each law's are told by its period alone.
+  // Laws without a common period would be spread over the link's own orders: each has the orders of its own period.
   void add_orders_of_each_law() {
     const auto add_law = [&](const std::string& component, double fundamental) {
       for (int k = 1; k <= harmonics_of_a_law; ++k)

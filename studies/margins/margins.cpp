@@ -1,10 +1,9 @@
-// margins.cpp — distances by closed forms; what tolerances make of them by a Latin hypercube.
+// margins.cpp — margins in closed form; the effect of tolerances by a Latin hypercube.
 #include "studies/margins/margins.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -23,7 +22,7 @@ constexpr double of_weight = 0.02;     // share of a mode's damping that is told
 constexpr std::size_t parts_told = 3;  // of it, by name
 constexpr double outside_interval = 0.025;
 
-// ln ω over x, ln of the value where that is positive: a parabola through the ends and the middle, 0 there.
+// ln ω over x, the ln of the value if that is positive: a parabola through the ends and the middle, where it is 0.
 struct Parabola {
   double slope = 0, bend = 0;
   double at(double x) const { return x * (slope + bend * x); }
@@ -44,7 +43,7 @@ double share_of(std::vector<double>& sorted, double share) {
   return sorted[std::min(sorted.size() - 1, static_cast<std::size_t>(share * static_cast<double>(sorted.size())))];
 }
 
-// One row's interval, and how often it keeps what is wanted.
+// One row's interval, and how often the required margin is kept.
 void count(const std::vector<double>& factor, double omega, const ExcitationLine& line, const OperatingSpeeds& speeds,
            Margin& row) {
   std::vector<double> margins;
@@ -108,7 +107,7 @@ std::vector<double> crossings(double omega, const ExcitationLine& line) {
 
 namespace {
 
-// What the drive answers there, or why that is not known.
+// The response of the drive there, or why it is not known.
 void find_response(const std::vector<CrossingResponse>& responses, double slowest, double fastest, const Margins& of,
                    Margin& row) {
   const ExcitationLine& line = of.lines[row.line];
@@ -154,7 +153,7 @@ void find_rows(const std::vector<CrossingResponse>& responses, double slowest, d
 
 namespace {
 
-// "shaft" of "shaft.4": a continuous shaft is cut into joints.
+// "shaft" of "shaft.4": a continuous shaft is divided into joints.
 std::string whole(const std::string& joint) {
   const std::size_t dot = joint.find_last_of('.');
   const bool piece = dot != std::string::npos && joint.find_first_not_of("0123456789", dot + 1) == std::string::npos;

@@ -1,4 +1,4 @@
-// margins_findings.cpp — rows and words of separation margins.
+// margins_findings.cpp — tables and sentences on separation margins.
 #include "studies/margins/margins_findings.h"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ std::string pair_text(const Margins& m, const Margin& row, const SpeedUnit& unit
   return text + (row.margin == 0 ? ", within the range" : fmt::format(", {} %", percent(row.margin)));
 }
 
-// Not a number where they were not computed.
+// NaN if not computed.
 double amplitude_of(const Margin& row) {
   return row.response && row.not_assessed.empty() ? row.response->amplitude : std::nan("");
 }

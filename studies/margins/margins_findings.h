@@ -1,4 +1,4 @@
-// margins_findings.h — what is said of separation margins: a table, a sentence.
+// margins_findings.h — findings on separation margins: a table, a sentence.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ namespace kurbel {
 // "1340 … 1640 rpm"
 std::string range_text(const OperatingSpeeds& speeds, const SpeedUnit& unit);
 
-// People see all rows within what is wanted and the nearest besides; programs and the file all.
+// People see all rows with too small a margin and the nearest others; programs and the file all rows.
 Rows margin_table(const Margins& margins, const SpeedUnit& unit);
 Record operating_range(const Margins& margins);
 
-// None where the scene does not say where it runs.
+// Empty if the scene does not give its operating speed.
 std::optional<Claim> margin_claim(const Margins& margins, const SpeedUnit& unit);
 
 }  // namespace kurbel

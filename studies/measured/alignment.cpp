@@ -1,4 +1,4 @@
-// alignment.cpp — a search over all shifts, then each good one as exactly as the points allow.
+// alignment.cpp — a search over all shifts, then refinement of each good one as far as the points allow.
 #include "studies/measured/alignment.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ class Fit {
     }
   }
 
-  // Σ over the signals of the mean square of what is left, over the square of the range. Every stride-th point.
+  // Σ over the signals of the mean square residual, over the square of the range. Every stride-th point.
   double cost(double shift, std::size_t stride = 1) const {
     double cost = 0;
     std::size_t points = 0;
@@ -74,7 +74,7 @@ class Fit {
     return points > 0 ? std::max(cost, 0.0) : HUGE_VAL;
   }
 
-  // Of a cycle within half a period to either side; else as long as half of the shorter one is compared.
+  // For a cycle within half a period to either side; otherwise at least half of the shorter record is compared.
   std::optional<double> best_shift() const {
     const Signal& signal = simulated_.front();
     const double first = measurement_.time.front(), last = measurement_.time.back();
@@ -112,8 +112,8 @@ class Fit {
     return r;
   }
 
-  // Twice the standard error of Δ: what noise as large as the residuals, independent from point to point, moves it by.
-  // None where the simulation does not vary: no shift is better than another.
+  // Twice the standard error of Δ: its shift by noise of the residuals' size, independent from point to point. Empty
+  // if the simulation does not vary: all shifts are equal.
   std::optional<double> shift_error(double shift, const std::vector<Residuals>& left) const {
     double noise = 0, curvature = 0;
     for (std::size_t k = 0; k < left.size(); ++k) {
@@ -149,7 +149,7 @@ class Fit {
     return nearest_of_the_best(found);
   }
 
-  // Between the neighbours of a valley.
+  // Minimum between the neighbours of a valley.
   std::pair<double, double> refined(double about, double step) const {
     constexpr int bits = 30, parts = 16;
     double best = about, least = cost(about);
@@ -160,7 +160,7 @@ class Fit {
     return value < least ? std::pair(value, shift) : std::pair(least, best);
   }
 
-  // Of what repeats many shifts are as good: the smallest.
+  // For a periodic signal many shifts are equal: the smallest.
   static double nearest_of_the_best(const std::vector<std::pair<double, double>>& found) {
     const double least = std::min_element(found.begin(), found.end())->first;
     double nearest = HUGE_VAL;

@@ -1,4 +1,4 @@
-// measurement.cpp — headings and units, options, and the numbers, with a message for whatever is wrong.
+// measurement.cpp — headings and units, options, and numbers, with a message for every error.
 #include "studies/measured/measurement.h"
 
 #include <fmt/format.h>
@@ -8,17 +8,13 @@
 #include <stdexcept>
 
 #include "engine/scene/messages.h"
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "engine/tables/heading.h"
 #include "engine/tables/table_file.h"
 
 namespace kurbel {
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
 
 // An option "COLUMN=…", the column's heading with or without its unit.
 struct Option {
@@ -30,8 +26,8 @@ Option split_option(const std::string& name, const std::string& text, const std:
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw std::invalid_argument(fmt::format("{} {}: must be COLUMN=…, e.g. {}", name, in_quotes(text), example));
-  return {fmt::format("{} {}", name, in_quotes(text)), trimmed(text.substr(0, equals)),
-          trimmed(text.substr(equals + 1)), static_cast<int>(equals) + 2};
+  return {fmt::format("{} {}", name, in_quotes(text)), std::string(trimmed(std::string_view(text).substr(0, equals))),
+          std::string(trimmed(std::string_view(text).substr(equals + 1))), static_cast<int>(equals) + 2};
 }
 
 std::string quoted_list(const std::vector<std::string>& names, std::size_t most = 12) {
@@ -93,7 +89,7 @@ class Reader {
     return heading;
   }
 
-  // Of the heading or of the option, one of them; both may say the same.
+  // From the heading or from the option; both only if they agree.
   std::optional<Source> source_of(const TableHeading& heading, const Option& option, const std::string& channel,
                                   const std::string& si_unit) {
     const auto in_heading = heading.unit, in_option = name_with_unit(option.value).unit;

@@ -1,19 +1,18 @@
-// measurement.h — a test's record: columns of a CSV file as channels of the machine, in SI.
+// measurement.h — a measured record: columns of a CSV file as channels of the machine, in SI.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace kurbel {
 
-// As the user asks for it.
+// As requested by the user.
 struct MeasurementRequest {
   std::string file;                  // "test.csv"
   std::vector<std::string> maps;     // "T1=torque.main_coupling", "T1=torque.main_coupling [kN*m]", "t=time [ms]"
   std::string shift;                 // "0.2 s", "fit"; empty: none
   std::vector<std::string> offsets;  // "T1=5 N*m", "T1=fit", "fit": every column's
-  // What the rows stand over, as a column or a map names it, in SI: "time", "s"; "angle", "rad"; "mode", "".
+  // Abscissa of the rows, as a column or a map names it, in SI: "time", "s"; "angle", "rad"; "mode", "".
   std::string over = "time", over_unit = "s";
   std::size_t fewest_rows = 4;
   bool asked() const { return !file.empty() || !maps.empty() || !shift.empty() || !offsets.empty(); }
@@ -23,7 +22,7 @@ struct KnownChannel {
   std::string name, unit;  // SI
 };
 
-// What is to be found by least squares, or given.
+// A value to be identified by least squares, or given.
 struct Fitted {
   double value = 0;
   bool fit = false;
@@ -32,20 +31,20 @@ struct Fitted {
 struct MeasuredSignal {
   std::string column, channel, unit;  // SI
   std::vector<double> values;
-  Fitted offset = {};  // what it reads too high
+  Fitted offset = {};  // subtracted from the readings
 };
 
 struct Measurement {
   std::string file;
-  std::vector<double> time;  // as measured [s], ascending; of a record over something else that, in SI
+  std::vector<double> time;  // as measured [s], ascending; for another abscissa its values, in SI
   Fitted shift = {};         // simulated time = measured time + shift [s]
   std::vector<MeasuredSignal> signals;
 };
 
-// Throws SceneError with every fault of file and options at its place, std::invalid_argument where options are missing.
+// Throws SceneError with all errors of file and options and their places, std::invalid_argument if options are missing.
 Measurement read_measurement(const MeasurementRequest& request, const std::vector<KnownChannel>& channels);
 
-// Refuses a given shift that leaves no moment in common with what is simulated. Throws std::invalid_argument.
+// Refuses a given shift that leaves no time in common with the simulation. Throws std::invalid_argument.
 void require_overlap(const Measurement& measurement, double begin, double end);
 
 }  // namespace kurbel

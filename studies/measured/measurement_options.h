@@ -1,4 +1,4 @@
-// measurement_options.h — options by which a test's record is laid over a simulation.
+// measurement_options.h — options for comparing a measured record with a simulation.
 #pragma once
 
 #include "studies/measured/measurement.h"

@@ -1,4 +1,4 @@
-// overlay.cpp — signals out of runs and cycles; residuals as figures.
+// overlay.cpp — signals from runs and cycles; residuals as figures.
 #include "studies/measured/overlay.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ std::vector<KnownChannel> known(const Model& model, const std::vector<std::strin
   return list;
 }
 
-// Points in the order of time; of two at the same time the later one stays behind.
+// Points in order of time; of two at the same time the later one comes last.
 struct Points {
   std::vector<double> time, value;
   void add(double t, double v) { time.push_back(t), value.push_back(v); }
@@ -40,7 +40,7 @@ struct Points {
   }
 };
 
-// The last whole round of a cycle, from where the link passes its zero.
+// The last whole period of a cycle, from the zero of the link's angle.
 std::optional<Signal> signal_of(const SteadyCycle& c, const std::string& channel) {
   if (!c.found || !c.traces || c.traces->last_cycles.empty()) return {};
   const Trace* trace = c.traces->find(channel);
@@ -81,7 +81,7 @@ Trace trace_of(const MeasuredSignal& s, std::vector<double> x, std::vector<doubl
   return trace;
 }
 
-// Of a cycle whose mean speed is not the record's; empty: it is, or the record has no speed.
+// For a cycle whose mean speed differs from the record's; empty: it does not, or the record has no speed.
 std::string other_speed(const SteadyCycle& c, const Measurement& m, const Alignment& a) {
   constexpr double alike = 0.01;
   const auto mean = [](const std::vector<double>& values) {

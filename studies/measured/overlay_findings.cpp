@@ -1,4 +1,4 @@
-// overlay_findings.cpp — a measurement over the simulation in tables, plots, JSON and a line on the terminal.
+// overlay_findings.cpp — comparison of a measurement with the simulation in tables, plots, JSON and a line on the terminal.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<Row> rows_of(const Overlay& o) {
   return rows;
 }
 
-// A speed in the scene's unit; without an error where none is known.
+// A speed in the scene's unit; without an error if unknown.
 std::string told(double value, const std::optional<double>& error, const std::string& unit, const SpeedUnit& speed) {
   const FigureCells cells = figure_cells({value, error}, unit, speed);
   return cells.value + (error ? " " + cells.error : "") + (cells.unit.empty() ? "" : " " + cells.unit);
@@ -67,7 +67,7 @@ std::vector<std::string> words_of(const Overlay& o) {
   return lines;
 }
 
-// Lines that a screen has room for.
+// Lines for the short form.
 std::vector<std::string> short_words(const Overlay& o) {
   constexpr std::size_t most = 3;
   std::vector<std::string> lines;
@@ -88,7 +88,7 @@ std::vector<std::string> short_words(const Overlay& o) {
 
 // --- plots ---
 
-// Where a record goes round a cycle more than once its points are markers, else a line.
+// Points of a record that covers a cycle more than once are markers, else a line.
 Series measured_series(const Residuals& r, const std::vector<double>& y, const std::string& name, Role role) {
   std::vector<std::size_t> order(r.time.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -197,7 +197,7 @@ void show(Findings& f, const Overlay& o) {
 
 namespace {
 
-// Cycles and a test's record over them.
+// Cycles and a measured record compared with them.
 struct MeasuredCycles {
   SteadyStudy study;
   std::optional<Overlay> overlay = {};

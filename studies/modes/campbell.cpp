@@ -25,11 +25,11 @@ std::string readable(std::string name) {
   return name;
 }
 
-// Worth being drawn for its margin.
+// Near enough to be drawn for its margin.
 bool is_near(const ModesStudy& m, const Margin& row) { return std::abs(row.margin) < 3 * m.margins.speeds.margin; }
 
-// Orders of the severest critical speeds first, then what comes within its margin, then those with the largest torques, then
-// the orders of the reduction link; in the order of their slopes. Frequencies that hang on no speed, and converters, all.
+// Orders of the severest critical speeds first, then those within the margin, those with the largest torques, and the
+// orders of the reduction link; sorted by slope. Frequencies independent of speed, and converters, are all drawn.
 std::vector<const ExcitationLine*> lines_drawn(const ModesStudy& m) {
   using Kind = ExcitationLine::Kind;
   std::vector<const ExcitationLine*> shown;
@@ -63,14 +63,14 @@ std::vector<const ExcitationLine*> lines_drawn(const ModesStudy& m) {
   return shown;
 }
 
-// Up to the highest mode that one of the severe critical speeds belongs to, and never below the first mode [Hz].
+// Up to the highest mode of the severe critical speeds, and never below the first mode [Hz].
 double top_of(const ModesStudy& m) {
   double top = m.modes.empty() ? 0 : hertz(m.modes.front().magnitude());
   const std::vector<std::size_t> severe = severest_critical(m, 16);
   for (const std::size_t i : severe)
     if (m.critical[i].share > 0.05 * m.critical[severe.front()].share)
       top = std::max(top, hertz(m.critical[i].order * m.critical[i].speed));
-  // Up to where the strongest order is at the operating speed, unless that leaves the modes no room.
+  // Up to the strongest order at the operating speed, unless that leaves no room for the modes.
   constexpr double most_above = 6;
   std::size_t strongest = 0;
   double most = 0;
@@ -88,7 +88,7 @@ double top_of(const ModesStudy& m) {
   return 1.15 * top;
 }
 
-// "Above the diagram, where no order of weight meets a mode: mode 2 at 481.8 Hz.": what is not drawn is said.
+// "Above the diagram, where no order of weight meets a mode: mode 2 at 481.8 Hz.": names the modes not drawn.
 std::string modes_above(const ModesStudy& m, double top) {
   constexpr std::size_t most_told = 4;
   std::string text;
@@ -102,7 +102,7 @@ std::string modes_above(const ModesStudy& m, double top) {
   return number == 0 ? "" : "Above the diagram, where no order of weight meets a mode: " + text + ". ";
 }
 
-// Through the diagram, as far as its edge; none where it lies above.
+// Through the diagram up to its edge; empty if it lies above.
 std::optional<Series> ray(const ModesStudy& m, const ExcitationLine& line, double top) {
   const auto at = [&](double speed) { return hertz(line.at(speed)); };
   double from = m.slowest, to = m.fastest;
@@ -139,7 +139,7 @@ std::string words_of(const ModesStudy& m, const Margin& row, double speed) {
                             readable(row.response->joint), 100 * row.response->share);
 }
 
-// Where the lines shown meet the modes: larger where more is borne of what may be.
+// Intersections of the lines shown with modes: larger for higher utilisation.
 std::vector<Series> meetings(const ModesStudy& m, const std::vector<const ExcitationLine*>& lines, double top) {
   Series kept{.name = "meetings, larger ones severer", .role = Role::orange},
       within{.name = fmt::format("within ± {:.3g} % of the operating speeds", 100 * m.margins.speeds.margin),
@@ -165,7 +165,7 @@ std::vector<Series> meetings(const ModesStudy& m, const std::vector<const Excita
   return all;
 }
 
-// Where it runs for long, and the margin wanted beside that.
+// The operating range, and the required margin on both sides.
 void add_operating_bands(const ModesStudy& m, std::vector<Band>& bands) {
   const OperatingSpeeds& run = m.margins.speeds;
   if (!run.known()) return;
@@ -199,7 +199,7 @@ std::vector<Band> bands_of(const ModesStudy& m) {
   return bands;
 }
 
-// Windows of a run by their places, ascending; of those within an eightieth of the range the larger amplitude.
+// Windows of a run by position, ascending; of those within an eightieth of the range the one with larger amplitude.
 struct Windows {
   std::vector<double> at;
   std::vector<std::vector<double>> amplitude;
@@ -223,7 +223,7 @@ Windows windows_by(const std::vector<double>& place, const TorqueHistory& h, std
   return rows;
 }
 
-// What swings against what.
+// The parts that vibrate against each other.
 std::string moving_parts(const ModesStudy& m, const Mode& mode) {
   const Eigen::VectorXd shape = shaft_shape(m, mode);
   const std::vector<double>& energy = mode.shares.shaft;

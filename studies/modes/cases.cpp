@@ -1,5 +1,5 @@
-// cases.cpp — the same drive as something has failed: cases of the scene; one cylinder after the other that does not fire (no
-// injection, but compression). What is said of the cases.
+// cases.cpp — the drive with a failure: cases of the scene; one cylinder after the other misfiring (no injection, but
+// compression). Findings on the cases.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,7 +19,7 @@
 namespace kurbel {
 namespace {
 
-// The cylinder's name, and the scene in which it does not fire.
+// The cylinder's name, and the scene with it misfiring.
 struct Misfiring {
   std::string name;
   Scene scene;
@@ -32,14 +32,14 @@ bool misfires(const Section& section) {
   });
 }
 
-// That of a compressor is told over the angle, too, and does not drive.
+// A compressor's load is over the angle, too, but does not drive.
 bool is_fired(const Section& load) {
   return load.has("misfire") && load.has("work") && load.text("work") == "driving" &&
          std::any_of(load.settings.begin(), load.settings.end(),
                      [](const Setting& s) { return s.curve.over == "angle"; });
 }
 
-// Of an engine by its firing order: each of its numbers.
+// For an engine by its firing order: each of its numbers.
 void add_engine(const Scene& scene, std::size_t component, std::vector<Misfiring>& out) {
   const Section& engine = scene.components[component];
   std::vector<double> numbers = engine["firing_order"].numbers;
@@ -55,7 +55,7 @@ void add_engine(const Scene& scene, std::size_t component, std::vector<Misfiring
   }
 }
 
-// Of a mechanism: its load, where that is a driving diagram over the angle.
+// For a mechanism: its load, if that is a driving diagram over the angle.
 void add_mechanism(const Scene& scene, std::size_t component, std::vector<Misfiring>& out) {
   const Section& mechanism = scene.components[component];
   for (std::size_t s = 0; s < mechanism.settings.size(); ++s)
@@ -156,7 +156,7 @@ namespace {
 
 constexpr std::size_t curves_drawn = 6;
 
-// Over the operating speeds, at the speed of the steady motion too; not a number: the case has no such joint.
+// Over the operating speeds including that of the steady motion; NaN: the case has no such joint.
 struct LargestSwing {
   double peak = std::nan(""), speed = 0;
 };
@@ -174,7 +174,7 @@ LargestSwing largest_swing(const ModesStudy& m, const std::string& joint) {
   return most;
 }
 
-// The drive as it is, and each case that was computed.
+// The unchanged drive, and each computed case.
 std::vector<std::pair<std::string, const ModesStudy*>> variants_of(const ModesStudy& m) {
   std::vector<std::pair<std::string, const ModesStudy*>> all = {{"as it is", &m}};
   for (const ModesCase& one : m.cases)
@@ -253,7 +253,7 @@ std::optional<Plot> case_plot(const ModesStudy& m, std::size_t joint) {
   return in_readable_unit(std::move(plot), "N*m");
 }
 
-// What is wrong in a case, unless the drive as it is has it, too.
+// Faults in a case that the unchanged drive does not have.
 void claim_case(Findings& f, const ModesCase& one) {
   Claims claims = findings_of(*one.study).claims;
   for (Claim& claim : claims) {

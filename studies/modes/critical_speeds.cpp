@@ -1,4 +1,4 @@
-// critical_speeds.cpp — by frequencies over orders; by eigenvalues of the drive at each speed, and by what it swings.
+// critical_speeds.cpp — frequencies over orders; eigenvalues of the drive at each speed; responses.
 #include "studies/modes/critical_speeds.h"
 
 #include <fmt/format.h>
@@ -31,31 +31,31 @@ std::size_t nearest_of(const std::vector<SpeedResponse>& sweep, double speed) {
   return static_cast<std::size_t>(std::min_element(sweep.begin(), sweep.end(), less) - sweep.begin());
 }
 
-// That the mode twists most.
+// The joint that the mode twists most.
 std::size_t joint_of(const Mode& mode) {
   const std::vector<double>& share = mode.shares.joint;
   return static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
 }
 
-// A curve's point: 1/|τ_r|², which is all but a parabola of the speed about a resonance.
+// A point of the curve 1/|τ_r|², which is nearly a parabola of speed about a resonance.
 struct Point {
   double speed = 0, value = 0;
 };
 
-// Where the parabola through three points, the middle one the lowest, is least.
+// Vertex of the parabola through three points, the middle one the lowest.
 double vertex(const Point& a, const Point& b, const Point& c) {
   const double left = (b.value - a.value) / (b.speed - a.speed), right = (c.value - b.value) / (c.speed - b.speed);
   const double bend = (right - left) / (c.speed - a.speed);
   return bend > 0 ? 0.5 * (a.speed + b.speed - left / bend) : b.speed;
 }
 
-// What one order does in one joint over the speed.
+// Response to one order in one joint over the speed.
 class OrderCurve {
  public:
   OrderCurve(const CriticalSpeed& c, const std::vector<SpeedResponse>& sweep) : c_(c), sweep_(sweep) {}
 
-  // The response at the greatest amplitude that is climbed to from a resonance over speeds that are kept; none where the
-  // climb ends at the last of them, or leaves the resonance by more than `width`.
+  // The response at the maximum reached by climbing from a resonance over kept speeds; empty if the climb ends at the
+  // last of them, or leaves the resonance by more than `width`.
   std::optional<SpeedResponse> peak(double resonance, double width,
                                     const std::function<SpeedResponse(double speed)>& at) const {
     std::size_t i = nearest_of(sweep_, resonance);
@@ -81,7 +81,7 @@ class OrderCurve {
   }
 
  private:
-  // To the neighbour with the larger amplitude, where either has a larger one: −1, 1; 0: this is the top.
+  // Direction of the neighbour with the larger amplitude: −1, 1; 0: this is the maximum.
   int way_up(std::size_t i) const {
     const double here = value(sweep_[i]), below = i > 0 ? value(sweep_[i - 1]) : HUGE_VAL,
                  above = i + 1 < sweep_.size() ? value(sweep_[i + 1]) : HUGE_VAL;
@@ -133,7 +133,7 @@ void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& a
     const std::size_t nearest = nearest_of(found.sweep, c.speed);
     c.joint = joint_of(mode);
     std::optional<SpeedResponse> peak;
-    // A force's swing is largest at √(1 − 2ζ²) of |λ|, and what a joint passes on at less below it.
+    // The amplitude under a force is largest at √(1 − 2ζ²) of |λ|, and the torque transmitted by a joint less below it.
     const double damped = mode.magnitude() / c.order, width = (2 * mode.ratio * mode.ratio + 0.02) * damped;
     if (mode.ratio < hardly_swings) peak = OrderCurve(c, found.sweep).peak(damped, width, at);
     const SpeedResponse& there = peak ? *peak : found.sweep[nearest];
@@ -248,7 +248,7 @@ void leave_out_what_is_not_kept(ModesStudy& found) {
 
 namespace {
 
-// Of orders, and at the operating point of laws of fixed frequency, in the joint that each mode twists most.
+// For orders, and at the operating point for laws of fixed frequency, in the joint that each mode twists most.
 std::vector<CrossingResponse> responses_of(const ModesStudy& found) {
   std::vector<CrossingResponse> all;
   const auto add = [&](const CriticalSpeed& c, const char* why) {
@@ -278,7 +278,7 @@ std::vector<CrossingResponse> responses_of(const ModesStudy& found) {
   return all;
 }
 
-// What could not be among them.
+// Notes on margins that could not be determined.
 void note_missing_margins(ModesStudy& found) {
   const Margins& m = found.margins;
   if (m.modes.empty()) return;
@@ -294,7 +294,7 @@ void note_missing_margins(ModesStudy& found) {
                     found.excitations.order(found.excitations.harmonics), found.link));
 }
 
-// Undamped, in the order of the modes of `found`, with another value of what has a tolerance; none where that has no place.
+// Undamped frequencies in the order of the modes of `found`, with another value of a toleranced key; empty if not found.
 std::vector<double> frequencies_with(const Tolerance& t, double value, Scene scene, const Effects& effects,
                                      const ModesOptions& options, const ModesStudy& found) {
   std::vector<double> omega;

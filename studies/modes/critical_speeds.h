@@ -1,51 +1,50 @@
-// critical_speeds.h — at which speeds orders meet modes or their inertia excites them, and at which a machine can run.
+// critical_speeds.h — critical and parametrically excited speeds, and speeds that the machine can hold.
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "studies/modes/modes.h"
 
 namespace kurbel {
 
-// At which an order meets a mode, r Ω = ω_n [rad/s]: undamped, as is usual; where joints that the mode twists have states of
-// their own, which stiffen them, |λ| of the damped swing.
+// Frequency at which an order coincides with a mode, r Ω = ω_n [rad/s]: undamped, as usual; |λ| of the damped
+// vibration if joints twisted by the mode have internal states, which stiffen them.
 double frequency_of_resonance(const LinearDrive& drive, const Mode& mode);
 
-// Fills `critical`: where an order that has any strength meets a mode within the range, by speed.
+// Fills `critical`: intersections of orders of non-zero strength with modes within the range, by speed.
 void find_critical_speeds(ModesStudy& found);
 
-// Speeds of the sweep, ascending: over the range evenly, about the critical ones closely, the operating one. A large drive
-// has fewer, which is noted.
+// Speeds of the sweep, ascending: equidistant over the range, dense about the critical ones, and the operating speed.
+// Fewer for a large drive, with a note.
 std::vector<double> sweep_speeds(ModesStudy& found);
 
-// Fills `zones`: where the inertia's orders excite a mode parametrically within the range, by speed.
+// Fills `zones`: speeds in the range at which orders of the inertia excite a mode parametrically.
 void find_zones(ModesStudy& found);
 
-// The amplitudes of `critical`, in the joint that their mode twists most, by the sweep, which has points at and beside
-// every one of them unless it was thinned. The peaks are located further by `at`, which responds at any speed, to some 1e-3
-// of the resonance's width, and become points of the sweep. No peak is told of a mode that hardly swings (ζ ≥ 0.5), nor
-// where speeds that are not kept lie before it, nor farther off than damping takes a peak from r Ω = |λ|.
+// Fills the amplitudes of `critical` for the joint that the mode twists most, from the sweep, which has points at and
+// beside every one of them unless it was thinned. The peaks are refined by `at`, the response at any speed, to some
+// 1e-3 of the resonance's width, and become points of the sweep. No peak is given for a strongly damped mode (ζ ≥
+// 0.5), nor beyond speeds that are not held, nor farther from r Ω = |λ| than damping can shift it.
 void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& at, ModesStudy& found);
 
-// Whether small motions about a mean speed that is held grow (Re λ > 0): beyond its breakdown an induction motor pulls
-// the less the slower it turns. Only of drives that a dense solver takes (160 coordinates); of larger ones never.
+// Whether small deviations from a held mean speed grow (Re λ > 0): beyond its breakdown torque an induction motor drives
+// less the slower it turns. Only for drives within reach of a dense solver (160 coordinates); false for larger ones.
 bool grows(const LinearDrive& drive);
 
-// A speed is kept where nothing grows and the link's speed would swing by less than itself if all were rigid: what swings
-// much by resonance alone is barred, not left out. What the linear response says of any other speed is of no motion that
-// lasts. Where the operating point is none that is kept, nothing is told of the others.
+// A speed is kept if nothing grows there and the link's speed variation would be smaller than the mean speed if all
+// were rigid; large resonant vibration makes a speed barred, not omitted. At other speeds the linear response belongs
+// to no lasting motion. If the operating speed itself is not kept, the others are not marked.
 void judge_kept_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response);
 
-// Puts the critical speeds that are not kept into `not_kept`, and notes what is left out.
+// Moves critical speeds that are not kept into `not_kept`, and notes what is omitted.
 void leave_out_what_is_not_kept(ModesStudy& found);
 
-// Fills `margins` from the operating speeds, modes, excitations and critical speeds that are there; for tolerances by the
-// modes of the scene with other values, at the same speed, all as geared.
+// Fills `margins` from the operating speeds, modes, excitations and critical speeds; for tolerances by the modes of
+// the scene with other values, at the same speed, with all shafts turning as geared.
 void find_margins(const Scene& scene, const Effects& effects, const ModesOptions& options, ModesStudy& found);
 
-// A stretch of the sweep whose speeds are all kept, or all not.
+// A range of the sweep whose speeds are all kept, or all not.
 struct SpeedStretch {
   std::size_t begin = 0, end = 0;  // of the sweep's entries
   bool kept = true;

@@ -1,4 +1,4 @@
-// drive_limits.cpp — responses as loads, and who is asked for verdicts.
+// drive_limits.cpp — responses as loads, and calls of the verdicts.
 #include "studies/modes/drive_limits.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ std::vector<JointLoad> loads_of(const SpeedResponse& response) {
   return loads;
 }
 
-// Steady swings at the speeds up to the operating one.
+// Steady amplitudes below the operating speed.
 std::vector<Passing> passing_of(const ModesStudy& found) {
   std::vector<Passing> passing(found.limited.size());
   for (const SpeedResponse& s : found.sweep)
@@ -53,7 +53,7 @@ void judge_history(ModesStudy& found) {
   const bool below = -h.least.value > h.greatest.value;
   for (const LimitedJoint& joint : found.limited) {
     if (joint.name != h.component || !(joint.limits.maximum > 0)) continue;
-    // Without an error the run was not confirmed, and nothing is decided by it.
+    // Without an error the run was not confirmed, and is not used for verdicts.
     const Estimate most = joint.limits.temperature_factor * (below ? -h.least : h.greatest);
     found.verdicts.push_back({.component = joint.name,
                               .requirement = "maximum torque of the simulated run: S_t |T| ≤ T_Kmax",

@@ -10,22 +10,22 @@
 
 namespace kurbel {
 
-// Of a linear response: its errors are not known, and 0.
+// The load from a linear response: its errors are not known and set to 0.
 JointLoad load_of(const JointResponse& response);
 
-// Fills `limited` and `barred` from the sweep over the speeds; `at` responds at any speed between.
+// Fills `limited` and `barred` from the sweep over the speeds; `at` gives the response at any speed between.
 void find_barred_ranges(const Model& model, double factor, const std::function<SpeedResponse(double speed)>& at,
                         ModesStudy& found);
 
-// A machine with all its effects, and where its own start leads.
+// A machine with all its effects, and the motion that its own start leads to.
 struct MachineAndOrbit {
   std::shared_ptr<const Model> machine;
   Orbit orbit;
 };
 
-// Fills `verdicts` of all joints with limits, and notes. `kept`: the steady motion; `end`: of a machine that leaves it again,
-// where to: then the way from rest goes there. `at_orbit`: the study's operating point is that motion, else loads are those of
-// the linear response `here`.
+// Fills `verdicts` of all joints with limits, and notes. `kept`: the steady motion; `end`: the final motion if the
+// machine leaves the steady one again: then the run-up leads there. `at_orbit`: the study's operating point is that
+// motion, otherwise loads are those of the linear response `here`.
 void judge_limits(const MachineAndOrbit& kept, const std::optional<MachineAndOrbit>& end, bool at_orbit,
                   const Watch& watch, ModesStudy& found);
 

@@ -1,4 +1,4 @@
-// mode_exponents.cpp — swings of the periodic system beside those of the mean, contacts that wipe swings out included.
+// mode_exponents.cpp — modes of the periodic system compared with those of the mean, including modes suppressed by contacts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ bool varies_with_angle(const Model& m) {
                      [&](const ElasticJoint& e) { return m.network.joints[at(e.joint)].element->is.uses_angle; });
 }
 
-// A round's exponents, handed out to the modes.
+// Assigns a period's exponents to the modes.
 class Exponents {
  public:
   Exponents(const FloquetSpectrum& spectrum, bool contacts_change, ModesStudy& found)
@@ -61,14 +61,14 @@ class Exponents {
   static bool is_near(std::complex<double> s, const Mode& mode) {
     return std::abs(s - mode.lambda) < near_enough * std::abs(mode.lambda);
   }
-  // A change of speed as a whole, which the round's mean does not let swing either.
+  // A change of speed as a whole, which does not oscillate in the period's mean system either.
   bool is_slow(std::size_t i) const {
     const std::complex<double>* mean = mean_of(i);
     return mean && mean->imag() == 0 && std::abs(of(i).exponent - *mean) * spectrum_.time < explained;
   }
 
-  // Where contacts change within the round, the motion is now that of one machine and now that of another, and how often
-  // it turns in a round is a matter of how one counts.
+  // If contacts change within the period, the motion alternates between different machines, and its number of
+  // oscillations per period is a matter of definition.
   PeriodicSwing as_near_as_can_be(std::size_t i, const Mode& mode) const {
     PeriodicSwing swing{of(i).exponent, of(i).error, of(i).branch_by_mean};
     if (!contacts_change_ && !swing.branch_by_mean) return swing;
@@ -79,7 +79,7 @@ class Exponents {
     return swing;
   }
 
-  // Of those not used yet, nearest first.
+  // Those not used yet, nearest first.
   std::vector<Candidate> near(const Mode& mode, bool of_real_multiplier) const {
     std::vector<Candidate> list;
     for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) {
@@ -116,7 +116,7 @@ class Exponents {
         used_[i] = 1;
   }
 
-  // Two real multipliers in place of a swing: it is locked to the round. One alone is a slow change of speed.
+  // Two real multipliers instead of an oscillation: it is locked to the period. A single one is a slow change of speed.
   void give_pairs() {
     for (Mode* place : slowest_first_) {
       Mode& mode = *place;
@@ -134,8 +134,8 @@ class Exponents {
     }
   }
 
-  // The spectrum is whole: where no exponent that swings is left for a mode, no swing is. What sticks takes directions
-  // away.
+  // The spectrum is complete: a mode without a remaining oscillating exponent does not oscillate. Sticking contacts
+  // remove degrees of freedom.
   void tell_those_without() {
     bool gone = false;
     for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) gone = gone || is_gone(i);
@@ -153,7 +153,7 @@ class Exponents {
                     " does not oscillate in the periodic system: changes within the cycle turn it into a slow decay");
     }
   }
-  // One that swings and grows out of no other mode of the round's mean.
+  // One that oscillates and belongs to no other mode of the period's mean system.
   bool may_have_one_left(const Mode& mode) const {
     for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) {
       if (used_[i] || is_gone(i) || is_real(i)) continue;

@@ -1,4 +1,4 @@
-// mode_list.cpp — undamped modes, the damped ones that grow out of them, and how far they hold.
+// mode_list.cpp — undamped modes, the corresponding damped ones, and their range of validity.
 #include "studies/modes/mode_list.h"
 
 #include <fmt/format.h>
@@ -23,14 +23,14 @@ constexpr double like_enough = 0.3;       // of two shapes: less is another moti
 constexpr double carried = 0.1;           // of the frequency: an element that is off by more carries no such mode
 constexpr Eigen::Index most_frozen = 60;  // coordinates
 
-// Held at rest.
+// The link is held at rest.
 bool stands(const LinearDrive& drive) { return drive.at.angle && drive.at.speed == 0; }
 
-// The damped mode whose shape is most like the undamped one's and whose energy is mechanical, each used once; shapes are
-// compared with M.
+// Pairs each undamped mode with the damped mode of most similar shape whose energy is mechanical, each used once;
+// shapes are compared with M.
 std::vector<char> pair_damped(ModesStudy& found) {
   std::vector<char> used(found.damped.size(), 0);
-  // A mode that the slopes of motors and loads move far away still has its shape.
+  // A mode shifted far by the slopes of motors and loads keeps its shape.
   for (const bool near : {true, false})
     for (Mode& mode : found.modes) {
       if (mode.lambda.imag() > 0) continue;
@@ -49,7 +49,7 @@ std::vector<char> pair_damped(ModesStudy& found) {
       if (which == found.damped.size()) continue;
       used[which] = 1;
       mode.lambda = found.damped[which].lambda;
-      // What rounding leaves of a drive without damping is none.
+      // Rounding errors of an undamped drive are no damping.
       const double rounding = 1e-12 * std::abs(mode.lambda);
       mode.ratio = std::abs(mode.lambda.real()) > rounding ? found.damped[which].ratio() : 0;
       mode.lambda_error = found.damped[which].error;
@@ -58,7 +58,7 @@ std::vector<char> pair_damped(ModesStudy& found) {
   return used;
 }
 
-// A complex shape at the moment at which its inertias move most together, M-normalised, its heaviest part forwards.
+// A complex shape at the moment of largest motion of its inertias, M-normalised, its heaviest part positive.
 Eigen::VectorXd principal_shape(const LinearDrive& drive, const Eigen::VectorXcd& shape) {
   Complex together = 0;
   for (Eigen::Index i = 0; i < shape.size(); ++i) together += drive.inertia[i] * shape[i] * shape[i];
@@ -82,7 +82,7 @@ std::vector<Mode> modes_of_springs(const ModesStudy& found) {
   return modes;
 }
 
-// Of springs, weights and inertias, K = −∂M/∂φ among the stiffnesses: what is left without damping and own states.
+// Of springs, weights and inertias, with K = −∂M/∂φ among the stiffnesses: without damping and internal states.
 std::vector<Mode> modes_at_rest(const ModesStudy& found) {
   LinearDrive undamped = found.drive;
   undamped.damping.setZero();
@@ -103,9 +103,9 @@ void number_in_order(std::vector<Mode>& modes) {
   for (std::size_t k = 0; k < modes.size(); ++k) modes[k].number = static_cast<int>(k) + 1;
 }
 
-// What swings by states of elements, and what springs and states of elements do so differently together that it grows
-// out of no undamped mode. By |λ|, as damped modes are. What lies above all that are listed is of no account, unless such states
-// have energy in it.
+// Modes by internal states of elements, and modes of springs and internal states together that correspond to no
+// undamped mode. By |λ|, like damped modes. Those above all listed ones are ignored, unless internal states have
+// energy in them.
 void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStudy& found) {
   const std::size_t most = found.modes.size() + at(count);
   const double highest = found.modes.empty() ? HUGE_VAL : found.modes.back().omega;
@@ -131,8 +131,8 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
   number_in_order(found.modes);
 }
 
-// Within how much of ω the drive with continuous shafts has a mode: one step of Newton's method, and where the exact
-// stiffness can count modes, doubled until a mode is counted there. Nothing: none is within a tenth of ω.
+// Distance relative to ω within which the drive with continuous shafts has a mode: one step of Newton's method and,
+// if the exact stiffness can count modes, doubled until a mode is counted there. Empty: none within a tenth of ω.
 std::optional<double> distance_of_wave_mode(const ModesStudy& found, const Mode& mode, bool countable) {
   double within = wave_error(found.drive, mode.shape, mode.omega);
   for (; within <= carried * mode.omega; within *= 2) {
@@ -147,8 +147,8 @@ std::optional<double> distance_of_wave_mode(const ModesStudy& found, const Mode&
   return std::nullopt;
 }
 
-// What the elements of continuous shafts leave open is part of each mode's error; modes that they do not carry are left
-// out, and whether any is missing is counted by the exact stiffness.
+// The discretisation error of continuous shafts is part of each mode's error; modes that the elements cannot
+// represent are omitted, and missing modes are counted by the exact stiffness.
 void add_wave_errors(ModesStudy& found) {
   constexpr Eigen::Index most_confirmed = 120, most_counted = 300;  // coordinates
   const bool springs_alone =
@@ -271,7 +271,7 @@ void note_missing_swings(ModesStudy& found) {
   }
 }
 
-// Joints whose pieces change within the round, with the linear spring that does most nearly the same there.
+// Joints whose pieces change within the period, with the equivalent linear spring.
 void find_rattles(const CycleSamples& samples, int count, ModesStudy& found) {
   const Model& m = *found.drive.model;
 
@@ -323,7 +323,7 @@ Effects effects_of_modes(const Scene& scene) {
   return effects;
 }
 
-// In an equilibrium nothing swings: what samples tell of it is rounding.
+// In an equilibrium nothing vibrates: the samples contain rounding errors only.
 void take_swings_away(SpeedResponse& response) {
   for (JointResponse& joint : response.joints) {
     JointResponse still;

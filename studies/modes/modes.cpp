@@ -1,10 +1,9 @@
-// modes.cpp — from the linearised drive to its modes, critical speeds, and swings over the speed range.
+// modes.cpp — from the linearised drive to its modes, critical speeds, and responses over the speed range.
 #include "studies/modes/modes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "engine/linear/rest_place.h"
@@ -12,7 +11,6 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/kept_moment.h"
-#include "studies/history/torque_history.h"
 #include "studies/modes/critical_speeds.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/mode_list.h"
@@ -36,7 +34,7 @@ class Study {
     found_.link = model_->node_label(model_->reduction_node);
   }
 
-  // What is known when the budget is spent is the answer, from the first modes on.
+  // When the budget is spent, the results so far are returned, from the first modes on.
   ModesStudy result() {
     check_options();
     std::optional<ModesStudy> at_the_state;
@@ -97,7 +95,7 @@ class Study {
     options_.watch.at(what, fraction);
     options_.watch.say(what);
   }
-  // The budget is spent. Tables that are not whole are taken away.
+  // The budget is spent: removes incomplete tables.
   void end_early() {
     found_.complete = false;
     found_.diagnosis = fmt::format(
@@ -119,15 +117,15 @@ class Study {
     if (options_.barred_factor <= 0) throw std::invalid_argument("--barred: must be > 0");
   }
 
-  // What a machine does at a speed that is asked for depends on its start where it knows contacts or states of its own;
-  // else all turns as geared.
+  // The motion at a requested speed depends on the start if there are contacts or internal states; otherwise all
+  // turns as geared.
   bool searches_start() const {
     const bool plain = !model_->has_contacts() && !model_->has_memory() && scene_.sequence.steps.empty();
     return options_.start && !(options_.speed && plain);
   }
 
-  // Before any start: at the speed asked for, else at the scene's or the rated one, all as geared. None where small motions
-  // exist about the steady motion alone: play in a joint, a crank that rocks.
+  // Before any start: at the requested speed, else at the scene's or the rated one, all as geared. Empty if small
+  // motions exist about the steady motion only: clearance in a joint, a rocking crank.
   std::optional<ModesStudy> modes_at_the_state() {
     begin("modes at the scene's state", 0);
     ModesStudy first = found_;
@@ -153,7 +151,7 @@ class Study {
     return first;
   }
 
-  // The steady motion that the scene's own start leads to, where anything depends on it.
+  // The steady motion after the scene's own start, if anything depends on it.
   void find_operating_point() {
     if (searches_start()) find_orbit_cycle();
     if (!options_.speed && !options_.angle) stay_at_rest();
@@ -182,7 +180,7 @@ class Study {
     found_.cycle_order = 2 * pi / (samples_->time * std::abs(samples_->mean->speed));
   }
 
-  // A start that fails costs a fifth of the budget at most: what does not depend on it comes all the same.
+  // A failing start costs at most a fifth of the budget: independent results are still computed.
   void search_start(const std::function<void()>& search) {
     const double most = scene_.run.budget / 5, begin = processor_time();
     bool ended = false;
@@ -218,7 +216,7 @@ class Study {
       orbit_->words = refused.what();
     }
   }
-  // A machine that rests in the end is linearised in the last motion that it keeps; the way from rest is the whole one.
+  // A machine that comes to rest is linearised in its last steady motion; the run-up is the complete one.
   void choose_moment() {
     if (options_.speed || options_.angle) return;
     const std::string later = choose_kept_moment(given_, effects_, search_options(), options_.at, &*orbit_);
@@ -255,7 +253,7 @@ class Study {
     return has_rocking_crank(*model_) || (orbit_ && rests_by_its_angle(*model_, *orbit_));
   }
 
-  // What never comes round, or rests by its weights, swings about a rest: there the link is held, not averaged.
+  // A link that never completes a turn, or rests by its weights, vibrates about rest: it is held there, not averaged.
   void stay_at_rest() {
     if (!orbit_ || !swings_about_rest()) return;
     const RestPlace place = place_of_rest(model_, *orbit_);
@@ -348,7 +346,7 @@ class Study {
   void sweep() {
     const Excitations& x = found_.excitations;
     const bool limited = any_limits(limited_joints(*model_));
-    // What swings at frequencies of its own bears loads at every speed, too.
+    // Vibrations at fixed frequencies load the joints at every speed, too.
     if (found_.joint_names.empty() || (x.by_order.empty() && x.by_frequency.empty() && !limited)) return;
     const std::vector<double> speeds = sweep_speeds(found_);
     found_.keeps_its_speed = !grows(found_.drive) && found_.here.speed_swing < std::abs(found_.drive.at.speed);
@@ -369,7 +367,7 @@ class Study {
     leave_out_what_is_not_kept(found_);
   }
 
-  // What stands behind the curves over the speed: smooth, so that some points do.
+  // The reference curves over speed: smooth, so that some points suffice.
   void sweep_as_if_rigid() {
     constexpr std::size_t points = 60;
     const std::size_t every = std::max<std::size_t>(1, found_.sweep.size() / points);
@@ -391,7 +389,7 @@ class Study {
         options_, found_);
   }
 
-  // A speed that is asked for is judged by the linear response at it; peaks are those of a run-up all the same.
+  // A requested speed is assessed by its linear response; peaks are those of a run-up in any case.
   void judge_all_limits() {
     if (!orbit_ && any_limits(found_.limited)) search_start([this] { look_for_orbit(); });
     judge_limits({model_, orbit_.value_or(Orbit{})}, end_, !options_.speed && !options_.angle, options_.watch, found_);

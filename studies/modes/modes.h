@@ -1,14 +1,12 @@
 // modes.h — the drive in the frequency domain: modes, critical speeds, forced response, limits, a torque's spectrum.
 //
-// The machine is linearised at its steady motion (engine/linear), with everything that the scene's effects do.
+// The machine is linearised at its steady motion (engine/linear), with all effects of the scene.
 //   K v = ω² M v;   (λ² M + λ C + K) v = 0;   critical where r Ω = ω_n (Campbell)
-// A mechanism's inertia enters by its mean; where it varies by ε in a mode, y″ + ω²(1 − ε cos νt) y = 0 is unstable in
+// A mechanism's inertia enters by its mean; if it varies by ε in a mode, y″ + ω²(1 − ε cos νt) y = 0 is unstable in
 // first order for |ν/2ω − 1| < ½ √(ε²/4 − 4ζ²), ν = r Ω: around the speeds 2 ω/r.       (Mathieu; theory 12.8)
 #pragma once
 
-#include <atomic>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,90 +30,90 @@ namespace kurbel {
 struct ModesOptions {
   int count = 20;                    // of modes, rigid motion not counted
   std::optional<double> speed = {};  // of the reduction link [rad/s]; default: that of the steady motion
-  Moment at = {};                    // as the machine is then; default: when all is switched, or kept_moment.h's
-  std::optional<double> angle = {};  // holds the link there instead of averaging over the cycle [rad]
+  Moment at = {};                    // state at that moment; default: after all switching, or kept_moment.h's
+  std::optional<double> angle = {};  // holds the link at this angle instead of averaging over the cycle [rad]
   double slowest = 0, fastest = 0;   // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
   double orders = 0;                 // highest order; 0: 12, or what reaches the second mode, up to 24
-  double barred_factor = 1;          // a joint without limits: barred where its swing exceeds this times its
+  double barred_factor = 1;          // a joint without limits: barred if its amplitude exceeds this times its
                                      // mean or rated torque (barred_ranges.h)
   std::string torque = {};           // channel to simulate: "main_coupling"; empty: none
-  int spot_checks = 0;               // speeds of the range at which the nonlinear cycle is held against the response
-  std::vector<double> spots = {};    // and those [rad/s]
-  bool misfires = true;              // where shafts' stresses are judged: the same as one cylinder does not fire
-  bool response_alone = false;       // of a case beside the one that is judged
-  bool modes_alone = false;          // natural frequencies and damping, and nothing else
-  bool start = true;                 // else no steady motion is sought, and all turns as geared
+  int spot_checks = 0;               // number of speeds at which the response is compared with the nonlinear cycle
+  std::vector<double> spots = {};    // further such speeds [rad/s]
+  bool misfires = true;              // if shaft stresses are assessed: also with one cylinder misfiring
+  bool response_alone = false;       // for a case other than the assessed one
+  bool modes_alone = false;          // natural frequencies and damping only
+  bool start = true;                 // false: no steady motion is sought; all shafts turn as geared
   Watch watch = {};
 };
 
-// A swing of the system with coefficients that change within the round.
+// A vibration of the system with coefficients that vary within the period.
 struct PeriodicSwing {
   std::complex<double> exponent;  // s [1/s]
   double error = 0;               // [1/s]
-  bool branch_by_mean = false;    // Im s is known but for multiples of 2π/T; told is what is nearest to the mean's
+  bool branch_by_mean = false;    // Im s is known up to multiples of 2π/T; given: nearest to the mean's
   double ratio() const { return -exponent.real() / std::abs(exponent); }
 };
 
 struct Mode {
-  int number = 0;         // natural frequencies from 1 on, ascending; behind them those of internal states, likewise
-  double omega = 0;       // ω_n of K v = ω_n² M v, undamped [rad/s]; of one of internal states, |λ|
+  int number = 0;         // natural frequencies from 1 on, ascending; then modes of internal states, likewise
+  double omega = 0;       // ω_n of K v = ω_n² M v, undamped [rad/s]; for a mode of internal states |λ|
   Eigen::VectorXd shape;  // per coordinate, M-orthonormal
   EnergyShares shares;
-  std::complex<double> lambda;  // of the damped mode that grows out of it; 0 where none was found
-  double ratio = 1;             // ζ; 1: does not swing
+  std::complex<double> lambda;  // of the corresponding damped mode; 0 if none was found
+  double ratio = 1;             // ζ; 1: does not oscillate
   double error = 0;             // of ω [rad/s]
   double lambda_error = 0;      // of λ [1/s]
   EnergyParts energy = {};      // of the damped mode
-  bool of_own_states = false;   // grows out of no undamped mode: windings, controllers, slopes of motors
-  // Of ω with the link held at angles of the cycle; equal where nothing changes with the angle.
+  bool of_own_states = false;   // has no corresponding undamped mode: windings, controllers, slopes of motors
+  // Of ω with the link held at angles of the cycle; equal if nothing depends on the angle.
   double least = 0, greatest = 0;
-  // Of the periodic system, where coefficients or contacts change within the round: what the mean leaves out is the
-  // difference to λ. Two where the mode is locked to the round: both swing in step with it, and fade apart.
+  // Of the periodic system, if coefficients or contacts change within the period: the difference to λ is the error of
+  // averaging. Two if the mode is locked to the period: both oscillate in step with it and decay at different rates.
   std::vector<PeriodicSwing> periodic = {};
-  // Nothing of it is left after a round: a ring-down shows what holds at the angle where it starts, somewhere between
-  // `least` and `greatest`; the exponent's frequency is the mean over the round.
+  // It decays within one period: a measured ring-down shows the frequency at the angle where it starts, between
+  // `least` and `greatest`; the exponent's frequency is the mean over the period.
   bool fades_within_round = false;
-  bool only_of_mean = false;  // no swing of the periodic system is in its place: contacts within the round take it away
+  bool only_of_mean = false;  // no vibration of the periodic system corresponds: contacts within the period remove it
   double magnitude() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // |λ| [rad/s]
 };
 
-// A joint whose law changes its piece within the round of the steady motion: backlash that opens, a stop that is met.
+// A joint whose law changes its piece within the period of the steady motion: opening backlash, contact with a stop.
 struct Rattle {
   std::size_t joint = 0;
-  int changes = 0;  // in a round
-  double stiffness = 0;  // of the linear spring that does most nearly the same: ⟨τ θ⟩/⟨θ²⟩ over the round [N·m/rad]
+  int changes = 0;            // per period
+  double stiffness = 0;       // of the equivalent linear spring: ⟨τ θ⟩/⟨θ²⟩ over the period [N·m/rad]
   double linear = 0;          // at the mean twist [N·m/rad]
   std::vector<double> omega;  // undamped frequencies with it, ascending [rad/s]
 };
 
-// The linear response at one speed beside the nonlinear cycle whose mean speed is held there (held_cycle.h).
+// The linear response at one speed and the nonlinear cycle with this mean speed held (held_cycle.h).
 struct SpotCheck {
   double speed = 0;                  // of the reduction link [rad/s]
-  std::optional<double> share = {};  // of what its joint may bear; none: the speed was asked for
-  std::size_t joint = 0;             // that is looked at: of that share, or with the largest swing
+  std::optional<double> share = {};  // load over allowable load; empty: the speed was requested
+  std::size_t joint = 0;             // the joint considered: that of `share`, or with the largest amplitude
   SpeedResponse linear = {};
-  std::optional<SpeedResponse> cycle = {};  // none: it was not found
-  std::string why = {};                     // in words, then
+  std::optional<SpeedResponse> cycle = {};  // empty: not found
+  std::string why = {};                     // reason, if not found
   double cycle_order = 1;                   // of its first harmonic
-  double acceleration = 0;                  // that the holding torques stand for [rad/s²]
+  double acceleration = 0;                  // represented by the holding torques [rad/s²]
   bool stable = true;                       // with its mean speed held
   double difference(std::size_t j) const { return linear.joints[j].peak - cycle->joints[j].peak; }  // [N·m]
-  double error(std::size_t j) const { return 1e-5 * std::abs(cycle->joints[j].peak); }  // of 4096 samples of a round
+  double error(std::size_t j) const { return 1e-5 * std::abs(cycle->joints[j].peak); }  // by 4096 samples per period
 };
 
 struct CriticalSpeed {
-  double speed = 0;  // of the reduction link, where the order meets the mode [rad/s]
+  double speed = 0;  // of the reduction link, where the order coincides with the mode [rad/s]
   int mode = 0;
   double order = 0;
   std::size_t harmonic = 0;
-  // Where this order swings most near it: damping, and torques that follow the speed, take the two apart. None: it has
-  // no peak there.
+  // Nearby speed of this order's largest amplitude, which damping and speed-dependent torques shift. Empty: it has no
+  // peak there.
   std::optional<double> peak = {};
-  std::size_t joint = 0;                                    // in which the order is largest, reduced to the link
-  double amplitude = 0;                                     // of this order alone there, at `severest` [N·m]
-  double mean = 0;                                          // of that joint's torque, there
+  std::size_t joint = 0;                                    // with the order's largest amplitude, reduced to link
+  double amplitude = 0;                                     // of this order alone at `severest` [N·m]
+  double mean = 0;                                          // of that joint's torque there
   double severest() const { return peak.value_or(speed); }  // [rad/s]
-  double share = 0;  // of what that joint may bear (barred_ranges.h): how severe it is
+  double share = 0;  // severity: over the allowable load of that joint (barred_ranges.h)
 };
 
 struct ParametricZone {
@@ -123,16 +121,16 @@ struct ParametricZone {
   std::size_t harmonic = 0;
   double centre = 0;      // 2 ω/r [rad/s]
   double variation = 0;   // ε
-  double half_width = 0;  // relative; 0: damping keeps it closed
+  double half_width = 0;  // relative; 0: damping suppresses it
 };
 
 struct ModesStudy;
-// The drive as something of it has failed, or is otherwise: a [[case]] of the scene.
+// The drive with a failure or another change: a [[case]] of the scene.
 struct ModesCase {
   std::string name;
   std::vector<std::string> settings;
   std::shared_ptr<const ModesStudy> study = {};  // over the same speeds; null: not assessed
-  std::string why = {};                          // then
+  std::string why = {};                          // reason, if not assessed
 };
 
 struct ModesStudy {
@@ -147,67 +145,67 @@ struct ModesStudy {
   Excitations excitations;
   double slowest = 0, fastest = 0, highest_order = 0;
   std::vector<CriticalSpeed> critical;  // by speed
-  std::vector<CriticalSpeed> not_kept;  // those at which the machine does not stay by itself
+  std::vector<CriticalSpeed> not_kept;  // at which the machine does not remain by itself
   Margins margins;
   std::vector<ParametricZone> zones;
   SpeedResponse here;                  // at the operating point
-  std::optional<SpeedResponse> cycle;  // what the joints really do there, from the full equations
+  std::optional<SpeedResponse> cycle;  // actual torques of the joints there, from the full equations
   double cycle_order = 1;              // of its first harmonic
-  std::string orbit;                   // what the scene's own start leads to, in words
-  bool start_unknown = false;          // it led to nothing within a fifth of the budget
+  std::string orbit;                   // motion that the scene's own start leads to, in words
+  bool start_unknown = false;          // no motion was found within a fifth of the budget
   std::vector<Rattle> rattles;
-  bool keeps_its_speed = true;        // nothing grows at the operating point
+  bool keeps_its_speed = true;        // no deviation grows at the operating point
   std::vector<SpeedResponse> sweep;   // over the range
-  std::vector<SpeedResponse> rigid;   // some of its speeds, with joints that do not twist; none where that says nothing
-  std::vector<LimitedJoint> limited;  // per joint: what it may bear
+  std::vector<SpeedResponse> rigid;   // some of its speeds, with rigid joints; empty if that is meaningless
+  std::vector<LimitedJoint> limited;  // per joint: allowable loads
   std::vector<BarredRange> barred;
   std::vector<SpotCheck> spots;  // by speed
   std::vector<Verdict> verdicts;
-  ShaftStresses stresses;  // where they are judged
+  ShaftStresses stresses;  // if assessed
   std::optional<TorqueHistory> history;
   std::vector<ModesCase> cases;
-  std::vector<std::string> outside_data;  // what the motion takes from beyond the ends of tables
+  std::vector<std::string> outside_data;  // extrapolation of tables in the motion
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;
-  std::optional<double> rests_at;  // the link's angle about which it swings at rest [rad]
+  std::optional<double> rests_at;  // mean angle of the link if it vibrates about rest [rad]
 };
 
-// Where none are asked for: the scene's, with all elasticity where it has none.
+// Default: the scene's effects, with all elasticity if it has none.
 Effects effects_of_modes(const Scene& scene);
 
-// Natural frequencies wait for no start: first come those at the scene's state or at its rated speed; the steady motion, to
-// which the search gives a fifth of the scene's budget at most, refines them and what depends on it. Where the budget is
-// spent, what is known by then is the answer, not `complete`.
-// Throws SceneError where the scene makes no machine; std::invalid_argument where nothing is elastic or options are
-// senseless; std::runtime_error where modes cannot be found; OutOfTime where none are found within the budget.
+// Natural frequencies are computed before any start: first those at the scene's state or at its rated speed; the
+// steady motion, whose search takes at most a fifth of the scene's budget, refines them and dependent results. When
+// the budget is spent, the results so far are returned, not `complete`.
+// Throws SceneError if no machine can be made; std::invalid_argument if nothing is elastic or options are invalid;
+// std::runtime_error if modes cannot be found; OutOfTime if none are found within the budget.
 ModesStudy find_modes(const Scene& scene, const Effects& effects, const ModesOptions& options);
 
-// The same drive at the speeds of `normal`, as one cylinder after the other does not fire (cases.cpp); none where one
-// misfires already, or where there is but one. What cannot misfire is said in `notes`.
+// The same drive at the speeds of `normal`, with one cylinder after the other misfiring (cases.cpp); none if one
+// misfires already, or if there is only one. Sources that cannot misfire are listed in `notes`.
 std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, const ModesOptions& options,
                                   const ModesStudy& normal, std::vector<std::string>& notes);
 
-// The cases of a scene that are asked for by their names, {"none"}: none; empty: all. `effects`: else those of each. Throws
-// std::invalid_argument for a name that none has.
+// The cases of a scene with these names, {"none"}: none; empty: all. `effects`: if empty, those of each case. Throws
+// std::invalid_argument for an unknown name.
 struct Inquiry;
 std::vector<ModesCase> find_cases(const Inquiry& inquiry, const std::vector<std::string>& names,
                                   const std::optional<Effects>& effects, const ModesOptions& options,
                                   const ModesStudy& normal);
 
-// Of its joints that are shafts, as all cylinders fire.
+// Stresses of the joints that are shafts, with all cylinders firing.
 ShaftStresses stresses_of_sweep(const ModesStudy& study);
 
-// How many of its modes are natural frequencies of the drive; those of internal states stand behind them.
+// Number of modes that are natural frequencies of the drive; those of internal states follow them.
 std::size_t natural_modes(const ModesStudy& study);
 
-// Amplitudes of a mode at the shafts that may move.
+// Amplitudes of a mode at the movable shafts.
 Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode);
 
-// Relative half width of the first-order zone around ν = 2ω; 0 where damping ζ closes it (ε ≤ 4ζ).
+// Relative half width of the first-order zone around ν = 2ω; 0 if damping ζ suppresses it (ε ≤ 4ζ).
 double parametric_half_width(double variation, double damping_ratio);
 
-// Chapters of its findings.
+// Chapter titles of its findings.
 namespace modes_chapter {
 inline constexpr const char *limits = "Limits (theory 12.9)", *modes = "Modes (theory 12.2, 12.3)",
                             *margins = "Critical speeds and margins (theory 12.6, 12.17)",
@@ -215,7 +213,7 @@ inline constexpr const char *limits = "Limits (theory 12.9)", *modes = "Modes (t
                             *stresses = "Stresses of shafts (theory 12.14, 12.16)", *history = "Simulated torque";
 }  // namespace modes_chapter
 
-// Files: mode_shapes.csv, and forced_response.csv where a range of speeds was swept. The study must outlive the findings.
+// Files: mode_shapes.csv, and forced_response.csv if a range of speeds was swept. The study must outlive the findings.
 Findings findings_of(const ModesStudy& study);
 
 }  // namespace kurbel

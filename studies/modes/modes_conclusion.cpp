@@ -1,4 +1,4 @@
-// modes_conclusion.cpp — the first modes, what swings at the operating speed, and where a mode's energy is, in words.
+// modes_conclusion.cpp — the first modes, vibration at the operating speed, and the energy of modes, in words.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double of_weight = 0.1;  // share of a mode's energy that makes its nature
 
-// With its damping; and how it swings with that, where damping and states of elements make much of the frequency.
+// With its damping; and its damped frequency if damping and internal states change the frequency much.
 std::string first_mode(const Mode& mode) {
   constexpr double much = 0.005;
   std::string text = fmt::format("First mode at {:.6g} Hz", hertz(mode.omega));
@@ -35,7 +35,7 @@ EnergyStore::Kind kind_of(const OwnState& state) {
   return moves ? EnergyStore::Kind::mechanical : EnergyStore::Kind::control;
 }
 
-// The joint that bears most of its limits; the one that swings most where none has any.
+// The joint with the highest utilisation; without limits the one with the largest amplitude.
 std::size_t joint_to_tell(const ModesStudy& m, const SpeedResponse& said) {
   std::size_t joint = joint_with_largest_swing(said);
   double most = 0;

@@ -28,7 +28,7 @@ ReadAs digits(int count) { return {.digits = count, .otherwise = "unbounded"}; }
 
 // --- tables ---
 
-// Names with the largest shares, as "rear 61 %, web34 22 %".
+// Names with the largest shares: "rear 61 %, web34 22 %".
 std::string largest_shares(const std::vector<double>& share, const std::vector<std::string>& name) {
   std::vector<std::size_t> order(share.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -46,7 +46,7 @@ std::string damped_text(const Mode& m) {
   return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(6)) : "does not oscillate";
 }
 
-// Of the periodic system: damped frequency and damping ratio.
+// For the periodic system: damped frequency and damping ratio.
 std::string periodic_text(const Mode& m) {
   if (m.only_of_mean) return "does not oscillate";
   std::string text;
@@ -71,7 +71,7 @@ List energy_list(const ModesStudy& m, const Mode& mode) {
   });
 }
 
-// Programs see those of internal states, too.
+// Programs also get the modes of internal states.
 Rows mode_table(const ModesStudy& m) {
   auto table = table_of("modes", "Natural frequencies, damping, energies", m.modes);
   table.always().text_in(1, 0).people_see_first(natural_modes(m));
@@ -129,7 +129,7 @@ Rows mode_table(const ModesStudy& m) {
                        [&](const Mode& mode) { return largest_shares(mode.shares.shaft, m.shaft_names); });
 }
 
-// What vibrates by windings, controllers and slopes of motors, with the energy that decides what it is.
+// Modes by windings, controllers and slopes of motors, with the energy that determines their nature.
 Rows internal_table(const ModesStudy& m) {
   const auto first = m.modes.begin() + static_cast<std::ptrdiff_t>(natural_modes(m));
   return table_of("", "Modes of windings, controllers and other internal states",
@@ -289,7 +289,7 @@ DataTable response_data(const ModesStudy& m) {
 
 // --- all of it ---
 
-// Of the round that was sampled: its integration. Of the linear drive alone nobody knows.
+// Integration error of the sampled period. Unknown for the linear drive alone.
 std::optional<double> swing_error(const ModesStudy& m, std::size_t j) {
   if (!m.cycle) return {};
   return cycle_error * std::abs(m.cycle->joints[j].peak);
@@ -321,7 +321,7 @@ Formulas rayleigh(const ModesStudy& m) {
       .note(point_text(m) + ".");
 }
 
-// Of one coordinate, by the weights' stiffness.
+// For one coordinate, by the stiffness of weights.
 Formulas about_rest(const ModesStudy& m) {
   const double stiffness = m.drive.stiffness.coeff(0, 0) + m.drive.other_stiffness.coeff(0, 0);
   return Formulas()

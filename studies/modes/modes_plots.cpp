@@ -25,7 +25,7 @@ std::string numbered(const std::vector<std::string>& names, const std::string& b
   return text;
 }
 
-// Parts along an axis: by name, or by number where there are too many.
+// Parts along an axis: by name, or by number if there are too many.
 Axis axis_of(const std::string& label, std::vector<std::string> names) {
   if (names.size() > 40) return {.label = label};
   for (std::string& name : names) std::replace(name.begin(), name.end(), '_', ' ');
@@ -40,12 +40,12 @@ Series lines_of(const std::string& name, const AmplitudeSpectrum& s, double end)
   return series;
 }
 
-// From end to end of the range of speeds.
+// Over the whole speed range.
 Series level(const ModesStudy& m, const std::string& name, Role role, double y) {
   return {.name = name, .role = role, .x = {m.speed_unit.of(m.slowest), m.speed_unit.of(m.fastest)}, .y = {y, y}};
 }
 
-// Whether springs hold each shaft: a damper's ring, say, swims, and a line through it would show a node that is none.
+// Whether springs hold each shaft: a damper's ring is not held, and a line through it would show a false node.
 std::vector<char> held_by_springs(const LinearDrive& drive) {
   std::vector<char> held(drive.ratio.size(), 0);
   for (Eigen::Index c = 0; c < drive.motion.outerSize(); ++c)
@@ -55,7 +55,7 @@ std::vector<char> held_by_springs(const LinearDrive& drive) {
   return held;
 }
 
-// Amplitudes reduced to the reduction link, so that a rigid motion would be a level line.
+// Amplitudes reduced to the reduction link, so that a rigid motion is a horizontal line.
 Plot shape_plot(const ModesStudy& m) {
   Plot plot{.title = "Mode shapes along the drive, reduced to one shaft",
             .x = axis_of("shaft", m.shaft_names),
@@ -100,7 +100,7 @@ Plot energy_plot(const ModesStudy& m, bool kinetic) {
   return plot;
 }
 
-// What the joint would swing by in a machine that is rigid.
+// Amplitude of the joint in a rigid machine.
 Series rigid_curve(const ModesStudy& m, std::size_t j) {
   Series curve{.name = "rigid machine", .role = Role::rigid};
   for (const SpeedResponse& s : m.rigid) {

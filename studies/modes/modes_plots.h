@@ -1,4 +1,4 @@
-// modes_plots.h — plots of mode shapes, forced response and a torque's spectrum; what is said first, and of spot checks.
+// modes_plots.h — plots of mode shapes, forced response and a torque's spectrum; conclusion; results of spot checks.
 #pragma once
 
 #include <numbers>
@@ -15,16 +15,16 @@ inline double hertz(double omega) { return omega / (2 * std::numbers::pi); }
 // "12.3 kN·m"
 std::string torque_text(double value);
 std::size_t joint_with_largest_swing(const SpeedResponse& response);
-// One of each component, that which swings most over the range: a continuous shaft is cut into "shaft.1", "shaft.2", …
+// One joint per component, that with the largest amplitude in the range: a continuous shaft has "shaft.1", "shaft.2", …
 std::vector<std::size_t> joints_drawn(const ModesStudy& study);
-// Up to a little above the highest mode that still shows [Hz].
+// A little above the highest visible mode [Hz].
 double end_of_spectrum(const ModesStudy& study, const AmplitudeSpectrum& spectrum);
 
 bool is_forced(const ModesStudy& study);
 // "First mode at 9.78 Hz (ζ = 0.126), second at 482 Hz; at 1500 rpm "coupling" swings by 9.94 N·m about 154 N·m"
 std::string conclusion_of(const ModesStudy& study);
 
-// Where the energy of a mode is, the largest share first; none where that is not known. Own states of a component are one.
+// Distribution of a mode's energy, the largest share first; empty if unknown. Internal states of a component count as one.
 struct EnergyStore {
   enum class Kind { mechanical, electrical, control };
   std::string name;  // "springs", "inertias", "current of motor"
@@ -41,10 +41,10 @@ std::vector<Plot> mode_plots(const ModesStudy& study);
 std::vector<Plot> response_plots(const ModesStudy& study);
 std::vector<Plot> history_plots(const ModesStudy& study, const TorqueHistory& history);
 
-// What each case does to natural frequencies, margins, swings and limits (cases.cpp): tables, curves of every joint, claims of
-// what the drive as it is does not show.
+// Effect of each case on natural frequencies, margins, amplitudes and limits (cases.cpp): tables, curves of every
+// joint, claims that do not hold for the unchanged drive.
 void say_cases(Findings& findings, Chapter in, const ModesStudy& study);
-// Of spot checks (spot_findings.cpp): a line each and a table; on the curves, peaks of a joint in the nonlinear cycles.
+// Spot checks (spot_findings.cpp): one line each and a table; marks on the curves for peaks of a joint in the nonlinear cycles.
 void say_spots(Findings& findings, Chapter in, const ModesStudy& study);
 void mark_spots(const ModesStudy& study, std::size_t joint, Plot& plot);
 

@@ -1,4 +1,4 @@
-// spot_checks.cpp — which speeds of the sweep, and what the full equations do there.
+// spot_checks.cpp — selects speeds of the sweep and solves the full equations there.
 #include "studies/modes/spot_checks.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ struct Candidate {
   bool is_end = false;
 };
 
-// At every speed of the sweep the joint that bears most of what it may.
+// The joint with the highest utilisation at every speed of the sweep.
 std::vector<Candidate> uses_of(const ModesStudy& found, double factor) {
   std::vector<Candidate> uses;
   for (const SpeedResponse& s : found.sweep) {

@@ -1,8 +1,8 @@
-// spot_checks.h — the linear response over a range of speeds, held against the nonlinear cycle where it matters most.
+// spot_checks.h — comparison of the linear response over a speed range with the nonlinear cycle at the most important speeds.
 //
-// Where that is: u(Ω) = max over joints of load over what it may bear (its limits; without any, the rule of barred
-// ranges). Peaks of u over the range count first, the highest first, then the ends of the range; 5 % of the speed apart,
-// off the operating speed, whose cycle is known; none where u stays below 1 %.              (theory 12.13)
+// Importance: u(Ω) = max over joints of load over allowable load (its limits; without any, the rule of barred
+// ranges). Peaks of u over the range come first, the highest first, then the ends of the range; 5 % of the speed
+// apart, excluding the operating speed, whose cycle is known; none where u is below 1 %.              (theory 12.13)
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace kurbel {
 
-// Fills `spots`: of the speeds that are asked for, and of so many more of the sweep's.
+// Fills `spots`: for the requested speeds, and for a number of speeds of the sweep.
 void check_spots(const HeldMachine& machine, const std::function<LinearDrive(double speed)>& drive_at,
                  const ModesOptions& options, ModesStudy& found);
 

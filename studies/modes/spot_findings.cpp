@@ -15,7 +15,7 @@ constexpr std::size_t joints_told = 1000, joints_shown = 12;
 
 const JointResponse& really(const SpotCheck& spot, std::size_t j) { return spot.cycle->joints[j]; }
 
-// In the cycle, of the order that is strongest in the linear response; NaN where that is of a fixed frequency.
+// In the cycle, of the strongest order of the linear response; NaN if that is a fixed frequency.
 double amplitude_of_order(const ModesStudy& m, const SpotCheck& spot, std::size_t j) {
   const double harmonic = m.excitations.order(spot.linear.joints[j].dominant) / spot.cycle_order;
   const auto r = static_cast<std::size_t>(std::lround(harmonic));
@@ -111,7 +111,7 @@ Record spot_record(const ModesStudy& m, const SpotCheck& spot) {
   return record;
 }
 
-// That bears most of what it may; of speeds that were asked for alone, where the linear response is off by most.
+// The one with the highest utilisation; among requested speeds only, the one with the largest error of the linear response.
 const SpotCheck* to_tell(const ModesStudy& m) {
   const SpotCheck* found = nullptr;
   const auto off = [](const SpotCheck& s) { return std::abs(s.difference(s.joint)) / really(s, s.joint).peak; };

@@ -1,4 +1,4 @@
-// option.cpp — texts of options into values; what is said of one that is none.
+// option.cpp — converts option texts to values; messages for invalid ones.
 #include "studies/question/option.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // option.h — options of a question, each declared once together with the member that it fills: the command line, the
-// library, Python, completion and the documents read this table.
+// library, Python, completion and the documents use this table.
 //
 //     OptionsOf<SizeAsked>()
 //         .add({.name = "delta", .doc = "demanded δ, e.g. 0.05 or 1/20", .example = "0.05", .what = "a plain number"},
@@ -8,8 +8,8 @@
 //         .add({.name = "no_start", .doc = "skip the start"}, &SizeAsked::start_search, false)
 //         .add({.name = "form", .doc = "rim or disc"}, &SizeAsked::form, {{"rim", Form::rim}, {"disc", Form::disc}})
 //
-// The member's type says how the option is written: bool a flag, double a quantity with its unit, whole numbers, a string
-// a text, vectors several values; a std::optional member says whether it was given.
+// The member's type defines the syntax: bool a flag, double a quantity with its unit, whole numbers, a string a text,
+// vectors several values; std::optional if it may be absent.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@
 
 namespace kurbel {
 
-// By their names, {"mid_speed", "60 rpm"}; a flag is "true". What may be given again stands there again.
+// By name, {"mid_speed", "60 rpm"}; a flag is "true". A repeatable option appears several times.
 using GivenOptions = std::vector<std::pair<std::string, std::string>>;
 
 struct OptionText {
@@ -35,11 +35,11 @@ struct OptionText {
   std::string example = {};    // of a quantity: shows its unit, "60 rpm"
   std::string what = {};       // what a quantity must be: "a speed > 0"
   Domain domain = any_number;  // of quantities and whole numbers
-  int count = 0;               // of several values: so many together; 0: any number
-  bool each_time = false;      // several values: one each time that the option is given, else joined by commas, too
-  bool words = false;          // several values: words behind one another on the command line, too
-  std::string former = {};     // a name that it once had: taken still, and told nowhere
-  bool makes_a_file = false;   // among the results
+  int count = 0;               // number of values for several values; 0: any
+  bool each_time = false;      // several values: one per occurrence of the option; otherwise also joined by commas
+  bool words = false;          // several values: also as successive words on the command line
+  std::string former = {};     // a former name: still accepted, but shown nowhere
+  bool makes_a_file = false;   // it adds a file to the results
 };
 
 enum class OptionForm { flag, one, several };
@@ -48,19 +48,19 @@ struct DeclaredOption {
   OptionForm form = OptionForm::one;
 };
 
-// What was given for one option, as its reader sees it. Faults throw std::invalid_argument: name as it was given, what it
-// must be.
+// The values given for one option, for its reader. Errors throw std::invalid_argument with the name as given and the
+// allowed values.
 class OptionValues {
  public:
   OptionValues(const DeclaredOption& option, std::vector<std::string> texts, const Scene& scene, bool dashes)
       : option_(option), texts_(std::move(texts)), scene_(scene), dashes_(dashes) {}
   std::string label() const;        // "--mid-speed", "mid_speed"
-  const std::string& text() const;  // the one
+  const std::string& text() const;  // the single value
   const std::vector<std::string>& texts() const { return texts_; }
   const Scene& scene() const { return scene_; }
   [[noreturn]] void refuse(const std::string& text, const std::string& must) const;
 
-  // After "step 2" of the operating sequence, at "1.5 s", or at a speed, which goes to `speed` [rad/s].
+  // After "step 2" of the operating sequence, at "1.5 s", or at a speed, which is stored in `speed` [rad/s].
   Moment moment(std::optional<double>& speed) const;
   void read(double& value) const;
   void read(std::string& value) const { value = text(); }
@@ -85,8 +85,8 @@ class OptionValues {
   bool dashes_;
 };
 
-// Finds the values of every option among those given. Throws std::invalid_argument for one that is not declared, with those
-// that are, and for one that is given more often than it may.
+// Finds the values of every option among those given. Throws std::invalid_argument for an undeclared option, with the
+// declared ones, and for an option that is repeated without permission.
 std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOption>& options,
                                                    const GivenOptions& given, const std::string& question,
                                                    const Scene& scene, bool dashes);
@@ -102,12 +102,12 @@ class OptionsOf {
     return add(std::move(text), several ? OptionForm::several : OptionForm::one,
                [member](Asked& asked, const OptionValues& given) { given.read(asked.*member); });
   }
-  // A flag: given, the member has this value.
+  // A flag; if given, the member has the value `given`.
   template <class B>
   OptionsOf& add(OptionText text, bool B::*member, bool given = true) {
     return add(std::move(text), OptionForm::flag, [=](Asked& asked, const OptionValues&) { asked.*member = given; });
   }
-  // Words, each with the value that it stands for.
+  // Words, each with its value.
   template <class M, class B, class V>
   OptionsOf& add(OptionText text, M B::*member, std::vector<std::pair<const char*, V>> words) {
     return add(std::move(text), OptionForm::one, [member, words](Asked& asked, const OptionValues& given) {
@@ -119,13 +119,13 @@ class OptionsOf {
       given.refuse(given.text(), all);
     });
   }
-  // By a reader of its own.
+  // With its own reader.
   OptionsOf& add(OptionText text, OptionForm form, Reader reader) {
     declared_.push_back({std::move(text), form});
     readers_.push_back(std::move(reader));
     return *this;
   }
-  // A group of options that several questions have: of a base of what is asked, or of a member.
+  // A group of options shared by several questions: for a base class of `Asked`, or for a member.
   template <class Part>
   OptionsOf& add(const OptionsOf<Part>& group) {
     for (std::size_t k = 0; k < group.declared().size(); ++k)

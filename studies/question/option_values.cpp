@@ -1,4 +1,4 @@
-// option_values.cpp — texts of options into values, with what may stand there where they are none.
+// option_values.cpp — converts option texts to values, with the allowed form if invalid.
 #include "studies/question/option_values.h"
 
 #include <fmt/format.h>

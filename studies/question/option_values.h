@@ -1,4 +1,4 @@
-// option_values.h — values of options as they are written: "60 rpm", "step 2".
+// option_values.h — parsing of option values: "60 rpm", "step 2".
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 namespace kurbel {
 
 // A quantity in SI from an option; the example shows its unit: quantity_of("--until", "3 s", "a time > 0", "3 s",
-// positive). Throws std::invalid_argument in words.
+// positive). Throws std::invalid_argument with the reason.
 double quantity_of(const std::string& option, const std::string& text, const std::string& what,
                    const std::string& example, const Domain& domain);
 
-// After "step 2" of the operating sequence, at "1.5 s", or at a speed, which goes to `speed` [rad/s]. Throws
+// After "step 2" of the operating sequence, at "1.5 s", or at a speed, which is stored in `speed` [rad/s]. Throws
 // std::invalid_argument for anything else.
 Moment moment_of(const std::string& option, const std::string& at, std::optional<double>& speed);
 

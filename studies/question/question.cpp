@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "engine/scene/messages.h"
 
 namespace kurbel {
 
-// Each stands in the folder of its study.
+// Each is defined in the folder of its study.
 Question compare_question();
 Question reduce_question();
 Question size_question();

@@ -1,5 +1,5 @@
-// question.h — a question that is put to a scene: its options, what is computed, what is said of it. Registered once
-// (question.cpp); commands, library, Python, completion, manual page and documents are made of this list.
+// question.h — a question about a scene: its options, computation and findings. Registered once (question.cpp);
+// commands, library, Python, completion, manual page and documents are generated from this list.
 #pragma once
 
 #include <functional>
@@ -16,16 +16,16 @@
 
 namespace kurbel {
 
-// A scene as it is put to a question.
+// A scene and the settings under which a question is asked.
 struct Inquiry {
   const Scene& scene;
-  std::string text, file;             // as they were given, without the settings
+  std::string text, file;             // as given, without the settings
   std::vector<std::string> settings;  // "main_coupling.stiffness=1 MN*m/rad"
   DataFiles allowed = DataFiles::below_the_scene;
   Watch watch = {};
-  bool page = true;         // one is written: what it draws is followed
-  std::string author = {};  // of a worksheet
-  bool dashes = false;      // options are told as the command line has them
+  bool page = true;         // a page is written: data for its plots are recorded
+  std::string author = {};  // for a worksheet
+  bool dashes = false;      // options are named as on the command line
 
   SimulateOptions simulation() const {
     SimulateOptions options;
@@ -35,17 +35,17 @@ struct Inquiry {
 };
 
 struct QuestionText {
-  int place = 0;                       // in lists, ascending
+  int place = 0;                       // sort key in lists
   std::string name;                    // "modes"
   std::string arguments = {};          // as in "kurbel modes scene.toml"
-  std::string help;                    // a line, in kurbel --help
+  std::string help;                    // one line, in kurbel --help
   std::string does;                    // for the manual page and docs/commands.md: Markdown without links
-  std::vector<std::string> more = {};  // further examples: "scene.toml --explain", with what they do behind " | "
+  std::vector<std::string> more = {};  // further examples: "scene.toml --explain", followed by " | " and their purpose
 };
 
 struct Question : QuestionText {
   std::vector<DeclaredOption> options;
-  // Throws std::invalid_argument for options that are none, SceneError for faults of the scene.
+  // Throws std::invalid_argument for invalid options, SceneError for errors of the scene.
   std::function<StudyOutput(const Inquiry&, const GivenOptions&)> answer;
 };
 
@@ -59,9 +59,9 @@ Question make_question(QuestionText text, OptionsOf<Asked> options, StudyOutput 
   return question;
 }
 
-// All, by their places.
+// All questions, sorted by place.
 const std::vector<Question>& questions();
-// Throws std::invalid_argument, with those that there are.
+// Throws std::invalid_argument that lists the available ones.
 const Question& question_named(const std::string& name);
 
 }  // namespace kurbel

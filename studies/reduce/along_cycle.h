@@ -1,4 +1,4 @@
-// along_cycle.h — the machine along its steady cycle, asked by the angle of its reduction link.
+// along_cycle.h — the machine along its steady cycle, as a function of the angle of its reduction link.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace kurbel {
 
-// `target`: node that all is reduced to, whose speed is the first of the cycle's others; −1: the link.
+// `target`: node of the reduction, whose speed is the first of cycle.others; −1: the link.
 class AlongCycle {
  public:
   AlongCycle(const OrbitCycle& cycle, int target)
@@ -36,12 +36,12 @@ class AlongCycle {
     const double s = way(phi);
     share_.clear();
     for (const Piecewise& one : c_.cycle.share) share_.push_back(one.value(s));
-    constexpr double dust = 1e-9;  // that sampling leaves of a constant
+    constexpr double dust = 1e-9;  // sampling error of a constant
     const double inertia = std::max(0.0, c_.inertia.value(s)), slope = c_.sense * slope_.value(s);
     return {inertia, std::abs(slope) < dust * inertia ? 0.0 : slope, 0, share_};
   }
   double mechanism_inertia(double phi) const { return c_.cycle.mechanism.value.value(way(phi)); }
-  // Of the chosen shaft to the link, and its derivative by the link's angle.
+  // Ratio of the chosen shaft to the link, and its derivative by the link's angle.
   RatioAt ratio(double phi) const {
     if (!ratio_) return {1, 0};
     return {ratio_->value(way(phi)), c_.sense * ratio_slope_->value(way(phi))};

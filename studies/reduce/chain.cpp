@@ -1,4 +1,4 @@
-// chain.cpp — the drive as an engineer draws it: inertias, and what is elastic between them.
+// chain.cpp — the drive as a chain: inertias and the elastic parts between them.
 #include <string>
 #include <vector>
 
@@ -7,12 +7,6 @@
 
 namespace kurbel {
 
-double Chain::total() const {
-  double sum = 0;
-  for (const ChainInertia& i : inertias) sum += i.reduced;
-  return sum;
-}
-
 Chain elastic_chain(const Model& model, int node) {
   const Network& net = model.network;
   const double target = model.node_ratio[at(node)];
@@ -20,7 +14,7 @@ Chain elastic_chain(const Model& model, int node) {
   std::vector<const Network::Chain*> within(net.nodes.size(), nullptr);
   for (const Network::Chain& shaft : net.chains)
     for (std::size_t i = 1; shaft.degree > 0 && i + 1 < shaft.nodes.size(); ++i) within[at(shaft.nodes[i])] = &shaft;
-  // Nodes that no elastic element parts are one inertia; it is counted on its first node.
+  // Nodes connected rigidly are one inertia, counted on its first node.
   std::vector<int> group(net.nodes.size(), -1);
   Chain chain;
   for (std::size_t first = 0; first < net.nodes.size(); ++first) {

@@ -13,7 +13,7 @@
 namespace kurbel {
 namespace {
 
-// Of a driving link that turns and an output that turns round twice in a cycle.
+// For a rotating driving link and an output that reverses twice in a cycle.
 std::string time_ratio(const Mechanism& m) {
   const std::vector<double>& ends = m.travel.reversals;
   if (ends.size() != 2 || m.arc()) return {};

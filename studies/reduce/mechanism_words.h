@@ -1,4 +1,4 @@
-// mechanism_words.h — what a linkage is made of and how its output and points move: structure, stroke, dead centres, time ratio.
+// mechanism_words.h — structure of a linkage and motion of its output and points: stroke, dead centres, time ratio.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace kurbel {
 
-// Every degree of their cycles.
+// For every degree of their cycles.
 std::vector<PointPath> point_paths(const Model& model);
 
-// Of the mechanisms that are described link by link, each line with the mechanism's name.
+// For mechanisms described link by link; each line with the mechanism's name.
 std::vector<std::string> mechanism_words(const Model& model);
 
 }  // namespace kurbel

@@ -114,7 +114,7 @@ class Reducer {
     r_.speed = r_.sense * along_->cycle().mid_speed();
     r_.speed_source = "along the steady cycle that the scene's own start leads to: its mid speed";
   }
-  // The rigid machine still tells inertia, and torques at some speed.
+  // The rigid machine still gives inertia, and torques at a given speed.
   void without_a_cycle(const std::string& why) {
     const std::string text = fmt::format("there is no steady cycle to look at: {}", why);
     if (options_.basis) throw std::invalid_argument(text);
@@ -155,7 +155,7 @@ class Reducer {
     r_.to_ratio = model().node_ratio[at(target_node_)];
   }
 
-  // Whether what moves to and fro may be the reduction link itself.
+  // Whether an oscillating output may be the reduction link itself.
   void note_motion_of_output() {
     const bool rocks = r_.to_rocker;
     const std::string equation = rocks ? "I_r ε + ½ I_r′ ω² = M_d − M_c" : "m_r a + ½ m_r′ v² = F_d − F_c";
@@ -203,7 +203,7 @@ class Reducer {
     p.inertia = on_link.inertia / squared;
     p.mechanism_inertia = mechanism / squared;
     p.drive_inertia = machine_ ? machine_->constant_inertia() / squared : p.inertia - p.mechanism_inertia;
-    // By the angle (way) of what all is reduced to: d(I/x′²)/dx = (I′ − 2 I x″/x′)/x′³.
+    // By the coordinate of the target: d(I/x′²)/dx = (I′ − 2 I x″/x′)/x′³.
     p.slope = (on_link.slope - 2 * on_link.inertia * second / ratio) / (squared * ratio);
     for (std::size_t k = 0; k < on_link.share.size(); ++k) {
       const double share = on_link.share[k] / ratio;
@@ -221,7 +221,7 @@ class Reducer {
     return largest_ratio_;
   }
 
-  // In the sense of the greatest: < 0 where it turns back.
+  // In the sense of the greatest ratio: < 0 if it reverses.
   double least_ratio() {
     double least = HUGE_VAL, sense = (*slider_)(0.3 * turn / 64).first < 0 ? -1 : 1;
     for (int k = 0; k < 64; ++k) least = std::min(least, sense * (*slider_)(turn * (k + 0.3) / 64).first);
@@ -241,7 +241,7 @@ class Reducer {
     for (const double phi : phis) {
       if (phi < 0 || phi > r_.cycle) continue;
       ReducedPosition p = position(0, phi);
-      // Near a dead centre the reduced mass leaves the plot.
+      // Near a dead centre the reduced mass leaves the plot range.
       if (slider_ && std::abs(*p.ratio) < 0.15 * largest_ratio()) continue;
       if (p.singular.empty()) r_.curve.push_back(std::move(p));
     }
@@ -262,7 +262,7 @@ class Reducer {
     return {c.mechanism.value + c.mechanism.value.constant(machine_->constant_inertia()), c.drive, c.load};
   }
 
-  // And with looser tolerances, which tells the errors.
+  // Spectra, and with looser tolerances for the errors.
   void add_spectra() {
     if (machine_ && !machine_->periodic()) return;
     const Functions fine = machine_ ? functions_at(cycle_sampling) : functions_of(along_->cycle());
@@ -285,7 +285,7 @@ class Reducer {
       }
       if (along_ && along_->cycle().sense < 0)
         for (Harmonic& h : s.harmonics) h.phase = -h.phase;
-      // −180° and 180° are one phase, and rounding would choose between them.
+      // −180° and 180° are the same phase: rounding would choose between them.
       for (Harmonic& h : s.harmonics)
         if (h.phase < -pi + 1e-8) h.phase += turn;
       r_.spectra.push_back(std::move(s));
@@ -300,7 +300,7 @@ class Reducer {
     r_.mean_drive = estimate_from(r_.mean_drive.value, (*loose)[1].mean(), rounding * fine[1].largest() + drive);
     r_.mean_load = estimate_from(r_.mean_load.value, (*loose)[2].mean(), rounding * fine[2].largest() + load);
   }
-  // Of torques, and of inertia where it is that of the motion which they make.
+  // For torques, and for inertia if it depends on the motion that they cause.
   void drop_errors() {
     for (std::optional<double>* error : {&r_.drive_error, &r_.load_error, &r_.mean_drive.error, &r_.mean_load.error})
       error->reset();
@@ -309,7 +309,7 @@ class Reducer {
       for (Harmonic& h : r_.spectra[i].harmonics) h.amplitude.error.reset();
   }
   double within() const { return left_by_tables(scene_); }
-  // Within pieces: at an edge either may be a hair late, so that the other is looked at on both sides of it.
+  // Within pieces: an edge may be located slightly later in either, so that the other is evaluated on both sides.
   static double largest_difference(const Piecewise& f, const Piecewise& looser) {
     const double hair = 1e-6 * looser.length();
     const std::vector<double>& breaks = looser.breaks();
@@ -353,7 +353,7 @@ class Reducer {
     }
   }
 
-  // Along a cycle, what moves is in it; at constant speed, how far that is from the steady cycle.
+  // Along a cycle: the motion is included; at constant speed: the difference to the steady cycle.
   void add_note_on_basis() {
     if (along_) {
       r_.notes.push_back(
@@ -391,7 +391,7 @@ class Reducer {
     } catch (const std::invalid_argument&) {  // no steady cycle of which the link's angle tells
     }
   }
-  // "17.51 N·m instead of 16.2 N·m"; what four digits do not tell apart is the same.
+  // "17.51 N·m instead of 16.2 N·m"; empty if four digits are equal.
   static std::string in_place_of(double really, double here) {
     const std::string a = fmt::format("{:.4g} N·m", really), b = fmt::format("{:.4g} N·m", here);
     return a == b ? a + ", as here" : a + " instead of " + b;
@@ -400,7 +400,7 @@ class Reducer {
     return scene_.effects.describe() == "none" ? "" : fmt::format(", and {}", scene_.effects.describe());
   }
 
-  // Twelve positions may miss a blow that lasts ten degrees.
+  // Twelve positions may miss a peak of ten degrees.
   void add_note_on_peaks() {
     double seen = 0;
     for (const ReducedPosition& p : r_.positions) seen = std::max(seen, std::abs(p.load));

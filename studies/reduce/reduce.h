@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,36 +13,36 @@
 
 namespace kurbel {
 
-// What the torques and the inertia are those of.
+// Motion from which torques and inertia are taken.
 enum class ReduceBasis {
-  classical,  // the rigid machine at one position after the other, at constant speed
-  regime      // the steady cycle that the machine has with the scene's effects
+  classical,  // the rigid machine at successive positions, at constant speed
+  regime      // the machine's steady cycle with the scene's effects
 };
 
 struct MachineReduction;
 
 struct ReduceOptions {
-  int positions = 12;           // of the cycle, ≥ 1
+  int positions = 12;           // per cycle, ≥ 1
   std::string to;               // "gearbox.in", "flywheel", "press.slider", "screen.rocker"; empty: the reduction link
   std::optional<double> speed;  // of the reduction link, for torques that depend on it [rad/s]
   int orders = 12;              // of the harmonics, per turn of the reduction link
-  Moment at = {};               // the machine as it is then; default: when all is switched
-  std::optional<ReduceBasis> basis = {};  // default: classical, where the rigid machine carries all but elasticity
-  // Further angles that are looked at [rad], 0 ≤ φ < cycle, chosen when all else is known.
+  Moment at = {};               // state of the machine at that moment; default: after all switching
+  std::optional<ReduceBasis> basis = {};  // default: classical if the rigid machine represents all but elasticity
+  // Further angles [rad], 0 ≤ φ < cycle, chosen when all other results are known.
   std::function<std::vector<double>(const MachineReduction&)> also = {};
 };
 
-// The machine at one position. Reduced to a shaft: kg·m², kg·m²/rad, N·m. Reduced to a slider: kg, kg/m, N. Along a steady
-// cycle I_r is twice the kinetic energy over the speed's square, and I_drive what the mechanisms leave of it.
+// The machine at one position. Reduced to a shaft: kg·m², kg·m²/rad, N·m. Reduced to a slider: kg, kg/m, N. Along a
+// steady cycle I_r is twice the kinetic energy over the square of the speed, and I_drive is I_r − I_em.
 struct ReducedPosition {
   int number = 0;
   double phi = 0;                                                           // of the reduction link [rad]
   double omega = 0, alpha = 0;                                              // of the link [rad/s], [rad/s²]
   double inertia = 0, drive_inertia = 0, mechanism_inertia = 0, slope = 0;  // I_r = I_drive + I_em, I_r′
   double drive = 0, load = 0;                                               // M_d, M_c
-  std::vector<double> share;                                                // per account, positive when it drives
-  std::optional<double> ratio;                                              // of a slider: x′ = v/ω [m/rad]
-  std::string singular;  // why there are no values: a dead centre of the slider
+  std::vector<double> share;                                                // per account, positive if it drives
+  std::optional<double> ratio;                                              // for a slider: x′ = v/ω [m/rad]
+  std::string singular;  // reason for missing values: a dead centre of the slider
 };
 
 // a_n cos(n φ − ψ_n) of one quantity; order 1 is once per turn of the reduction link.
@@ -56,33 +55,32 @@ struct Spectrum {
   std::string name, unit;
   std::vector<Harmonic> harmonics;
   double mean_square = 0;  // of the quantity over the cycle, by quadrature
-  // Parseval: a₀² + ½ Σ a_n² over mean_square; what is missing to 1 lies in higher orders.
+  // Parseval: (a₀² + ½ Σ a_n²)/mean_square; the difference to 1 lies in higher orders.
   double captured = 1;
 };
 // Exact sums over the pieces. Orders 0 … `orders` in steps of 2π/length.
 Spectrum spectrum(const std::string& name, const std::string& unit, const Piecewise& f, int orders);
 
-// One inertia of the drive, or one elastic part between two.
+// An inertia of the drive, and an elastic part between two.
 struct ChainInertia {
-  std::string name;           // what is on it
+  std::string name;           // components on it
   double own = 0, ratio = 1;  // on its own shaft [kg·m²]; its speed over the chosen shaft's
   double reduced = 0;         // own · ratio² [kg·m²]
-  bool mechanism = false;     // holds I_em by its mean
+  bool mechanism = false;     // includes I_em by its mean
 };
 struct ChainSpring {
   std::string name;
-  std::size_t a = 0, b = 0;                      // inertias that it joins
+  std::size_t a = 0, b = 0;                      // the inertias that it connects
   double stiffness = 0, damping = 0, ratio = 1;  // own [N·m/rad], [N·m·s/rad]; of its driving shaft
   double reduced_stiffness = 0, reduced_damping = 0;
 };
-// Every coupling and shaft elastic, whatever effects are on.
+// The chain with every coupling and shaft elastic, whatever effects are on.
 struct Chain {
   std::vector<ChainInertia> inertias;
   std::vector<ChainSpring> springs;
-  double total() const;
 };
 
-// A coupler curve: where a point of a linkage is, at equal steps of its driving link's angle.
+// A coupler curve: positions of a linkage's point at equal steps of its driving link's angle.
 struct PointPath {
   std::string name;               // "press.D"
   std::vector<double> phi, x, y;  // [rad]; in the sketch's axes, from the driving link's bearing [m]
@@ -90,12 +88,12 @@ struct PointPath {
 
 struct MachineReduction {
   std::string title, scene_file;
-  std::string link, to;    // the reduction link, and what all is reduced to
-  bool turns_back = true;  // it does: dead centres
+  std::string link, to;    // the reduction link, and the target of the reduction
+  bool turns_back = true;  // the target reverses: dead centres
   bool to_output = false;  // the mechanism's slider or rocker, whose ratio varies
   bool to_rocker = false;
   double to_ratio = 1;  // speed of the chosen shaft over the link's
-  double speed = 0;     // of the link, where torques depend on it [rad/s]
+  double speed = 0;     // of the link, if torques depend on it [rad/s]
   std::string speed_source;
   SpeedUnit speed_unit;
   ReduceBasis basis = ReduceBasis::classical;
@@ -105,31 +103,31 @@ struct MachineReduction {
   std::vector<std::string> accounts;  // names with their line: "press.load (useful)"
   std::vector<ReducedPosition> positions;
   std::vector<ReducedPosition> curve;  // dense, for plots
-  std::vector<ReducedPosition> also;   // at the further angles that were asked for
+  std::vector<ReducedPosition> also;   // at the further angles requested
   std::vector<Spectrum> spectra;       // on the link: I_r, M_d − M_c
   Chain chain;                         // on the chosen shaft, or on the link
   Estimate mean_drive, mean_load;      // on the link [N·m]
-  // Largest over the cycle, on the link: of I_r [kg·m²], M_d and M_c [N·m]. Nothing comes round: none.
+  // Largest errors over the cycle, on the link: of I_r [kg·m²], M_d and M_c [N·m]. Empty if nothing repeats.
   std::optional<double> inertia_error, drive_error, load_error;
-  std::vector<std::string> outside_data;  // what torques are taken from beyond the ends of tables; they have no errors
-  std::vector<PointPath> paths;           // of a linkage's points that move, over a cycle of its driving link
+  std::vector<std::string> outside_data;  // extrapolation of tables in the torques; it has no error
+  std::vector<PointPath> paths;           // of a linkage's moving points, over a cycle of its driving link
   std::vector<std::string> notes;
 };
 
-// Throws SceneError where the scene makes no machine, std::invalid_argument in words for options that make no sense, and
-// where neither the rigid machine nor a steady cycle tells the torques.
+// Throws SceneError if no machine can be made, std::invalid_argument with the reason for invalid options, and if
+// neither the rigid machine nor a steady cycle determines the torques.
 MachineReduction reduce(const Scene& scene, const ReduceOptions& options);
 
-// The drive's chain on a node of a compiled model.
+// The elastic chain reduced to a node of a compiled model.
 Chain elastic_chain(const Model& model, int node);
 
-// Its mass–elastic table, each value of its own shaft and as reduced to `to`, with the speeds of each where those of `to` are
-// known (fastest > 0) [rad/s]; and the chain drawn.
+// Its mass–elastic table: each value on its own shaft and reduced to `to`, with the speeds of each if those of `to`
+// are known (fastest > 0) [rad/s]; and a drawing of the chain.
 Rows chain_table(const Chain& chain, const std::string& to, double slowest = 0, double fastest = 0,
                  const SpeedUnit& unit = {});
 Plot chain_plot(const Chain& chain);
 
-// "gearbox.in", "flywheel" → node of the network. Throws std::invalid_argument with the names allowed.
+// "gearbox.in", "flywheel" → node of the network. Throws std::invalid_argument with the allowed names.
 int node_named(const Model& model, const std::string& name);
 
 // Files: positions.csv, harmonics.csv, of linkages coupler_curves.csv. The reduction must outlive the findings.

@@ -23,15 +23,15 @@ std::string conclusion_of(const MachineReduction& r) {
     if (!least || p.inertia < least->inertia) least = &p;
   }
   if (r.to_output)
-    return fmt::format("{}: reduced to {} the machine has {:.5g} {}{}", r.title, r.to, least ? least->inertia : 0.0,
+    return fmt::format("Reduced to {}, the machine has {:.5g} {}{}", r.to, least ? least->inertia : 0.0,
                        pretty_unit(names_of(r).inertia_unit),
                        r.turns_back ? " or more, infinite in the dead centres" : "");
   if (r.basis == ReduceBasis::regime)
-    return fmt::format("{}: reduced to {} the machine has {:.5g} … {:.5g} kg·m² along its steady cycle", r.title, r.to,
+    return fmt::format("Reduced to {}, the machine has {:.5g} … {:.5g} kg·m² along its steady cycle", r.to,
                        least ? least->inertia : 0.0, most ? most->inertia : 0.0);
   return fmt::format(
-      "{}: reduced to {} the machine has {:.5g} … {:.5g} kg·m², of which {:.5g} kg·m² turn at constant ratio", r.title,
-      r.to, least ? least->inertia : 0.0, most ? most->inertia : 0.0, r.constant_inertia);
+      "Reduced to {}, the machine has {:.5g} … {:.5g} kg·m², of which {:.5g} kg·m² turn at constant ratio", r.to,
+      least ? least->inertia : 0.0, most ? most->inertia : 0.0, r.constant_inertia);
 }
 
 // --- tables ---
@@ -42,7 +42,7 @@ struct Quantity {
   std::function<double(const ReducedPosition&)> value;
 };
 
-// What each position holds; values that are rounding dust beside the largest of their kind are zeros.
+// Values of each position; rounding errors relative to the largest of their kind are set to zero.
 std::vector<Quantity> quantities_of(const MachineReduction& r) {
   const ReducedNames n = names_of(r);
   const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit);
@@ -304,6 +304,7 @@ Findings findings_of(const MachineReduction& r) {
              .subtitle = fmt::format("Machine reduced to {}", r.to),
              .scene_file = r.scene_file,
              .speed_unit = r.speed_unit.name,
+             .opening = Findings::Opening::title_and_conclusion,
              .tells_complete = false};
   f.key("constant inertia of the drive", {r.constant_inertia}, "constant_inertia", r.to_output ? "on " + r.link : "");
   f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);

@@ -41,7 +41,7 @@ Plot harmonics_plot(const Spectrum& s, const std::string& link) {
   return in_readable_unit(std::move(plot), s.unit);
 }
 
-// Where an inertia stands in the drawing: compliance from the first one along the x-axis, branches below each other.
+// Position of an inertia in the drawing: compliance from the first one along the x-axis, branches below each other.
 struct Place {
   double x = 0;
   int row = 0;
@@ -137,8 +137,8 @@ std::vector<Plot> harmonics_plots(const MachineReduction& r) {
   return plots;
 }
 
-// The chain as one draws it by hand: discs as high as the cube root of their inertia, as far apart as the shaft between
-// them is soft.
+// Schematic drawing of the chain: discs with a height by the cube root of their inertia, at distances by the
+// compliance of the shaft.
 Plot chain_plot(const Chain& chain) {
   const std::vector<Place> places = places_of(chain);
   double largest = 0, length = 0;

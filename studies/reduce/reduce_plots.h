@@ -9,16 +9,16 @@
 
 namespace kurbel {
 
-// Symbols and units of what the positions hold: those of a mass on a slider, of an inertia on a shaft.
+// Symbols and units of the positions' values: for a mass on a slider, or an inertia on a shaft.
 struct ReducedNames {
   std::string inertia, inertia_unit, slope_unit, torque, torque_unit;
 };
 ReducedNames names_of(const MachineReduction& reduction);
-// Shares that act at all.
+// Accounts with a non-zero share.
 std::vector<std::size_t> acting(const MachineReduction& reduction);
-// Rounding of the sums, not a harmonic.
+// Whether it is a rounding error of the sums.
 bool is_dust(const Harmonic& harmonic, const Spectrum& spectrum);
-// At which speed the torques are.
+// The speed at which the torques are taken.
 std::string speed_text(const MachineReduction& reduction);
 
 std::vector<Plot> motion_plots(const MachineReduction& reduction);

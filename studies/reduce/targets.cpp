@@ -1,4 +1,4 @@
-// targets.cpp — names of shafts and sliders, and how a slider moves with the link.
+// targets.cpp — names of shafts and sliders, and the motion of a slider with the link.
 #include "studies/reduce/targets.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 
 #include "engine/numerics/index.h"
 #include "engine/scene/keys.h"
-#include "engine/scene/units.h"
 
 namespace kurbel {
 namespace {
@@ -61,10 +60,8 @@ RatioAt SliderRatio::operator()(double phi) {
 void refuse_target(const Model& model, const std::string& to) {
   std::vector<std::string> names = shafts_of(model);
   for (const std::string& slider : sliders_of(model)) names.push_back(slider);
-  const auto near = nearest(to, names);
-  throw std::invalid_argument(fmt::format("--to {}: no such shaft{}; allowed: {}", in_quotes(to),
-                                          near ? fmt::format(" — did you mean {}?", in_quotes(*near)) : "",
-                                          listed(names)));
+  throw std::invalid_argument(
+      fmt::format("--to {}: no such shaft{}; allowed: {}", in_quotes(to), suggestion(to, names), listed(names)));
 }
 
 int node_named(const Model& model, const std::string& name) {

@@ -1,4 +1,4 @@
-// targets.h — what a machine can be reduced to: its shafts, and the sliders and rockers of its mechanisms.
+// targets.h — possible targets of a reduction: shafts, and the sliders and rockers of mechanisms.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace kurbel {
 
-// Speed of what all is reduced to over the link's, and its derivative by the link's angle.
+// Speed of the target over the link's, and its derivative by the link's angle.
 struct RatioAt {
   double first = 0, second = 0;
 };
@@ -31,10 +31,10 @@ class SliderRatio {
   bool rocks_ = false;
 };
 
-// Throws std::invalid_argument with the names allowed.
+// Throws std::invalid_argument with the allowed names.
 [[noreturn]] void refuse_target(const Model& model, const std::string& to);
 
-// Of a reduction whose torques depend on speed: the speed given, the operating speed, or the rated speed.
+// For a reduction whose torques depend on speed: the given speed, the operating speed, or the rated speed.
 void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineReduction& r);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// assets.cpp — takes the files in as they are, by the assembler: a megabyte as a C++ array would compile for seconds.
+// assets.cpp — includes the files by the assembler: a megabyte as a C++ array would take seconds to compile.
 #include "studies/report/assets.h"
 
 #define KURBEL_ASSET(name, file)                                                               \

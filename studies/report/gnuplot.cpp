@@ -36,7 +36,7 @@ std::string slug(const std::string& title) {
   return name.empty() ? "plot" : name.substr(0, 60);
 }
 
-// In gnuplot's single quotes a quote is doubled; a line feed would end them, and what follows were a command.
+// In gnuplot's single quotes a quote is doubled; a line feed would end the string, and the rest would be a command.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : printable(text)) out += c == '\'' ? "''" : std::string(1, c);
@@ -80,7 +80,7 @@ std::string data_of(const Plot& plot) {
   return text;
 }
 
-// Of a name with more lines the first: the others say more of it where there is room.
+// For a name of several lines only the first: the others are used where there is room.
 std::string places_of(const std::vector<std::string>& names) {
   std::string text = "(";
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -88,7 +88,7 @@ std::string places_of(const std::vector<std::string>& names) {
   return text + ")\n";
 }
 
-// Ends, names of parts, bands, and what is written beside lines.
+// Axis ranges, names of parts, bands, and labels beside lines.
 std::string frame_of(const Plot& plot) {
   const auto range = [](const char* axis, const Axis& of) {
     if (!of.least && !of.greatest) return std::string();
@@ -182,7 +182,7 @@ std::vector<std::string> draw_by_gnuplot(const std::vector<TextFile>& files, int
   for (const TextFile& file : files)
     if (file.name.ends_with(".gp")) scripts.push_back(file.name);
   if (scripts.size() == 1 || !is_installed("gnuplot")) return drawn;
-  // One process draws all of them; the first script that it cannot read ends it, then each has its own.
+  // One process draws all plots; if a script fails, each is drawn by its own process.
   const bool all_well = run_and_wait(scripts, folder, kept);
   for (std::size_t i = 1; i < scripts.size(); ++i) {
     const bool well = all_well || run_and_wait({"gnuplot", scripts[i]}, folder, kept);

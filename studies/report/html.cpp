@@ -240,7 +240,7 @@ Record section_record(const ReportSection& section) {
                                      })}};
 }
 
-// All that it says, a line each.
+// All texts in it, one per line.
 void add_words(const Value& value, std::string& words) {
   if (const std::string* text = value.as<std::string>()) words += *text + "\n";
   if (const List* list = value.as<List>())
@@ -338,7 +338,7 @@ std::string html_of(const Report& report, const Letterhead& head) {
   const std::string_view page = report_assets::page_html();
   std::string html;
   html.reserve(page.size() + json.size() + report_assets::plotly_js().size() + 65536);
-  // Placeholders {{name}} of the template, once through; what is put in is not looked at again.
+  // Placeholders {{name}} of the template, in one pass; inserted text is not scanned again.
   std::size_t at = 0;
   for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{", at)) {
     const std::size_t close = page.find("}}", open);

@@ -653,7 +653,7 @@
     const beside = window.innerWidth > 900 && high > 0.75 * box.height;
     if (beside) {
       stage.classList.add('beside');
-      stage.style.setProperty('--sides', [line.svg, linkages[0]].map(svg => `minmax(0, ${ratio(svg).toFixed(3)}fr)`).join(' '));
+      stage.style.setProperty('--sides', [line.svg, linkages[0]].map((svg, k) => `minmax(${k ? 200 : 0}px, ${ratio(svg).toFixed(3)}fr)`).join(' '));
     }
     // Several mechanisms share the room in columns of at least 200 pixels.
     const columns = Math.max(1, Math.min(linkages.length, Math.floor((room + 16) / 216))), most = linkages.length > 1 ? 300 : 460;
@@ -997,11 +997,13 @@
     const c = Math.cos(g.direction), s = Math.sin(g.direction), jointAt = jointsOf(g);
     const least = lists => Math.min(...lists.map(list => Math.min(...list))), most = lists => Math.max(...lists.map(list => Math.max(...list)));
     const size = Math.max(most(g.x) - least(g.x), most(g.y) - least(g.y)), body = 0.13 * size, room = 0.3 * size;
-    const slider = g.links.find(link => link.shape === 'slider'), carried = slider || g.links.find(link => link.shape === 'point'), end = carried ? carried.joints[0] : g.output;
+    const slider = g.links.find(link => link.shape === 'slider'), end = g.output, guided = slider ? slider.joints[0] : end;
+    // What the load acts on slides, else it rocks about a bearing.
+    const carried = g.links.find(link => (link.shape === 'slider' || link.shape === 'point') && link.joints[0] === end);
     const forced = own.length > 0;
     // Corners of what is seen, in the mechanism's axes.
     const far = most(g.x) + (carried ? body + (forced ? 0.55 * room : 0) : 0.4 * body), aside = (g.load === 'press' ? 1.25 : 0.75) * body;
-    const way = slider ? [g.y[end][0] - aside, g.y[end][0] + aside] : [];
+    const way = slider ? [g.y[guided][0] - aside, g.y[guided][0] + aside] : [];
     const low = Math.min(least(g.y) - 0.3 * body, ...way), high = Math.max(most(g.y) + 0.3 * body, ...way);
     const corners = [least(g.x) - 0.5 * body, far].flatMap(u => [low, high].map(v => [u * c - v * s, -(u * s + v * c)]));
     const xs = corners.map(p => p[0]), ys = corners.map(p => p[1]);
@@ -1019,13 +1021,13 @@
     // Guide, or the walls of a cylinder with its head, or a press with its table; fixed bearings, and a scale bar.
     if (slider) drawAround();
     function drawAround() {
-      const low = Math.min(...g.x[end]) - body, high = Math.max(...g.x[end]) + body * 1.1, axis = g.y[end][0];
+      const low = Math.min(...g.x[guided]) - body, high = Math.max(...g.x[guided]) + body * 1.1, axis = g.y[guided][0];
       const line = (u1, v1, u2, v2, width) => draw('line', {x1: X(u1, v1), y1: Y(u1, v1), x2: X(u2, v2), y2: Y(u2, v2), stroke: 'var(--metal-edge)', 'stroke-width': width, 'stroke-linecap': 'round'}, svg);
-      const half = body * 0.62, head = Math.max(...g.x[end]) + body * 0.72;
+      const half = body * 0.62, head = Math.max(...g.x[guided]) + body * 0.72;
       for (const v of [-1, 1]) line(low, axis + v * half, g.load === 'cylinder' ? head : high, axis + v * half, g.load === 'cylinder' ? 4 : 2);
       if (g.load === 'cylinder') line(head, axis - half, head, axis + half, 5);
       if (g.load === 'press') {
-        const table = Math.max(...g.x[end]) + body * 0.58 + 0.04 * size, wide = body * 1.05;
+        const table = Math.max(...g.x[guided]) + body * 0.58 + 0.04 * size, wide = body * 1.05;
         draw('polygon', {points: [[table, -wide], [table, wide], [table + 0.35 * body, wide], [table + 0.35 * body, -wide]].map(([u, v]) => at2(u, axis + v)).join(' '), class: 'body'}, svg);
         draw('polygon', {points: [[table - 0.035 * size, -0.45 * body], [table - 0.035 * size, 0.45 * body], [table, 0.45 * body], [table, -0.45 * body]].map(([u, v]) => at2(u, axis + v)).join(' '), class: 'part'}, svg);
         for (const v of [-1, 1]) line(-0.4 * body, axis + v * wide * 1.08, table + 0.3 * body, axis + v * wide * 1.08, 5);
@@ -1110,7 +1112,7 @@
       text.textContent = withPrefix(force, carried ? 'N' : 'N·m');
       if (carried) {
         // A push towards the crank ends at the slider's face, a pull begins there.
-        const [x, y] = points[end], face = x + (slider ? body * 0.58 : 0), length = room * Math.abs(force) / largest, from = force < 0 ? face + length : face, to = force < 0 ? face : face + length;
+        const [x, y] = points[end], face = x + (guided === end && slider ? body * 0.58 : 0), length = room * Math.abs(force) / largest, from = force < 0 ? face + length : face, to = force < 0 ? face : face + length;
         place(arrow, {d: `M${at2(from, y)} L${at2(to, y)}`});
         drawArrowHead(arrow, head, X(to, y), Y(to, y), g.direction + (force < 0 ? Math.PI : 0), 9);
       } else {

@@ -1,4 +1,4 @@
-// theory.cpp — the pages of docs/theory (tests/docs/theory_test.cpp holds them to the folder), and who cites them.
+// theory.cpp — the pages of docs/theory (tests/docs/theory_test.cpp compares them with the folder), and citations of them.
 #include "studies/report/theory.h"
 
 #include <fmt/format.h>

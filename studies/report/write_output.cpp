@@ -2,7 +2,6 @@
 #include "studies/report/write_output.h"
 
 #include "studies/files/result_set.h"
-#include "studies/report/render.h"
 
 namespace kurbel {
 
@@ -19,7 +18,7 @@ std::filesystem::path write_output(const StudyOutput& output, const std::filesys
   if (options.plots) {
     const std::vector<TextFile> files = gnuplot_files(report);
     for (const TextFile& file : files) set.add("plots/" + file.name, file.text);
-    // Who interrupts does not wait for pictures: data and scripts are there to draw them.
+    // An interrupted run does not wait for pictures: data and scripts allow drawing them later.
     if (const Descriptor plots = options.interrupted ? Descriptor() : open_folder(set.folder(), "plots"))
       for (const std::string& picture : draw_by_gnuplot(files, plots.get(), set.folder()))
         set.adopt("plots/" + picture);

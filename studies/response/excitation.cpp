@@ -1,4 +1,4 @@
-// excitation.cpp — samples what the equations leave over, over the cycle and over time, and splits it into harmonics.
+// excitation.cpp — samples the residuals of the equations over the cycle and over time, and decomposes them into harmonics.
 #include "studies/response/excitation.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ constexpr double misfit_refined = 1e-4, misfit_told = 1e-3;
 constexpr double strong = 0.3;  // of the strongest order of the same torque
 constexpr std::size_t few_speeds = 3, more_speeds = 9;
 
-// One place where something may be left over, with its samples.
+// A place of a possible residual, with its samples.
 struct Track {
   LeftOver kind;
   int index;
@@ -63,7 +63,7 @@ void read_places(const BaseMotion::Residual& r, std::vector<double>& values) {
   values.insert(values.end(), r.joint_torque.begin(), r.joint_torque.end());
 }
 
-// All that is left over at these positions; what does not change is dropped, of large drives by a first look.
+// All residuals at these positions; constant ones are dropped, for large drives by a preliminary check.
 std::vector<Track> tracks(BaseMotion& base, const std::vector<BaseMotion::Position>& positions, bool with_joints) {
   const Model& m = base.model();
   std::vector<Track> all;
@@ -92,7 +92,7 @@ std::vector<Track> tracks(BaseMotion& base, const std::vector<BaseMotion::Positi
   return changing;
 }
 
-// Twists that joints which turn unevenly have at rest: the kinematics of the base motion demand their opposite.
+// Twists at rest of joints with varying ratio: the kinematics of the base motion demand their opposite.
 void add_rest_twists(BaseMotion& base, const std::vector<BaseMotion::Position>& positions, std::vector<Track>& all) {
   const Model& m = base.model();
   for (std::size_t j = 0; j < m.elastic.size(); ++j) {
@@ -105,7 +105,7 @@ void add_rest_twists(BaseMotion& base, const std::vector<BaseMotion::Position>& 
 
 using Orders = std::vector<OrderSource>;
 
-// Over the cycle at one speed, by harmonics. Samples lie half a step off the round angles of edges.
+// Over the cycle at one speed, by harmonics. Samples lie half a step off round angles, where edges are.
 Orders orders_of(const LinearDrive& drive, BaseMotion& base, std::size_t samples, std::size_t harmonics) {
   const double step = base.cycle() / static_cast<double>(samples), sign = drive.at.speed < 0 ? -1 : 1;
   std::vector<BaseMotion::Position> positions(samples);
@@ -196,7 +196,7 @@ class SourceSearch {
     for (OrderSource& source : found_.here) source.values.front().resize(found_.harmonics + 1);
   }
 
-  // At evenly spaced speeds up to the fastest, checked between the first two thirds.
+  // At equidistant speeds up to the fastest, checked between the first two thirds.
   void sample_speeds(std::size_t count) {
     std::vector<double> speeds;
     for (std::size_t i = 1; i <= count; ++i)
@@ -227,7 +227,7 @@ class SourceSearch {
     found_.misfit = largest > 0 ? misfit / largest : 0;
   }
 
-  // Over the common period of all that depends on time, with the link where the base motion begins.
+  // Over the common period of all functions of time, with the link at the start of the base motion.
   void find_frequencies(BaseMotion& base) {
     const double period = base.time_period(), begin = base.positions().front().angle;
     std::vector<BaseMotion::Position> positions(time_samples);
@@ -241,7 +241,7 @@ class SourceSearch {
       const std::vector<Complex> values = harmonics_of(t.samples);
       for (std::size_t r = 1; r < time_samples / 8; ++r) {
         const double omega = 2 * pi * static_cast<double>(r) / period;
-        // Phases count from the time at which the base motion begins.
+        // Phases refer to the time at which the base motion begins.
         Complex amplitude =
             values[r] * std::polar(1.0, -pi * static_cast<double>(r) / static_cast<double>(time_samples));
         if (t.kind == LeftOver::twist) amplitude /= Complex(0, omega);
@@ -260,7 +260,7 @@ class SourceSearch {
   }
   double scale_of(int own) const { return m_.own_states[at(own)].state.scale * m_.speed_scale; }
 
-  // θ̇ that the ripple of a prescribed speed demands; as a rate, per joint at that shaft.
+  // θ̇ demanded by the ripple of a prescribed speed; as a rate, per joint at that shaft.
   void add_prescribed_twists(BaseMotion& base, const std::vector<BaseMotion::Position>& positions,
                              std::vector<Track>& all) const {
     for (std::size_t j = 0; j < m_.elastic.size(); ++j) {
@@ -273,7 +273,7 @@ class SourceSearch {
     }
   }
 
-  // Angle and time count apart: what hangs on both at once is told. Of a link that is held there are no orders.
+  // Dependence on angle and on time is separated; a dependence on both at once is noted. There are no orders for a held link.
   void check_split(BaseMotion& base, const std::vector<BaseMotion::Position>& over_time) {
     if (!base.turns() || drive_.at.angle) return;
     const BaseMotion::Position origin = over_time.front();

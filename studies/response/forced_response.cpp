@@ -1,4 +1,4 @@
-// forced_response.cpp — one complex solve an order; the sum synthesised over the cycle and its peak located.
+// forced_response.cpp — one complex solution per order; the sum is synthesised over the cycle and its peak located.
 #include "studies/response/forced_response.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 
 namespace kurbel {
 namespace {
@@ -149,20 +150,6 @@ std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omeg
   return all;
 }
 
-Eigen::VectorXcd FrequencyResponse::motion(double omega, const Eigen::VectorXcd& torque) {
-  Forcing f = Forcing::none(drive_);
-  f.torque = torque;
-  return motion(omega, f).q;
-}
-
-std::vector<Complex> FrequencyResponse::torques(double omega, const Eigen::VectorXcd& torque) {
-  Forcing f = Forcing::none(drive_);
-  f.torque = torque;
-  std::vector<Complex> all;
-  for (const JointSwing& swing : swings(omega, f)) all.push_back(swing.torque);
-  return all;
-}
-
 Extremes extremes_of_sum(const std::vector<Complex>& x) {
   for (const Complex& c : x)
     if (!std::isfinite(c.real()) || !std::isfinite(c.imag())) return {HUGE_VAL, -HUGE_VAL};
@@ -190,7 +177,7 @@ Extremes extremes_of_sum(const std::vector<Complex>& x) {
 
 namespace {
 
-// What joints dissipate at one frequency: by their damping, or with states of their own by all that they do.
+// Dissipation of joints at one frequency: by their damping, or with internal states by their total work.
 std::vector<double> dissipated(const LinearDrive& drive, const std::vector<FrequencyResponse::JointSwing>& swings,
                                double omega) {
   Eigen::VectorXcd rate(static_cast<Index>(swings.size()));
@@ -205,7 +192,7 @@ std::vector<double> dissipated(const LinearDrive& drive, const std::vector<Frequ
   return power;
 }
 
-// Counts what one frequency does to one joint.
+// Adds the contribution of one frequency to one joint.
 void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, double power, double omega,
            std::size_t harmonic) {
   const double amplitude = std::abs(swing.torque);
@@ -218,7 +205,7 @@ void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, dou
   joint.dominant_omega = omega;
 }
 
-// The reduction link's speed by the coordinates' speeds: a row; empty where it may not move.
+// The reduction link's speed as a row of the coordinates' speeds; empty if it is prescribed.
 Eigen::VectorXcd row_of_link(const LinearDrive& drive) {
   const Model& m = *drive.model;
   const int link = m.shaft_of_node[static_cast<std::size_t>(m.reduction_node)];
@@ -230,7 +217,7 @@ Eigen::VectorXcd row_of_link(const LinearDrive& drive) {
   return ratio != 0 ? Eigen::VectorXcd(link_row / ratio) : link_row;
 }
 
-// A joint that carries nothing on the mean, as a damper's ring, has what rounding leaves of the others' torques.
+// A joint without mean torque, such as a damper's ring, has only rounding errors of the others' torques.
 void clear_noise(SpeedResponse& response) {
   constexpr double noise = 1e-10;
   double largest = 0;
@@ -271,7 +258,7 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
   else
     result.speed_swing = HUGE_VAL;
   std::vector<double> beside(drive.joints.size(), 0.0);
-  // What swings at one frequency keeps its phases.
+  // Excitations of one frequency keep their phases.
   std::vector<FrequencySource> sources = excitations.by_frequency;
   std::sort(sources.begin(), sources.end(),
             [](const FrequencySource& a, const FrequencySource& b) { return a.omega < b.omega; });

@@ -1,9 +1,9 @@
-// forced_response.h — steady swinging of a linearised drive under its excitations, at one speed.
+// forced_response.h — steady forced vibration of a linearised drive at one speed.
 //
 //     (−ω² M + iω C + K) q_r = B z_r + f_r,  (iω − F) z_r = (iω H + G T) q_r + h_r  at ω = r Ω
-//     torque of a joint τ_r = (k + iω c) θ_r, with what it hangs on besides
-// The peak is that of the sum of all orders over the cycle, with their phases; torques of fixed frequencies, which come
-// in any phase sooner or later, are added by amplitude.
+//     torque of a joint τ_r = (k + iω c) θ_r, plus its dependence on other quantities
+// The peak is that of the sum of all orders over the cycle, with their phases; torques of fixed frequencies, which
+// occur in any phase, are added by amplitude.
 #pragma once
 
 #include <memory>
@@ -16,12 +16,12 @@ namespace kurbel {
 
 struct JointResponse {
   double mean = 0;           // torque at that speed [N·m]
-  double peak = 0;           // greatest departure from the mean [N·m]
+  double peak = 0;           // greatest deviation from the mean [N·m]
   double upper = 0;          // greatest torque, mean included [N·m]
   double lower = 0;          // least
-  double amplitude_sum = 0;  // Σ of the orders' amplitudes: never less than the peak
-  double rms = 0;            // of the swinging part
-  double power = 0;          // that it dissipates [W]
+  double amplitude_sum = 0;  // Σ of the orders' amplitudes, an upper bound of the peak
+  double rms = 0;            // of the alternating part
+  double power = 0;          // dissipated by it [W]
   std::size_t dominant = 0;  // harmonic with the largest amplitude; 0: a fixed frequency, or none
   double dominant_amplitude = 0;
   double dominant_omega = 0;  // its frequency [rad/s]
@@ -29,23 +29,23 @@ struct JointResponse {
 
 struct SpeedResponse {
   double speed = 0;        // of the reduction link [rad/s]
-  double speed_swing = 0;  // of the link by all orders, its greatest departure from the mean [rad/s]
-  bool kept = true;        // the machine stays at that speed; false: what is said here is of no motion that lasts
+  double speed_swing = 0;  // of the link by all orders: greatest deviation from the mean [rad/s]
+  bool kept = true;        // the machine can hold that speed; false: the response belongs to no lasting motion
   std::vector<JointResponse> joints;
   std::vector<std::vector<Complex>> orders;  // per joint and harmonic: τ_r [N·m]
 };
 
-// What acts on a linear drive at one frequency, as Re(A e^{iωt}).
+// Excitation of a linear drive at one frequency, as Re(A e^{iωt}).
 struct Forcing {
   Eigen::VectorXcd torque;        // on the coordinates [N·m]
-  Eigen::VectorXcd own;           // on the rates of own states
-  Eigen::VectorXcd twist;         // of the joints, that the kinematics demand [rad]
-  Eigen::VectorXcd joint_torque;  // that the joints transmit without the drive's swinging [N·m]
+  Eigen::VectorXcd own;           // on the rates of internal states
+  Eigen::VectorXcd twist;         // of the joints, demanded by the kinematics [rad]
+  Eigen::VectorXcd joint_torque;  // transmitted by the joints without vibration of the drive [N·m]
   static Forcing none(const LinearDrive& drive);
   void add(LeftOver kind, int index, Complex amplitude);
 };
 
-// Swinging of a drive and its joints' torques at one frequency. Not finite at an undamped resonance.
+// Vibration of a drive and its joints' torques at one frequency. Not finite at an undamped resonance.
 class FrequencyResponse {
  public:
   explicit FrequencyResponse(const LinearDrive& drive);
@@ -58,9 +58,6 @@ class FrequencyResponse {
   };
   std::vector<JointSwing> swings(double omega, const Forcing& forcing);
   std::vector<JointSwing> swings(double omega, const Forcing& forcing, const Motion& motion) const;
-  // Under torques on the coordinates alone.
-  Eigen::VectorXcd motion(double omega, const Eigen::VectorXcd& torque);
-  std::vector<Complex> torques(double omega, const Eigen::VectorXcd& torque);
 
  private:
   struct Solver;
@@ -70,11 +67,11 @@ class FrequencyResponse {
 
 SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations);
 
-// The same drive with springs so much stiffer that its joints transmit what they would in a rigid machine, to some 1e-6
-// of (ω/ω_n)². None where a joint slips or sticks, or where torques hang on the twists besides.
+// The same drive with springs stiffened so that its joints transmit the torques of a rigid machine, to some 1e-6 of
+// (ω/ω_n)². Empty if a joint slips or sticks, or if other torques depend on the twists.
 std::optional<LinearDrive> as_if_rigid(LinearDrive drive);
 
-// The same of torques over a round of the steady motion, evenly sampled; orders are multiples of one per round.
+// The response from torques over a period of the steady motion, equidistantly sampled; orders are multiples of one per period.
 SpeedResponse response_of_samples(const std::vector<std::vector<double>>& torques, double speed, double round);
 
 // Greatest and least value of Re Σ x_r e^{i r s} over s, r from 1 on; located to rounding.

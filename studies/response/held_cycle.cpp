@@ -55,7 +55,7 @@ MatrixXd free_motions(BaseMotion& base) {
   return motions_without_twist(springs);
 }
 
-// The motion that the linear drive says, as a state of the machine where its link stands at the section.
+// The motion of the linear drive, as a state of the machine with its link at the section.
 class LinearMotion {
  public:
   LinearMotion(const LinearDrive& drive, const Excitations& x, BaseMotion& base)
@@ -113,8 +113,8 @@ class LinearMotion {
       add(s.omega, 0, forcing);
     }
   }
-  // Angles are bound to twists: they turn from where they are known by what the twists differ from there; the link's
-  // stays.
+  // Angles follow from twists: they change from a known state by the difference of the twists; the link's is
+  // unchanged.
   void turn_angles(const VectorXd& apart, std::vector<double>& y, const std::vector<double>* known) const {
     const MatrixXd twists = MatrixXd(base_.twists());
     VectorXd turn = shortest_solution(twists, apart);
@@ -208,7 +208,7 @@ class CycleSearch {
     options.budget = 10 * options_.seconds;  // the deadline comes first
     return options;
   }
-  // The same modes, with the holding torques among the elements.
+  // The same modes, for the model with the holding torques among its elements.
   static State on(const Model& model, State state) {
     state.modes.active.resize(model.network.elements.size(), 1);
     state.modes.on_since.resize(model.network.elements.size(), 0);
@@ -240,7 +240,7 @@ class CycleSearch {
     return a;
   }
 
-  // From the motion that the machine keeps, in steps.
+  // In steps of speed, from the machine's steady motion.
   void along_the_speeds() {
     const Orbit& orbit = *machine_.orbit;
     const double from = drive_.at.orbit->speed / drive_.at.speed;  // of the speeds to be held
@@ -265,7 +265,7 @@ class CycleSearch {
     settle();
   }
 
-  // At so much of the speeds to be held.
+  // At this fraction of the speeds to be held.
   bool solve_at(double share, VectorXd& x) {
     const double motions = static_cast<double>(free_.cols());
     std::optional<MeanSpeeds> mean;
@@ -298,7 +298,7 @@ class CycleSearch {
     }
     return miss;
   }
-  // Mean, of a round which is one of the link's angle.
+  // Mean speed, for a period that is one of the link's angle.
   double link_speed(const ReturnMap::Image& round) const {
     return std::copysign(map_->periodicity().angle / round.time, drive_.at.speed);
   }
@@ -321,8 +321,8 @@ class CycleSearch {
     judge_stability(motion_.orbit.point.z.size(), scaled.size());
   }
 
-  // Of the round at constant torques, less the multipliers of the held speeds themselves: those by which torques move
-  // mean speeds most, |left · P_a| |s_z · right|. What a speed would do that nothing holds is no matter of the cycle.
+  // Multipliers of the period at constant torques, without those of the held speeds: the ones by which torques change
+  // mean speeds most, |left · P_a| |s_z · right|. The behaviour of a speed that is not held is irrelevant here.
   void judge_stability(Index n, Index k) {
     if (n == 0) return;
     const MatrixXd& derivative = motion_.derivative;

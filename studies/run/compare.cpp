@@ -1,4 +1,4 @@
-// compare.cpp — differences, amplification factors, and a sentence that says what they mean.
+// compare.cpp — differences, amplification factors, and a sentence on their meaning.
 #include "studies/run/compare.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ void add_rows(Comparison& c) {
     if (const Figure* other = c.a.find(f.name); other && is_told(*other, c.a)) {
       row.a = *other;
       row.difference = f.value - other->value;
-      // Over what is zero but for its error there is no ratio.
+      // No ratio if the denominator is within its error of zero.
       if (std::isfinite(f.value) && std::abs(other->value) > floor_of(*other, c.a)) row.ratio = f.value / other->value;
     }
     c.rows.push_back(std::move(row));
@@ -38,7 +38,7 @@ void add_rows(Comparison& c) {
   }
 }
 
-// Torques that joints transmit just after the start, whatever the trajectory's output is restricted to.
+// Torques of joints just after the start, independent of the trajectory's selected channels.
 std::map<std::string, double> torques_at_start(const Result& result) {
   Equations equations(result.model, false);
   const std::vector<double> y = equations.start(0);
@@ -48,7 +48,7 @@ std::map<std::string, double> torques_at_start(const Result& result) {
   return torques;
 }
 
-// Loads that come all at once: stiffening never brings the elastic peak down to the rigid one (theory 5.15).
+// Suddenly applied loads: even for large stiffness the elastic peak exceeds the rigid one (theory 5.15).
 void note_sudden_loads(Comparison& c) {
   if (c.b.model && !is_elastic(*c.b.model)) return;  // nothing swings
   if (c.a.model && is_elastic(*c.a.model)) return;   // both do
@@ -76,7 +76,7 @@ void note_sudden_loads(Comparison& c) {
                     "factor of two without damping; the motion itself converges to the rigid one");
 }
 
-// "; both with joint friction": what the two have in common beyond the bare machine.
+// "; both with joint friction": effects common to both beyond the bare machine.
 std::string shared(const Comparison& c) {
   const std::string none = "none";
   if (c.in_both == none) return "";
@@ -103,8 +103,11 @@ void conclude(Comparison& c) {
   if (worst != c.amplification.end() && worst->b->value > 0) {
     const std::string& joint = worst->of;
     const Figure* peak = c.b.find(quantities::peak_torque, joint);
-    c.conclusion = fmt::format("The {} model's peak torque in {} is {}, {:.3g} × the {} model's", c.b.label, joint,
-                               with_unit(std::abs(peak->value), "N*m", 4), worst->b->value, c.a.label);
+    const double ratio = worst->b->value;
+    c.conclusion =
+        fmt::format("The {} model's peak torque in {} is {}, {} the {} model's", c.b.label, joint,
+                    with_unit(std::abs(peak->value), "N*m", 4),
+                    std::abs(ratio - 1) < 0.005 ? "within 0.5 % of" : fmt::format("{:.3g} ×", ratio), c.a.label);
   }
   for (const ComparisonRow& row : c.rows) {
     const bool repeats = row.what == quantities::delta;
@@ -142,7 +145,7 @@ ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& ef
   const auto elastic = [&](const Effects& e) { return is_elastic(*compile(scene, e)); };
   ModelPair pair;
   pair.b = effects.value_or(scene.effects);
-  // With nothing else asked, elasticity is what the comparison is about.
+  // Without other requests, elasticity is compared.
   if (!effects && (against ? pair.b.describe() == "none" : !elastic(pair.b))) {
     Effects all = pair.b;
     all.all_elastic = true;

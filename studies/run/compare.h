@@ -1,4 +1,4 @@
-// compare.h — the same scene with two sets of effects: how far apart are the answers, and what does each cost?
+// compare.h — the same scene with two sets of effects: difference of the results, and cost of each.
 #pragma once
 
 #include <optional>
@@ -18,26 +18,26 @@ struct ComparisonRow {
   std::string of = {};
 };
 
-// Two models of one scene, a the simpler one. What they are called says what differs:
+// Two models of one scene, a the simpler one. Their labels say what differs:
 //   rigid, elastic   elasticity alone (engine/scene/effects.h says what that is)
-//   bare, full       all effects of the scene; bare, second: those that were asked for
+//   bare, full       all effects of the scene; bare, second: the requested ones
 //   rigid, same      nothing: the scene has no effect
-//   first, second    whatever was asked for
+//   first, second    any requested effects
 struct ModelPair {
   Effects a, b;
   std::string label_a, label_b;
 };
 
-// Something in the model gives way: a spring between two shafts, or a flexible rod. Clutches that slip are no springs.
+// Whether the model has an elastic part: a spring between two shafts, or a flexible rod. Slipping clutches are no springs.
 bool is_elastic(const Model& model);
 
-// Those of the elastic model with its elasticity taken away and nothing else: motors whose torque lags keep that.
+// The effects of the elastic model without elasticity and otherwise unchanged, including torque lag of motors.
 Effects rigid_twin(const Model& elastic);
 
-// Like for like. `effects` are those of b; unset: those of the scene, and with all of its elasticity where it has none on.
-// `against` are those of a; unset: those of b's rigid twin, so that elasticity alone differs; where nothing of b
-// is elastic, the bare machine. Throws SceneError where the scene makes no machine, std::invalid_argument where both
-// models that were asked for are the same.
+// Effects of comparable models. `effects` are those of b; unset: those of the scene, with all elasticity if it has
+// none on. `against` are those of a; unset: those of b's rigid twin, so that only elasticity differs; if nothing of b
+// is elastic, the bare machine. Throws SceneError if no machine can be made, std::invalid_argument if both requested
+// models are the same.
 ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& effects = {},
                             const std::optional<Effects>& against = {});
 

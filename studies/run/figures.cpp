@@ -27,15 +27,15 @@ std::vector<std::string> components_with_impacts(const Model& model) {
   return names;
 }
 
-// Whose output an account's load acts on; empty: it is no load of a mechanism.
+// The mechanism whose output an account's load acts on; empty: it is no load of a mechanism.
 std::string mechanism_loaded_by(const WorkAccount& account) {
   const std::string end = ".load";
   if (account.kind != Account::useful || !account.name.ends_with(end)) return {};
   return account.name.substr(0, account.name.size() - end.size());
 }
 
-// Of each compressor: λ, the share of its stroke that draws in gas. It goes by its mechanism's name, one of several of a
-// mechanism by that of its load.
+// For each compressor λ, the intake fraction of its stroke. It has the name of its mechanism, or of its load if a
+// mechanism has several.
 struct Intake {
   std::string name;
   double efficiency = 0;
@@ -109,7 +109,7 @@ class RunFigures {
     tell_reserves(model_, tell_);
     add_slipped_angles();
   }
-  // In an order of its own.
+  // In a separate order.
   void list() {
     list(extremes_of(model_));
     add_rms();
@@ -149,7 +149,7 @@ class RunFigures {
   void list(const std::vector<ExtremeOf>& extremes) {
     for (const ExtremeOf& e : extremes) tell_.take(Figure::of_name(e.name, 0, e.unit));
   }
-  // What is this small is rounding, and is not judged by its own size: a slider that should stand still.
+  // Smaller values are rounding errors and are not judged by their own size: a slider that should stand still.
   double least_scale(const std::string& unit) const {
     constexpr double nothing = 1e-9;
     if (unit == "N*m" || unit == "N") return nothing * model_.torque_scale;
@@ -211,7 +211,7 @@ class RunFigures {
     });
     tell_(quantities::stopping_angle, link(), [&] { return Found{stopping->angle, 1, stopping->at}; });
   }
-  // A machine that nothing drives repeats its cycles, too, unless it loses something: like the two before it.
+  // An undriven machine repeats its cycles, too, unless it loses energy: compares with the two before it.
   bool comes_again(const CycleRecord& last) const {
     constexpr double alike = 1e-3;  // of the mid speed
     const CycleRecord* here = &last;
@@ -266,7 +266,7 @@ class RunFigures {
       tell_("loop_power", mechanism, [&] { return Found{last_->work[k] / time, energy_scale() / time, last_->end}; });
     }
   }
-  // What flywheels that turn rigidly with the link give from its largest to its least speed.
+  // Energy released from the largest to the least speed by flywheels that turn rigidly with the link.
   void add_flywheels() {
     if (!has_cycle() || !(repeating_ || tell_.listing())) return;
     for (const FlywheelOnLink& f : flywheels_on_link(model_))
@@ -290,7 +290,7 @@ class RunFigures {
   }
   void add_periods() {
     const Periods p = run_ ? run_->periods : Periods{};
-    // A duration up to a time, and how sharply that is located.
+    // A duration up to a time, and the resolution of its location.
     const auto lasting = [&](std::optional<double> begin, std::optional<double> end, double resolution) {
       return begin && end ? std::optional(Found{*end - *begin, run_->outcome.t, end, false, resolution}) : std::nullopt;
     };
@@ -334,7 +334,7 @@ class RunFigures {
   void add_motors() {
     const Periods& p = run_->periods;
     if (run_->outcome.state.size() < equations_->size()) return;
-    // Up to the end, of an incomplete run too.
+    // Up to the end, also for an incomplete run.
     const std::vector<double> work = works_done(*equations_, run_->outcome.state);
     std::optional<MotorRun::Span> after_run_up;
     if (p.run_up_end) after_run_up = {*p.run_up_end, p.run_down_begin.value_or(run_->outcome.t)};
@@ -351,7 +351,7 @@ class RunFigures {
                  .after_run_up = after_run_up},
                 tell_);
   }
-  // Where nothing moves, a part of the work of the rated torque over 1 rad, beside which what is left is rounding.
+  // If nothing moves, a fraction of the work of the rated torque over 1 rad, as a reference for rounding errors.
   double energy_scale() const {
     return std::max({run_->energy->turnover, run_->energy->largest_kinetic, 1e-9 * model_.torque_scale});
   }

@@ -1,4 +1,4 @@
-// figures.h — one run with all that watches it, and the figures that it yields.
+// figures.h — one run with all its observers, and the figures that it yields.
 #pragma once
 
 #include <map>
@@ -20,10 +20,10 @@
 
 namespace kurbel {
 
-// Of a line of the energy balance, in a cycle.
+// Quantity of a line of the energy balance, over a cycle.
 QuantityKind work_per_cycle_of(Account account);
 
-// One run at one tolerance with all that watches it.
+// One run at one tolerance with all its observers.
 struct OneRun {
   RunOutcome outcome;
   std::shared_ptr<TrajectoryRecorder> trajectory;
@@ -31,7 +31,7 @@ struct OneRun {
   CycleRecorder cycles;
   std::unique_ptr<SpeedRecorder> speed;
   std::unique_ptr<EnergyAudit> energy;
-  std::unique_ptr<HeatRecorder> heat;  // null: none is rated
+  std::unique_ptr<HeatRecorder> heat;  // null: no heat is rated
   std::unique_ptr<SlipRecorder> slips;
   std::unique_ptr<LinkRecorder> link;
   std::unique_ptr<FlywheelFalls> falls;
@@ -44,13 +44,13 @@ struct OneRun {
   std::vector<WorkPeriod> work_periods;
 };
 
-// Fills `figures` and `last_state` of a run that has got somewhere; `tolerance`: of its steps, which tells what is
-// steady.
+// Fills `figures` and `last_state` of a run that made progress; `tolerance` of its steps, for the criterion of steady
+// motion.
 void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run);
 
-// What becomes of these watchers in a Result.
+// The observers' data for a Result.
 EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit);
-// By component; none from a run that has got nowhere, whose `last_state` is empty.
+// By component; empty for a run without progress, whose `last_state` is empty.
 std::map<std::string, ComponentState> final_state(const Model& model, const std::vector<Figure>& last_state);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// finer_shafts.cpp — the machine cut finer, and its differences as errors.
+// finer_shafts.cpp — the machine with finer shafts, and the differences as errors.
 #include "studies/run/finer_shafts.h"
 
 #include <fmt/format.h>

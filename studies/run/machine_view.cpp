@@ -1,4 +1,4 @@
-// machine_view.cpp — frames of the moving machine from the traces of one or two runs.
+// machine_view.cpp — frames of the animated machine from the traces of one or two runs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ void add_parts(MachineView& view, const Model& model) {
     for (const std::string& name : model.network.components) add(name, 0);
   for (std::size_t row = 0; row < model.scene.lines.size(); ++row)
     for (const std::string& name : model.scene.lines[row].names) add(name, static_cast<int>(row));
-  // Of a long machine both ends.
+  // Both ends of a long machine.
   if (view.parts.size() > most_parts) {
     view.parts.erase(view.parts.begin() + ends_shown, view.parts.end() - ends_shown);
     view.parts.insert(view.parts.begin() + ends_shown,
@@ -92,7 +92,7 @@ void add_ties(MachineView& view, const Model& model) {
   }
 }
 
-// What the first load of a mechanism is drawn as.
+// Symbol for the first load of a mechanism.
 std::string drawn_load(const Mechanism& mechanism) {
   if (mechanism.loads.empty()) return "";
   const auto& law = mechanism.loads.front().law;
@@ -117,6 +117,11 @@ MachineView::Linkage linkage_of(const Mechanism& mechanism, const Model& model, 
   for (const JointClearance& c : mechanism.clearances)
     if (c.joint != JointClearance::Joint::guide) linkage.gaps.push_back({c.name(), c.contact.gap});
   for (const auto& [shape, joints] : drawing.links) linkage.links.push_back({shape, joints});
+  const auto slides_there = [&](const MachineView::Linkage::Link& link) {
+    return (link.shape == "slider" || link.shape == "point") && link.joints.front() == drawing.output;
+  };
+  if (!drawing.rocks && std::none_of(linkage.links.begin(), linkage.links.end(), slides_there))
+    linkage.links.push_back({"point", {drawing.output}});
   for (int i = 0; i <= places_of_turn * mechanism.reduced->cycle().turns(); ++i) {
     const double angle = 2 * std::numbers::pi * i / places_of_turn;
     const std::vector<PlanePoint> joints =
@@ -140,8 +145,8 @@ void add_linkages(MachineView& view, const Model& model) {
     if (static_cast<int>(e) != model.reduction_element) add(model.network.elements[e]);
 }
 
-// What has slipped apart is no twist to enlarge: from part to part along each line, beginning where the line does, the
-// turns between the two shafts of what slips are taken out of the twists and told apart; none are left at the link.
+// Slip is no twist to enlarge: along each line, from its begin, the rotations between the two shafts of slipping
+// parts are subtracted from the twists and stored separately; at the link they are zero.
 void tell_slips_apart(MachineView::Motion& motion, const MachineView& view) {
   if (std::none_of(view.parts.begin(), view.parts.end(), [](const MachineView::Part& p) { return p.slips; })) return;
   const std::size_t frames = view.time.size();
@@ -249,7 +254,7 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   add_ties(view, model);
   view.cycle = model.cycle;
   add_linkages(view, model);
-  // Frames: the whole run, or of a long one its last turns.
+  // Frames: the whole run, or the last turns of a long one.
   double end = HUGE_VAL;
   for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());
   const Trace& angle = *front.traces->find("angle");

@@ -1,4 +1,4 @@
-// measured_errors.cpp — differences of runs, and what they may hide.
+// measured_errors.cpp — differences of runs, and errors that they may hide.
 #include "studies/run/measured_errors.h"
 
 #include <algorithm>

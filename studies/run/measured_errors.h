@@ -1,4 +1,4 @@
-// measured_errors.h — what other runs of the same machine say of the errors of a run's figures.
+// measured_errors.h — errors of a run's figures, measured by other runs of the same machine.
 #pragma once
 
 #include <vector>
@@ -7,24 +7,24 @@
 
 namespace kurbel {
 
-// Figures of another run. Their differences count `weight` times: 1 for a run that is coarser than the one it speaks
-// of, so that the difference is the coarser one's error; 2 for one as exact, for then the difference is that of two
-// like errors, either of which may be the larger.
+// Figures of another run. Their differences are weighted: 1 for a run coarser than the one assessed, so that the
+// difference is the coarser one's error; 2 for one of equal accuracy, as the difference then contains two similar
+// errors, either of which may be the larger.
 struct Witness {
   const std::vector<Figure>* figures = nullptr;
   double weight = 1;
 };
 
-// Sets the error of every figure that a witness has, too:
-//     error = max over witnesses weight |value − witness| + share · m · scale + what rounding and sampling leave open
-// with m the median over all figures of the largest difference in their scales: one figure's difference may happen to
-// vanish, those of all figures together do not. Peaks are compared by magnitude, for of two equal ones of opposite sign
-// either may be the larger. What is exact by construction has its differences alone. Returns the largest error over its
-// scale, of figures that are judged.
+// Sets the error of every figure that a witness contains, too:
+//     error = max over witnesses weight |value − witness| + share · m · scale + uncertainty of location and sampling
+// with m the median over all figures of the largest difference over its scale: the difference of one figure may
+// vanish by chance, those of all figures do not. Peaks are compared by magnitude, since of two equal ones of opposite
+// sign either may be the larger. For figures exact by construction only differences count. Returns the largest error
+// over its scale, of figures with a scale.
 double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& witnesses);
 
-// What a machine that is cut finer does otherwise is an error, too, beside that of integration: adds the differences to
-// the errors that are known. Returns the largest over its scale.
+// Adds the discretisation error of shafts, the differences to a machine with finer shafts, to the known errors of
+// integration. Returns the largest over its scale.
 double add_differences(std::vector<Figure>& figures, const std::vector<Figure>& finer);
 
 }  // namespace kurbel

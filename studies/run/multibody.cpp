@@ -30,7 +30,7 @@ const MechanismElement* only_mechanism(const Model& model) {
   return count == 1 ? found : nullptr;
 }
 
-// Torque of everything but the mechanism, from scratch at each call: Simbody's integrators know no events.
+// Torque of everything but the mechanism, computed anew at each call: Simbody's integrators have no events.
 class ShaftTorque {
  public:
   explicit ShaftTorque(std::shared_ptr<const Model> model) : model_(std::move(model)), equations_(model_, false) {}
@@ -64,7 +64,7 @@ double load_on(const Mechanism& crank, double phi, double x, double v) {
   return sum;
 }
 
-// Under the names of the reduced model's traces, so that one report draws both.
+// With the names of the reduced model's traces, so that one report draws both.
 std::shared_ptr<const Traces> traces_of(const Model& model, const Mechanism& crank, const MultibodyResult& run) {
   const std::string link = model.network.nodes[at(model.reduction_node)].component;
   const auto traces = std::make_shared<Traces>();
@@ -83,7 +83,7 @@ std::shared_ptr<const Traces> traces_of(const Model& model, const Mechanism& cra
   return traces;
 }
 
-// The mechanism that the machine has, or why there is no such run of it.
+// The machine's mechanism, or why a multibody run is not possible.
 const Mechanism& crank_of(const Model& model) {
   const MechanismElement* mechanism = only_mechanism(model);
   const auto refuse = [&](const std::string& why) {
@@ -146,7 +146,7 @@ class MultibodySimulation {
   }
 
  private:
-  // What Simbody is told: bodies, torque and force from scratch at each call, start, times.
+  // Data for Simbody: bodies, torque and force computed at each call, start, times.
   void pose() {
     const auto torque = std::make_shared<ShaftTorque>(model_);
     Equations equations(model_, false);
@@ -167,7 +167,7 @@ class MultibodySimulation {
     const std::vector<std::string> integrators = multibody_integrators();
     const std::string method = options_.method.value_or(settings_.method);
     problem_.integrator = std::count(integrators.begin(), integrators.end(), method) ? method : integrators.front();
-    // Each report time ends a step of Simbody's: only a report's plots are worth that.
+    // Each report time ends a step of Simbody: only used for a report's plots.
     const int rows = options_.traces ? std::clamp(settings_.samples, 2, 1001) : 2;
     for (int i = 0; i < rows; ++i) problem_.times.push_back(problem_.t_end * i / (rows - 1));
   }
@@ -180,7 +180,7 @@ class MultibodySimulation {
     return run_multibody(problem_);
   }
 
-  // Ever tighter, until two runs agree.
+  // With decreasing tolerance, until two runs agree.
   void confirm() {
     const auto difference = [&] {
       return std::max(std::abs(coarse_.samples.back().phi - fine_.samples.back().phi),

@@ -5,7 +5,7 @@
 
 namespace kurbel {
 
-// Throws SceneError where the scene is not one mechanism on one rigid shaft.
+// Throws SceneError unless the scene is one mechanism on one rigid shaft.
 Result simulate_multibody(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options);
 
 }  // namespace kurbel

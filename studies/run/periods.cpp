@@ -13,7 +13,7 @@ constexpr double least_told = 1e-8;  // of a speed: nearer to its limit nobody a
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
 constexpr double nowhere = 1e3;  // times the speed: a limit so far away is rounding
 constexpr std::size_t parts_without_cycle = 16;
-// Changes of the mid speed from cycle to cycle that a local tolerance leaves; never more than this of it.
+// Scatter of the mid speed between cycles for a local tolerance, as a multiple of it; never more than most_noise.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
 
 // Changes D₁, D₂ over the two halves of the last 2 · `length` changes.
@@ -43,8 +43,8 @@ std::vector<double> means_of_parts(const SpeedRecorder& speed, double end) {
   return means;
 }
 
-// Means of cycles as if they had been taken at equal times: what grows evenly in time must not look as if it slowed
-// down because its cycles get shorter.
+// Means of cycles converted to equal time steps: an even growth in time must not look like a slowing one because its
+// cycles get shorter.
 std::vector<double> at_equal_times(const std::vector<double>& time, const std::vector<double>& mean) {
   std::vector<double> even;
   std::size_t k = 1;
@@ -57,7 +57,7 @@ std::vector<double> at_equal_times(const std::vector<double>& time, const std::v
   return mean.size() > 2 ? even : mean;
 }
 
-// What the judgement is made of.
+// Data for the judgement.
 struct DrivenTime {
   double end = 0;                     // [s]
   const CycleRecord* last = nullptr;  // cycle
@@ -125,7 +125,7 @@ void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime&
     return;
   }
   periods.run_up_end = entry;
-  // A crossing that only grazes the band's edge moves far with the least error of the speed.
+  // A crossing that only touches the band's edge shifts much with a small error of the speed.
   const double shift = tolerance * model.speed_scale;
   for (const double s : {-shift, shift}) {
     const std::optional<double> other = speed.last_outside(low - s, high + s);
@@ -133,7 +133,7 @@ void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime&
   }
 }
 
-// The link's own rest, if it stays; a machine without dry friction only comes near it.
+// Standstill of the link, if it lasts; without dry friction a machine only approaches it.
 void find_standstill(const Model& model, const BandHistory& speed, const RunOutcome& outcome, double reference,
                      double tolerance, Periods& periods) {
   const int shaft = model.shaft_of_node[static_cast<std::size_t>(model.reduction_node)];

@@ -1,22 +1,20 @@
 // periods.h — run-up, steady motion and run-down, located on the solution itself.
 //
-// All of it is of the reduction link's speed ω, as the steps' own dense output gives it; no sample is looked at.
+// All from the reduction link's speed ω on the dense output of the steps, not from samples.
 //
-// driven time   from the start to the time at which the last driving source goes off for good; all of the run where
-//               none does.
-// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time, taken over to equal
-// times.
-//               Of machines without a cycle: mean speeds of sixteen equal parts of the driven time.
-// steady        what the mid speeds still have to go to their limit is at most 0.1 % of the last one. The limit comes from
-//               how the changes shrink (approach_of): geometrically, δ_k+1 = q δ_k, they still sum up to q/(1 − q) of
-//               the last one. Changes that do not shrink have no limit, however small they are: a runaway, a drift.
-// steady speed  the last mid speed; without a cycle the speed at the end of the driven time. Of steady motion only.
-// run-up        ends where ω enters for good, up to the end of the driven time, the range of the last cycle widened by
-//               1 % of the steady speed (without a cycle: steady speed ± 1 %). Of steady motion only; a machine that
-//               begins within that range has no run-up.
-// run-down      from the end of the driven time to standstill, or to the end. The three periods and their works are between
-//               these times wherever they are told (duty/work_periods.h).
-// standstill    the link comes to rest and is held to the end; else |ω| stays for good below 0.1 % of the last mid
+// driven time   from the start until the last driving source is finally switched off; the whole run if none is.
+// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time, converted to equal time steps.
+//               For machines without a cycle: mean speeds of sixteen equal parts of the driven time.
+// steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
+//               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
+//               the last one. Changes that do not decrease have no limit, however small they are: a runaway, a drift.
+// steady speed  the last mid speed; without a cycle the speed at the end of the driven time. Only for steady motion.
+// run-up        ends when ω, for the rest of the driven time, stays within the range of the last cycle widened by 1 % of
+//               the steady speed (without a cycle: steady speed ± 1 %). Only for steady motion; a machine that
+//               starts within that range has no run-up.
+// run-down      from the end of the driven time to standstill, or to the end. The three periods and their works have the
+//               same borders everywhere (duty/work_periods.h).
+// standstill    the link comes to rest and is held to the end; otherwise |ω| finally stays below 0.1 % of the last mid
 //               speed, or of the speed at the end of the driven time.
 #pragma once
 
@@ -27,18 +25,18 @@
 
 namespace kurbel {
 
-// What the last of a sequence of equally spaced values lacks to the limit.
+// Distance of the last of a sequence of equally spaced values to its limit.
 struct Approach {
   double last_change = 0;           // from the last but one value
-  std::optional<double> remaining;  // |limit − last value|; nothing: no limit is in sight, or fewer than three values
+  std::optional<double> remaining;  // |limit − last value|; empty: no limit is recognisable, or fewer than three values
 };
 
-// Judged by the later half of the values. One-sided changes are followed over short and long stretches of it, and the
-// worse answer counts: two halves of a stretch that change by D₁, D₂ leave D₂ q/(1 − q), q = D₂/D₁ < 1. Changes to and
-// fro leave their range, magnified where it grows. Changes below `noise` are not followed: they leave themselves.
+// From the later half of the values. One-sided changes are evaluated over short and long parts of it, and the worse
+// result counts: two halves that change by D₁, D₂ leave D₂ q/(1 − q), q = D₂/D₁ < 1. For alternating changes it is
+// their range, increased if it grows. Changes below `noise` are not extrapolated and count by themselves.
 Approach approach_of(std::span<const double> values, double noise);
 
-// `tolerance`: local, of the run; errors of the speed below it move run-up's end by run_up_resolution.
+// `tolerance`: local, of the run; speed errors of this size shift the end of run-up by run_up_resolution.
 Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
                      const RunOutcome& outcome, double tolerance);
 

@@ -1,4 +1,4 @@
-// result_findings.cpp — tables behind the figures: energy, cost, limits of steps, events; a run for programs.
+// result_findings.cpp — tables after the figures: energy, cost, limits of steps, events; a run for programs.
 #include "studies/run/run_findings.h"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ Rows events_table(const Result& r) {
   return table;
 }
 
-// A row a quantity, the models side by side.
+// One row per quantity, the models side by side.
 class SideBySide {
  public:
   SideBySide(std::string title, const Results& results) : title_(std::move(title)), results_(results) {
@@ -105,7 +105,7 @@ Rows energy_table(const Results& results) {
   return table.rows();
 }
 
-// What kept the steps short, ranked.
+// Causes of short steps, ranked.
 Rows limits_table(const Result& r) {
   constexpr std::size_t most = 12, most_states = 3;
   return table_of("", fmt::format("What kept the steps short, {} model", r.label), r.statistics.limits)

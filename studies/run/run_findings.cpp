@@ -43,7 +43,7 @@ Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_termi
                    .only_for_people("figure", &Figure::name)
                    .value_and_error("value", cells)
                    .only_for_people("unit", [&](F f) { return cells(f, digits_in_tables).unit; });
-  // The page's heading names the unit of the time.
+  // The page's heading contains the unit of time.
   if (on_terminal) return table.not_on_page().only_for_people("at", at_time);
   return table.not_on_terminal().only_for_people("at [s]", [](F f) {
     return f.at ? with_error({*f.at, f.at_error}, "") : std::string();
@@ -85,8 +85,8 @@ bool differs(const ComparisonRow& row) {
   return std::abs(row.difference) > open + least * std::max(std::abs(row.a->value), std::abs(row.b->value));
 }
 
-// Of the figures that a person is told first those that differ, as many as a screen has room for; no angles, which are of the
-// length of the run.
+// Those of the leading figures that differ, as many as fit a screen; without angles, which depend on the length of
+// the run.
 std::vector<ComparisonRow> rows_that_differ(const Comparison& c) {
   std::vector<ComparisonRow> rows;
   for (std::size_t among = Brief::most_figures; rows.size() < Brief::most_figures; ++among) {
@@ -115,7 +115,7 @@ Brief brief_of(const Comparison& c) {
   return brief;
 }
 
-// On the terminal the amplification of torques stands below the figures.
+// On the terminal the amplification of torques is below the figures.
 Rows with_amplification(const Comparison& c, const Rows& figures) {
   Lines lines = figures.texts(true);
   for (const ComparisonRow& row : c.amplification) {
@@ -140,7 +140,7 @@ void show_amplification(Findings& f, Chapter in, const Comparison& c) {
   }
 }
 
-// As it is told of a run alone.
+// In the form of a single run.
 Record model_record(const Result& r) {
   Record record = {{"title", r.title}, {"scene", r.scene_file}, {"complete", r.complete}};
   if (r.begins_at > 0) record.push_back({"goes_on_from", r.begins_at});
@@ -159,7 +159,7 @@ void judge_completion(Findings& f, const Comparison& c) {
   }
 }
 
-// Nothing is told where nothing is rated.
+// Nothing is shown if there are no ratings.
 void show_ratings(Findings& f, Chapter in, const Result& r) {
   const std::vector<Verdict> verdicts = judge_ratings(r);
   if (verdicts.empty()) return;
@@ -169,7 +169,7 @@ void show_ratings(Findings& f, Chapter in, const Result& r) {
   f.claim(limit_claims(verdicts, "rating"));
 }
 
-// What a screen of a terminal has room for.
+// Short form for one terminal screen.
 Brief brief_of(const Result& r) {
   const std::vector<std::size_t> chosen = chosen_figures(r, Brief::most_figures);
   std::vector<Figure> figures;
@@ -180,7 +180,7 @@ Brief brief_of(const Result& r) {
                                    r.effects == "none" ? "no effects on" : "effects: " + r.effects),
               .figures = rows_of_figures(r, std::move(figures), true),
               .notes = r.notes};
-  // What the conclusion says already.
+  // Omits notes already in the conclusion.
   std::erase_if(brief.notes, [&](const std::string& note) {
     return std::any_of(r.claims.begin(), r.claims.end(),
                        [&](const Claim& c) { return c.in_conclusion && c.text == note; });

@@ -23,11 +23,11 @@ namespace {
 Role role_of(const Result& r, const Results& all) {
   const bool elastic = r.model && is_elastic(*r.model);
   if (!elastic) return Role::rigid;
-  // Two elastic models: the first steps back.
+  // With two elastic models the first is drawn in orange.
   return all.size() > 1 && &r == all.front() ? Role::orange : Role::elastic;
 }
 
-// Events that no eye tells apart are one mark, with what the first few of them are.
+// Events too close to be distinguished are one mark, with the first few of them named.
 std::vector<EventMark> marks_of(const Result& r) {
   constexpr double apart = 1.0 / 300;  // of the time shown
   constexpr std::size_t most_told = 3;
@@ -60,7 +60,7 @@ Series series_of(const Trace& trace, const std::string& name, Role role) {
   return {.name = name, .role = role, .x = trace.x, .y = trace.y};
 }
 
-// One quantity over time, the models over each other. Nothing if no model has it.
+// One quantity over time, the models superposed. Empty if no model has it.
 std::optional<Plot> over_time(const Results& results, const std::string& channel, const std::string& title,
                               const std::string& label) {
   Plot plot{.title = title, .x = {"time", "s"}, .y = {label, ""}, .marks = marks_of(*results.back())};
@@ -126,7 +126,7 @@ Plot energy_plot(const Result& r) {
   return plot;
 }
 
-// Speed over time with its periods marked, in place of all events; nothing where there are no periods.
+// Speed over time with its periods marked, instead of all events; empty if there are no periods.
 std::optional<Plot> tachogram(const Results& results, const std::string& channel) {
   const Result& r = *results.back();
   std::optional<Plot> plot = over_time(results, channel, "", "speed");
@@ -160,7 +160,7 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
   return plot;
 }
 
-// A trace at the places of another one.
+// A trace interpolated at the abscissae of another one.
 std::vector<double> at_places(const Trace& trace, const std::vector<double>& angles) {
   std::vector<double> values;
   for (const double angle : angles) {
@@ -174,7 +174,7 @@ std::vector<double> at_places(const Trace& trace, const std::vector<double>& ang
   return values;
 }
 
-// The gas on a mechanism whose one load is a compressor; else null.
+// The gas force on a mechanism with a compressor as its only load; else null.
 const CompressorForce* compressor_of(const Network& network, const std::string& name) {
   const Mechanism* mechanism = find_mechanism(network, name);
   return mechanism && mechanism->loads.size() == 1 ? std::get_if<CompressorForce>(&mechanism->loads.front().law)
@@ -185,7 +185,7 @@ double volumetric_efficiency(const CompressorForce& gas) {
   return 1 + gas.clearance - gas.clearance * std::pow(gas.delivery / gas.suction, 1 / gas.expansion_exponent);
 }
 
-// Force on what a mechanism's loads act on, over its travel: the loop of the last whole cycle, whose area is the work.
+// Force on the output over its travel: the loop of the last whole cycle, whose area is the work.
 std::optional<Plot> indicator_diagram(const Results& results, const std::string& mechanism, bool rocks) {
   Plot plot{.title = "", .x = {rocks ? "angle" : "travel", ""}, .y = {rocks ? "torque" : "force", ""}};
   double farthest = 0, largest = 0;
@@ -227,7 +227,7 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
   return plot;
 }
 
-// Title and label of what clearance and a flexible rod show; empty: the trace is something else.
+// Title and label of quantities of clearance or a flexible rod; empty: another trace.
 std::pair<std::string, std::string> of_joint_or_rod(const Trace& trace) {
   const std::string& component = trace.of;
   const auto is = [&](const std::string& words) { return trace.name == Name::own(words, component); };
@@ -242,7 +242,7 @@ std::pair<std::string, std::string> of_joint_or_rod(const Trace& trace) {
   return {};
 }
 
-// Product of two traces of each model over time, on the times of the first; nothing where a model has not both.
+// Product of two traces of each model over time, at the times of the first; empty if a model does not have both.
 std::optional<Plot> product_over_time(const Results& results, const std::string& channel, const std::string& times,
                                       const std::string& title, const std::string& label) {
   Plot plot{.title = title, .x = {"time", "s"}, .y = {label, ""}, .marks = marks_of(*results.back())};
@@ -263,7 +263,7 @@ std::string told_figure(const Result& r, const std::string& name, const char* wo
                 : std::string();
 }
 
-// A word that fits the plot's marks, where there are any.
+// Explains the plot's marks, if there are any.
 void note_marks(Plot& plot) {
   if (!plot.marks.empty() && plot.note.empty()) plot.note = "Ticks and bands below: events; hover to read.";
 }

@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-// The time of a period's end from the figure that has it, if one has.
+// The time of a period's end, from the figure of that time if there is one.
 std::string time_text(const Result& r, double t) {
   for (const Figure& f : r.figures)
     if (f.at && *f.at == t && (f.name == "run_up_time" || f.name == "run_down_time"))
@@ -22,7 +22,7 @@ std::string time_text(const Result& r, double t) {
   return with_unit(t, "s", 6);
 }
 
-// What the figures of a cycle belong to, where there are any.
+// The cycle that figures belong to, if there are any.
 std::string of_last_cycle(const Result& r) {
   return first_of(r, quantities::cycle_fluctuation) ? " (figures of a cycle are those of the last whole one)" : "";
 }
@@ -59,10 +59,6 @@ std::string in_words(const Figure& f) {
 }
 
 std::string sure(const Figure& f) { return with_error(f, f.unit); }
-std::string sure(const Figure& f, const SpeedUnit& speed) {
-  if (f.unit != "rad/s") return sure(f);
-  return with_error(f / speed.size, speed.name);
-}
 SpeedUnit speed_unit_of(const Result& r) { return r.model ? r.model->scene.speed_unit : SpeedUnit{}; }
 std::string at_time(const Figure& f) { return f.at ? "at " + with_error({*f.at, f.at_error}, "s") : ""; }
 
@@ -98,6 +94,11 @@ std::string figures_in_words(const Result& r) {
                        peak->at ? " at " + told_shortly(*peak->at, "s") : "");
   const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
   constexpr double stands_within_the_cycle = 2;
+  // Over a cycle the force is a datum; a mechanism without one turns kinetic energy into it.
+  if (const Figure* force = first_of(r, quantities::peak_force); force && force->value != 0 && r.model->cycle == 0)
+    more(fmt::format("the force on \"{}\" reaches {}{}", force->of,
+                     told_shortly(std::abs(force->value), force->unit, speed),
+                     force->at ? " at " + told_shortly(*force->at, "s") : ""));
   if (const Figure* delta = first_of(r, quantities::delta); delta && delta->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
   if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)

@@ -1,4 +1,4 @@
-// simulate.cpp — the ladder of tolerances, the run from elsewhere, and what is told of the run that they confirm.
+// simulate.cpp — the sequence of tolerances, the independent run, and the results of the confirmed run.
 #include "studies/run/simulate.h"
 
 #include <fmt/format.h>
@@ -34,11 +34,11 @@ namespace kurbel {
 namespace {
 
 constexpr double timed_for = 0.1;  // all timings of a run together [s]
-// Energy checks along a run; the mechanism's bodies are asked each time, which costs some 20 µs.
+// Number of energy checks in a run; each evaluates the mechanism's bodies, which takes some 20 µs.
 constexpr int energy_checks = 60;
-// Below this a tolerance asks for more than double precision has.
+// Smaller tolerances exceed double precision.
 constexpr double least_tolerance = 2e-15;
-// The last step of a ladder may be as short as this: errors go at least with the root of the tolerance, so that the
+// Shortest last step of the sequence: errors decrease at least with the square root of the tolerance, so that the
 // coarser run's are twice the finer's, and their difference still covers the finer's.
 constexpr double least_step = 4;
 
@@ -55,8 +55,8 @@ class Simulation {
     result_.confirmation_asked = options.measure_error;
   }
 
-  // Tolerances are tightened until two runs agree within the accuracy and the energy balance of the finer one closes
-  // within it. Then a third run, from elsewhere, must agree with it, too (README.md says what that covers).
+  // Tolerances are reduced until two runs agree within the accuracy and the finer one's energy balance closes within
+  // it. Then a third, independent run must agree with it, too (README.md describes what that covers).
   Result run() {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
                     model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
@@ -77,7 +77,7 @@ class Simulation {
   }
 
  private:
-  // What follows is judged on its own: figures, works and peaks begin here.
+  // The continued run is judged on its own: figures, works and peaks begin here.
   void take_checkpoint(const std::string& text) {
     checkpoint_ = checkpoint_from(text, equations_);
     checkpoint_->integrals.clear();
@@ -91,7 +91,7 @@ class Simulation {
   }
 
   void log(const std::string& text) const { options_.watch.say(text); }
-  // Work and edges over the angle, made once for all runs of the ladder.
+  // Work and edges over the angle, made once for all runs of the sequence.
   std::shared_ptr<WorkTables> work_tables() {
     const bool asked = settings_.method == "auto" || settings_.method == "work";
     if (result_.runs == 0 && asked && WorkTables::refusal(model_).empty())
@@ -99,12 +99,12 @@ class Simulation {
     return work_tables_;
   }
 
-  // Two runs of the ladder and one from elsewhere; whichever is too coarse for the accuracy is followed by a tighter
-  // one.
+  // Two runs of the sequence and an independent one; whichever is too coarse for the accuracy is repeated with a
+  // smaller tolerance.
   void confirm() {
     while (!ladder_agrees() && tighten()) {
     }
-    // No tighter at first than what suffices usually: a low order may have needed a far tighter tolerance than another.
+    // At first not smaller than usually sufficient: a method of low order may have needed a far smaller tolerance than another.
     const double usual = settings_.accuracy / 10 / tolerance_step;
     if (interrupted() || !run_elsewhere(std::max(tolerance_, usual))) return;
     while (!confirmed() && !interrupted()) {
@@ -132,17 +132,17 @@ class Simulation {
     if (elsewhere) list.push_back({&(elsewhere->*what), weight_of_elsewhere});
     return list;
   }
-  // Largest error over its scale that these runs find in the figures.
+  // Largest error over its scale in the figures, by these runs.
   double error_by(const OneRun* coarse, const OneRun* elsewhere) const {
     std::vector<Figure> figures = fine_->figures;
     return measure_errors(figures, witnesses(coarse, elsewhere));
   }
-  // The next step of a ladder; its last one may be shorter, or there is none.
+  // The next tolerance of a sequence; the last step may be shorter, or there is none.
   static double tighter(double tolerance) { return std::max(tolerance / tolerance_step, least_tolerance); }
   static bool can_be_tightened(double tolerance) { return tighter(tolerance) <= tolerance / least_step; }
   bool ladder_ended() const { return ladder_failed_ || !can_be_tightened(tolerance_); }
 
-  // The next run of the ladder. False where it has come to its end: then the run before it stands.
+  // The next run of the sequence. False at its end: the run before it is used.
   bool tighten() {
     if (ladder_ended()) return false;
     const double before = std::exchange(tolerance_, tighter(tolerance_));
@@ -161,8 +161,7 @@ class Simulation {
     return true;
   }
 
-  // By another method, with steps that end elsewhere and angles that are looked up elsewhere. False where it failed:
-  // then the run before it stands.
+  // By another method, with other step ends and other table lookups. False if it failed: the run before it is used.
   bool run_elsewhere(double tolerance) {
     std::unique_ptr<OneRun> other = one_run(tolerance, true);
     if (!other->outcome.complete) {
@@ -171,8 +170,8 @@ class Simulation {
                                  other->outcome.diagnosis);
       return false;
     }
-    // Where the ladder has ended, its last run has no finer one that could tell how good it is, and the one before it
-    // says only how coarse that one was: two runs from elsewhere, one tighter than the other, say more.
+    // At the end of the sequence no finer run shows the error of its last run, and the one before it shows only its
+    // own coarseness: two independent runs, one with a smaller tolerance, show more.
     if (elsewhere_ && ladder_ended()) {
       coarse_ = std::move(elsewhere_);
       weight_of_coarse_ = weight_of_elsewhere;
@@ -187,7 +186,7 @@ class Simulation {
     return !elsewhere_ended_ && can_be_tightened(elsewhere_tolerance_) && run_elsewhere(tighter(elsewhere_tolerance_));
   }
 
-  // Below 0.3 s three runs are timed, of milliseconds up to nine: what else goes on only adds to a time, the least counts.
+  // Below 0.3 s three runs are timed, of milliseconds up to nine: other load only increases times, so the least counts.
   void time_again() {
     double &least = fine_->outcome.statistics.cpu_seconds, spent = least;
     const auto told = std::tuple(result_.runs, result_.cpu_total, result_.flow_calls);
@@ -297,7 +296,7 @@ class Simulation {
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
-    // Plots need no tighter run than the first, and the runs that are timed stay free of them.
+    // Plots need only the first tolerance, and the timed runs remain without them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);
       observers.push_back(run->traces.get());
@@ -315,7 +314,7 @@ class Simulation {
     return run;
   }
 
-  // Another way to the same figures, of like cost: another order, another family, or time in place of the angle.
+  // Another method of similar cost for the same figures: another order, another family, or time instead of angle.
   std::string confirming_method() const {
     const std::string& asked = settings_.method;
     if (asked == "auto") return fine_->outcome.statistics.method == name_of(Method::work_equation) ? "dop853" : "auto";
@@ -325,7 +324,7 @@ class Simulation {
     return "dop853";  // dopri5, work, verner6, fehlberg8, adams
   }
 
-  // The same machine with its mechanisms extracted anew, where they work from tables and the scene tells of them.
+  // The same machine with its mechanisms extracted anew, if they use tables and are described by the scene.
   std::shared_ptr<const Model> model_elsewhere() const {
     if (!has_tables(model_->network) || model_->scene.components.empty()) return model_;
     auto other = compile_network(extracted_from(build_network(model_->scene), Extraction::second), model_->scene,
@@ -342,7 +341,7 @@ class Simulation {
     return *equations_elsewhere_;
   }
 
-  // At rest with no torque on any shaft, and nothing to come at a later time: a dead centre under load, or balance.
+  // At rest without torque on any shaft and without later changes: a dead centre under load, or balance.
   void note_balanced_start() {
     const Model& m = *model_;
     const std::vector<double> y = equations_.start(0);
@@ -405,7 +404,7 @@ class Simulation {
                       times > 1 ? fmt::format(" {} times", times) : ""));
     }
   }
-  // What kept the steps short; nothing where the equations cannot be evaluated at the end.
+  // Causes of short steps; empty if the equations cannot be evaluated at the end.
   std::vector<LimitedSteps> limits_of(const RunOutcome& outcome) {
     if (outcome.state.empty()) return {};
     try {

@@ -1,9 +1,6 @@
-// simulate.h — one scene, one set of effects: run until a tighter run and one from elsewhere confirm the accuracy asked
-// for.
+// simulate.h — one scene, one set of effects: run until a tighter run and an independent one confirm the requested
+// accuracy.
 #pragma once
-
-#include <atomic>
-#include <functional>
 
 #include "engine/model/model.h"
 #include "studies/findings/result.h"
@@ -13,29 +10,29 @@ namespace kurbel {
 
 struct SimulateOptions {
   bool measure_error = true;
-  bool traces = false;                // follow everything along the steps, for a report's plots
+  bool traces = false;                // record everything along the steps, for the plots of a report
   std::optional<std::string> method;  // overrides the scene's
   std::optional<double> accuracy, until;
   Watch watch = {};
-  std::optional<double> first_tolerance = {};  // the ladder begins there; default: accuracy/10
-  std::string chosen_because = {};             // for people: who says so
-  std::string go_on_from = {};        // text of a checkpoint (engine/run/checkpoint.h): figures are of what follows it
-  bool timed = false;                 // its time is compared: a short run is made several times, the least counts
-  bool keep_state = false;            // the result's checkpoint is wanted: no method over the angle
-  std::optional<double> budget = {};  // processor time of one integration [s], if shorter than the scene's
+  std::optional<double> first_tolerance = {};  // the sequence of tolerances begins there; default: accuracy/10
+  std::string chosen_because = {};             // reason of this choice, for people
+  std::string go_on_from = {};                 // text of a checkpoint (engine/run/checkpoint.h): figures start there
+  bool timed = false;                          // its time is compared: a short run is repeated, the least time counts
+  bool keep_state = false;                     // the checkpoint of the result is needed: no method over the angle
+  std::optional<double> budget = {};           // processor time of one integration [s], if shorter than the scene's
 };
 
-// Throws SceneError where the scene makes no machine; a run that fails on its way is returned incomplete.
+// Throws SceneError if no machine can be made; a run that fails is returned incomplete.
 Result simulate(const Scene& scene, const Effects& effects, const std::string& label, const SimulateOptions& options);
 Result simulate(std::shared_ptr<const Model> model, const std::string& label, const SimulateOptions& options);
 
 // Names and units of all figures that runs of a model can yield.
 std::vector<Figure> figure_list(const Model& model);
 
-// Processor times nearer to each other than this factor are not told apart: that of one run differs so much between runs.
+// Processor times within this factor are not distinguished: that of one run varies this much between repetitions.
 inline constexpr double alike_in_time = 1.25;
 
-// Local tolerances are this much tighter in the run that confirms.
+// Factor by which the confirming run has tighter local tolerances.
 inline constexpr double tolerance_step = 30;
 
 }  // namespace kurbel

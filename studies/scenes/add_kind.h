@@ -1,12 +1,12 @@
-// add_kind.h — another kind of component, for programs that bring elements of their own.
+// add_kind.h — registers further kinds of components, for programs with user-defined elements.
 #pragma once
 
 #include "engine/scene/keys.h"
 
 namespace kurbel {
 
-// Known to all scenes that are read from now on; those that were read before keep theirs. Throws std::invalid_argument
-// where a kind of this name is known. Safe to call from several threads.
+// Registers a kind for all scenes read from now on; scenes read before are unaffected. Throws std::invalid_argument
+// if a kind of this name exists. Safe to call from several threads.
 void add_kind(Kind kind);
 
 }  // namespace kurbel

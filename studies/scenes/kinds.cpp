@@ -60,7 +60,7 @@ std::string rows(const std::vector<Key>& keys) {
   return text;
 }
 
-// What may stand in its tables, each once.
+// Kinds of its nested tables, each once.
 std::vector<const std::vector<Kind>*> nested_in(const Kind& kind) {
   std::vector<const std::vector<Kind>*> lists;
   for (const Key& key : kind.keys)
@@ -68,7 +68,7 @@ std::vector<const std::vector<Kind>*> nested_in(const Kind& kind) {
   return lists;
 }
 
-// Tables that were printed already, and under which kind.
+// Tables already printed, with the kind.
 using Printed = std::map<const std::vector<Kind>*, std::string>;
 
 std::string chapter(const Kind& kind, const char* level, Printed& printed) {
@@ -86,7 +86,7 @@ std::string chapter(const Kind& kind, const char* level, Printed& printed) {
   return text;
 }
 
-// Columns a terminal needs for a text: UTF-8 continuation bytes take none.
+// Display columns of a text: UTF-8 continuation bytes take none.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -130,7 +130,7 @@ void add_kinds(const std::vector<Kind>& kinds, std::vector<const Kind*>& list) {
     for (const std::vector<Kind>* nested : nested_in(kind)) add_kinds(*nested, list);
 }
 
-// Components first, then what stands inside them.
+// Components first, then nested kinds.
 std::vector<const Kind*> kinds_with_nested() {
   std::vector<const Kind*> list;
   add_kinds(all_kinds(), list);
@@ -172,7 +172,7 @@ std::string keys_of(const std::string& name) {
 
 namespace {
 
-// Sections point into the list that they were read by, so that earlier lists stay.
+// Sections point into the list of kinds at reading, so that earlier lists are kept.
 struct KnownKinds {
   std::mutex mutex;
   std::deque<std::vector<Kind>> lists;

@@ -1,4 +1,4 @@
-// kinds.h — every component that a scene may hold, for whoever reads one.
+// kinds.h — every kind of component that a scene may contain, for code that reads scenes.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ const std::vector<Kind>& all_kinds();
 // The table of all keys in Markdown, as docs/keys.md shows it.
 std::string keys_in_markdown();
 
-// What keys_of knows: every kind of component, what stands inside them, and "run".
+// Names accepted by keys_of: every kind of component, its nested sections, and "run".
 std::vector<std::string> names_of_keys();
 
 // The keys of one kind as aligned text. Throws std::invalid_argument for another name.

@@ -31,7 +31,7 @@ Json table_of(Json properties, const std::vector<std::string>& required = {}) {
   return table;
 }
 
-// A bare number within its domain; a bound on a text with a unit is the reader's to check.
+// A plain number within its domain; limits of texts with a unit are checked by the reader.
 void bound(Json& number, const Domain& domain) {
   if (std::isfinite(domain.low)) number[domain.low_open ? "exclusiveMinimum" : "minimum"] = domain.low;
   if (std::isfinite(domain.high)) number[domain.high_open ? "exclusiveMaximum" : "maximum"] = domain.high;
@@ -127,7 +127,7 @@ Json nested(const Key& key) {
 
 Json value_schema(const Key& key);
 
-// Its table, or the value of the first key.
+// Its table, or the value of its first key.
 Json named(const Kind& kind) { return {{"anyOf", {value_schema(kind.keys.front()), kind_schema(kind, false)}}}; }
 
 std::string description(const Key& key) {
@@ -201,7 +201,7 @@ Json kind_schema(const Kind& kind, bool kind_required) {
     if (key.required) required.push_back(key.name);
   Json schema = {{"title", kind.name}, {"description", kind.doc}};
   schema.update(table_of(properties, kind_required ? std::vector<std::string>{"kind"} : std::vector<std::string>{}));
-  // What is required may stand in the table that is used.
+  // Required keys may be in the table that is used.
   if (!required.empty()) schema["anyOf"] = {{{"required", required}}, {{"required", {"use"}}}};
   return schema;
 }

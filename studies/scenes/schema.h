@@ -5,7 +5,7 @@
 
 namespace kurbel {
 
-// Draft 2020-12; editors that know TOML (taplo, Even Better TOML) complete and check a scene by it.
+// Draft 2020-12; editors with TOML support (taplo, Even Better TOML) use it to complete and check scenes.
 std::string scene_schema();
 
 }  // namespace kurbel

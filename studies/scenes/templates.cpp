@@ -1,4 +1,4 @@
-// templates.cpp — takes the scenes in as they are, by the assembler.
+// templates.cpp — includes the scenes by the assembler.
 #include "studies/scenes/templates.h"
 
 #define KURBEL_SCENE(name, file)                       \

@@ -1,4 +1,4 @@
-// templates.h — scenes to start from, built into the program: the same files as in scenes/.
+// templates.h — scenes to start from, built into the program: the files in scenes/.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace kurbel {
 
 struct SceneTemplate {
   std::string name;       // "press"
-  std::string doc;        // what machine it is
+  std::string doc;        // the machine
   std::string_view text;  // of the file in scenes/
 };
 

@@ -1,4 +1,4 @@
-// train_sheet.cpp — reads the stations and what joins them, and writes them along the tree that they form.
+// train_sheet.cpp — reads the stations and their connections, and writes them along the tree that they form.
 #include "studies/scenes/train_sheet.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ namespace {
 constexpr double same_speed = 1e-9;
 constexpr double most_teeth = 1e5;
 
-// What a column may hold, and the names that it goes by.
+// Possible contents of a column, and its names.
 struct ColumnKind {
   const char* key;
   const char* unit;  // SI; "": a plain number; null: words
@@ -54,7 +54,7 @@ struct Station {
   double ratio = 1, speed = 0;
   Location at;
 };
-// Between two stations.
+// Connection of two stations.
 struct Joint {
   std::size_t a = 0, b = 0;
   bool rigid = false;
@@ -178,7 +178,7 @@ class Sheet {
     column.factor = wanted_as(*unit, wanted).factor;
   }
 
-  // Null: no such column, or nothing in it.
+  // Null: no such column, or an empty cell.
   const TableCell* cell(const std::vector<TableCell>& row, const char* key) const {
     const auto column = columns_.find(key);
     if (column == columns_.end()) return nullptr;
@@ -195,7 +195,7 @@ class Sheet {
       refuse(found->at, fmt::format("{} = {}: must be a number", key, in_quotes(found->text)));
     return value;
   }
-  // Of the sheet's own digits where nothing is to be computed.
+  // With the sheet's own digits if no conversion is needed.
   std::string quantity(const std::vector<TableCell>& row, const char* key, double times = 1) const {
     const double value = *number(row, key);
     if (value < 0) refuse(cell(row, key)->at, fmt::format("{} = {}: must be ≥ 0", key, cell(row, key)->text));
@@ -300,7 +300,7 @@ class Sheet {
       if (cell(row, other)) joint.keys.emplace_back(other, quantity(row, other));
   }
 
-  // Between two shafts something must turn.
+  // Between two shafts there must be an inertia.
   void check_stations() const {
     if (stations_.size() < 2) refuse({1, 1}, "has fewer than two stations");
     for (std::size_t i = 0; i < stations_.size(); ++i) {
@@ -313,7 +313,7 @@ class Sheet {
     }
   }
 
-  // Along the tree from the first station: the first joint of a station goes on, the others begin branches.
+  // Along the tree from the first station: the first joint of a station continues the line, the others begin branches.
   void write_lines() {
     std::vector<char> reached(stations_.size(), 0);
     std::deque<std::pair<std::size_t, Joint*>> branches = {{0, nullptr}};

@@ -14,7 +14,7 @@ constexpr double barred_below = 0.8;  // λ
 constexpr double last_ratio = 1.05;   // λ
 constexpr double nothing = 1e-9;      // of a stress in Pa
 
-// The speed at which a stress is largest over what is allowed, or by itself where nothing is.
+// The speed of the largest stress over its allowable value, or of the largest stress if there is none.
 StressPeak peak_of(const LimitedJoint& joint, const Firing& firing,
                    const std::function<double(const SpeedResponse&)>& stress) {
   StressPeak by_use, by_size;
@@ -31,7 +31,7 @@ StressPeak peak_of(const LimitedJoint& joint, const Firing& firing,
   return peak;
 }
 
-// The worst of a ratio over a stretch of the sweep, as a verdict on it.
+// The worst value of a ratio in a range of the sweep, as a verdict.
 class Worst {
  public:
   void consider(double stress, double allowed, double lambda) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace kurbel {
 namespace {
@@ -23,8 +22,8 @@ std::string peak_text(const StressPeak& p, const SpeedUnit& unit) {
   return text;
 }
 
-// Of a stress that is more than is allowed for long, within a barred range that is passed through: its share of what is
-// allowed then. None: it is to be borne for long.
+// For a stress beyond the limit for continuous operation in a barred range that is passed: the utilisation of the
+// limit for passing. Empty: continuous operation applies.
 std::optional<double> use_in_passing(const ShaftStresses& s, const StressPeak& p) {
   const LimitedJoint& joint = s.joints[p.joint];
   const bool barred = std::any_of(s.normal.barred.begin(), s.normal.barred.end(),
@@ -33,7 +32,7 @@ std::optional<double> use_in_passing(const ShaftStresses& s, const StressPeak& p
   return p.stress / joint.transient(p.speed);
 }
 
-// "136 %, barred": more than is allowed for long, in a range that may be passed.
+// "136 %, barred": beyond the limit for continuous operation, in a range that may be passed.
 std::string use_text(const ShaftStresses& s, const StressPeak& p) {
   if (!std::isfinite(p.allowed)) return "—";
   const bool barred = use_in_passing(s, p).value_or(HUGE_VAL) <= 1;
@@ -46,7 +45,7 @@ std::string passed_text(const ShaftStresses& s, const StressPeak& p) {
   return fmt::format("; this speed lies in a barred range, whose passage uses {:.0f} % of its limit", 100 * *use);
 }
 
-// Of all cylinders in turn the sums of all orders.
+// Sums of all orders, for each misfiring cylinder.
 std::vector<StressPeak> misfire_peaks(const ShaftStresses& s) {
   std::vector<StressPeak> peaks;
   for (const Firing& firing : s.misfires)
@@ -149,7 +148,7 @@ std::optional<Claim> stress_claim(const ShaftStresses& s) {
   if (const StressPeak* m = worst_of_all(other, shafts))
     text += fmt::format("; with {} misfiring {}{}", m->misfires,
                         m->shaft == worst->shaft ? "" : fmt::format("in \"{}\" ", m->shaft), peak_text(*m, s.unit));
-  // What is used most: in the barred range that may be passed by what passing allows.
+  // The highest utilisation: in a barred range that may be passed, by the limit for passing.
   const StressPeak* most = worst;
   double use = 0;
   for (const auto* list : {&peaks, &other})
@@ -223,7 +222,7 @@ DataTable stress_data(const ShaftStresses& s) {
                  known(allowed_amplitude(joint, at.speed)),
                  may_pass ? known(joint.transient(at.speed)) : NAN};
         for (std::size_t r = 1; r < harmonics; ++r) {
-          // The same order of a firing whose cycle is longer.
+          // The same order in a firing condition with a longer cycle.
           const double n = s.normal.fundamental / firing.fundamental * static_cast<double>(r);
           const auto k = static_cast<std::size_t>(std::lround(n));
           cells.emplace_back(k < at.orders[j].size() ? known(order_stress(joint, at.orders[j][k])) : NAN);

@@ -1,4 +1,4 @@
-// canvas.h — a drawing in millimetres of the paper, as SVG: lines, curves, circles, words, symbols with their indices.
+// canvas.h — a drawing in millimetres on paper, as SVG: lines, curves, circles, texts, symbols with indices.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace kurbel {
 
 struct Spot {
-  double x = 0, y = 0;  // from the paper's upper left corner, to the right and down [mm]
+  double x = 0, y = 0;  // from the upper left corner of the paper, to the right and down [mm]
 };
 
 struct Box {
@@ -17,16 +17,16 @@ struct Box {
   double bottom() const { return y + height; }
 };
 
-// Classes of lines in sheet.css: how thick, dashed, in which colour.
+// Line styles in sheet.css: thickness, dashes, colour.
 enum class Pen { grid, thin, body, path, dashed, thick, drive, load, main, accent, letter, edge };
 
 struct Lettering {
   double size = 3;                // height of the line [mm]
-  std::string_view at = "start";  // "start", "middle", "end": what of the words stands at the spot
+  std::string_view at = "start";  // "start", "middle", "end": the part of the text at the spot
   bool bold = false;
   double turned = 0;  // clockwise [°]
   Pen pen = Pen::body;
-  bool ground = false;  // the paper shines through under the words
+  bool ground = false;  // with a background in the colour of the paper
 };
 
 class Canvas {
@@ -37,10 +37,10 @@ class Canvas {
   void box(const Box& box, Pen pen);
   void block(Spot centre, double width, double height, double turned, Pen pen);  // a slider
   void circle(Spot centre, double radius, Pen pen, bool filled = false);
-  // A circle of which programs can be told what it is: more attributes, data-position="3".
+  // A circle with attributes for programs: data-position="3".
   void mark(Spot centre, Pen pen, std::string_view attributes);
   void words(Spot at, std::string_view text, const Lettering& how = {}, std::string_view attributes = {});
-  // "M_c", "μ_l = 0.002 m/mm": what follows "_" up to a blank or sign is an index.
+  // "M_c", "μ_l = 0.002 m/mm": text after "_" up to a blank or sign is an index.
   void symbols(Spot at, std::string_view text, const Lettering& how = {});
   void begin_group(std::string_view attributes);
   void end_group();
@@ -52,12 +52,12 @@ class Canvas {
   std::string svg_;
 };
 
-// As it may stand between tags and in attributes, on one line.
+// Escaped for XML text and attributes, on one line.
 std::string xml_text(std::string_view text);
-// [mm], about.
+// Approximate width [mm].
 double width_of(std::string_view text, double size);
 
-// Words within a box, wrapped, a line feed beginning a line; smaller where they are many.
+// Text within a box, wrapped, with line feeds; smaller if it is long.
 void add_lines(Canvas& canvas, const Box& box, const std::string& text, double size = 2.8);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// diagram.h — a diagram over the cycle with its scales: axes, curves, the positions' numbers below, their points on it.
+// diagram.h — a diagram over the cycle with its scales: axes, curves, position numbers below, points of the positions.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace kurbel {
 
 struct SheetCurve {
   std::string symbol;                // "M_c"
-  std::vector<double> way, value;    // ascending; two points at one place make a jump
+  std::vector<double> way, value;    // ascending; two points at one place form a jump
   std::vector<double> at_positions;  // values there; empty: not marked
   Pen pen = Pen::main;
 };
@@ -25,7 +25,7 @@ struct SheetDiagram {
 
 // The axis of the angle, common to the diagrams of a sheet.
 struct AngleAxis {
-  double left = 0;   // of position 0 on the paper [mm]
+  double left = 0;   // of position 0 on paper [mm]
   double cycle = 0;  // [rad]
   double degrees_per_mm = 1;
   double x(double way) const;
@@ -34,21 +34,21 @@ struct AngleAxis {
 };
 AngleAxis angle_axis(double cycle, double left, double width);
 
-// Where the values lie on the paper.
+// Position of the values on paper.
 struct Placed {
   Scale scale;
   double zero = 0;  // height of the value 0 [mm]
   double y(double value) const { return zero - scale.mm(value); }
 };
 
-// What a diagram's title and its positions' numbers take of its box [mm].
+// Space of a diagram's title and its position numbers in its box [mm].
 inline constexpr double diagram_head = 6, diagram_foot = 7;
 
-// Ordinates of the positions with their numbers at the box's foot; letters stand lower, for they may be close to a
-// number, and beside each other where they would meet.
+// Ordinates of the positions with their numbers at the foot of the box; letters are placed lower, as they may be
+// close to a number, and side by side where they would overlap.
 void draw_ordinates(Canvas& canvas, const Box& box, const AngleAxis& axis, const std::vector<SheetPosition>& positions);
 
-// In the finest round scale that goes into the box.
+// In the finest round scale that fits the box.
 Placed draw_diagram(Canvas& canvas, const Box& box, const AngleAxis& axis, const SheetDiagram& diagram,
                     const std::vector<SheetPosition>& positions);
 

@@ -10,7 +10,7 @@
 
 namespace kurbel {
 
-// From the mechanism's axes to the paper.
+// Mapping of the mechanism's axes to the paper.
 struct PlanPlaced {
   Scale scale;           // μ_l [m/mm]
   double direction = 0;  // of +x above the horizontal [rad]

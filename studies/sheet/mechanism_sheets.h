@@ -1,4 +1,4 @@
-// mechanism_sheets.h — the sheets that every study's mechanism has: its plan in all positions, tables and diagrams of
+// mechanism_sheets.h — sheets common to all studies' mechanisms: plan in all positions, tables and diagrams of
 // position, velocity and acceleration.
 #pragma once
 
@@ -9,18 +9,18 @@
 
 namespace kurbel {
 
-// How the link moves at each position, and between them over the cycle, for the curves.
+// Motion of the link at each position, and between them over the cycle, for the curves.
 struct LinkAt {
   double phi = 0, omega = 0, alpha = 0;  // [rad], [rad/s], [rad/s²]
 };
 struct SheetMotion {
   SheetCycle cycle;
   std::vector<SheetPosition> positions;
-  std::vector<LinkAt> at, between;  // at each position; ascending ways over the cycle, both ends
-  std::vector<double> way;          // of those between
+  std::vector<LinkAt> at, between;  // at each position; over the cycle, ascending, both ends
+  std::vector<double> way;          // angle from position 0 for `between`
 };
 
-// At a speed that stays the same.
+// At constant speed.
 SheetMotion even_motion(const SheetCycle& cycle, std::vector<SheetPosition> positions, double omega);
 
 void add_mechanism(Sheets& sheets, const MechanismOnSheet& mechanism, const SheetMotion& motion,

@@ -1,9 +1,8 @@
-// paper.h — sheets of paper with frame and title block, and the page that holds them: printed, a millimetre is one.
+// paper.h — sheets of paper with frame and title block, and the page that contains them, printed at true size.
 #pragma once
 
 #include <deque>
 #include <string>
-#include <vector>
 
 #include "studies/sheet/canvas.h"
 
@@ -17,7 +16,7 @@ struct Paper {
 // "A4" or "A3"; throws std::invalid_argument for others.
 Paper paper_named(const std::string& name);
 
-// What stands in the title block of every sheet.
+// Text in the title block of every sheet.
 struct TitleBlock {
   std::string title, study, author = {};
 };
@@ -26,11 +25,11 @@ class Sheets {
  public:
   Sheets(Paper paper, TitleBlock block) : paper_(std::move(paper)), block_(std::move(block)) {}
 
-  // A further sheet; what it shows, in its title block. The canvas stays where it is.
+  // Adds a sheet; `what` is its content, for the title block. The reference to the canvas stays valid.
   Canvas& add(const std::string& what, const std::string& scales = {});
-  // Between frame and title block.
+  // Area between frame and title block.
   Box room() const;
-  // Beside the title block.
+  // Area beside the title block.
   Box foot() const;
   std::string html() const;
 

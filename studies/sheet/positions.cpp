@@ -1,7 +1,6 @@
 // positions.cpp — numbers and letters along a cycle.
 #include "studies/sheet/positions.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace kurbel {

@@ -1,5 +1,5 @@
-// positions.h — the positions of a cycle that a sheet shows: numbered from a dead centre, and lettered where the load
-// begins, ends or is greatest, so that a blow between two numbers is not skipped.
+// positions.h — positions of a cycle shown on a sheet: numbered from a dead centre, and lettered where the load
+// begins, ends or is greatest, so that a short peak between two numbers is shown.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace kurbel {
 
 struct SheetPosition {
   std::string label;  // "0" … "11"; "a", "b" …
-  double way = 0;     // from position 0 in the sense of the motion [rad]
+  double way = 0;     // from position 0 in the direction of motion [rad]
   double phi = 0;     // of the link, 0 ≤ φ < cycle [rad]
   bool numbered = true;
-  bool edge = false;      // of a load: what acts before and after may differ
+  bool edge = false;      // of a load: values before and after may differ
   bool greatest = false;  // the load is greatest there
 };
 
@@ -24,24 +24,24 @@ struct SheetCycle {
   double length = 0;   // [rad]
   double origin = 0;   // φ of position 0 [rad]
   double sense = 1;    // ±1, of the motion
-  int positions = 12;  // numbered, evenly
+  int positions = 12;  // numbered, equidistant
 
   double phi_at(double way) const;  // within the cycle
   double way_at(double phi) const;  // within the cycle
 };
 
-// Edges and the place of the greatest load are angles of the link; those at a number, and the cycle's begin, get no letter.
-// Of more edges than there are letters for, those are left out that `weight` (one each) says least of.
+// Edges and the place of the greatest load are angles of the link; those at a number or the cycle's begin get no
+// letter. If there are more edges than letters, those of least `weight` (one each) are omitted.
 std::vector<SheetPosition> sheet_positions(const SheetCycle& cycle, const std::vector<double>& edges,
                                            std::optional<double> greatest = {}, const std::vector<double>& weight = {});
 
 inline constexpr std::size_t most_letters = 14;
 
-// Where the positions are looked at: before, at and after each, `beside_edge` apart [rad].
+// Angles evaluated for the positions: before, at and after each, `beside_edge` apart [rad].
 inline constexpr double beside_edge = 1e-7;
 std::vector<double> looked_at(const SheetCycle& cycle, const std::vector<SheetPosition>& positions);
 
-// A position as a row of a table: at what jumps there, one before it ("a⁻") and one after it ("a⁺").
+// A position as a row of a table; at a jump one row before ("a⁻") and one after it ("a⁺").
 template <class Values>
 struct SheetRow {
   std::string label;
@@ -65,7 +65,7 @@ std::vector<SheetRow<Values>> sheet_rows(const std::vector<SheetPosition>& posit
   return rows;
 }
 
-// Points of a curve over the cycle by their way from position 0 on; at the end the first of them again.
+// Points of a curve over the cycle by their angle from position 0; the first one is repeated at the end.
 template <class Point>
 std::vector<std::pair<double, const Point*>> by_way(const SheetCycle& cycle, const std::vector<Point>& curve) {
   std::vector<std::pair<double, const Point*>> points;

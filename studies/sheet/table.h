@@ -1,7 +1,6 @@
-// table.h — a table of a sheet: a column a quantity, a row a position; as many digits as its largest value has use for.
+// table.h — a table of a sheet: one column per quantity, one row per position; digits according to its largest value.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace kurbel {
 struct SheetColumn {
   std::string symbol, unit;  // "x_B′", "m/rad"
   std::vector<double> values;
-  int digits = 5;  // of the largest; what is not finite is a dash
+  int digits = 5;  // of the largest; values that are not finite are a dash
 };
 
 struct SheetTable {
@@ -24,7 +23,7 @@ struct SheetTable {
   std::string note = {};
 };
 
-// Of rows of positions, with their angles as yet.
+// From rows of positions, with only the column of angles so far.
 template <class Row>
 SheetTable table_of_positions(const std::string& title, const std::vector<Row>& rows) {
   SheetTable table{.title = title, .labels = {}, .columns = {{"φ", "°", {}}}};
@@ -36,10 +35,10 @@ SheetTable table_of_positions(const std::string& title, const std::vector<Row>& 
   return table;
 }
 
-// Puts it on sheets of its own, as many as it takes.
+// Puts the table on its own sheets, as many as necessary.
 void add_table(Sheets& sheets, const SheetTable& table);
 
-// What the cells of a column say, in its unit times 10ⁿ with n = exponent.
+// Cell texts of a column, in its unit times 10ⁿ with n = exponent.
 struct ColumnTexts {
   int exponent = 0;
   std::vector<std::string> cells;

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "engine/scene/keys.h"
-#include "engine/scene/units.h"
 
 namespace kurbel {
 namespace {
@@ -205,10 +204,8 @@ const CustomaryDelta& customary_delta(const std::string& machine) {
     if (c.machine == machine) return c;
     names.push_back(c.machine);
   }
-  const auto near = nearest(machine, names);
-  throw std::invalid_argument(
-      fmt::format("no customary δ for a machine {}{}; known: {}; or give --delta", in_quotes(machine),
-                  near ? fmt::format(" — did you mean {}?", in_quotes(*near)) : "", listed(names)));
+  throw std::invalid_argument(fmt::format("no customary δ for a machine {}{}; known: {}; or give --delta",
+                                          in_quotes(machine), suggestion(machine, names), listed(names)));
 }
 
 // What the sizing puts beside the scene's torques, which alone would change the machine's speed from cycle to cycle.

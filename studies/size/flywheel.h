@@ -1,7 +1,7 @@
 // flywheel.h — flywheel synthesis from one steady cycle (theory 3): work diagram, inertia, speed, punch presses.
 //
 // Everything is reduced to the reduction link. Torques are functions of its angle over one cycle; I_em(φ) is the
-// reduced inertia of the executive mechanism, I₀ the constant inertia of the drive with its flywheel:
+// reduced inertia of the executive mechanism, I₀ the constant inertia of the drive including its flywheel:
 //     ½ (I₀ + I_em) ω² = T₀ + ΔT(φ),   ΔT = A_d − A_c,   a = ½ ω_max²,  b = ½ ω_min²
 #pragma once
 
@@ -29,11 +29,11 @@ struct WorkDiagram {
   double mean_torque() const { return work / drive_torque.length(); }
 };
 
-// Both torques over the same breaks. Throws std::invalid_argument where the works of a cycle differ by more than 1e-9:
-// then no motion is steady.
+// Both torques over the same breaks. Throws std::invalid_argument if the works of a cycle differ by more than 1e-9:
+// then the motion is not steady.
 WorkDiagram work_diagram(const Piecewise& drive_torque, const Piecewise& load_torque);
-// The constant driving torque that balances the load, and the constant load that balances the drive. Throw
-// std::invalid_argument where there is no net work to balance (≤ 0 J a cycle).
+// With the constant driving torque that balances the load, or the constant load that balances the drive. Throw
+// std::invalid_argument if there is no net work to balance (≤ 0 J per cycle).
 WorkDiagram with_constant_drive(const Piecewise& load_torque);
 WorkDiagram with_constant_load(const Piecewise& drive_torque);
 
@@ -52,8 +52,8 @@ struct Wittenbauer {
   double kinetic_energy = 0;  // T₀ at the cycle's begin [J]
 };
 
-// Exact. May be ≤ 0: then the mechanism alone is steady enough. Throw std::invalid_argument unless 0 < δ < 2 and
-// ω_mid > 0.
+// Exact. I₀ ≤ 0 means that the mechanism needs no flywheel. Throws std::invalid_argument unless 0 < δ < 2 and ω_mid >
+// 0.
 Wittenbauer wittenbauer(const WorkDiagram& diagram, const MechanismInertia& mechanism, double mid_speed, double delta);
 
 struct Mertsalov {
@@ -72,11 +72,11 @@ void check_delta(double delta);  // std::invalid_argument unless 0 < δ < 2
 
 // --- speed of a machine with a given inertia ---
 
-// Steady motion with torques of the angle alone: ω(φ) from energy, exactly.
+// Steady motion with torques that depend on the angle only: ω(φ) from energy, exactly.
 class SpeedCycle {
  public:
-  // The cycle of the family whose ω_mid = (ω_max + ω_min)/2 is the one asked for. Throws std::invalid_argument where
-  // the inertia is too small to carry the machine through the cycle at that speed.
+  // The cycle of the family with the requested ω_mid = (ω_max + ω_min)/2. Throws std::invalid_argument if the inertia
+  // is too small to carry the machine through the cycle at that speed.
   SpeedCycle(const WorkDiagram& diagram, const MechanismInertia& mechanism, double inertia, double mid_speed);
 
   double speed(double phi) const;  // [rad/s]
@@ -105,8 +105,8 @@ struct PunchPress {
   double working_time = 0;          // of a stroke t_w [s], 0 ≤ t_w ≤ t_c
   std::optional<double> work = {};  // of the drive per stroke, with losses and further loads [J]; default: E
 
-  double power() const { return work.value_or(energy) / cycle_time; }  // of the motor, running steadily [W]
-  // The motor goes on while the tool works: ΔE = E (1 − t_w/t_c).
+  double power() const { return work.value_or(energy) / cycle_time; }  // of the motor at constant load [W]
+  // The motor delivers energy during the working time, too: ΔE = E (1 − t_w/t_c).
   double from_flywheel() const { return energy * (1 - working_time / cycle_time); }
 };
 
@@ -135,7 +135,7 @@ struct FlywheelRequest {
 };
 
 // A solid disc; or a rim of rectangular section, breadth b = 2 h, on six elliptical spokes (axes h and h/2) and a hub
-// of a fifth of the outer diameter. All parts count in the inertia.
+// of a fifth of the outer diameter. All parts contribute to the inertia.
 struct FlywheelDimensions {
   FlywheelForm form = FlywheelForm::rim;
   FlywheelMaterial material;
@@ -153,7 +153,7 @@ struct FlywheelDimensions {
 };
 inline constexpr int flywheel_spokes = 6;
 
-// Throws std::invalid_argument where the inertia does not go into the diameter, or a value is out of its domain.
+// Throws std::invalid_argument if the inertia does not fit the diameter, or a value is outside its domain.
 FlywheelDimensions flywheel_dimensions(const FlywheelRequest& request);
 
 // --- customary δ ---
@@ -167,7 +167,7 @@ const std::vector<CustomaryDelta>& customary_deltas();
 // Throws std::invalid_argument with the list of names.
 const CustomaryDelta& customary_delta(const std::string& machine);
 
-// Mean torques on the link [N·m] that do not balance, `rest` the drive's less the load's, and what is put beside them.
+// Sentence on mean torques on the link [N·m] that do not balance (`rest`: drive minus load) and the constant torque added.
 std::string unbalanced(double drive, double load, double rest);
 
 }  // namespace kurbel

@@ -7,7 +7,6 @@
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/keys.h"
-#include "engine/scene/units.h"
 #include "studies/size/flywheel.h"
 
 namespace kurbel {
@@ -132,10 +131,8 @@ const FlywheelMaterial& flywheel_material(const std::string& name) {
     if (m.name == name) return m;
     names.push_back(m.name);
   }
-  const auto near = nearest(name, names);
-  throw std::invalid_argument(fmt::format("no flywheel material {}{}; known: {}", in_quotes(name),
-                                          near ? fmt::format(" — did you mean {}?", in_quotes(*near)) : "",
-                                          listed(names)));
+  throw std::invalid_argument(
+      fmt::format("no flywheel material {}{}; known: {}", in_quotes(name), suggestion(name, names), listed(names)));
 }
 
 FlywheelDimensions flywheel_dimensions(const FlywheelRequest& request) {

@@ -1,4 +1,4 @@
-// reach_sized.cpp — asks the sized machine's steady motion what δ it has, and seeks the flywheel that meets the demanded one.
+// reach_sized.cpp — finds δ of the sized machine's steady motion, and the flywheel for the demanded δ.
 #include "studies/size/reach_sized.h"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ class Reach {
   }
 
  private:
-  // One of a family is there at once, or never: what is elastic takes of a drive that balances the rigid load alone.
+  // A member of a family is found at once or never: elastic losses brake a drive that balances the rigid load only.
   static SizedOrbits::Parts parts(const Sizing& s, const SizeOptions& options) {
     SizedOrbits::Parts parts{s.flywheel, s.link, s.motor, options.at};
     constexpr int few_rounds = 40;
@@ -44,7 +44,7 @@ class Reach {
     return parts;
   }
 
-  // The work equation asks for no flywheel; does the machine as it is keep within δ, too?
+  // The work equation needs no flywheel; checks whether the machine without one meets δ, too.
   void look_without() {
     Effects effects = scene_.effects;
     const SizedModel as =
@@ -60,7 +60,7 @@ class Reach {
     s_.needed = true;
   }
 
-  // Torques of the angle alone, in balance: the cycle is the one that energy gives.
+  // Balanced torques that depend on the angle only: the cycle follows from energy.
   void reach_family() {
     if (std::abs(s_.cycle.drive.mean() / s_.diagram.mean_torque() - 1) > 1e-6) {
       s_.notes.push_back("no steady motion: the drive of the scene does not balance its load at any speed");
@@ -75,7 +75,7 @@ class Reach {
     reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, &family);
   }
 
-  // By the work equation with the torques as they are over the speed, where there is such a cycle; then the steady motions.
+  // By the work equation with torques as functions of speed, if there is such a cycle; then by the steady motions.
   void reach(SizedBy by, const std::string& sized_by, double flywheel, const SteadyRigidCycle* cycle) {
     if (cycle) {
       DeltaReached exact;
@@ -118,7 +118,7 @@ class Reach {
     const bool lighter = s_.basis == SizeBasis::regime && off < -missed && off > far_smoother;
     if (by == SizedBy::constant_drive && last && !s_.meeting && (heavier || lighter)) meet(as, orbit, effects);
   }
-  // What a model found at several flywheels is said once.
+  // A note found with several flywheels is given once.
   void note(const SizedOrbit& orbit, SizedModel as) {
     for (const std::string& what : orbit.notes) {
       if (std::count(s_.notes.begin(), s_.notes.end(), what)) continue;
@@ -130,7 +130,7 @@ class Reach {
     }
   }
 
-  // The flywheel with which the machine as it is has the demanded δ.
+  // The flywheel with which the actual machine has the demanded δ.
   void meet(SizedModel as, const SizedOrbit& first, const Effects& effects) {
     const SizedOrbits::Meeting found = orbits_.meeting(s_.delta, first, others_, effects);
     const char* which = as == SizedModel::elastic ? "elastic" : "rigid";
@@ -173,7 +173,7 @@ void reach_sized(Sizing& sizing, const Scene& scene, const SizeOptions& options,
   Reach(sizing, scene, options, start_speed).run();
 }
 
-// What the work equation cannot carry, and how much of δ that is.
+// Parts omitted by the work equation, and their contribution to δ.
 void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
   const std::string what = fmt::format("{}", fmt::join(beyond, ", "));
   const DeltaReached *rigid = nullptr, *elastic = nullptr;

@@ -1,4 +1,4 @@
-// size.cpp — from a scene to the flywheel that a demanded δ needs, and back to the δ that the sized machine has.
+// size.cpp — from a scene to the flywheel for a demanded δ, and back to δ of the sized machine.
 #include "studies/size/size.h"
 
 #include <fmt/format.h>
@@ -90,7 +90,7 @@ class Sizer {
     check_delta(s_.delta);
   }
 
-  // The rigid machine at constant speed tells the torques where nothing of the scene but elasticity goes beyond it.
+  // The rigid machine at constant speed gives the torques if the scene has no other effects than elasticity beyond it.
   void choose_basis() {
     beyond_ = beyond_the_rigid_machine(scene_, options_.at);
     s_.basis = options_.basis.value_or(beyond_.empty() ? SizeBasis::classical : SizeBasis::regime);
@@ -100,7 +100,7 @@ class Sizer {
       model_ = compile_at(scene_, scene_.effects, options_.at);
   }
 
-  // Everything that turns at constant ratio, on the flywheel's shaft.
+  // Everything that turns at constant ratio, reduced to the flywheel's shaft.
   void list_inertias() {
     const Model& m = model();
     const int node = m.network.ports.at(s_.flywheel).in;
@@ -183,14 +183,14 @@ class Sizer {
       s_.notes.push_back(unbalanced(drive.mean(), load.largest() > 0 ? load.mean() : 0, rest));
     s_.diagram = balanced(s_.cycle);
   }
-  // The drive is constant, or where it varies with the angle, a constant load makes up for what is missing.
+  // The drive is constant; if it varies with the angle, a constant load balances it.
   WorkDiagram balanced(const MachineCycle& c) const {
     if (!s_.engine) return with_constant_drive(c.load);
     return work_diagram(c.drive, c.load + c.load.constant(c.drive.mean() - c.load.mean()));
   }
 
-  // Torques along the steady cycle that the scene's own start leads to. A machine that stalls for want of inertia is
-  // looked at with more of it.
+  // Torques along the steady cycle after the scene's own start. A machine that stalls for lack of inertia is examined
+  // with more of it.
   void find_orbit_cycle() {
     const OrbitOptions options = orbit_options(scene_.run, options_.simulation.watch.interrupted);
     Orbit orbit = find_orbit(model_, options);
@@ -219,7 +219,7 @@ class Sizer {
     }
     start_speed_ = found.sense * found.speed.value(0);
   }
-  // The mid speed that is given, kept by a torque beside the drive, with as much inertia as that takes.
+  // A given mid speed, held by a torque added to the drive, with as much inertia as necessary.
   Orbit hold(double mid_speed, const std::string& as_it_is, double& tried) try {
     tried = s_.flywheel_now;
     for (int k = 0; k < 3; ++k, tried = std::max(10 * tried, 10 * others())) {
@@ -237,7 +237,7 @@ class Sizer {
   } catch (const std::invalid_argument&) {  // time drives it
     return {};
   }
-  // At a mid speed that is given the rigid machine may still tell torques.
+  // At a given mid speed the rigid machine may still give the torques.
   void without_a_cycle(const std::string& why) {
     const std::string text = fmt::format("no steady cycle was found to size a flywheel for: {}", why);
     if (!options_.mid_speed || options_.basis) throw std::invalid_argument(text);
@@ -312,7 +312,7 @@ class Sizer {
     s_.estimate = s_.basis == SizeBasis::classical && !beyond_.empty();
     if (looser_ && !s_.estimate) measure_errors(balanced(*looser_), looser_->mechanism);
   }
-  // The same by torques that were sampled, or found, with looser tolerances.
+  // The same with torques sampled, or found, with looser tolerances.
   void measure_errors(const WorkDiagram& looser, const MechanismInertia& mechanism) {
     const double speed = options_.mid_speed || machine_ ? s_.mid_speed : looser_->speed;
     const double other[] = {wittenbauer(looser, mechanism, speed, s_.delta).inertia,
@@ -371,12 +371,12 @@ class Sizer {
     s_.soft = method(slope_of_what(s_).substr(4) + " counted", std::exp(root));
     s_.soft_cycle = steady(std::exp(root));
     s_.soft->delta = s_.soft_cycle->found ? std::optional(s_.soft_cycle->delta()) : std::nullopt;
-    // δ is the difference of two speeds that are good to the sampling of the cycle, and I₀ goes as 1/δ.
+    // δ is the difference of two speeds with the sampling error of the cycle, and I₀ is proportional to 1/δ.
     const double by_speeds = 2 * cycle_sampling / s_.delta * s_.soft->drive_inertia / square(s_.flywheel_ratio);
     if (const auto& error = s_.methods.front().error) s_.soft->error = *error + by_speeds;
   }
 
-  // A tool that works in less than half of the cycle.
+  // A tool that works during less than half of the cycle.
   void find_punch() {
     double energy = 0, acting = 0;
     for (std::size_t k = 0; k < s_.cycle.share.size(); ++k) {
@@ -395,7 +395,7 @@ class Sizer {
     s_.punch = PunchPress{energy, s_.cycle.drive.length() / s_.mid_speed, acting / s_.mid_speed, s_.diagram.work};
     s_.methods.push_back(
         method("punch-press form", inertia_by_fluctuation(s_.punch->from_flywheel(), s_.mid_speed, s_.delta)));
-    // The stroke's energy alone, without what is lost on the way to the tool, is the classical estimate.
+    // The classical estimate uses the stroke's energy without transmission losses.
     const bool lossless = std::abs(s_.diagram.work - energy) <= 1e-9 * energy;
     if (lossless) s_.methods.back().error = s_.methods[2].error;
   }

@@ -1,7 +1,6 @@
-// size.h — flywheel for a demanded δ: by Wittenbauer, Mertsalov and without I_em; with the real motor; by the steady motion.
+// size.h — flywheel for a demanded δ: by Wittenbauer, Mertsalov and without I_em; with the actual motor; by steady motion.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,53 +13,53 @@
 
 namespace kurbel {
 
-// What the work equation's torques are.
+// Source of the torques in the work equation.
 enum class SizeBasis {
   classical,  // constant drive torque; loads of the rigid machine at constant speed
-  regime      // constant drive torque; loads along the steady cycle that the machine has with the scene's effects
+  regime      // constant drive torque; loads along the machine's steady cycle with the scene's effects
 };
 
 struct SizeOptions {
-  std::optional<SizeBasis> basis;   // default: classical, where the rigid machine carries all but elasticity
+  std::optional<SizeBasis> basis;   // default: classical if the rigid machine represents all but elasticity
   std::optional<double> delta;      // demanded, 0 < δ < 2
-  std::string machine;              // or its customary value: "press" (the upper end of the range)
+  std::string machine;              // or the customary value for a machine: "press" (the upper end of the range)
   std::optional<double> mid_speed;  // of the reduction link [rad/s]; default: the operating speed
-  Moment at = {};                   // the machine as it is then; default: when all is switched
-  std::string flywheel;             // component that is sized; default: the scene's only flywheel, else on the crank
+  Moment at = {};                   // state of the machine at that moment; default: after all switching
+  std::string flywheel;             // component to be sized; default: the scene's only flywheel, else one on the crank
   FlywheelForm form = FlywheelForm::rim;
   std::string material = "grey cast iron";
   double diameter = 0, rim_speed = 0;  // [m], [m/s]; 0: by proportion, by the material
   std::optional<double> sheet;         // length of the diagrams' angle axis [m]
-  bool simulate = true;                // look for the steady motion of the sized machine
+  bool simulate = true;                // find the steady motion of the sized machine
   SimulateOptions simulation = {};
 };
 
-// One way to the inertia.
+// Result of one sizing method.
 struct SizeMethod {
   std::string name;
   double drive_inertia = 0;      // I₀, on the reduction link [kg·m²]
-  double flywheel = 0;           // less everything else that turns at constant ratio, on its own shaft [kg·m²]
+  double flywheel = 0;           // minus all other parts that turn at constant ratio, on its own shaft [kg·m²]
   double flywheel_by_parts = 0;  // (theory 3.1)
-  // Reached at constant driving torque, exact, or by the steady motion; empty: the machine would stop.
+  // Resulting δ at constant driving torque, exact, or in the steady motion; empty: the machine would stop.
   std::optional<double> delta;
   std::optional<double> error = {};  // of the flywheel [kg·m²]
 };
 
-// The machine that the sized flywheel is put into.
+// Model of the machine with the sized flywheel.
 enum class SizedModel { work_equation, rigid, elastic };
 constexpr const char* name_of(SizedModel model) {
   return model == SizedModel::work_equation ? "rigid, work equation"
          : model == SizedModel::rigid       ? "rigid, simulated"
                                             : "elastic, simulated";
 }
-// Which flywheel: by the sizing that takes the drive as constant, or counts the motor's slope, or by the steady motion's δ.
+// Sizing method: constant driving torque, with the motor's slope, or by δ of the steady motion.
 enum class SizedBy { constant_drive, slope, regime };
 
-// The sized machine with its real motor, in steady motion.
+// The sized machine with its actual motor, in steady motion.
 struct DeltaReached : SizedRound {
   SizedModel model = SizedModel::work_equation;
   SizedBy by = SizedBy::constant_drive;
-  std::string sized_by;  // that method's name
+  std::string sized_by;  // name of that method
 };
 
 struct Sizing {
@@ -75,9 +74,9 @@ struct Sizing {
   MachineCycle cycle;
   WorkDiagram diagram;
   std::optional<double> fluctuation_error;  // of the diagram's [J]
-  bool held = false;      // its mid speed, by a torque added to the drive: its own start leads to no cycle
-  bool estimate = false;  // what the rigid machine at constant speed leaves out is not counted: no error is told
-  bool engine = false;    // the drive varies with the angle, the load is made to balance it
+  bool held = false;      // mid speed held by a torque added to the drive: its own start leads to no cycle
+  bool estimate = false;  // effects omitted by the rigid machine at constant speed are not included: no error is given
+  bool engine = false;    // the drive varies with the angle, the load is chosen to balance it
   Wittenbauer exact;
   Mertsalov approximate;
   std::vector<SizeMethod> methods;  // Wittenbauer, Mertsalov, without I_em
@@ -88,30 +87,29 @@ struct Sizing {
   double flywheel_now = 0;                                           // in the scene, on its own shaft [kg·m²]
   double motor_inertia = 0, gearbox_inertia = 0, other_inertia = 0;  // on the flywheel's shaft [kg·m²]
   std::vector<std::pair<std::string, double>> other_parts;           // on the flywheel's shaft
-  double delta_now = 0;  // of the scene as it is, at constant driving torque; NaN: it stops
-  std::optional<double>
-      delta_of_orbit;  // of the scene as it is, with its effects; where the basis is the steady motion
-  bool needed = true;  // a flywheel with I > 0
+  double delta_now = 0;                  // of the given scene, at constant driving torque; NaN: it stops
+  std::optional<double> delta_of_orbit;  // of the given scene with its effects; if the basis is the steady motion
+  bool needed = true;                    // a flywheel with I > 0
 
-  // The motor's slope counted.
+  // With the motor's slope.
   std::string motor;  // first driving component; empty: none
   std::optional<OperatingSpeed> operating;
   std::optional<SteadyRigidCycle> with_motor;  // of Wittenbauer's flywheel
-  std::optional<SizeMethod> soft;              // inertia whose steady cycle with the real motor has the demanded δ
+  std::optional<SizeMethod> soft;              // inertia whose steady cycle with the actual motor has this δ
   std::optional<SteadyRigidCycle> soft_cycle;
-  std::string soft_why;  // there is none
+  std::string soft_why;  // reason if there is none
 
-  // The inertia whose steady motion has the demanded δ, where the flywheel of the work equation misses it.
+  // The inertia whose steady motion has the demanded δ, if the flywheel by the work equation misses it.
   std::optional<SizeMethod> meeting;
-  std::string meeting_words;  // what it meets, or the least δ that was found; empty: nothing was sought
+  std::string meeting_words;  // the δ reached, or the least δ found; empty: no search
 
-  // What is to be built: that which meets δ with the scene's effects, else that of the work equation.
+  // The result: the flywheel that meets δ with the scene's effects, else that by the work equation.
   const SizeMethod& chosen() const { return meeting ? *meeting : methods.front(); }
 
   std::optional<FlywheelDimensions> dimensions;  // of the chosen one
   std::optional<double> mass_error;              // of these [kg]
   std::string dimensions_why;
-  std::optional<PunchPress> punch;  // loads that act for a part of the cycle only
+  std::optional<PunchPress> punch;  // for loads that act during a part of the cycle only
   std::vector<DeltaReached> reached;
   std::optional<double> sheet;
   std::vector<std::string> notes;
@@ -119,11 +117,11 @@ struct Sizing {
   std::string diagnosis;
 };
 
-// Throws SceneError where the scene makes no machine; std::invalid_argument in words for bad options, a load without
+// Throws SceneError if no machine can be made; std::invalid_argument with the reason for bad options, a load without
 // net resistance, a motor too weak for the cycle, and a machine whose own start leads to no cycle.
 Sizing size_flywheel(const Scene& scene, const SizeOptions& options);
 
-// Whose torque it is that changes with the speed at the operating point: "the motor's slope", "the load's slope".
+// Source of the speed dependence of torque at the operating point: "the motor's slope", "the load's slope".
 std::string slope_of_what(const Sizing& sizing);
 
 // Files: diagrams.csv. The sizing must outlive the findings.

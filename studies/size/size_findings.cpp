@@ -28,22 +28,22 @@ std::string conclusion_of(const Sizing& s) {
   const SizeMethod& exact = exact_method(s);
   if (s.needed && exact.flywheel <= 0)
     return fmt::format(
-        "{}: by the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
+        "By the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
         "{:.5g}; {}",
-        s.title, s.delta, s.reached.front().crank.value, s.meeting_words);
+        s.delta, s.reached.front().crank.value, s.meeting_words);
   if (!s.needed)
     return fmt::format(
-        "{}: {}no flywheel is needed for δ = {:g}: without any, δ is smaller already; {}", s.title,
-        s.estimate ? "by an estimate, the rigid machine without its losses, " : "", s.delta,
+        "{} flywheel is needed for δ = {:g}: without any, δ is smaller already; {}",
+        s.estimate ? "By an estimate, the rigid machine without its losses, no" : "No", s.delta,
         exact.drive_inertia > 0
             ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
             : std::string("its torques would not make the speed fluctuate as much with any inertia"));
   std::string text = s.estimate ? fmt::format(
-                                      "{}: an estimate, by the rigid machine without its losses: a flywheel of about "
+                                      "An estimate, by the rigid machine without its losses: a flywheel of about "
                                       "{:.3g} kg·m² on {} for δ = {:g} {}",
-                                      s.title, exact.flywheel, s.flywheel, s.delta, basis_of(s))
-                                : fmt::format("{}: a flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", s.title,
-                                              exact.flywheel, s.flywheel, s.delta, basis_of(s));
+                                      exact.flywheel, s.flywheel, s.delta, basis_of(s))
+                                : fmt::format("A flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", exact.flywheel,
+                                              s.flywheel, s.delta, basis_of(s));
   text +=
       fmt::format(", at a mid speed of {} of {} ({})", s.speed_unit.text(s.mid_speed, 4), s.link, s.mid_speed_source);
   if (s.soft) {
@@ -57,7 +57,7 @@ std::string conclusion_of(const Sizing& s) {
   return text;
 }
 
-// What the sized machine has, a sentence a model: δ is demanded of the crank, and judged there.
+// Results of the sized machine, one sentence per model: δ is demanded and assessed at the crank.
 std::string words_of(const Sizing& s, const DeltaReached& r) {
   return fmt::format(
       "{} with {:.6g} kg·m², δ is {:.5g} at the crank, where {:g} is demanded{}",
@@ -76,7 +76,7 @@ std::string comparison_with_scene(const Sizing& s) {
 
 // --- tables ---
 
-// On the terminal below its title, with a blank line behind it.
+// On the terminal below its title, followed by a blank line.
 void say_titled(Findings& f, Chapter in, Rows rows) {
   rows.heading = rows.title;
   rows.apart = false;
@@ -172,7 +172,7 @@ Rows positions_table(const Sizing& s) {
   constexpr int steps = 12;
   const std::vector<double> phi = angles(s, steps);
   const double largest = s.diagram.load_torque.largest(), energy = s.diagram.load_work.largest();
-  // Rounding beside the largest value reads as zero.
+  // Rounding errors relative to the largest value are set to zero.
   const auto clean = [&](const Piecewise& f, double scale) {
     return [&f, &phi, scale](std::size_t k) {
       const double v = f.value(phi[k]);
@@ -334,7 +334,7 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
   f.tell("notes", s.notes);
 }
 
-// Simulated as it really is, it may not keep what it was sized for.
+// The actual machine may not have the δ that it was sized for.
 void add_answers(Findings& f, const Sizing& s) {
   f.conclude(s.complete, conclusion_of(s));
   for (const SizedModel model : {SizedModel::rigid, SizedModel::elastic})
@@ -352,7 +352,7 @@ void add_answers(Findings& f, const Sizing& s) {
         s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
 }
 
-// Rim speed and stress of the flywheel as it is to be built, at the greatest speed of the cycle.
+// Rim speed and stress of the resulting flywheel, at the greatest speed of the cycle.
 void judge_dimensions(Findings& f, const Sizing& s) {
   if (!s.dimensions) return;
   const FlywheelDimensions& d = *s.dimensions;
@@ -379,7 +379,8 @@ Findings findings_of(const Sizing& s) {
              .scene_file = s.scene_file,
              .speed_unit = s.speed_unit.name,
              .complete = s.complete,
-             .diagnosis = s.diagnosis};
+             .diagnosis = s.diagnosis,
+             .opening = Findings::Opening::title_and_conclusion};
   add_answers(f, s);
   judge_dimensions(f, s);
   const Chapter cycle = f.chapter("One cycle"), synthesis = f.chapter("Inertia for the demanded δ"),

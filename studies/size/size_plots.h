@@ -10,7 +10,7 @@
 
 namespace kurbel {
 
-// What the classical methods take the torques for.
+// Assumption of the classical methods about the torques.
 std::string basis_of(const Sizing& sizing);
 
 std::vector<Plot> cycle_diagrams(const Sizing& sizing);

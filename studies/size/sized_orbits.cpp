@@ -1,4 +1,4 @@
-// sized_orbits.cpp — asks the steady motion of the sized machine, and seeks the inertia by it.
+// sized_orbits.cpp — δ from the steady motion of the sized machine, and the inertia found by it.
 #include "studies/size/sized_orbits.h"
 
 #include <fmt/format.h>
@@ -122,7 +122,7 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
     for (std::string& sentence : outside_data(*orbit.map, orbit.point)) r.notes.push_back(std::move(sentence));
     if (!with_error) return r;
     if (const auto looser = looser_orbit_cycle(orbit, {motor})) {
-      // What the run has still to settle, and what dense tables leave of δ = ΔA/(I ω²).
+      // Remaining change of the run, and the error of δ = ΔA/(I ω²) by dense tables.
       const double left = orbit.point.still_to_come() + left_by_tables(sized) * cycle.cycle.load.largest() *
                                                             cycle.way() /
                                                             (cycle.inertia.mean() * std::pow(cycle.mid_speed(), 2));
@@ -145,7 +145,7 @@ SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first,
   Meeting m;
   m.least = first.crank.value, m.least_at = first.flywheel;
   constexpr double flattest = -0.05, furthest = 1.5;
-  // u = ln I, v = ln δ/δ_demanded, which falls as −u where the flywheel carries the whole machine.
+  // u = ln I, v = ln δ/δ_demanded, which decreases as −u if the flywheel is the dominant inertia.
   double u = std::log(std::max(first.flywheel + others, 1e-300)), v = std::log(first.crank.value / delta), slope = -1;
   double heavy_enough = HUGE_VAL, too_light = -HUGE_VAL;
   (v > 0 ? too_light : heavy_enough) = u;

@@ -1,4 +1,4 @@
-// cycle_search.cpp — from a guess to the return map's fixed point, and what is told of it.
+// cycle_search.cpp — from a starting value to the return map's fixed point, and its results.
 #include "studies/steady/cycle_search.h"
 
 #include <fmt/format.h>
@@ -106,7 +106,7 @@ class Search {
     out_.label = is_elastic(*out_.model) ? "elastic" : "rigid";
   }
 
-  // Where the scene's own start leads to.
+  // The motion after the scene's own start.
   void freely() {
     describe_model(compile_network(network_, scene_, effects_));
     Orbit orbit = find_orbit(out_.model, search_options());
@@ -125,7 +125,7 @@ class Search {
 
   // --- a speed is demanded: a torque beside the drive, or a quantity of the scene, is one more unknown ---
 
-  // The driving component that takes the added torque; without one, the link.
+  // The driving component for the added torque; without one, the link.
   void choose_drive() {
     if (!options_.hold_by.empty()) return choose_quantity();
     const Network& net = network_;
@@ -146,7 +146,7 @@ class Search {
           in_quotes(options_.hold_by)));
     unit_ = setting->number;
   }
-  // The machine as `held` keeps its speed: a torque beside the drive [N·m], or the quantity's value.
+  // The machine with its speed held by `held`: a torque beside the drive [N·m], or the quantity's value.
   Network network_with(double held) const {
     Network net = network_;
     if (options_.hold_by.empty()) {
@@ -207,8 +207,8 @@ class Search {
   }
   std::string option() const { return options_.mid_speed ? "--mid-speed" : "--mean-speed"; }
 
-  // A quasi-static start at that speed, or faster ones for a machine that just stops at its load's peak; where the scene
-  // switches something, the machine as it is after its own start, which is brought to the speed from there.
+  // A quasi-static start at that speed, or higher for a machine that just stalls at its load's peak; if the scene
+  // switches something, the machine after its own start, brought to that speed.
   ReturnMap::Image begin_at(double speed) {
     ReturnMap::Image guess;
     const bool switches = !scene_.sequence.steps.empty() || is_switched(network_);
@@ -231,7 +231,7 @@ class Search {
     return guess;
   }
 
-  // A mid speed depends on two peaks: its slopes come from rounds beside.
+  // A mid speed depends on two peaks: its derivatives need additional periods.
   HeldMotion hold(double speed, const Eigen::VectorXd& guess) const {
     std::optional<LinkSpeed> link;
     const HeldSpeeds held{.machine = [this](const Eigen::VectorXd& a) { return model_with(a[0] * unit_); },
@@ -246,7 +246,7 @@ class Search {
     find_held_orbit(held, *map_, guess, search_options(), motion);
     return motion;
   }
-  // What the loads' mean torque leaves for the drive to add [N·m, on the drive's shaft].
+  // Deficit of the drive against the loads' mean torque [N·m, on the drive's shaft].
   double first_torque(double speed) const try {
     RigidMachine machine(compile_network(network_, scene_, rigid_effects()));
     const int direction = speed < 0 ? -1 : 1;
@@ -273,7 +273,7 @@ class Search {
 
   // --- figures ---
 
-  // An equilibrium has no cycles to count: there the time is told.
+  // An equilibrium has no cycles: the time is given instead.
   std::string stability_in_words() {
     const std::string text = stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error);
     if (out_.kind != Orbit::Kind::equilibrium || !out_.halving) return text;
@@ -315,7 +315,7 @@ class Search {
     if (options_.traces) follow();
   }
 
-  // What joints with limits bear, as `kurbel modes` asks it.
+  // Loads of joints with limits, as in `kurbel modes`.
   void find_loads() {
     const std::vector<LimitedJoint> joints = limited_joints(*out_.model);
     if (!any_limits(joints)) return;
@@ -327,7 +327,7 @@ class Search {
     out_.loads = steady_loads(kept, out_.model, joints);
   }
 
-  // The same machine with its mechanisms extracted anew, where they work from tables, and its dense tables taken rougher.
+  // The same machine with its mechanisms extracted anew, if they use tables, and with coarser dense tables.
   std::shared_ptr<const Model> model_elsewhere() const {
     constexpr double rougher = 4;
     const bool dense = tables_within(scene_) > 0;
@@ -341,7 +341,7 @@ class Search {
     return compile_network(extracted_from(net, Extraction::second), scene_, effects_);
   }
 
-  // The same search with looser tolerances and other tables; what it finds otherwise is the error.
+  // The same search with looser tolerances and other tables; the difference is the error.
   void measure_errors(Round& fine) {
     const auto [loose, point] = options_.holds_speed()
                                     ? SteadyTwin{looser_map(*map_, looser_tolerance, model_elsewhere()), out_.point}
@@ -356,7 +356,7 @@ class Search {
       for (const Figure& g : other.figures)
         if (f.name == g.name) {
           const double rounding = f.unit == "J" ? rounding_of_works : 8 * std::numeric_limits<double>::epsilon();
-          // What the steps resolve of the rated quantity both searches share; nothing is nothing.
+          // Resolution of the steps, common to both searches; zero if both are zero.
           const double shared = f.value == 0 && g.value == 0 ? 0 : map_tolerance * f.scale;
           f.error = std::max({std::abs(f.value - g.value), rounding * std::abs(f.value), shared}) +
                     tables * std::abs(f.value);
@@ -365,7 +365,7 @@ class Search {
     if (out_.model->has_continuous_shafts()) add_errors_of_shafts(fine);
   }
 
-  // The same search with continuous shafts cut finer: what changes is their part of the errors.
+  // The same search with finer continuous shafts; the change is their discretisation error.
   void add_errors_of_shafts(Round& fine) {
     Scene finer = scene_;
     ++finer.finer_shafts;
@@ -380,7 +380,7 @@ class Search {
     }
   }
 
-  // Two rounds, so that one whole cycle from the link's zero is among them.
+  // Two periods, so that one whole cycle from the link's zero is among them.
   void follow() {
     Equations equations(out_.model, true);
     TraceRecorder traces(*out_.model);

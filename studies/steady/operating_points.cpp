@@ -90,7 +90,7 @@ void MeanCharacteristic::add_static(MeanTorques& mean, std::size_t i) {
   });
 }
 
-// Powers of the accounts over the link's speed: with the accelerations of the motion, and the flanks that then carry.
+// Powers of the accounts over the link's speed: with the accelerations of the motion and the flanks in contact.
 void MeanCharacteristic::add_moving(MeanTorques& mean, std::size_t i) try {
   const Model& m = moving_->model();
   std::vector<double> rate(moving_->size()), share(m.accounts.size());
@@ -153,8 +153,8 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
 
 namespace {
 
-// What twice as many intervals say at the same speed; the speed is off by the rest of the balance over its slope.
-// `within`: by which part dense tables are off.
+// Errors from twice as many intervals at the same speed; the error of the speed is the residual of the balance over
+// its slope. `within`: relative error of dense tables.
 void measure_errors(const MeanTorques& here, const MeanTorques& finer, double within, OperatingPoint& point) {
   const double slope = std::abs(point.drive_slope - point.load_slope),
                rounding = 1e-14 * std::abs(here.load) + within * here.turnover;
@@ -192,7 +192,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
   }
   MeanTorques strongest = *std::max_element(result.curve.begin(), result.curve.end(),
                                             [](const auto& a, const auto& b) { return a.drive < b.drive; });
-  // Breakdown between the scanned points: golden section.
+  // Breakdown torque between the scanned points: golden section.
   const double best = std::abs(strongest.omega);
   const Maximum highest =
       find_maximum([&](double w) { return mean.at(w).drive; }, std::max(best - step, 1e-6 * rated), best + step, 40);
@@ -204,7 +204,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
   const auto greatest =
       std::max_element(result.curve.begin(), result.curve.end(), [](auto& a, auto& b) { return a.net() < b.net(); });
   const double within = left_by_tables(machine.model().scene), error = error_of(finer, result.curve.back(), within);
-  // Losses by inertia torques know the speed, too.
+  // Losses by inertia torques depend on the speed, too.
   if (lossy && std::any_of(result.curve.begin(), result.curve.end(), [&](const MeanTorques& m) {
         return std::abs(m.net() - result.curve.back().net()) > 10 * error + 1e-9 * m.turnover;
       }))
@@ -319,11 +319,11 @@ class RatioTrial {
     for (const std::size_t j : gears_of(network_, gearbox_)) present_ *= network_.joints[j].ratio;
     lies_in_a_loop_ = !has_gears() || !turns_with(1.01 * present_);
   }
-  // A stage whose ratio can be set: none where all of them have losses or teeth that yield, or where another way round
-  // a closed loop of shafts sets it.
+  // A stage whose ratio can be changed: none if all have losses or elastic teeth, or if a closed loop of shafts
+  // determines it.
   bool has_gears() const { return !gears_of(network_, gearbox_).empty() && !lies_in_a_loop_; }
   double present() const { return present_; }
-  // Start time with another ratio of the last stage; HUGE_VAL: never.
+  // Start time with another ratio of the last stage; HUGE_VAL: never reached.
   double operator()(double ratio) {
     const auto model = compile_network(with(ratio), scene_, effects_);
     const StartRun run = start_from_rest(model, target_, limit_, interrupted_, node_, false);

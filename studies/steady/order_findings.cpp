@@ -23,7 +23,7 @@ struct ToldOrder {
   Order order;
 };
 
-// Shafts that turn as one are told once.
+// Shafts that turn together are listed once.
 std::vector<ToldOrder> told_orders(const SteadyCycle& c) {
   std::vector<ToldOrder> rows;
   for (const OrdersOf& of : c.orders)
@@ -69,7 +69,7 @@ const OrdersOf* orders_named(const SteadyCycle& c, const std::string& name) {
   return found == c.orders.end() ? nullptr : &*found;
 }
 
-// All orders up to the highest that matters in one of the models; none: nothing swings.
+// All orders up to the highest significant one of the models; empty: nothing oscillates.
 std::optional<Plot> bars_of_orders(const SteadyStudy& s, const std::string& name, const std::string& title) {
   Plot plot{.title = title,
             .x = {fmt::format("order ({})", counted(s, s.cycles.back())), ""},

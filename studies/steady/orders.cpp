@@ -1,4 +1,4 @@
-// orders.cpp — a round is run once more, and every step's part of the integrals is added.
+// orders.cpp — integrates one more period, adding every step's contribution to the integrals.
 #include "studies/steady/orders.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,6 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "engine/base/gauss.h"
@@ -30,8 +29,8 @@ constexpr double most_parts = 128;                          // of two turns, aft
 constexpr double slowest_part = 1e-6;                       // of the rated speed: below that the link stands
 constexpr double whole_within = 1e-6;
 
-// The order of the longest wave: 1/n over n turns, n/2 over two nth of a turn; none for other angles, nor for so small ones that
-// the link as good as stands.
+// The lowest order: 1/n over n turns, n/2 over two nth of a turn; empty for other angles, and for angles so small
+// that the link practically stands.
 std::optional<double> lowest_order(double turned) {
   const double turns = std::abs(turned) / turn;
   const auto is_whole = [](double x) { return std::round(x) >= 1 && std::abs(x - std::round(x)) <= whole_within * x; };
@@ -79,7 +78,7 @@ struct OverTime {
   double speed() const { return turn / period; }
 };
 
-// ∫x dφ, ∫x² dφ and ∫x e^(−irφ) dφ of every channel, and the link's least speed on its way.
+// ∫x dφ, ∫x² dφ and ∫x e^(−irφ) dφ of every channel, and the link's least speed.
 class OrderIntegrals final : public Observer {
  public:
   OrderIntegrals(const Model& m, const std::vector<OrderChannel>& channels, double lowest, double turned,
@@ -95,7 +94,7 @@ class OrderIntegrals final : public Observer {
         sums_(channels.size() * waves_),
         wave_(waves_) {}
 
-  // Pieces so short that the highest order makes no more than a quarter of a turn in one.
+  // Intervals in which the highest order turns by at most a quarter of a turn.
   void step(StepView& view) override {
     const double a = view.t_previous(), h = view.t() - a;
     const double from = angle(view, a), to = angle(view, view.t());
@@ -147,7 +146,7 @@ class OrderIntegrals final : public Observer {
   double slowest_ = HUGE_VAL;
 };
 
-// Of a shaft's angle, in a vibration: those of its speed over i r 2π/T.
+// Orders of a shaft's angle in a vibration: those of its speed over i r 2π/T.
 OrdersOf angle_of(const OrdersOf& speed, double of_vibration) {
   OrdersOf angle{.channel = Name::make(quantities::angle, speed.channel.of),
                  .unit = "rad",

@@ -1,4 +1,4 @@
-// round_figures.cpp — one round with everything recorded that is told of it.
+// round_figures.cpp — one period with all quantities of its figures recorded.
 #include "studies/steady/round_figures.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@
 namespace kurbel {
 namespace {
 
-// Elements of one component that drive together, rated or not, and what turns shafts at a given speed.
+// Elements of one component that drive together, rated or not, and prescribed shafts.
 using Drive = MotorTorque;
 
 std::vector<Drive> drives_of(const Model& model) {
@@ -110,7 +110,7 @@ std::vector<ExtremeOf> angles_of(const Model& m) {
   return wanted;
 }
 
-// Extremes over one round: speeds of all shafts first, two each, then torques, forces and accelerations.
+// Extremes in one period: speeds of all shafts first, two each, then torques, forces and accelerations.
 std::vector<ExtremeOf> wanted_of(const Model& m) {
   std::vector<ExtremeOf> wanted;
   for (const NamedShaft& shaft : shafts_of(m)) {
@@ -183,7 +183,7 @@ class RoundFigures {
   bool vibrates() const { return !angles_.wanted().empty(); }
   double time() const { return outcome_.t - map_.start_time(); }
   double energy_scale() const { return m_.torque_scale * 2 * std::numbers::pi; }
-  // Of the link: its cycle, and the period after which all repeats.
+  // For the link: its cycle, and the period after which all repeats.
   void add_times(const std::string& link) {
     add(quantities::period, "", time(), time());
     if (m_.cycle > 0 && !vibrates()) add(quantities::cycle_time, link, time() * m_.cycle / std::abs(turned_), time());
@@ -201,14 +201,14 @@ class RoundFigures {
         add(quantities::cycle_min_speed, f.shaft, f.min, m_.speed_scale);
       }
       if (const auto delta = f.delta()) add(quantities::delta, f.shaft, *delta, 1);
-      // What a flywheel gives from its largest to its least speed.
+      // Energy released by a flywheel from its largest to its least speed.
       if (const auto* flywheel = m_.network.data.find<Flywheel>(f.shaft))
         add(Name::own("flywheel_energy", f.shaft), 0.5 * flywheel->inertia * std::abs(f.max * f.max - f.min * f.min),
             energy_scale());
       round_.shafts.push_back(std::move(f));
     }
   }
-  // About a place, where the link does not turn in the mean.
+  // Vibration about a position, if the link does not rotate on average.
   void add_vibration() {
     if (!vibrates()) return;
     add(quantities::vibration_frequency, "", 1 / time(), 1 / time());
@@ -249,7 +249,7 @@ class RoundFigures {
       round_.motors.push_back(std::move(use));
     }
   }
-  // Over a steady cycle all works add up to nothing.
+  // In a steady cycle the sum of all works is zero.
   void add_works() {
     const std::vector<double> work = works_done(equations_, outcome_.state);
     const std::array<double, 4> by_kind = works_by_kind(m_, work);

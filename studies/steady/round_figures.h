@@ -1,4 +1,4 @@
-// round_figures.h — what is told of one round of a steady cycle: speeds, torques, drives, works.
+// round_figures.h — figures of one period of a steady cycle: speeds, torques, drives, works.
 #pragma once
 
 #include <string>
@@ -13,21 +13,21 @@ struct NamedShaft {
   std::string name;
   int node;
 };
-// Of all components, at both ends; of a long machine those of the link and at its ends.
+// All components, at both ends; for a long machine only those of the link and at its ends.
 std::vector<NamedShaft> shafts_of(const Model& model);
 
-// All that is told of one round of a fixed point.
+// All results for one period of a fixed point.
 struct Round {
   std::vector<Figure> figures = {};
   OrdersOfRound orders = {};
   std::vector<ShaftFluctuation> shafts = {};
   std::vector<MotorUse> motors = {};
   double work_residual = 0;
-  std::vector<std::string> outside_data = {};  // what it takes from beyond the ends of tables
+  std::vector<std::string> outside_data = {};  // extrapolation of tables
   std::string failed = {};
 };
 
-// Goes once round from the map's fixed point, as accurately as told.
+// Integrates one period from the map's fixed point with this tolerance.
 Round go_round(const ReturnMap& map, const SteadyPoint& point, double tolerance);
 
 }  // namespace kurbel

@@ -1,15 +1,13 @@
-// steady.cpp — from operating point to steady cycle to start, for every model asked for.
+// steady.cpp — operating point, steady cycle and start, for every requested model.
 #include "studies/steady/steady.h"
 #include "studies/run/compare.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/kept_moment.h"
@@ -22,7 +20,7 @@
 namespace kurbel {
 namespace {
 
-// From the scene's own start the link vibrates, and does not come round.
+// After the scene's own start the link vibrates without completing a turn.
 bool turns_back(const std::shared_ptr<const Model>& rigid, double cycle) {
   const Model& m = *rigid;
   const std::size_t tracked = at(m.reduction_angle);
@@ -48,7 +46,7 @@ bool turns_back(const std::shared_ptr<const Model>& rigid, double cycle) {
   return false;
 }
 
-// What a cycle gains or loses is told only beyond the error of the balance.
+// A gain or loss per cycle counts only beyond the error of the balance.
 bool is_balanced(const OperatingDiagram& d) {
   const MeanTorques& m = d.curve.back();
   const double scale = std::max({std::abs(m.drive), std::abs(m.load), 1e-300});
@@ -75,7 +73,7 @@ std::string family_text(const OperatingDiagram& d, double cycle, const std::stri
       net > 0 ? "accelerates" : "slows down");
 }
 
-// "frequency 13 Hz, amplitude 0.0153 rad of "disc" …": of the shaft that vibrates most.
+// "frequency 13 Hz, amplitude 0.0153 rad of "disc" …": of the shaft with the largest amplitude.
 std::string vibration_text(const SteadyCycle& c) {
   const Figure* most = nullptr;
   for (const Figure& f : c.figures)
@@ -121,7 +119,7 @@ class Study {
   void progress(const std::string& what, double fraction) const { options_.watch.at(what, fraction); }
   void log(const std::string& text) const { options_.watch.say(text); }
 
-  // Mean torques over a cycle at a constant speed say something of a machine of one coordinate without a memory.
+  // Mean torques over a cycle at constant speed are meaningful for a machine of one coordinate without memory.
   void find_diagram(const Model& model) {
     out_.no_diagram = why_no_diagram(model);
     if (!out_.no_diagram.empty()) return;
@@ -166,14 +164,14 @@ class Study {
   }
   void refuse_family() const {
     if (!out_.diagram || out_.diagram->uses_speed || out_.diagram->estimate || options_.holds_speed()) return;
-    // Where losses are what balances it, or where it does not come round, the scene's own start says which member of the
-    // family is meant.
+    // If losses balance the machine, or if it completes no turn, the scene's own start determines the member of the
+    // family.
     const double cycle = periodicity_of(*rigid_).angle;
     if (is_balanced(*out_.diagram) && (lossy_ || turns_back(rigid_, cycle))) return;
     throw std::invalid_argument(family_text(*out_.diagram, cycle, out_.link));
   }
 
-  // A simpler machine to compare with may leave a torque open that the scene's own has: a loop that is then rigid.
+  // A simpler machine for comparison may have an indeterminate torque that the scene's own does not: a loop that becomes rigid.
   bool is_determined(const Effects& effects) try {
     compile(scene_, effects);
     return true;
@@ -208,7 +206,7 @@ class Study {
     if (out_.diagnosis.empty()) out_.diagnosis = why;
   }
 
-  // The mean torques tell why there can be none; else what the machine did.
+  // The mean torques explain why there is none; else the machine's motion.
   std::string diagnose(const SteadyCycle& cycle) const {
     const bool stands = cycle.kind == Orbit::Kind::at_rest || cycle.kind == Orbit::Kind::equilibrium;
     if (stands && !scene_.sequence.steps.empty() && !options_.at.any())
@@ -228,7 +226,7 @@ class Study {
     return cycle.end == ReturnMap::End::interrupted || cycle.kind == Orbit::Kind::interrupted;
   }
 
-  // Several times what the mean torques would need; where they do not suffice, or hardly, what the rated torque would.
+  // Several times the time by the mean torques; if these do not or hardly suffice, by the rated torque.
   double start_limit(double target) const {
     RigidMachine machine(rigid_);
     const double inertia = machine.constant_inertia() + machine.mechanism_inertia(1).value;
@@ -251,7 +249,7 @@ class Study {
     const double target = 0.95 * rigid->find("mean_speed." + out_.link)->value;
     const double limit = start_limit(std::abs(target)) + 20 * rigid->cycle_time;
     progress("start from rest", 0.5);
-    // Of the machine that has this cycle, with its losses and its own states.
+    // For the machine with this cycle, including its losses and internal states.
     Effects effects = *std::find_if(effects_.begin(), effects_.end(),
                                     [&](const Effects& e) { return e.describe() == rigid->effects; });
     effects.locked = true;

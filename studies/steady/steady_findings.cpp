@@ -38,7 +38,7 @@ std::vector<std::string> names_of_figures(const SteadyStudy& s) {
   return names;
 }
 
-// A row per figure, the models side by side; orders have tables of their own.
+// One row per figure, the models side by side; orders have separate tables.
 Rows figure_table(const SteadyStudy& s) {
   auto table = table_of("", "Every figure of the steady cycle", names_of_figures(s)).fold();
   const SpeedUnit speed = speed_unit_of(s);
@@ -56,7 +56,7 @@ Rows figure_table(const SteadyStudy& s) {
   });
 }
 
-// By number, largest first; halving is told within what the error leaves of it.
+// By number, largest first; halving is given within the error.
 auto multiplier_table(const SteadyCycle& c) {
   const std::vector<std::complex<double>>& all = c.point.multipliers;
   const auto error = [&c](std::size_t i) {
@@ -411,7 +411,7 @@ Findings findings_of(const SteadyStudy& s) {
   if (any) {
     f.draw(cycle, [&s] { return cycle_plots(s); });
     say_orders(f, orders, s);
-    // Of multipliers that are nearly zero a picture shows a dot.
+    // Multipliers near zero are shown as dots.
     constexpr double seen = 0.05;
     if (std::any_of(s.cycles.begin(), s.cycles.end(),
                     [](const SteadyCycle& c) { return c.found && c.point.largest() > seen; }))

@@ -1,4 +1,4 @@
-// steady_ratings.cpp — the cycle's figures under the names that a run gives them, judged as those of a run are.
+// steady_ratings.cpp — the cycle's figures under the names of a run, assessed like those of a run.
 #include "studies/steady/steady_ratings.h"
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 
 #include "drivetrain/shared/rating_keys.h"
 #include "studies/limits/ratings.h"
-#include "studies/limits/verdicts.h"
 
 namespace kurbel {
 namespace {
@@ -17,7 +16,7 @@ Figure renamed(const Figure& f, Name name) {
   return other;
 }
 
-// Of a rim at the largest speed of its shaft, whose relative error is that of the link's.
+// For a rim at the largest speed of its shaft, with the relative error of the link's speed.
 void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
   const Figure* fastest = nullptr;
   for (const Figure& f : c.figures)
@@ -34,8 +33,8 @@ void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
   }
 }
 
-// What joints bear in the steady motion, by DIN 740-2 and the makers' stresses, as `modes` judges it: in place of what is
-// judged by peaks alone. The start is judged by `modes` and `run`.
+// Loads of joints in steady motion, by DIN 740-2 and the makers' stresses, as in `modes`: instead of verdicts on
+// peaks only. The start is assessed by `modes` and `run`.
 void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
   if (!c.loads.found) return;
   RunUp none;

@@ -20,7 +20,7 @@ std::string number(double value, int digits = 6) { return fmt::format("{:.{}g}",
 
 std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
 
-// Rounding of differences beside the other slope reads as zero.
+// Rounding errors relative to the other slope are set to zero.
 std::string beside(double value, double other) {
   return number(std::abs(value) < 1e-9 * std::abs(other) ? 0.0 : value, 4);
 }

@@ -1,4 +1,4 @@
-// database.cpp — SQLite's C interface, and its promises: WAL, one writer, committed means on the disk.
+// database.cpp — SQLite's C interface with its guarantees: WAL, one writer, committed data are on disk.
 #include "studies/sweep/database.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ Database::Database(const std::filesystem::path& file) : file_(file) {
     refuse(fmt::format("cannot be opened ({}); give a file in a folder that is there and may be written",
                        sqlite3_errmsg(handle_)));
   sqlite3_busy_timeout(handle_, 500);
-  // The lock is the process's own and ends with it, however it ends. FULL: what is committed is on the disk.
+  // The lock belongs to the process and ends with it in any case. FULL: committed data are on disk.
   const int code = sqlite3_exec(handle_,
                                 "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL;"
                                 "BEGIN IMMEDIATE; COMMIT;",

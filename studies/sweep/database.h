@@ -1,11 +1,10 @@
-// database.h — SQLite behind two small classes: what a sweep has computed lies in one file that explains itself.
+// database.h — SQLite behind two small classes: results of a sweep in one self-describing file.
 //
-// A statement that fails throws std::runtime_error with the file's name and SQLite's words.
+// A failing statement throws std::runtime_error with the file's name and SQLite's message.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -16,8 +15,8 @@ namespace kurbel {
 
 class Database {
  public:
-  // Opened for this process alone; made if it is not there. Throws std::invalid_argument where it cannot be: no such
-  // folder, no database, another process at work on it.
+  // Opens the file for this process alone; creates it if missing. Throws std::invalid_argument if it cannot: no such
+  // folder, no database, in use by another process.
   explicit Database(const std::filesystem::path& file);
   ~Database();
   Database(const Database&) = delete;
@@ -33,7 +32,7 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
-// A prepared statement: bind, step, read, again.
+// A prepared statement: bind, step, read, repeat.
 class Query {
  public:
   Query(const Database& database, const std::string& sql);
@@ -41,11 +40,11 @@ class Query {
   Query(const Query&) = delete;
   Query& operator=(const Query&) = delete;
 
-  Query& bind(int at, double value);  // from 1; what is not a number is NULL
+  Query& bind(int at, double value);  // from 1; NaN is stored as NULL
   Query& bind(int at, std::int64_t value);
   Query& bind(int at, std::string_view value);
-  bool step();  // true: a row is there
-  void done();  // runs to the end, and begins anew
+  bool step();  // true: a row is available
+  void done();  // runs to the end, and resets
   void reset();
 
   bool is_null(int column) const;

@@ -1,4 +1,4 @@
-// influence.cpp — Sobol's indices by given data and by Saltelli's design.
+// influence.cpp — Sobol indices from given data and from Saltelli's design.
 #include "studies/sweep/influence.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Moments moments_of(const std::vector<double>& y) {
   return m;
 }
 
-// The same draws each time: a report is a function of its file.
+// The same random numbers each time: a report is a function of its file.
 class Draws {
  public:
   std::size_t below(std::size_t n) {
@@ -35,7 +35,7 @@ class Draws {
   std::uint64_t state_ = 20260101;
 };
 
-// 95 % of the bootstrap's values about the estimate.
+// 95 % interval of the bootstrap's values about the estimate.
 template <class Estimate>
 Index with_interval(std::size_t items, const Estimate& estimate) {
   std::vector<std::size_t> all(items), drawn(items);
@@ -57,7 +57,7 @@ Index with_interval(std::size_t items, const Estimate& estimate) {
 
 // --- given data ---
 
-// A parameter's values, from the least on, or bins of them.
+// A parameter's values in ascending order, or bins of them.
 struct Levels {
   std::vector<std::size_t> of;  // of each row
   std::size_t count = 0;
@@ -75,7 +75,7 @@ std::vector<double> column_of(const std::vector<const SweepRow*>& rows, std::siz
   return x;
 }
 
-// Bins of x: its values, where there are few; else equally many rows in each.
+// Bins of x: its values, if there are few; else bins with equal numbers of rows.
 Levels bins_of(const std::vector<double>& x, const Levels& values) {
   const auto wanted =
       std::clamp<std::size_t>(static_cast<std::size_t>(std::cbrt(static_cast<double>(x.size())) * 1.5), 2, most_bins);
@@ -100,7 +100,7 @@ double first_order(const std::vector<std::size_t>& bins, std::size_t count, cons
   for (const std::size_t i : rows) total += std::pow(y[i] - mean, 2);
   const auto n = static_cast<double>(rows.size());
   if (!(total > 0) || n <= filled) return total > 0 ? between / total : 0;
-  // Between the means there is scatter by chance: (bins − 1) times that within a bin.
+  // Scatter between the means by chance: (bins − 1) times that within a bin.
   const double within = (total - between) / (n - filled);
   return std::max(0.0, (between - (filled - 1) * within) / total);
 }
@@ -138,7 +138,7 @@ double variance_of_means(const std::vector<std::size_t>& group, std::size_t coun
   return variance;
 }
 
-// Nothing is drawn by chance: the shares are those of the table itself.
+// Without random errors: the shares are those of the table itself.
 void by_complete_table(FigureInfluence& found, const std::vector<Levels>& levels, const std::vector<double>& y,
                        const Moments& m) {
   const auto sure = [](double share) { return Index{share, share, share}; };
@@ -173,7 +173,7 @@ void by_given_data(FigureInfluence& found, const SweepIdentity& identity, const 
 
 // --- Saltelli's design ---
 
-// Rows A, A with each column from B, B of the groups that are whole.
+// Rows A, A with each column from B, B of the complete groups.
 std::vector<std::vector<double>> whole_groups(std::size_t figure, std::size_t parameters,
                                               const std::vector<SweepRow>& rows) {
   const std::size_t size = parameters + 2;
@@ -200,7 +200,7 @@ void by_saltelli(FigureInfluence& found, const SweepIdentity& identity, const st
   const Moments m = moments_of(y);
   found.mean = m.mean, found.deviation = std::sqrt(m.variance);
   if (!(m.variance > 1e-24 * m.mean * m.mean)) return;
-  // About the mean: the first order's estimator scatters with it.
+  // Centred, as the scatter of the first-order estimator depends on the mean.
   for (auto& g : groups)
     for (double& v : g) v -= m.mean;
   const auto variance = [&](const std::vector<std::size_t>& of) {

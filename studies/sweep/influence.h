@@ -1,16 +1,15 @@
-// influence.h — which parameter moves a figure: Sobol's indices of a sweep's rows.
+// influence.h — influence of parameters on a figure: Sobol indices from the rows of a sweep.
 //
-//     S_i  = V(E[y | x_i]) / V(y)          first order: what knowing x_i alone would take off the variance
-//     S_Ti = E[V(y | x_~i)] / V(y)         total: with all interactions that x_i has a part in
+//     S_i  = V(E[y | x_i]) / V(y)          first order: reduction of the variance if x_i alone were known
+//     S_Ti = E[V(y | x_~i)] / V(y)         total: including all interactions of x_i
 //
-// Of a complete table (a grid of which every row has the figure) both are sums over the table, without any interval. From
-// any other design by given data: rows are put into bins of x_i; what lies between the bins' means beyond what their
-// scatter gives by chance is S_i (analysis of variance, ω²; Plischke, Borgonovo, Smith 2013). From saltelli by the
-// estimators of Saltelli et al. 2010 (first) and Jansen 1999 (total); 95 % intervals by the bootstrap over its groups.
+// For a complete table (a grid in which every row has the figure) both are sums over the table, without intervals. For
+// other designs by given data: rows are sorted into bins of x_i; the variance between the bins' means, minus what their
+// scatter gives by chance, is S_i (analysis of variance, ω²; Plischke, Borgonovo, Smith 2013). For saltelli by the
+// estimators of Saltelli et al. 2010 (first) and Jansen 1999 (total); 95 % intervals by bootstrap over its groups.
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "studies/sweep/store.h"
@@ -24,21 +23,21 @@ struct Index {
 struct Influence {
   std::size_t parameter = 0;
   Index first = {};
-  std::optional<Index> total = {};  // of saltelli and of complete tables
+  std::optional<Index> total = {};  // for saltelli and complete tables
 };
 
 struct FigureInfluence {
   std::size_t figure = 0;
-  std::size_t rows = 0;  // that have it; of saltelli: whole groups
+  std::size_t rows = 0;  // that have the figure; for saltelli: whole groups
   double mean = 0, deviation = 0;
-  std::vector<Influence> ranked = {};  // the greatest first; none: it does not vary, or too few rows
+  std::vector<Influence> ranked = {};  // the greatest first; empty: no variation, or too few rows
 };
 
-// `saltelli`: rows are of that design.
+// `saltelli`: the rows have that design.
 FigureInfluence influence_on(std::size_t figure, const SweepIdentity& identity, const std::vector<SweepRow>& rows,
                              bool saltelli);
 
-// Each value once, from the least on; and the place of one among them.
+// Sorted values without repetition; and the index of a value among them.
 std::vector<double> distinct(std::vector<double> values);
 std::size_t place_in(const std::vector<double>& sorted, double value);
 

@@ -1,4 +1,4 @@
-// limit.cpp — limits on figures, and how sure a count of those that hold is.
+// limit.cpp — limits on figures, and confidence of the count of those that hold.
 #include "studies/sweep/limit.h"
 
 #include <fmt/format.h>

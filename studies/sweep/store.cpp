@@ -1,4 +1,4 @@
-// store.cpp — tables of a sweep, written in batches, read by row; shards become one file.
+// store.cpp — tables of a sweep, written in batches, read by row; merging of shards.
 #include "studies/sweep/store.h"
 
 #include <fmt/format.h>
@@ -191,19 +191,13 @@ void SweepStore::each(const Visit& visit, std::size_t from, std::size_t to) cons
   }
 }
 
-std::vector<SweepRow> SweepStore::read(std::size_t from, std::size_t to) const {
-  std::vector<SweepRow> rows;
-  each([&](SweepRow&& row) { rows.push_back(std::move(row)); }, from, to);
-  return rows;
-}
-
 // --- merge: shards of one sweep become one file ---
 
 namespace {
 
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-// Times apart.
+// Equal except for times.
 bool same_result(const SweepRow& a, const SweepRow& b) {
   const auto same_figure = [](const RowFigure& f, const RowFigure& g) {
     return f.figure == g.figure && same(f.value, g.value) && f.error.has_value() == g.error.has_value() &&
@@ -215,7 +209,7 @@ bool same_result(const SweepRow& a, const SweepRow& b) {
 
 constexpr std::size_t rows_at_a_time = 100'000;
 
-// Of all files, which have to be of one sweep.
+// Identity common to all files, which must be of one sweep.
 SweepIdentity identity_of_all(const std::vector<std::string>& files) {
   SweepIdentity identity;
   for (const std::string& file : files) {
@@ -227,7 +221,7 @@ SweepIdentity identity_of_all(const std::vector<std::string>& files) {
   return identity;
 }
 
-// Rows of all files from `from` on, below `to`; a row that stands in two of them has to be the same.
+// Rows of all files from `from` to below `to`; a row in two of them must be the same.
 std::vector<SweepRow> rows_of_all(const std::vector<std::string>& files, std::size_t from, std::size_t to) {
   std::vector<SweepRow> all;
   for (const std::string& file : files)
@@ -244,7 +238,7 @@ std::vector<SweepRow> rows_of_all(const std::vector<std::string>& files, std::si
   return all;
 }
 
-// What a killed merge left beside `into`, of a process that is no more; one still at work keeps its file.
+// Remains of a killed merge beside `into`; a process still running keeps its file.
 void clean_up(const std::filesystem::path& into) {
   const std::string begins = into.filename().string() + ".part-";
   const std::filesystem::path folder = into.has_parent_path() ? into.parent_path() : ".";
@@ -271,7 +265,7 @@ std::size_t merge_sweeps(const std::vector<std::string>& files, const std::files
         fmt::format("--into {}: is there already; take another name, or remove it", into.string()));
   SweepIdentity identity = identity_of_all(files);
   identity.shard = "1/1";
-  // Put in place in one step; what a killed merge leaves is removed by the next one.
+  // Put in place in one step; remains of a killed merge are removed by the next one.
   clean_up(into);
   const std::filesystem::path beside = into.string() + fmt::format(".part-{}", getpid());
   std::size_t merged = 0;

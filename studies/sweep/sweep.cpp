@@ -1,4 +1,4 @@
-// sweep.cpp — threads take rows by a counter, one writer commits what they have finished.
+// sweep.cpp — threads take rows by a counter, one writer commits finished rows.
 #include "studies/sweep/sweep.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// sweep.h — every row of a design computed, in threads, and written by one writer; what is there already is not computed
-// again. Knows no machine: what a row yields, a function of it says.
+// sweep.h — computes the rows of a design in threads, with one writer; existing rows are not computed again.
+// Independent of machines: an evaluator computes a row.
 #pragma once
 
 #include <functional>
@@ -21,23 +21,23 @@ struct SweepJob {
   Watch watch = {};
 };
 
-// Which rows: "3/64". Throws std::invalid_argument, told under the option's name.
+// Rows of a shard: "3/64". Throws std::invalid_argument under the option's name.
 void read_shard(const std::string& option, const std::string& text, SweepJob& job);
-// Of a design and what its rows yield; meta: what else makes two sweeps one.
+// Identity from a design and the figures of its rows; meta: other entries of the identity.
 SweepIdentity identity_of(const Design& design, std::vector<SweptFigure> figures, const std::string& shard,
                           std::map<std::string, std::string> meta);
 std::string joined_lines(const std::vector<std::string>& texts);
 
 struct SweepEnd {
   std::size_t rows = 0;      // of this shard
-  std::size_t there = 0;     // before it began
-  std::size_t computed = 0;  // and written
+  std::size_t there = 0;     // before this run
+  std::size_t computed = 0;  // computed and written
   std::size_t failed = 0;    // of those
-  double seconds = 0;        // by the clock
+  double seconds = 0;        // elapsed time
   bool complete() const { return there + computed == rows; }
 };
 
-// Batches are committed four times a second. An interrupt ends it with what is done.
+// Batches are committed four times a second. On interruption the finished rows are kept.
 SweepEnd run_sweep(const SweepJob& job, SweepStore& store);
 
 }  // namespace kurbel

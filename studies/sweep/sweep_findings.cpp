@@ -1,10 +1,9 @@
-// sweep_findings.cpp — what a sweep found, said once.
+// sweep_findings.cpp — findings of a sweep.
 #include "studies/sweep/sweep_findings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "engine/scene/keys.h"
@@ -24,7 +23,7 @@ std::string in_words(const Index& i) {
   return fmt::format("{:.3f} ({:.3f} … {:.3f})", i.value, i.low, i.high);
 }
 
-// A count by thousands, "10,007": a headline rounds numbers, and a count is none to round.
+// A count with thousands separators, "10,007": a headline would round a plain number.
 std::string counted(std::size_t count) {
   std::string text = fmt::format("{}", count);
   for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
@@ -33,7 +32,7 @@ std::string counted(std::size_t count) {
 
 // --- limits ---
 
-// What the interval of a share is where points lie more evenly than random ones.
+// Meaning of a share's interval for points distributed more evenly than random ones.
 std::vector<std::string> notes_on_limits(const SweepStudyResult& s) {
   const std::string design = s.identity.told("design");
   if (s.limits.empty() || !(is_shifted_sobol(s.identity) || design.starts_with("lhs"))) return {};
@@ -185,7 +184,7 @@ void fill(std::vector<DataCell>& cells, const SweepStudyResult& s, const SweepRo
   }
 }
 
-// One table, or of a great sweep one each rows_in_table: none is ever in memory with the others.
+// One table, or for a large sweep one per rows_in_table, so that they are not in memory together.
 std::vector<NamedTable> variant_tables(const SweepStudyResult& s) {
   std::vector<NamedTable> tables;
   const std::vector<std::size_t>& begins = s.tally.pieces;
@@ -197,7 +196,7 @@ std::vector<NamedTable> variant_tables(const SweepStudyResult& s) {
   return tables;
 }
 
-// What is said of all rows, and what of those that are held.
+// Which findings refer to all rows, and which to those held.
 std::vector<std::string> notes_on_rows(const SweepStudyResult& s) {
   if (s.holds_all()) return {};
   std::vector<std::string> notes = {fmt::format(
@@ -255,7 +254,7 @@ SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string
   s.tally = tally_of(store, s.limits);
   s.wanted = s.tally.rows;
   const bool saltelli = s.identity.told("design").starts_with("saltelli");
-  // Of Saltelli's design whole groups are drawn.
+  // From Saltelli's design whole groups are selected.
   const std::size_t group = saltelli ? s.identity.parameters.size() + 2 : 1;
   const std::size_t groups = (saltelli ? s.identity.rows : s.tally.rows) / group;
   std::vector<bool> drawn(groups + 1, s.tally.rows <= held);

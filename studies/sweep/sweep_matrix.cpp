@@ -1,4 +1,4 @@
-// sweep_matrix.cpp — parameters and figures against one another in pairs: a matrix of scatter plots in one picture.
+// sweep_matrix.cpp — pairs of parameters and figures: a matrix of scatter plots in one picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr std::size_t most_dots = 2400, most_rows = 4, most_columns = 3;  // dot
 
 std::string after_number(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
 
-// A parameter or a figure, by its share of the way from its least to its greatest value.
+// A parameter or a figure, scaled to its range.
 struct Variable {
   std::string name, unit;
   std::function<double(const SweepRow&)> value;
@@ -67,7 +67,7 @@ std::vector<Variable> variables_of(const SweepStudyResult& s) {
   return list;
 }
 
-// Which limits a row keeps, all told: 0 all hold, 1 one is undecided, 2 one is beyond or not known.
+// Limits of a row together: 0 all hold, 1 one is undecided, 2 one is exceeded or unknown.
 std::size_t verdict_on(const SweepStudyResult& s, const SweepRow& row) {
   std::size_t worst = 0;
   for (const FigureLimit& l : s.limits) {

@@ -1,4 +1,4 @@
-// sweep_plots.cpp — what a page shows of a sweep; of many rows some thousand, drawn by chance.
+// sweep_plots.cpp — plots of a sweep; of many rows a random sample of some thousand.
 #include "studies/sweep/sweep_plots.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::string label_of(const SweepStudyResult& s, const SweepRow& r) {
 
 std::vector<const SweepRow*> shown(const SweepStudyResult& s) { return some_rows(s, most_points); }
 
-// Of one parameter: the curve with the band of its errors.
+// For one parameter: the curve with its error band.
 void add_curve(Plot& plot, const std::vector<std::pair<const SweepRow*, double>>& points, std::size_t figure,
                double factor) {
   Series curve{.name = "value", .role = Role::elastic, .points = true};
@@ -47,9 +47,9 @@ void add_cloud(Plot& plot, const SweepStudyResult& s, const std::vector<std::pai
     cloud.add(x, factor * value_in(*row, figure));
     cloud.labels.push_back(label_of(s, *row));
   }
-  // The mean along the parameter: of equally many rows each.
+  // The mean along the parameter, over equal numbers of rows.
   Series mean{.name = "mean along the parameter", .role = Role::elastic, .points = true};
-  // Of each value, where there are few; else of equally many rows each.
+  // For each value, if there are few; else over equal numbers of rows.
   std::size_t different = 1;
   for (std::size_t i = 1; i < points.size(); ++i) different += points[i].second != points[i - 1].second;
   const std::size_t least = 2 * different <= points.size() ? 1 : std::max<std::size_t>(points.size() / 20, 1);
@@ -63,7 +63,7 @@ void add_cloud(Plot& plot, const SweepStudyResult& s, const std::vector<std::pai
   plot.series = {std::move(cloud), std::move(mean)};
 }
 
-// Whether two figures move together so closely that a second picture would be the first again.
+// Whether two figures are so closely related that a second plot would repeat the first.
 bool alike(const SweepStudyResult& s, std::size_t one, std::size_t other) {
   constexpr double within = 1e-2;
   if (s.identity.figures[one].unit != s.identity.figures[other].unit) return false;
@@ -73,7 +73,7 @@ bool alike(const SweepStudyResult& s, std::size_t one, std::size_t other) {
   });
 }
 
-// "The same within 1 %: peak_spring_torque.shaft.": what is not drawn for that.
+// "The same within 1 %: peak_spring_torque.shaft.": figures omitted for that reason.
 std::string told_with(const SweepStudyResult& s, std::size_t figure) {
   std::string names;
   for (std::size_t other = 0; other < s.identity.figures.size(); ++other)
@@ -109,7 +109,7 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
   return plot;
 }
 
-// Colours where variants stand in rows and columns, each cell the mean over all other parameters; else none.
+// Colours if the variants form a grid, each cell the mean over all other parameters; else empty.
 std::optional<ColourMap> cells_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::size_t b,
                                   const ReadableUnit& unit) {
   const auto values_of = [&](std::size_t parameter) {

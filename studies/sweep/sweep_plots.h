@@ -1,4 +1,4 @@
-// sweep_plots.h — a sweep drawn: response over each parameter, maps of two parameters, bars of influence, a scatter matrix.
+// sweep_plots.h — plots of a sweep: response over each parameter, maps of two parameters, bars of influence, scatter matrix.
 #pragma once
 
 #include <vector>
@@ -8,20 +8,20 @@
 
 namespace kurbel {
 
-// A figure over the parameters that move it most; of one parameter with the band of its errors.
+// A figure over its most influential parameters; for one parameter with an error band.
 std::vector<Plot> response_plots(const SweepStudyResult& study);
-// Two parameters: which variants hold the limit, which not. Variants in rows and columns have their figure as colours, others
-// that have no limit stand in fifths of it.
+// Two parameters: variants that meet the limit and those that do not. On a grid the figure is shown by colours;
+// otherwise, without a limit, by fifths of its range.
 std::vector<Plot> limit_maps(const SweepStudyResult& study);
 std::vector<Plot> influence_plots(const SweepStudyResult& study);
-// Parameters and figures against one another in pairs, coloured by the limits; one picture, or none of too few.
+// Pairs of parameters and figures, coloured by the limits; one plot, or none for too few.
 std::vector<Plot> scatter_matrix(const SweepStudyResult& study);
 
-// Of many rows so many, drawn by chance.
+// A random sample of many rows.
 std::vector<const SweepRow*> some_rows(const SweepStudyResult& study, std::size_t most);
-// What is drawn, at most four: figures that a limit is on come first.
+// Figures to draw, at most four: those with limits come first.
 std::vector<std::size_t> figures_drawn(const SweepStudyResult& study);
-// Parameters by their influence on a figure; as they were given where none is known.
+// Parameters by their influence on a figure; in the given order if unknown.
 std::vector<std::size_t> parameters_for(const SweepStudyResult& study, std::size_t figure);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// tally.cpp — what is counted over all rows of a sweep, in one pass that holds none of them.
+// tally.cpp — statistics over all rows of a sweep, in one pass without storing them.
 
 #include <algorithm>
 #include <map>
@@ -8,7 +8,7 @@
 namespace kurbel {
 namespace {
 
-// Reasons with their numbers taken out are one reason.
+// Reasons that differ only in numbers are the same.
 std::string reason_of(const std::string& diagnosis) {
   std::string reason;
   for (std::size_t i = 0; i < diagnosis.size(); ++i) {
@@ -40,14 +40,14 @@ void end(Spread& spread) {
   if (spread.rows == 0) spread.least = spread.mean = spread.greatest = std::nan("");
 }
 
-// Of points that were chosen, no interval is told.
+// For points that are not random no interval is given.
 void end(LimitCount& c, const SweepIdentity& identity) {
   const std::string design = identity.told("design");
   c.interval = {std::nan(""), std::nan("")};
   if (design.starts_with("random") || design.starts_with("lhs") || is_shifted_sobol(identity)) c.end(c.decided());
 }
 
-// The few worst rows of a figure: by its limit; without one the greatest.
+// The worst rows of a figure: by its limit; without limit the greatest values.
 class WorstRows {
  public:
   WorstRows(std::size_t figure, const SweepIdentity& identity, const std::vector<FigureLimit>& limits)

@@ -1,4 +1,4 @@
-// mat_file.cpp — arrays of MAT files of version 5, not compressed, by their specification.
+// mat_file.cpp — arrays of MAT files of version 5, uncompressed, by their specification.
 #include "studies/tables/mat_file.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-// Of the specification "MAT-File Format": how numbers are stored, and what an array is of.
+// Of the specification "MAT-File Format": storage types of numbers, and classes of arrays.
 enum class Stored : std::uint32_t { int8 = 1, int32 = 5, uint32 = 6, number = 9, matrix = 14, utf16 = 17 };
 enum class ArrayOf : std::uint32_t { letters = 4, numbers = 6, int32 = 12 };
 
@@ -29,7 +29,7 @@ void append_tag(std::string& file, Stored type, std::size_t bytes) {
   append<std::uint32_t>(file, std::array{static_cast<std::uint32_t>(type), static_cast<std::uint32_t>(bytes)});
 }
 
-// Up to eight bytes.
+// Padded to multiples of eight bytes.
 std::size_t filled_up(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
 
 template <class T>
@@ -39,7 +39,7 @@ void append_element(std::string& file, Stored type, std::span<const T> values) {
   file.append(filled_up(values.size_bytes()) - values.size_bytes(), '\0');
 }
 
-// By columns, as MAT files are.
+// Column by column, as in MAT files.
 template <class T>
 void write(std::string& file, std::string_view name, ArrayOf kind, Stored type, std::size_t rows, std::size_t columns,
            const std::vector<T>& values) {
@@ -53,7 +53,7 @@ void write(std::string& file, std::string_view name, ArrayOf kind, Stored type, 
   append_element(file, type, std::span(values));
 }
 
-// UTF-8 as the 16-bit letters of MAT files; what has no such letter is a question mark.
+// UTF-8 as the 16-bit characters of MAT files; others become a question mark.
 std::u16string letters_of(const std::string& text) {
   std::u16string letters;
   for (std::size_t i = 0; i < text.size();) {
@@ -82,7 +82,7 @@ void write_texts(std::string& file, std::string_view name, const std::vector<std
         as_columns ? texts.size() : width, letters);
 }
 
-// Modelica multiplies units by a point: "kg.m2".
+// Modelica multiplies units with a point: "kg.m2".
 std::string described(std::string words, std::string unit) {
   std::replace(unit.begin(), unit.end(), '*', '.');
   return unit.empty() ? words : words + (words.empty() ? "[" : " [") + unit + "]";
@@ -93,7 +93,7 @@ std::string described(const DataColumn& column) {
   return described(definition ? std::string(definition->words) : "", column.unit.value_or(""));
 }
 
-// Where its columns of numbers stand.
+// Indices of its columns of numbers.
 std::vector<std::size_t> numbers_in(const DataTable& table) {
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < table.columns.size(); ++k)
@@ -101,7 +101,7 @@ std::vector<std::size_t> numbers_in(const DataTable& table) {
   return places;
 }
 
-// Row by row; false: they are more than a matrix holds.
+// Row by row; false: more than a matrix can hold.
 bool collect(const DataTable& table, const std::vector<std::size_t>& places, std::vector<double>& data) {
   constexpr std::size_t most_bytes = 2'000'000'000;
   bool fits = true;
@@ -113,7 +113,7 @@ bool collect(const DataTable& table, const std::vector<std::size_t>& places, std
   return fits;
 }
 
-// The lists of what is in the matrices.
+// Lists describing the matrices.
 struct Contents {
   std::vector<std::string> names, descriptions;
   std::vector<std::int32_t> info;  // four a name
@@ -137,7 +137,7 @@ std::optional<std::string> mat_file(const DataTable& table, const std::vector<Ma
   const DataColumn& abscissa = table.columns[places.front()];
   Contents contents;
   std::set<std::string> known;
-  // What the others are over.
+  // The abscissa of the others.
   contents.add(abscissa.name, described(abscissa), 0, 1, unknown_beyond);
   known.insert(abscissa.name);
   // Constants, at both ends.

@@ -1,14 +1,14 @@
-// mat_file.h — a table in the layout of Modelica's results ("binTrans"), as a MAT file of version 5.
+// mat_file.h — a table in the layout of Modelica results ("binTrans"), as a MAT file of version 5.
 //
-//   Aclass       char 4 × n    "Atrajectory", "1.1", a remark, "binTrans": everything below is transposed
-//   name         char n × N    a column a quantity
+//   Aclass       char 4 × n    "Atrajectory", "1.1", a remark, "binTrans": all following matrices are transposed
+//   name         char n × N    one column per quantity
 //   description  char n × N    its words and its unit: "torque [N.m]"
 //   dataInfo     int32 4 × N   matrix (0: the abscissa, 1, 2); row in it, from 1; 0: linear between its columns;
 //                              −1: unknown beyond the ends, 0: constant there
-//   data_1       double        constants: the abscissa's ends, then a row a constant, at both ends
-//   data_2       double        the abscissa, then a row a quantity; a column a row of the table
+//   data_1       double        constants: the abscissa's ends, then one row per constant, at both ends
+//   data_2       double        the abscissa, then one row per quantity; one column per row of the table
 //
-// The layout is that of Dymola's manual and of Modelica's tools (DyMat, buildingspy), which read it by their MAT reader.
+// The layout is that of Dymola's manual and of Modelica tools (DyMat, buildingspy), whose MAT reader accepts it.
 #pragma once
 
 #include <optional>
@@ -24,8 +24,8 @@ struct MatConstant {
   double value = 0;
 };
 
-// The file's bytes; none: a matrix of version 5 has at most 2 GB. Columns of words and constants that are named as a column
-// are left out.
+// The file's bytes; empty: the 2 GB limit of a version 5 matrix is exceeded. Columns of words, and constants with the
+// name of a column, are omitted.
 std::optional<std::string> mat_file(const DataTable& table, const std::vector<MatConstant>& constants);
 
 }  // namespace kurbel

@@ -21,7 +21,7 @@ std::string text_in(const Record& record, const char* key) {
   return text ? *text : "";
 }
 
-// What is not finite is not known.
+// Values that are not finite are unknown.
 std::optional<double> number_in(const Record& record, const char* key) {
   const Value* value = value_of(record, key);
   if (!value) return {};
@@ -30,7 +30,7 @@ std::optional<double> number_in(const Record& record, const char* key) {
   return number && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
 }
 
-// A claim has a severity besides.
+// A claim also has a severity.
 bool is_figure(const Record& record) {
   return !text_in(record, "name").empty() && number_in(record, "value") && value_of(record, "unit") &&
          !value_of(record, "severity");

@@ -1,4 +1,4 @@
-// summary_tables.h — figures and events of a summary as rows, for a spread sheet and for constants beside a table.
+// summary_tables.h — figures and events of a summary as rows, for a workbook and for constants beside a table.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 namespace kurbel {
 
 struct FigureRow {
-  std::string of;  // the model that it belongs to: "rigid"; empty: the only one
+  std::string of;  // its model: "rigid"; empty: the only one
   std::string name;
   double value = 0;
   std::string unit;
@@ -29,8 +29,8 @@ struct SummaryTables {
   std::vector<EventRow> events;
 };
 
-// All that stand in a summary, wherever: what has a name, a value and a unit is a figure, what has a time and a component
-// is an event.
+// All figures and events in a summary, at any depth: records with name, value and unit are figures, those with time
+// and component are events.
 SummaryTables summary_tables(const Record& summary);
 
 }  // namespace kurbel

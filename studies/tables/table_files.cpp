@@ -16,7 +16,7 @@
 namespace kurbel {
 namespace {
 
-// Figures of the model that a table is of: "trajectory.rigid" is of "rigid"; what belongs to no model, to every table.
+// Figures of the model of a table: "trajectory.rigid" belongs to "rigid"; those without a model to every table.
 std::vector<MatConstant> constants_of(const SummaryTables& summary, const std::string& table) {
   std::vector<MatConstant> constants;
   for (const FigureRow& f : summary.figures)

@@ -1,4 +1,4 @@
-// table_files.h — a study's tables in the formats asked for.
+// table_files.h — a study's tables in the requested formats.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ struct TableFormats {
 // "csv,mat,xlsx". Throws std::invalid_argument for anything else.
 TableFormats table_formats(std::string_view list);
 
-// A file a table, as CSV and as MAT, and one workbook, results.xlsx, of figures, events and all tables. A table that no
-// MAT file holds (2 GB) is handed out as CSV in its place; what is no table, as it is.
+// One file per table, as CSV and as MAT, and one workbook, results.xlsx, of figures, events and all tables. A table
+// too large for a MAT file (2 GB) is written as CSV instead; other files are passed on unchanged.
 void make_table_files(const StudyOutput& output, const TableFormats& formats,
                       const std::function<void(const std::string& name, const std::string& bytes)>& take);
 

@@ -1,4 +1,4 @@
-// trajectory_rows.h — all rows of a trajectory in the order of time: those at equal times, and between them those at peaks.
+// trajectory_rows.h — all rows of a trajectory in order of time: those at equidistant times, and between them those at peaks.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// xlsx_book.cpp — by libxlsxwriter, but for the rows: it prints numbers as %.16G, one digit short of what a double may
-// need (0.1 + 0.2 becomes 0.3). In its mode of constant memory a sheet's stream is open, and rows may be put there.
+// xlsx_book.cpp — uses libxlsxwriter except for the rows: it prints numbers as %.16G, one digit fewer than a double
+// may need (0.1 + 0.2 becomes 0.3). In constant-memory mode a sheet's stream is open, and rows are written there.
 #include "studies/tables/xlsx_book.h"
 
 #include <fmt/format.h>
@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::size_t longest_name = 31, longest_text = 32'000;
 
-// In UTF-8, cut where a letter begins.
+// UTF-8, cut at a character boundary.
 std::string_view shortened(std::string_view text, std::size_t most_bytes) {
   if (text.size() <= most_bytes) return text;
   while (most_bytes > 0 && (static_cast<unsigned char>(text[most_bytes]) & 0xC0) == 0x80) --most_bytes;
   return text.substr(0, most_bytes);
 }
 
-// XML knows no control characters but blanks.
+// XML allows no control characters except white space.
 void put_escaped(std::string& to, std::string_view text) {
   for (const char c : text) {
     if (c == '&')
@@ -57,7 +57,7 @@ void put_cell(std::string& to, std::size_t row, std::size_t column, const DataCe
   }
 }
 
-// As wide as its text, within what a screen bears.
+// As wide as its text, within limits.
 double width_of(const std::string& heading) { return std::clamp(static_cast<double>(heading.size()) + 2, 10.0, 40.0); }
 
 std::string lawful(const std::string& name) {

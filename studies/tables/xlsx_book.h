@@ -1,4 +1,4 @@
-// xlsx_book.h — a workbook of sheets, row after row, however many there are; numbers to the last bit.
+// xlsx_book.h — a workbook of sheets, written row by row, of any length; numbers exact to the last bit.
 //
 //   XlsxBook book("v.xlsx");
 //   book.add("variants", variants_data(study));
@@ -23,11 +23,11 @@ namespace kurbel {
 
 class XlsxSheet {
  public:
-  static constexpr std::size_t most_rows = 1'048'576;  // the heading among them
+  static constexpr std::size_t most_rows = 1'048'576;  // including the heading
 
-  // The first row; it stays in view, and so do the leading columns.
+  // The first row; it stays visible, like the leading columns.
   void headings(const std::vector<std::string>& texts, std::size_t leading_columns = 1);
-  // Numbers that are not known, and no words, are empty cells.
+  // Unknown numbers and empty words are empty cells.
   void row(const std::vector<DataCell>& cells);
 
  private:
@@ -42,15 +42,15 @@ class XlsxSheet {
 class XlsxBook {
  public:
   explicit XlsxBook(const std::string& file);
-  ~XlsxBook();  // without close(): as it has come
+  ~XlsxBook();  // without close() no file is written
   XlsxBook(const XlsxBook&) = delete;
   XlsxBook& operator=(const XlsxBook&) = delete;
 
-  // Of a name that the format allows: at most 31 letters, none twice.
+  // The name must conform to the format: at most 31 letters, unique.
   XlsxSheet sheet(const std::string& name);
-  // A table, on as many sheets as its rows need.
+  // A table, on as many sheets as its rows require.
   void add(const std::string& name, const DataTable& table);
-  void close();  // throws std::runtime_error where it could not be written
+  void close();  // throws std::runtime_error if it could not be written
 
  private:
   std::string file_;

@@ -1,4 +1,4 @@
-// markdown.h — a report as Markdown, and its sections for programs: the words and tables of the page; plots by their titles.
+// markdown.h — a report as Markdown, and its sections for programs: texts and tables of the page; plots by their titles.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace kurbel {
 
 std::string markdown_of(const Report& report);
 
-// Title and parts of each section: a table with its columns and rows as people read them, words, formulas, titles of drawings.
+// Title and parts of each section: tables with columns and rows in readable form, texts, formulas, titles of drawings.
 List sections_of(const Report& report);
 
 }  // namespace kurbel

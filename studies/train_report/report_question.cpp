@@ -1,9 +1,8 @@
-// report_question.cpp — kurbel report: asks modes and compare once each, and puts what they say into one document.
+// report_question.cpp — kurbel report: asks modes and compare once each, and combines their findings into one document.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -43,7 +42,7 @@ std::vector<bool> wanted_sections(const std::vector<std::string>& asked) {
   return wanted;
 }
 
-// What cannot be answered does not end the report: it says so.
+// A question that cannot be answered does not end the report: the reason is given.
 Part asked(const std::string& question, const Inquiry& inquiry, const GivenOptions& given) {
   Part part{question};
   try {
@@ -120,7 +119,7 @@ class TrainReport {
  private:
   bool wants(Place s) const { return wanted_[static_cast<std::size_t>(s)]; }
 
-  // `compare` first draws the machine, `modes` judges it: what each says stands in this order within a section.
+  // First `compare`, which draws the machine, then `modes`, which assesses it: the order of findings within a section.
   void ask() {
     GivenOptions of_modes;
     for (const std::string& name : asked_.cases) of_modes.emplace_back("cases", name);

@@ -1,4 +1,4 @@
-// sections.cpp — statements of the questions on their way into the report.
+// sections.cpp — assigns statements of the questions to sections of the report.
 #include "studies/train_report/sections.h"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ bool is_open(const Rows& rows, std::size_t i) {
   return word_at(rows, "verdict", i) == name_of(Compliance::not_assessed);
 }
 
-// A limit in a load case that one question leaves open and another judges is assessed.
+// A limit in a load case left open by one question and assessed by another counts as assessed.
 bool is_judged(const std::vector<Part>& parts, const Rows& limits, std::size_t i) {
   for (const Part& part : parts)
     for (const char* key : limit_keys) {
@@ -62,7 +62,7 @@ bool is_judged(const std::vector<Part>& parts, const Rows& limits, std::size_t i
   return false;
 }
 
-// Of all parts: those that none judges.
+// Limits of all parts that none assesses.
 std::vector<std::string> open_limits(const std::vector<Part>& parts, const Part& part) {
   std::vector<std::string> lines;
   for (const char* key : limit_keys) {

@@ -1,4 +1,4 @@
-// sections.h — the sections of a train's report, and which statement of which question stands in which.
+// sections.h — sections of a train's report, and the assignment of the questions' statements to them.
 #pragma once
 
 #include <array>
@@ -25,27 +25,27 @@ inline constexpr std::array<SectionName, 8> section_names = {{
     {"input", "8 Appendix: input"},
 }};
 
-// What a question answered, or why it could not.
+// The answer to a question, or why there is none.
 struct Part {
   std::string question;  // "modes"
   StudyOutput output = {};
-  std::string why = {};  // not assessed; empty: it was
+  std::string why = {};  // reason; empty: assessed
   bool assessed() const { return why.empty(); }
 };
 
-// Which chapter of a part each statement goes to; none: it is not taken.
+// The section for a statement of a part's chapter; empty: it is not used.
 std::optional<Place> section_of(const std::string& question, const std::string& chapter, const Statement& statement);
 
-// Takes what the part says of its sections that are `wanted` into chapters of the report; `chapters` by Place.
+// Copies the statements of the `wanted` sections into chapters of the report; `chapters` by Place.
 void take(const Part& part, const std::vector<bool>& wanted, const std::vector<Chapter>& chapters, Findings& report);
 
-// Of all parts; where every limit that one leaves open is judged by another, none is said to be open.
+// Claims of all parts; a part's open limits are not mentioned if other parts assess all of them.
 Claims claims_of(const std::vector<Part>& parts);
 
-// A line each: what the parts could not assess, and what the scene says nothing of.
+// One line each: what the parts could not assess, and what the scene does not specify.
 std::vector<std::string> not_assessed(const std::vector<Part>& parts);
 
-// What a part says to programs under a key; null: nothing.
+// The value of a part for programs under a key; null: none.
 const Value* told(const Part& part, const std::string& key);
 
 }  // namespace kurbel::train_report

@@ -1,4 +1,4 @@
-// off_effects.cpp — what is off and could be on, grouped by what applies only together.
+// off_effects.cpp — effects that are off and could be on, grouped by what applies only together.
 #include "studies/trials/off_effects.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ Effects with_elastic(Effects effects, const std::vector<std::string>& components
   return effects;
 }
 
-// Components that could be elastic, of which this effect has data.
+// Components that could be elastic and have data for this effect.
 std::vector<std::string> carriers(const Scene& scene, const EffectFlag& effect,
                                   const std::vector<std::string>& could_be_elastic) {
   std::vector<std::string> names;
@@ -88,7 +88,7 @@ std::shared_ptr<const Model> machine_with(const Scene& scene, const Effects& on,
     return compile(scene, effect.effects);
   } catch (const SceneError&) {
   }
-  // Without all that the run has, and then again with one after the other of it.
+  // First without the run's own effects, then adding one after the other.
   Effects fits = effect.effects;
   std::vector<const EffectFlag*> dropped;
   for (const EffectFlag& flag : effect_flags())

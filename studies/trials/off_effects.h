@@ -1,4 +1,4 @@
-// off_effects.h — effects that a scene has data for and that are off, as they are switched on for a trial.
+// off_effects.h — effects that have data in the scene but are off, and how they are switched on for a trial.
 #pragma once
 
 #include <memory>
@@ -10,22 +10,22 @@
 
 namespace kurbel {
 
-// What one trial switches on.
+// An effect switched on in one trial.
 struct OffEffect {
-  std::string name;            // as behind --effects: "gear_losses", "elasticity:belt,backlash"
+  std::string name;            // as after --effects: "gear_losses", "elasticity:belt,backlash"
   std::string words;           // "gear losses", "elasticity of belt and backlash"
-  Effects effects;             // of the trial: those of the run, and this
-  std::string gives_way = {};  // what of the run's does not go with it and is off in the trial: "joint friction"
+  Effects effects;             // of the trial: those of the run, and this one
+  std::string gives_way = {};  // incompatible effects of the run, off in the trial: "joint friction"
 };
 
-// Elasticity is one effect, of all components that are rigid and need not be; where they make no machine together, each
-// is one. What only an elastic connection has (backlash, mesh variation, relaxation) goes with the elasticity of the
-// components that have its data, unless one of them is elastic already. Those in joints of mechanisms come last: they
-// cost most. Not Simbody in the loop, which is the same physics.
+// Elasticity is one effect, of all components that are unnecessarily rigid; if they make no machine together, one
+// effect each. Effects that require an elastic connection (backlash, mesh variation, relaxation) are combined with
+// the elasticity of the components that have their data, unless one of them is elastic already. Effects in joints of
+// mechanisms come last, as they cost most. Simbody in the loop is excluded, being the same physics.
 std::vector<OffEffect> effects_that_are_off(const Scene& scene, const Effects& on);
 
-// The machine of a trial. Where the run's other effects do not all go with it, as many of them as do, in the order of
-// the list of effects: then `gives_way` and `effects` say so. Throws SceneError where it makes no machine at all.
+// The machine of a trial. If the run's other effects are not all compatible, as many as possible, in the order of the
+// list of effects: `gives_way` and `effects` are set accordingly. Throws SceneError if no machine can be made.
 std::shared_ptr<const Model> machine_with(const Scene& scene, const Effects& on, OffEffect& effect);
 
 }  // namespace kurbel

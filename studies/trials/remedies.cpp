@@ -1,4 +1,4 @@
-// remedies.cpp — the value of a key that just holds, by a power law through what was computed so far.
+// remedies.cpp — the value of a key that just suffices, by a power law through the values computed so far.
 #include "studies/trials/remedies.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr int most_values = 4;
 constexpr double worse_by = 0.01;
 
-// Of those that are exceeded and a key mends, the farthest beyond its limit first.
+// Exceeded verdicts with a remedy by a key, in descending order of excess.
 std::vector<const Verdict*> to_mend(const std::vector<Verdict>& verdicts) {
   std::vector<const Verdict*> list;
   for (const Verdict& v : verdicts)
@@ -27,7 +27,7 @@ std::vector<const Verdict*> to_mend(const std::vector<Verdict>& verdicts) {
 
 class Search {
  public:
-  // The runs of one search take their time from the same allowance as those before.
+  // All searches share one allowance of time.
   Search(const Result& run, const Verdict& verdict, VariantRuns& runs) : run_(run), verdict_(verdict), runs_(runs) {}
 
   // Not finite: none was found.
@@ -53,7 +53,7 @@ class Search {
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   double share_of(const Verdict& v) const { return (v.value + verdict_.error) / v.limit; }
 
-  // A bore stays in proportion to its diameter. Not a number: that machine has no such verdict.
+  // A bore stays in proportion to its diameter. NaN: that machine has no such verdict.
   double share_with(double value) const {
     Scene scene = run_.model->scene;
     const std::string& key = verdict_.remedy->key;

@@ -1,5 +1,5 @@
-// remedies.h — what would mend a verdict is computed before it is said: the machine with that value holds, and with one
-// worse by 1 % it does not.
+// remedies.h — remedies are computed before they are reported: the machine with that value meets the limit, and with
+// one worse by 1 % it does not.
 #pragma once
 
 #include "studies/findings/result.h"
@@ -7,9 +7,9 @@
 
 namespace kurbel {
 
-// Of every verdict of a complete run that is exceeded and that a key of the scene mends, the farthest beyond its limit first:
-// the value is sought by runs without errors, all within the processor time that the run took, and kept in
-// `remedies_tried`. Without one the remedy stays an estimate. An interrupt ends it.
+// For every exceeded verdict of a complete run with a remedy by a key of the scene, in descending order of excess:
+// the value is sought by runs without errors, all within the processor time of the run, and stored in
+// `remedies_tried`. Otherwise the remedy remains an estimate. An interruption ends the search.
 void try_remedies(Result& run, const SimulateOptions& options);
 
 }  // namespace kurbel

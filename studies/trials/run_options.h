@@ -1,4 +1,4 @@
-// run_options.h — options of a run, as the questions have them that make one.
+// run_options.h — options of a run, shared by the questions that perform one.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct RunAsked {
   std::optional<std::string> method;
   bool measure_error = true, trials = true;
 
-  // Throws std::invalid_argument for a method that the scene's model does not have.
+  // Throws std::invalid_argument for a method unavailable for the scene's model.
   SimulateOptions simulation(const Inquiry& inquiry) const;
 };
 

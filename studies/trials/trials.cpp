@@ -1,4 +1,4 @@
-// trials.cpp — the run again, with one effect more each time, until the time for trials is up.
+// trials.cpp — repeats the run with one more effect each time, until the time for trials is spent.
 #include "studies/trials/trials.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double times_the_run = 4, least_allowance = 1, most_allowance = 10;  // 1, s, s
 
-// Why no trial of this run is made at all; empty: they are.
+// Why this run has no trials at all; empty: it has.
 std::string why_none(const Result& run, const SimulateOptions& options) {
   if (run.model->scene.run.model != "reduced") return "trials are of the reduced model";
   if (!options.go_on_from.empty()) return "the state that the run goes on from is of the machine without it";
@@ -109,7 +109,7 @@ class TrialRuns {
   Trials trials_;
 };
 
-// Of the run's figures; where it is told by none of them, by the speed at its end.
+// Among the run's figures; if none is affected, the speed at its end.
 std::vector<std::string> names_of(const std::vector<KeyFigure>& figures, const Result& run) {
   std::vector<std::string> names;
   for (const KeyFigure& figure : figures)

@@ -1,10 +1,9 @@
-// trials.h — effects that have data in the scene and are off: one run each with it on, at the run's own settings, says
-// which of them would move a key figure, and by how much; and of an elastic run what the rigid machine would have told.
+// trials.h — effects that have data in the scene but are off: one run with each, at the run's own settings, shows
+// which of them would change a key figure, and by how much; for an elastic run also the result of the rigid machine.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "studies/findings/figure_changes.h"
@@ -14,17 +13,17 @@
 
 namespace kurbel {
 
-// Of a key figure. `full` is the run's value, `without` that of the trial.
+// Change of a key figure. `full` is the run's value, `without` that of the trial.
 struct TrialChange {
   FigureChange change;
-  double relative = 0;                  // with its sign: (with it − run)/|run|; of peaks of the magnitudes
+  double relative = 0;                  // signed: (with effect − run)/|run|; for peaks by magnitudes
   std::optional<double> error_on = {};  // of the trial's value
-  bool gone = false;                    // the trial has no such figure: no run-up to its end, no swing
+  bool gone = false;                    // the trial has no such figure: run-up without end, no vibration
 };
 
 struct Trial : VariantRun {
   OffEffect effect;
-  std::vector<TrialChange> changes = {};  // of all key figures, the surely greatest first; what is gone before
+  std::vector<TrialChange> changes = {};  // of all key figures, largest certain change first; missing figures before
 };
 
 struct NotTried {
@@ -32,28 +31,28 @@ struct NotTried {
 };
 
 struct Trials {
-  std::optional<Trial> rigid = {};  // of an elastic run: the same machine without elasticity, with traces to draw
+  std::optional<Trial> rigid = {};  // for an elastic run: the same machine without elasticity, with traces for plots
   std::vector<Trial> tried;
   std::vector<NotTried> not_tried;
 };
 
-inline constexpr double longest_run = 5;  // of which trials are made: processor time, those for its errors included [s]
+inline constexpr double longest_run = 5;  // for runs with trials: processor time including their errors [s]
 
-// Processor time that all trials of a run may take together [s]: four times the run's, within 1 … 10 s.
+// Processor time for all trials of a run together [s]: four times the run's, within 1 … 10 s.
 double allowance(const Result& run);
 
-// Of the run's model, with the options that made the run. Key figures by their names. Nothing of a run that did not come
-// to its end. An interrupt ends the trials; what was not tried then says so.
+// Trials for the run's model, with the options of the run. Key figures by name. Empty for an incomplete run. An
+// interruption ends the trials and is given as the reason for those not tried.
 Trials try_effects(const Result& run, const std::vector<std::string>& key_figures, const SimulateOptions& options,
-                   bool rigid = false);  // the rigid machine before all others
+                   bool rigid = false);  // `rigid`: the rigid machine before all others
 
-// A study and the trials of it; of two models compared those of the second.
+// A study and its trials; for two models compared those of the second.
 template <class Study>
 struct WithTrials {
   Study study;
   Trials trials;
 };
-WithTrials<Result> with_trials(Result run, const SimulateOptions& options);  // and with the rigid machine
+WithTrials<Result> with_trials(Result run, const SimulateOptions& options);  // including the rigid machine
 WithTrials<Comparison> with_trials(Comparison comparison, const SimulateOptions& options);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// trials_findings.cpp — effects that are off, by what they would move.
+// trials_findings.cpp — effects that are off, by the changes that they would cause.
 #include "studies/trials/trials_findings.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-// A change as people read it.
+// A change in readable form.
 struct MovedFigure {
   std::string effect, name, figure, off, on, change;
 };
@@ -23,7 +23,7 @@ std::string words_of(const OffEffect& effect) {
   return effect.gives_way.empty() ? effect.words : fmt::format("{} (in place of {})", effect.words, effect.gives_way);
 }
 
-// About four digits, and none behind the error.
+// About four digits, and none beyond the error.
 std::string in_short(double value, double error, const std::string& unit, const SpeedUnit& speed) {
   const double factor = unit == "rad/s" ? speed.of(1) : 1, shown = factor * value;
   const std::string text = figure_text({shown, std::max(std::abs(factor * error), 1e-3 * std::abs(shown))}).value;
@@ -82,7 +82,7 @@ std::string one_line(const MovedFigure& moved) {
                      moved.change);
 }
 
-// What moves no key figure worth a line, what failed, what was not tried: by the reason.
+// Effects without a significant change of a key figure, failed and untried ones: by the reason.
 std::vector<std::string> other_words(const Trials& trials) {
   std::vector<std::string> lines, slight, none;
   for (const Trial& trial : trials.tried) {
@@ -106,7 +106,7 @@ std::vector<std::string> other_words(const Trials& trials) {
   return lines;
 }
 
-// Trials that move a key figure worth a line.
+// Trials with a significant change of a key figure.
 std::vector<const Trial*> moving_most_first(const Trials& trials) {
   std::vector<const Trial*> moving;
   for (const Trial& trial : trials.tried)
@@ -118,7 +118,7 @@ std::vector<const Trial*> moving_most_first(const Trials& trials) {
   return moving;
 }
 
-// The same for people; of more than one effect with its name.
+// The same for people; with the effect's name if there are several.
 Rows moved_table(const std::string& title, std::vector<MovedFigure> moved, const char* before, const char* after,
                  bool names_effect) {
   auto table = table_of("", title, std::move(moved)).text_in(names_effect ? 2 : 1);
@@ -144,7 +144,7 @@ Field changes_of(const Trial& trial, const char* before, const char* after) {
 
 // --- the rigid machine ---
 
-// What the rigid model would tell otherwise, the surely greatest first.
+// Differences of the rigid model, largest certain change first.
 void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
   const auto differs = std::find_if(rigid.changes.begin(), rigid.changes.end(), changes_the_answer);
   if (!rigid.failed.empty()) {
@@ -189,7 +189,7 @@ Record trial_record(const Trial& trial) {
   return record;
 }
 
-// The effect that is off and would change the answer most; how many were tried.
+// The effect that is off and would change the result most; the number of trials.
 void conclude(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   const std::vector<const Trial*> moving = moving_most_first(trials);
   std::size_t count = 0;

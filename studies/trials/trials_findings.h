@@ -1,4 +1,4 @@
-// trials_findings.h — what is said of the effects that are off, behind what is said of a run or of two models compared.
+// trials_findings.h — findings on effects that are off, after those of a run or of two models compared.
 #pragma once
 
 #include "studies/findings/findings.h"
@@ -6,16 +6,16 @@
 
 namespace kurbel {
 
-// Smaller changes are told together, in one line: |relative|.
+// Smaller changes |relative| are reported together, in one line.
 inline constexpr double least_worth_a_line = 1e-3;
-// From here on it stands in the conclusion.
+// Larger changes appear in the conclusion.
 inline constexpr double least_that_changes_the_answer = 0.02;
 
 Findings findings_of(const WithTrials<Result>& run);
 Findings findings_of(const WithTrials<Comparison>& comparison);
 
-// A line for each effect that moves a key figure by more than the runs' errors; one for all that do not, one for all
-// that were not tried. None where no effect is off.
+// One line for each effect that changes a key figure by more than the runs' errors; one for all others, one for those
+// not tried. Empty if no effect is off.
 std::vector<std::string> words_of(const Trials& trials, const SpeedUnit& speed);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// tolerated.cpp — normal, uniform and triangular distributions, cut off.
+// tolerated.cpp — normal, uniform and triangular distributions, truncated.
 #include "studies/uncertainty/tolerated.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ double factor_of(const std::string& unit) {
   return read ? read->factor : 1;
 }
 
-// Inwards of an open end, by what double precision tells apart.
+// The next double inside an open end.
 double inwards(double end, bool open, double towards) { return open ? std::nextafter(end, towards) : end; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// tolerated.h — a parameter with a tolerance as a random variable: its distribution, cut off where the key's domain ends.
+// tolerated.h — a parameter with a tolerance as a random variable: its distribution, truncated at the key's domain.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace kurbel {
 
-// All in the unit of the tolerance.
+// All values in the unit of the tolerance.
 class Tolerated {
  public:
-  // `domain` in SI; throws std::invalid_argument where nothing of the distribution lies in it.
+  // `domain` in SI; throws std::invalid_argument if the distribution lies outside it.
   Tolerated(const Tolerance& tolerance, const Domain& domain);
 
   const Tolerance& given() const { return given_; }
-  double deviation() const;                                // of the distribution as given, not cut off
-  double cut_off() const { return 1 - (top_ - bottom_); }  // probability that lies outside of the domain
-  double quantile(double share) const;                     // of what is left
-  double low() const { return low_; }                      // the domain's ends within the distribution
+  double deviation() const;                                // of the given distribution, before truncation
+  double cut_off() const { return 1 - (top_ - bottom_); }  // probability outside the domain
+  double quantile(double share) const;                     // of the truncated distribution
+  double low() const { return low_; }                      // ends of the domain, within the distribution's range
   double high() const { return high_; }
   SweptParameter swept() const;  // with this distribution
   std::string in_words() const;  // "900 kN·m/rad ± 10 %, normal (k = 2)"
@@ -30,7 +30,7 @@ class Tolerated {
   double low_, high_, bottom_, top_;
 };
 
-// Of a scene's text; throws std::invalid_argument where it gives none, SceneError for what is wrong with them.
+// From a scene's text; throws std::invalid_argument if it has no tolerances, SceneError if they are invalid.
 std::vector<Tolerated> tolerated_parameters(const Scene& scene);
 
 }  // namespace kurbel

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t enough_for_ends = 40;  // so that one of the samples lies beyond each end of 95 %
 
-// Of the deviation: a central difference over ± 0.2 u is off by 0.04/6 u² y''', little of what the linear law itself is
-// off. Where the measured errors would be more than 2 % of the difference, it is taken over ± u.
+// Of the deviation: a central difference over ± 0.2 u has an error of 0.04/6 u² y''', small compared with that of the
+// linear law itself. If the measured errors exceeded 2 % of the difference, it is taken over ± u.
 constexpr double short_step = 0.2, long_step = 1, most_noise = 0.02;
 
 class UncertaintyWork {
@@ -68,7 +68,7 @@ class UncertaintyWork {
     return rows;
   }
 
-  // Where a step leaves the domain it is taken to its end, and the difference is over what lies between.
+  // A step that leaves the domain ends at its border, and the difference is over the actual step.
   std::vector<std::vector<double>> about_nominal(double step) const {
     std::vector<std::vector<double>> points;
     for (std::size_t p = 0; p < swept_.size(); ++p)
@@ -113,7 +113,7 @@ class UncertaintyWork {
     }
   }
 
-  // What the errors of the runs may make alone; gradients within it are told.
+  // Uncertainty that the runs' errors alone may cause; gradients within it are noted.
   void tell_noise(FigureUncertainty& figure) {
     std::string names;
     std::size_t within = 0;
@@ -177,7 +177,7 @@ class UncertaintyWork {
     }
   }
 
-  // Why samples failed, a note for each reason, with the values of the first of them.
+  // Reasons of failed samples, a note for each, with the values of the first one.
   void name_failures(const std::vector<SweepRow>& rows) {
     std::map<std::string, std::pair<std::size_t, const SweepRow*>> reasons;
     for (const SweepRow& r : rows)
@@ -233,7 +233,7 @@ class UncertaintyWork {
       study_.notes.push_back(fmt::format("{}: not tried ({})", n.words, n.because));
   }
 
-  // Where gradients do not hold over the tolerances, their deviation and their shares are of small tolerances only.
+  // If gradients are not valid over the tolerances, their deviation and shares apply to small tolerances only.
   void say_what_is_not_linear() {
     constexpr std::size_t most_told = 4;
     std::size_t found = 0;

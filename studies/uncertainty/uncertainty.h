@@ -1,9 +1,9 @@
-// uncertainty.h — what tolerances make of the figures, and how sure each of them is (after ASME V&V 20 and JCGM 101):
-// numerical error, uncertainty by the inputs, and known biases, apart.
+// uncertainty.h — effect of tolerances on figures, and the reliability of each figure (after ASME V&V 20 and JCGM
+// 101): numerical error, uncertainty by the inputs, and known biases, separately.
 //
 //     u² = Σ (∂y/∂x_i · u_i)²       by gradients: first order, independent parameters (JCGM 100, 5.1.2)
-//     y(x), x drawn                 by samples: what the gradients are checked by (JCGM 101)
-//     b = y with an effect − y      a bias: signed, one each, never added in quadrature
+//     y(x), x random                by samples: check of the gradients (JCGM 101)
+//     b = y with an effect − y      a bias: signed, individual, never added in quadrature
 #pragma once
 
 #include <optional>
@@ -23,20 +23,20 @@ struct UncertaintyOptions {
   std::size_t samples = 500;
   std::uint64_t seed = 1;
   int jobs = 1;
-  bool biases = true;  // of run: try the effects that are off
+  bool biases = true;  // for run: try the effects that are off
   Watch watch = {};
 };
 
-// Of one figure by one parameter.
+// Contribution of one parameter to one figure.
 struct ToleranceShare {
   std::size_t parameter = 0;
   double gradient = 0;   // ∂y/∂x, x in its unit
   double deviation = 0;  // |∂y/∂x| u
-  // Of the deviation: what the measured errors of the two runs leave open, (e₊ + e₋)/(x₊ − x₋) · u; none were measured.
+  // Of the deviation: uncertainty from the measured errors of the two runs, (e₊ + e₋)/(x₊ − x₋) · u; empty: not measured.
   std::optional<double> noise = {};
-  double step = 0;     // the difference was taken over ± so many deviations
+  double step = 0;     // the difference was taken over ± this many deviations
   double share = 0;    // of Σ deviation²
-  double without = 0;  // u that would remain if this parameter had no tolerance
+  double without = 0;  // remaining u if this parameter had no tolerance
 };
 
 struct Bias {
@@ -47,21 +47,21 @@ struct Bias {
 
 struct FigureUncertainty {
   SweptFigure figure;
-  double value = 0;                           // at the values as given
+  double value = 0;                           // at the given values
   std::optional<double> numerical = {};       // measured error there
   double by_gradients = 0;                    // standard uncertainty u
-  std::optional<double> noise_floor = {};     // of u, √Σ noise²: what is below may be numerical errors alone
-  double by_samples = 0, mean = 0;            // deviation, mean of the samples
-  std::optional<double> low = {}, high = {};  // between them lie 95 % of the samples; of fewer than 40 nobody can say
+  std::optional<double> noise_floor = {};     // of u, √Σ noise²: smaller values may be numerical errors alone
+  double by_samples = 0, mean = 0;            // standard deviation and mean of the samples
+  std::optional<double> low = {}, high = {};  // 95 % of the samples lie between them; empty for fewer than 40
   std::size_t samples = 0;
   std::vector<ToleranceShare> shares = {};  // the greatest first
   std::vector<Bias> biases = {};
 
-  // Do gradients hold over the tolerances? Their deviation is that of the samples within a tenth, and the samples' mean
-  // lies within a fifth of a deviation of the value as given, what chance does to n samples (4 σ) apart. Fewer than 30
-  // samples do not tell.
+  // Whether gradients are valid over the tolerances: their deviation agrees with that of the samples within a tenth,
+  // and the samples' mean is within a fifth of a deviation of the nominal value, apart from the scatter of n samples
+  // (4 σ). Not decidable with fewer than 30 samples.
   bool is_linear() const;
-  // By gradients where they hold, else by samples.
+  // By gradients if they are valid, else by samples.
   double deviation() const { return is_linear() ? by_gradients : by_samples; }
 };
 
@@ -69,16 +69,16 @@ struct UncertaintyStudy {
   std::string title, scene_file, scene_text;
   std::vector<Tolerated> parameters;
   std::vector<FigureUncertainty> figures;
-  std::vector<LimitCount> limits;  // a machine that does not run holds none
+  std::vector<LimitCount> limits;  // a machine that does not run meets none
   std::vector<std::string> notes;
   std::size_t drawn = 0, failed = 0;
-  SpeedUnit speed_unit;  // that people are told speeds in
+  SpeedUnit speed_unit;  // unit of speeds for people
   std::string conclusion;
   bool complete = true;
   std::string diagnosis;
 };
 
-// Throws std::invalid_argument where the scene gives no tolerance, a figure or a limit is none.
+// Throws std::invalid_argument if the scene has no tolerance, or a figure or a limit is invalid.
 UncertaintyStudy study_uncertainty(const MachineQuestion& question, const UncertaintyOptions& options);
 
 Findings findings_of(const UncertaintyStudy& study);

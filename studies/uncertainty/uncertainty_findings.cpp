@@ -1,4 +1,4 @@
-// uncertainty_findings.cpp — figures with what makes them uncertain, said once.
+// uncertainty_findings.cpp — figures and the sources of their uncertainty.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -106,7 +106,7 @@ Rows parameter_table(const UncertaintyStudy& s) {
       .only_for_programs("cut_off", [](const Tolerated& t) { return t.cut_off(); });
 }
 
-// Whether the picture of one would be that of the other again.
+// Whether the plot of one would repeat that of the other.
 bool alike(const FigureUncertainty& a, const FigureUncertainty& b) {
   constexpr double within = 1e-2;
   const auto near = [](double x, double y) { return std::abs(x - y) <= within * std::max(std::abs(x), std::abs(y)); };

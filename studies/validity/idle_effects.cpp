@@ -1,4 +1,4 @@
-// idle_effects.cpp — which effects go along with one that is off.
+// idle_effects.cpp — effects without influence because another one is off.
 #include "studies/validity/idle_effects.h"
 
 #include <fmt/format.h>

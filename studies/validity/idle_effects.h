@@ -1,4 +1,4 @@
-// idle_effects.h — effects that are on and have data, and yet do nothing, as another one that is off takes them along.
+// idle_effects.h — effects that are on and have data but no influence, because another effect that they need is off.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace kurbel {
 
-// A sentence for each component. Without variable inertia a mechanism is a crank of constant inertia: it has neither rod
-// nor joints, so that clearance and flexibility go with it.
+// One sentence for each component. Without variable inertia a mechanism is a crank of constant inertia without rod
+// and joints, so that clearance and flexibility have no influence.
 std::vector<std::string> idle_effects(const Model& model);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// outside_data.cpp — where each table's quantity stands, step by step, and how its leaving is told.
+// outside_data.cpp — the position of each quantity within its table, step by step, and the sentences on extrapolation.
 #include "studies/validity/outside_data.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ using DataRange = Network::DataRange;
 constexpr double never = std::numeric_limits<double>::infinity();
 
 bool is_said(Beyond beyond) { return beyond == Beyond::hold || beyond == Beyond::line; }
-// What rounding leaves of an end.
+// Rounding allowance at an end.
 double slack(const DataRange& range) { return 1e-9 * (range.high - range.low); }
 bool is_left_below(const DataRange& range, double x) { return !is_said(range.below) && x < range.low - slack(range); }
 bool is_left_above(const DataRange& range, double x) { return !is_said(range.above) && x > range.high + slack(range); }
@@ -32,7 +32,7 @@ std::string in_words(const DataRange& range, double x, const SpeedUnit& unit) {
   return speed ? unit.text(x, 6) : with_unit(x, range.unit, 6);
 }
 
-// Of a cycle: evenly, and where the outputs of mechanisms turn round.
+// Angles of a cycle: equidistant, and where the outputs of mechanisms reverse.
 std::vector<double> angles_of(const RigidMachine& machine) {
   constexpr int of_a_turn = 720;
   const double cycle = machine.cycle();
@@ -52,7 +52,7 @@ std::vector<double> angles_of(const RigidMachine& machine) {
   return angles;
 }
 
-// The step that set a command last; none: it is as at the start. Of a sequence that goes round perhaps before this round.
+// The step that last set a command; empty: as at the start. In a repeating sequence it may be in the previous cycle.
 std::optional<std::size_t> last_step_of(const Model& model, std::size_t command, const Modes& modes) {
   const std::vector<SequenceStep>& steps = model.scene.sequence.steps;
   for (std::size_t back = 1; back <= steps.size(); ++back) {
@@ -64,8 +64,8 @@ std::optional<std::size_t> last_step_of(const Model& model, std::size_t command,
   return {};
 }
 
-// Where a command stands beside the range of this step's law [s]: before it, within, where it is not the one that is
-// followed, too, or beyond. One that has ended holds its last value (operating_sequence.cpp).
+// Position of a command relative to the range of this step's law [s]: before it, within it (also if another law is
+// followed), or beyond. A law that has ended holds its last value (operating_sequence.cpp).
 double place_beside_law(const Model& model, std::size_t command, std::size_t step, const Modes& modes) {
   const Curve& law = model.scene.sequence.steps[step].law;
   const Command& now = modes.command[command];
@@ -123,7 +123,7 @@ void DataRangeRecorder::watch(Watched watched) {
   watched_.push_back(std::move(watched));
 }
 
-// A law over the time since its step ends, and the command goes on.
+// A law over time ends with its step, and the command continues.
 void DataRangeRecorder::watch_laws() {
   const std::vector<SequenceStep>& steps = model_.scene.sequence.steps;
   for (std::size_t step = 0; step < steps.size(); ++step)
@@ -164,7 +164,7 @@ void DataRangeRecorder::begin(double t, std::span<const double> y, Equations& eq
   if (!watched_.empty()) see(t, equations.snapshot(t, y), &equations.modes());
 }
 
-// Ends of tables are ends of steps: the first step beyond one begins there.
+// Ends of tables are ends of steps: the first step beyond an end begins there.
 void DataRangeRecorder::step(StepView& view) {
   if (watched_.empty()) return;
   const Modes* const modes = &view.equations().modes();
@@ -207,7 +207,7 @@ std::vector<std::string> DataRangeRecorder::sentences() const {
           range.of, range.component, where,
           (above ? range.line_above : range.line_below) ? "its last slope goes on there" : "its end value holds there",
           allowed);
-      // Both branches of a table may end at one place.
+      // Both branches of a table may end at the same place.
       if (std::find(list.begin(), list.end(), sentence) == list.end()) list.push_back(std::move(sentence));
     }
   }

@@ -1,7 +1,7 @@
-// outside_data.h — what a motion takes from outside of the data that its scene gives: beyond the ends of tables.
+// outside_data.h — use of data outside their range in a motion: beyond the ends of tables.
 //
-// A table ends somewhere, and a law goes on: its end values hold, or its slope does. Where the scene does not say so
-// (beyond = …), nobody knows how far that is from the truth: what hangs on it is told, and carries no error bar.
+// Beyond the end of a table a law is extrapolated: by its end value or its slope. Unless the scene specifies this
+// (beyond = …), the error is unknown: results that depend on it are reported and have no error bar.
 #pragma once
 
 #include <functional>
@@ -23,23 +23,23 @@ class DataRangeRecorder final : public Observer {
   explicit DataRangeRecorder(const Model& model);
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
-  // Without its modes: of a machine that follows no operating sequence.
+  // Without modes: for a machine that follows no operating sequence.
   void see(double t, const Snapshot& snapshot, const Modes* modes = nullptr);
   void remember(Tape& tape) override { tape(since_, least_, greatest_); }
   bool empty() const { return watched_.empty(); }
 
-  // From when on it is outside of any [s]; nothing: it never is.
+  // First time outside of any table [s]; empty: never.
   std::optional<double> since() const;
-  // A sentence for each table. Throws SceneError where a table is not to be left.
+  // One sentence for each table. Throws SceneError if a table must not be left.
   std::vector<std::string> sentences() const;
 
  private:
   struct Watched {
     Network::DataRange range;
-    std::vector<std::size_t> elements;   // whose torque it is; none: always in force
-    std::optional<std::size_t> command;  // that a part of it has for itself
+    std::vector<std::size_t> elements;   // elements whose torque it gives; none: always in force
+    std::optional<std::size_t> command;  // the command of its part, if parts have their own
     std::function<double(const Snapshot&)> value;
-    std::function<double(const Modes&)> of_law = {};  // in its place, of a law of the operating sequence
+    std::function<double(const Modes&)> of_law = {};  // instead of `value`, for a law of the operating sequence
   };
   void watch(Watched watched);
   void watch_laws();
@@ -47,22 +47,22 @@ class DataRangeRecorder final : public Observer {
 
   const Model& model_;
   std::vector<Watched> watched_;
-  std::vector<double> since_, least_, greatest_;  // of each: ∞ and its own ends where it was never left
+  std::vector<double> since_, least_, greatest_;  // of each: ∞ and its own ends if it was never left
 };
 
-// Figures from that time on are without errors, and so is all that belongs to no time.
+// Removes the errors of figures from that time on, and of figures without a time.
 void drop_errors(std::vector<Figure>& figures, double since);
 
-// Says it among a run's answers; what hangs on it loses its error.
+// Reports it among a run's results; dependent figures lose their errors.
 void tell_outside_data(const DataRangeRecorder& ranges, Result& result);
 
-// Of the steady motion from the map's fixed point: a round more, only where there are such tables. A sentence each.
+// For the steady motion from the map's fixed point: one more period, only if there are such tables. One sentence each.
 std::vector<std::string> outside_data(const ReturnMap& map, const SteadyPoint& point);
 
-// Of the rigid machine whose link turns round once at this speed [rad/s], ≠ 0. A sentence each.
+// For the rigid machine over one cycle of its link at this speed [rad/s], ≠ 0. One sentence each.
 std::vector<std::string> outside_data(RigidMachine& machine, double speed);
 
-// Whether this speed of the link lies beyond a table over the speed [rad/s].
+// Whether this speed of the link is beyond a table over speed [rad/s].
 bool lies_beyond_a_table(const Model& model, double link_speed);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// static_curve.cpp — the fastest swings of a motor's speed, and what its curve makes of them.
+// static_curve.cpp — the fastest oscillations of a motor's speed, and the response of its static curve.
 #include "studies/validity/static_curve.h"
 
 #include <fmt/format.h>
@@ -14,13 +14,13 @@
 namespace kurbel {
 namespace {
 
-// Neither with the lag of its fluxes nor by its circuit.
+// The motor has neither the flux lag nor its circuit in the model.
 bool follows_at_once(const Model& model, const std::string& motor) {
   return std::none_of(model.own_states.begin(), model.own_states.end(),
                       [&](const OwnStatePlace& own) { return own.component == motor; });
 }
 
-// Motors that follow their static curves at once, at the mains: of a frequency converter the supply is none.
+// Motors with static curves directly at the mains, excluding those on a frequency converter.
 std::vector<std::pair<std::string, InductionData>> static_motors(const Model& model) {
   std::vector<std::pair<std::string, InductionData>> list;
   for (const auto& [component, motor] : model.network.data.all<InductionData>())
@@ -28,7 +28,7 @@ std::vector<std::pair<std::string, InductionData>> static_motors(const Model& mo
   return list;
 }
 
-// Between two turning points of its speed and back.
+// An oscillation between two extremes of the speed and back.
 struct DriveSwing {
   double frequency = 0, torque = 0, at = 0;  // [Hz], from least to largest [N·m], [s]
   double followed = 1;                       // part of a torque's swing that the fluxes let through
@@ -39,7 +39,7 @@ double part_followed(double swing, const InductionData& motor) {
   return 1 / std::hypot(1, swing / (motor.breakdown_slip * motor.mains));
 }
 
-// The swing of which the curve gives most that a real motor would not, above the least share of the mains' frequency.
+// The oscillation with the largest excess of the curve's torque over a real motor's, above least_share of the frequency.
 DriveSwing worst_swing(const MotorMotion& m, const InductionData& motor, double least_share) {
   DriveSwing worst;
   const auto change = [&](std::size_t k) { return m.speed[k + 1] - m.speed[k]; };

@@ -1,8 +1,8 @@
-// static_curve.h — how far the static torque-speed curve of induction motors holds in a motion (theory 4.1).
+// static_curve.h — validity of the static torque–speed curve of induction motors in a motion (theory 4.1).
 //
-// Told where the speed swings faster than the curve holds for: above 3 % of the mains' frequency, where the estimate of
-// what the fluxes let through differs by more than 5 % of the rated torque. As far as the samples resolve it. Fluxes
-// follow the curve as drivetrain/induction/lagging_motor.h says; motors that do so in the model are not told.
+// Reported if the speed varies faster than the curve is valid for: above 3 % of the mains' frequency, if the estimated
+// torque with flux lag differs by more than 5 % of the rated torque. Limited by the resolution of the samples. Fluxes
+// follow the curve as in drivetrain/induction/lagging_motor.h; motors modelled that way are not reported.
 #pragma once
 
 #include <functional>
@@ -15,17 +15,17 @@
 
 namespace kurbel {
 
-// Of one motor over time [s]: speed [rad/s] and torque [N·m] of its shaft.
+// Motion of one motor over time [s]: speed [rad/s] and torque [N·m] of its shaft.
 struct MotorMotion {
   std::vector<double> time, speed, torque;
 };
 
-// A sentence for each motor; `motion_of` is asked for motors on their static curve alone, and may be empty.
+// One sentence for each motor; `motion_of` is called only for motors with a static curve, and may be empty.
 std::vector<std::string> static_curve_notes(const Model& model,
                                             const std::function<MotorMotion(const std::string& motor)>& motion_of);
-// Of a run, as its trajectory samples it.
+// For a run, from the samples of its trajectory.
 std::vector<std::string> static_curve_notes(const Model& model, const TrajectoryRecorder& trajectory);
-// Of the steady motion from the map's fixed point: two more rounds, only where there is such a motor.
+// For the steady motion from the map's fixed point: two more periods, only if there is such a motor.
 std::vector<std::string> static_curve_notes(const ReturnMap& map, const SteadyPoint& point);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// substitutes.cpp — loads of mechanisms with mirrored diagrams, and engines and motors, which say so themselves.
+// substitutes.cpp — loads of mechanisms with mirrored diagrams; engines and motors report their own substitutes.
 #include "studies/validity/substitutes.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ std::vector<std::string> substitutes(const Model& model) {
       notes.push_back(fmt::format("\"{}\": {}", e.component, e.element->describe()));
       continue;
     }
-    // What drives by the angle is an engine: all that it says of itself is a substitute.
+    // A drive over the angle is an engine: all its own notes are substitutes.
     const bool engine = e.element->account == Account::driving && e.element->is.uses_angle;
     if (const std::string words = engine ? e.element->describe() : ""; !words.empty()) notes.push_back(words);
   }

@@ -1,5 +1,5 @@
-// substitutes.h — what stands for something that a scene does not give, or not so: diagrams of cylinders that do not fire, the
-// lag of fluxes whose circuit is not known, dense tables by fewer pieces.
+// substitutes.h — substitutes for data that a scene does not give, or not in this form: diagrams of misfiring
+// cylinders, flux lag of motors with unknown circuit, dense tables with fewer pieces.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace kurbel {
 
-// A sentence each.
+// One sentence each.
 std::vector<std::string> substitutes(const Model& model);
 
 }  // namespace kurbel

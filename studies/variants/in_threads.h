@@ -1,4 +1,4 @@
-// in_threads.h — items computed one after the other, by one thread or by several.
+// in_threads.h — processes items one after another, in one thread or several.
 #pragma once
 
 #include <cstddef>
@@ -6,15 +6,15 @@
 
 namespace kurbel {
 
-// One for each core, unless 1 or more are asked for.
+// One thread per core, unless 1 or more are requested.
 int threads_of(int asked);
 
-// Computes an item by its number; false: it was interrupted, and no thread takes a further one.
+// Processes an item by its index; false: interrupted, no further items are started.
 using Worker = std::function<bool(std::size_t item)>;
 
-// Items 0 … count − 1, each by the thread that is free next; the calling thread is one of `jobs`, so that with one job
-// the items follow one another in it. `worker` makes one for each thread, in that thread. False: one was interrupted.
-// What a worker throws is thrown here, once the others have ended their items.
+// Items 0 … count − 1, each by the next free thread; the calling thread is one of `jobs`, so that with one job all
+// items run in it, in order. `worker` creates the worker of each thread, in that thread. False: interrupted.
+// Exceptions of a worker are rethrown here, once the others have finished their items.
 bool in_threads(std::size_t count, int jobs, const std::function<Worker()>& worker);
 
 }  // namespace kurbel

@@ -1,10 +1,9 @@
-// machine.cpp — rows of variants put to the studies.
+// machine.cpp — applies the studies to rows of variants.
 #include "studies/variants/machine.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <unordered_map>
@@ -22,8 +21,8 @@
 namespace kurbel {
 namespace {
 
-// In SI by its unit alone. Where the reader takes it otherwise ("60 1/min" as a speed), the check against reading finds
-// it, and the parameter is read anew in every row.
+// In SI by its unit only. If the reader converts it otherwise ("60 1/min" as a speed), the check against reading
+// detects it, and the parameter is read again in every row.
 double in_si(const SweptParameter& p, double value) {
   UnitError error;
   const auto quantity = parse_quantity(p.text_of(value), error);
@@ -93,7 +92,7 @@ Scene VariedScene::read(const std::vector<double>& values) const {
   return read_with(settings);
 }
 
-// Of a list every value, of a range its ends: what lies between them lies in the key's domain, too.
+// For a list every value, for a range its ends: values between them are within the key's domain, too.
 void VariedScene::check_ends(std::size_t k) {
   const SweptParameter& p = parameters_[k];
   std::vector<double> ends = p.is_list() ? p.values : std::vector<double>{p.low, p.high};
@@ -254,7 +253,7 @@ std::vector<SweptFigure> figures_of(const MachineQuestion& question) {
   return known;
 }
 
-// Amplitude or phase of one order: there are hundreds, which nobody asks for all at once.
+// Amplitude or phase of one order: there are hundreds, so they are not selected by default.
 static bool is_order(const SweptFigure& figure) {
   using namespace quantities;
   for (QuantityKind kind :

@@ -1,4 +1,4 @@
-// rows.h — a matrix of variants: in each row a variant's values, what became of it, and its figures with their errors.
+// rows.h — a matrix of variants: in each row the values of a variant, its state, and its figures with errors.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct SweptFigure {
 };
 
 struct RowFigure {
-  std::size_t figure = 0;  // its number
+  std::size_t figure = 0;  // its index
   double value = 0;
   std::optional<double> error = {};
 };
@@ -35,10 +35,10 @@ struct SweepRow {
   std::vector<RowFigure> figures = {};
 };
 
-// Of a row with these values of the parameters: state, diagnosis, figures. A row that was interrupted returns false.
+// Fills a row with given parameters: state, diagnosis, figures. False if it was interrupted.
 using Evaluator = std::function<bool(SweepRow& row)>;
 
-// The figure in a row: not a number, without an error, where it has none.
+// The figure in a row; NaN without an error if the row has none.
 inline Estimate figure_in(const SweepRow& row, std::size_t figure) {
   for (const RowFigure& f : row.figures)
     if (f.figure == figure) return {f.value, f.error};

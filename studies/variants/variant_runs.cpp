@@ -1,4 +1,4 @@
-// variant_runs.cpp — one variant after the other, each under the deadline of all.
+// variant_runs.cpp — runs one variant after the other, each under the common deadline.
 #include "studies/variants/variant_runs.h"
 
 #include <algorithm>

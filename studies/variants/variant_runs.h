@@ -1,5 +1,5 @@
-// variant_runs.h — variants of a machine, each run at the settings of one run, within one budget; what a variant cannot
-// do is its own failure.
+// variant_runs.h — variants of a machine, each run with the settings of one run, within one budget; the failure of a
+// variant does not affect the others.
 #pragma once
 
 #include <cmath>
@@ -13,34 +13,34 @@ namespace kurbel {
 
 // Why a variant has no figures.
 struct Failure {
-  std::string words;   // all; of a scene that makes no machine one "file:line:col: text" a line
-  std::string reason;  // the first alone, without its place
+  std::string words;   // complete; for a scene that makes no machine one "file:line:col: text" per line
+  std::string reason;  // only the first, without its place
 };
-// What `compute` throws is the variant's failure, and no end of the others; nothing: it throws nothing. An interrupt, or
-// so much processor time [s], ends it. Throws std::bad_alloc alone.
+// Exceptions of `compute` become the variant's failure and do not end the others; empty: no exception. An
+// interruption, or this much processor time [s], ends it. Throws only std::bad_alloc.
 std::optional<Failure> failure_of(const std::function<void()>& compute, const std::atomic<bool>* interrupted,
                                   double seconds = HUGE_VAL);
 
-// A row of whole runs: its figures with their errors, and all else that a run finds.
+// A variant's complete run: its figures with errors, and all other results.
 struct VariantRun {
-  Result result = {};       // without a model where it did not come to run
-  std::string failed = {};  // why it did not run to its end; empty: it did
+  Result result = {};       // without a model if the run did not start
+  std::string failed = {};  // why it did not reach its end; empty: it did
 };
 
 class VariantRuns {
  public:
-  // With these options, but without traces. `seconds`: processor time that all may take together, in this thread.
+  // With these options, but without traces. `seconds`: processor time for all together, in this thread.
   explicit VariantRuns(SimulateOptions options, double seconds = HUGE_VAL);
-  // Of which processor times are compared, in silence.
+  // For comparing processor times; without progress output.
   static VariantRuns timed(SimulateOptions options);
 
-  using Machine = std::function<std::shared_ptr<const Model>()>;  // throws SceneError where there is none
+  using Machine = std::function<std::shared_ptr<const Model>()>;  // throws SceneError if there is none
   VariantRun run(const std::string& label, const Machine& machine, bool traces = false) const;
   VariantRun run(const std::string& label, const Scene& scene, const Effects& effects) const;
 
   const SimulateOptions& options() const { return options_; }
   bool stopped() const { return options_.watch.stopped(); }
-  bool over() const;  // stopped, or the time is spent
+  bool over() const;  // stopped, or out of time
 
  private:
   SimulateOptions options_;

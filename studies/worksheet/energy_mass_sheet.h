@@ -1,5 +1,5 @@
-// energy_mass_sheet.h — ΔT over φ, I_em over φ and the energy–mass curve with its tangents, in one projection: as
-// Wittenbauer's diagram is drawn on paper.
+// energy_mass_sheet.h — ΔT over φ, I_em over φ and the energy–mass curve with its tangents, in one projection:
+// Wittenbauer's diagram on paper.
 #pragma once
 
 #include "studies/sheet/scales.h"
@@ -7,7 +7,7 @@
 
 namespace kurbel {
 
-// tan ψ = ½ ω² μ_I/μ_T: what a tangent's slope is on paper.
+// tan ψ = ½ ω² μ_I/μ_T: slope of a tangent on paper.
 struct TangentOnPaper {
   double psi = 0;        // [rad]
   double intercept = 0;  // on the axis I_em = 0, above ΔT = 0 [mm]

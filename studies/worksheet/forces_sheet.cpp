@@ -15,6 +15,8 @@
 #include "studies/forces/crank_motion.h"
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/table.h"
+#include "studies/worksheet/force_polygons.h"
+#include "studies/worksheet/motion_plans.h"
 
 namespace kurbel {
 namespace {
@@ -34,16 +36,11 @@ void take_forces(ForcesSheet& sheet) {
   for (const auto& [way, at] : by_way(sheet.motion.cycle, forces)) sheet.way.push_back(way), sheet.curve.push_back(*at);
 }
 
-// "R_12": the reaction of link 1 on link 2; the frame is 0.
 void name_parts(ForcesSheet& sheet, const LinkageForces& f) {
   for (const LinkForces& l : f.links) sheet.links.emplace_back(l.name);
-  const auto number = [&](const std::string& body) {
-    const auto found = std::find(sheet.links.begin(), sheet.links.end(), body);
-    return found == sheet.links.end() ? 0 : found - sheet.links.begin() + 1;
-  };
   for (const JointForces& j : f.joints)
-    sheet.joints.push_back({fmt::format("R_{}{}", number(j.from), number(j.on)),
-                            fmt::format("{}: {} on {}", j.name, j.from, j.on), j.slides});
+    sheet.joints.push_back(
+        {reaction_symbol(f, j.from, j.on), fmt::format("{}: {} on {}", j.name, j.from, j.on), j.slides});
 }
 
 // --- positions ---
@@ -78,12 +75,46 @@ MechanismOnSheet drawn(Mechanism mechanism) {
 
 using ForcesRow = SheetRow<ForcesAt>;
 
-std::vector<ForcesRow> rows_of(const ForcesSheet& sheet) {
+double load_of(const ForcesAt& at) { return at.load; }
+double load_of(const PositionForces& at) { return at.forces.state.load; }
+
+template <class Values>
+std::vector<SheetRow<Values>> rows_of(const ForcesSheet& sheet, const std::vector<Values>& looks) {
   double largest = 0;
   for (const ForcesAt& at : sheet.curve) largest = std::max(largest, std::abs(at.load));
-  return sheet_rows(sheet.motion.positions, sheet.looks, [largest](const ForcesAt& before, const ForcesAt& after) {
-    return std::abs(before.load - after.load) > 1e-4 * largest;
+  return sheet_rows(sheet.motion.positions, looks, [largest](const Values& before, const Values& after) {
+    return std::abs(load_of(before) - load_of(after)) > 1e-4 * largest;
   });
+}
+
+// A row of cells a position, a cell a link; of many links more rows.
+void add_polygons(Sheets& sheets, const ForcesSheet& sheet) {
+  const Mechanism& m = sheet.mechanisms.front().mechanism;
+  PlanarLinkage linkage = m.data.linkage(0);
+  if (sheet.weightless) linkage.gravity = 0;
+  const Box room = sheets.room();
+  const int links = linkage.body_count, lines = (links * 44 - 1) / static_cast<int>(room.width) + 1,
+            columns = (links + lines - 1) / lines;
+  std::vector<VectorPlan> plans;
+  for (const auto& row : rows_of(sheet, sheet.forces.also)) {
+    for (VectorPlan& plan : force_polygons(row.values->forces, linkage, row.label)) plans.push_back(std::move(plan));
+    for (int k = links; k < lines * columns; ++k) plans.emplace_back();
+  }
+  add_plans(sheets,
+            {.what = m.name + ": polygons of forces",
+             .note = fmt::format(
+                 "On each link at each position, closed: F load on the output, G weight, F with the link's number −m "
+                 "a_S (F_x, F_y of the table), "
+                 "R_21 of link 2 on link 1, the opposite of R_12; T friction along a slide, F_a what else acts within. "
+                 "Forces shorter than 1.2 mm are not named; {}.",
+                 sheet.speed),
+             .scale = "μ_F",
+             .unit = "N",
+             .columns = columns,
+             .rows = static_cast<int>(room.height) / 43,
+             .direction = m.data.drawing().direction,
+             .each_to_its_own = true},
+            plans);
 }
 
 using Get = std::function<double(const ForcesAt&)>;
@@ -91,7 +122,7 @@ using Get = std::function<double(const ForcesAt&)>;
 class TableOfForces {
  public:
   TableOfForces(const ForcesSheet& sheet, const std::string& title)
-      : rows_(rows_of(sheet)), table_(table_of_positions(title, rows_)) {}
+      : rows_(rows_of(sheet, sheet.looks)), table_(table_of_positions(title, rows_)) {}
   // Values that are rounding dust beside `scale` are zeros.
   void add(const std::string& symbol, const std::string& unit, const Get& get, double scale = 0) {
     SheetColumn column{symbol, unit, {}};
@@ -248,8 +279,10 @@ void add_reactions(Sheets& sheets, const ForcesSheet& sheet) {
 std::string ForcesSheet::html() const {
   Sheets sheets(paper, {title, "kurbel forces " + std::filesystem::path(scene_file).filename().string(), author});
   add_mechanism(sheets, mechanisms.front(), motion, speed);
+  add_motion_plans(sheets, mechanisms.front(), motion, speed);
   add_table(sheets, reaction_table(*this));
   add_table(sheets, inertia_table(*this));
+  add_polygons(sheets, *this);
   add_diagrams(sheets, *this);
   add_reactions(sheets, *this);
   return sheets.html();
@@ -265,6 +298,7 @@ ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Pap
   sheet.title = scene.heading();
   sheet.scene_file = scene.file;
   sheet.mechanisms = {drawn(chosen.mechanism())};
+  sheet.weightless = !(options.effects ? *options.effects : scene.effects).gravity;
   ForcesOptions asked = options;
   asked.also = [&](const PrescribedCycle& c) {
     const int turns = std::max(1, static_cast<int>(std::lround(c.length / (2 * std::numbers::pi))));

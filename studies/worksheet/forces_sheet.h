@@ -1,7 +1,7 @@
-// forces_sheet.h — the classical sheet of a mechanism's forces: the mechanism in its positions, reactions in every joint,
-// inertia forces, balancing torque, at a crank that turns evenly (theory 9, first problem).
+// forces_sheet.h — the classical sheet of a mechanism's forces: the mechanism in its positions, reactions in every
+// joint, inertia forces, balancing torque, with uniformly rotating crank (theory 9, first problem).
 //
-// Every number is one of the first problem of find_forces.
+// All numbers are results of the first problem of find_forces.
 #pragma once
 
 #include <string>
@@ -37,20 +37,21 @@ struct ForcesSheet {
   std::string author, title, scene_file, speed;
   Forces forces;
   std::vector<MechanismOnSheet> mechanisms;  // the one
+  bool weightless = false;                   // the effect gravity is off
   SheetMotion motion;
   std::vector<Joint> joints;
   std::vector<std::string> links;
   std::vector<ForcesAt> looks;  // before, at and after each position
   std::vector<ForcesAt> at;     // at each
-  std::vector<ForcesAt> curve;  // over the cycle, ascending ways
+  std::vector<ForcesAt> curve;  // over the cycle, ascending
   std::vector<double> way;
 
   std::string html() const;
 };
 
-// Throws as the study does, and std::invalid_argument for a crank that rocks.
+// Throws as the study does, and std::invalid_argument for a crank that only rocks.
 ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Paper& paper, const std::string& author);
-// What is said of the forces, the sheet among the files: sheet.html.
+// Findings of the forces, with the sheet as a file: sheet.html.
 StudyOutput output_of(ForcesSheet sheet);
 
 }  // namespace kurbel

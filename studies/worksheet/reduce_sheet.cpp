@@ -14,6 +14,7 @@
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/table.h"
 #include "studies/worksheet/energy_mass_sheet.h"
+#include "studies/worksheet/motion_plans.h"
 
 namespace kurbel {
 namespace {
@@ -257,7 +258,10 @@ std::string ReduceSheet::html() const {
   Sheets sheets(request.paper,
                 {reduction.title, "kurbel reduce " + std::filesystem::path(reduction.scene_file).filename().string(),
                  request.author});
-  for (const MechanismOnSheet& m : mechanisms) add_mechanism(sheets, m, motion, speed_words(reduction));
+  for (const MechanismOnSheet& m : mechanisms) {
+    add_mechanism(sheets, m, motion, speed_words(reduction));
+    add_motion_plans(sheets, m, motion, speed_words(reduction));
+  }
   add_table(sheets, torque_table(*this));
   add_torques_and_works(sheets, *this);
   if (works)

@@ -1,7 +1,7 @@
-// reduce_sheet.h — the classical sheet of the reduced machine: its mechanisms in their positions, torques, works, reduced
-// inertia, and the flywheel by Wittenbauer's diagram.
+// reduce_sheet.h — the classical sheet of the reduced machine: its mechanisms in their positions, torques, works,
+// reduced inertia, and the flywheel by Wittenbauer's diagram.
 //
-// Every number is one of reduce or of size (theory 2, 3); here they are only set out on paper.
+// All numbers are results of reduce or of size (theory 2, 3); here they are only drawn on paper.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ namespace kurbel {
 
 struct ReduceSheetRequest {
   Paper paper;
-  std::optional<double> delta;  // demanded; default: what the machine has with the flywheel that it has
-  std::string flywheel;         // component, as of size
+  std::optional<double> delta;  // demanded; default: that of the machine with its present flywheel
+  std::string flywheel;         // component, as in size
   std::string author;
 };
 
@@ -39,16 +39,16 @@ struct ReduceSheet {
   std::optional<WorksOnSheet> works;
   std::string why_no_works;
 
-  // Of a function over the study's way, zero at φ = 0: from position 0 on.
+  // Of a function over the study's path, zero at φ = 0: values from position 0 on.
   double from_origin(const Piecewise& work, double way) const;
   double study_way(double way) const;  // of a way from position 0
   std::string html() const;
 };
 
-// Throws as reduce does; std::invalid_argument for a machine without a mechanism that goes round, for a target (`to`)
-// other than the link, and as size does where a δ is demanded that cannot be had.
+// Throws as reduce does; std::invalid_argument for a machine without a fully rotating mechanism, for a target (`to`)
+// other than the link, and as size does for a δ that cannot be reached.
 ReduceSheet sheet_of(const Scene& scene, const ReduceOptions& options, const ReduceSheetRequest& request);
-// What is said of the reduction, the sheet among the files: sheet.html.
+// Findings of the reduction, with the sheet as a file: sheet.html.
 StudyOutput output_of(ReduceSheet sheet);
 
 }  // namespace kurbel

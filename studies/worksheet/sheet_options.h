@@ -1,4 +1,4 @@
-// sheet_options.h — options of the classical sheet of positions, to be printed.
+// sheet_options.h — options of the classical printed sheet of positions.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct SheetAsked {
   bool wanted = false;
   std::string paper;  // "A4", "A3"; empty: A4
 
-  // Throws std::invalid_argument for a paper that there is not, and for one without a sheet.
+  // Throws std::invalid_argument for an unknown paper, and for a paper without a sheet.
   std::optional<Paper> sheet(const Inquiry& inquiry) const;
 };
 

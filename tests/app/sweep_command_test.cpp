@@ -11,8 +11,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "studies/sweep/store.h"
 #include "studies/sweep/sweep_findings.h"
+#include "tests/support/sweep_rows.h"
 
 namespace kurbel::sweep_command_test {
 namespace {
@@ -56,7 +56,7 @@ class SweepCommand : public ::testing::Test {
   Said sweep(const std::string& more) const {
     return kurbel("sweep two.toml --no-files --figures peak_torque " + more);
   }
-  std::vector<SweepRow> rows(const std::string& file) const { return SweepStore(folder_ / file).read(); }
+  std::vector<SweepRow> rows(const std::string& file) const { return test::rows_of(SweepStore(folder_ / file)); }
   static void expect_same(const std::vector<SweepRow>& a, const std::vector<SweepRow>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {

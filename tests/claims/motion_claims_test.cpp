@@ -171,6 +171,39 @@ TEST(Vibration, HasItsFrequencyAndItsPlaces) {
   EXPECT_TRUE(has(said(r), "\"left\" vibrates to the end, between ")) << said(r);
 }
 
+// The same masses with damping c: the twist decays as e^(−δt), δ = c (1/J + 1/J)/2, at ω_d = √(ω² − δ²). The angle of "left"
+// turns back at the extremes of the twist, π/ω_d apart.
+TEST(Vibration, ThatDecaysIsSaidWithItsAmplitudes) {
+  const Result r = test::run(R"(
+    line = ["left", "spring", "right"]
+    left = { kind = "inertia", inertia = "1 kg*m2" }
+    right = { kind = "inertia", inertia = "1 kg*m2" }
+    spring = { kind = "coupling", stiffness = "100 N*m/rad", damping = "0.5 N*m*s/rad" }
+    effects = { elasticity = true }
+    run = { start = { spring = { twist = "0.05 rad" } }, until = "4 s", accuracy = 1e-9 }
+  )");
+  const Claim* vibrates = find(r.claims, Predicate::vibrates, "left");
+  ASSERT_TRUE(vibrates) << said(r);
+  const double decay = 0.5, w = std::sqrt(200 - decay * decay), half = pi / w;
+  EXPECT_NEAR(*vibrates->evidence.value, 0.5 / half, 1e-6);
+  // Reversals at k·half, k ≥ 1; those from 3 s on count once the speed has changed its sense within the last quarter.
+  const auto amplitude = [&](double k) {  // of the half swing from k to k + 1 [°]
+    return 0.5 * 0.025 * std::exp(-decay * k * half) * (1 + std::exp(-decay * half)) * 180 / pi;
+  };
+  const double first = std::ceil(3 / half), last = std::floor(4 / half) - 1;
+  EXPECT_TRUE(
+      has(vibrates->text, fmt::format("decays: its amplitude falls from {:.3g}° to {:.3g}° in the last {:.3g} s",
+                                      amplitude(first), amplitude(last), (last + 1 - first) * half)))
+      << vibrates->text;
+}
+
+// A screw's force comes from its energy: the conclusion has it.
+TEST(Screw, ConclusionHasTheForceOfTheBlow) {
+  const Result r = test::run(test::scene_file("scenes/screw_press.toml"), false);
+  EXPECT_TRUE(has(said(r), "the force on \"screw\" reaches 285.3 kN at 0.9082 s")) << said(r);
+  EXPECT_TRUE(has(said(r), "the vibration decays")) << said(r);
+}
+
 TEST(Sticking, IsSaidOfAShaftThatRestsAgainAndAgain) {
   const Result r = test::run(test::scene_file("scenes/stick_slip.toml"), false);
   const std::string text = said(r);

@@ -346,6 +346,31 @@ TEST(LinkForces, TheMachinesBalanceOverACycle) {
   EXPECT_LT(r.energy.by_account.at("sieve.air"), 0);
 }
 
+// With springs, forces, couples and rubbing joints at once: what the joints lose is what the run misses, and the cycle's
+// efficiency is one number by reactions and by the run's works.
+TEST(LinkForces, RubbingJointsTakeTheirReactionsFromSpringsAndForces) {
+  std::string rough = sieve;
+  rough.replace(
+      rough.find("[run]"), 5,
+      "[sieve.joints]\nA = { radius = \"20 mm\", friction = 0.1 }\nE = { radius = \"15 mm\", friction = 0.12 }\n"
+      "G = { radius = \"25 mm\", friction = 0.08 }\n[effects]\njoint_friction = true\n[run]");
+  const Scene scene = test::scene_from(rough);
+  const Forces study = find_forces(scene, {});
+  ASSERT_TRUE(study.friction && study.simulated && study.simulated->machine_residual && study.simulated->efficiency);
+  for (const auto& cycle : {study.prescribed, study.simulated}) {
+    EXPECT_LT(cycle->power_residual, 1e-12);
+    EXPECT_LT(cycle->equation_residual, 1e-14);
+    EXPECT_LT(cycle->friction_residual, 1e-12);
+  }
+  EXPECT_LT(*study.simulated->machine_residual, 1e-7);
+  const Result r = test::run(scene);
+  EXPECT_LT(r.energy.relative, 1e-9);
+  const Figure* efficiency = r.find("machine_efficiency");
+  ASSERT_TRUE(efficiency);
+  EXPECT_NEAR(efficiency->value, study.simulated->efficiency->value, 1e-8);
+  EXPECT_LT(efficiency->value, 0.8);  // 0.765; without friction 0.87
+}
+
 // --- keys ---
 
 std::string fault_in(const std::string& within) {

@@ -128,7 +128,7 @@ TEST(ReducedMechanism, EqualDataShareOneTable) {
   EXPECT_NE(reduce_mechanism(d, 1e-9), first);
   d.slider_mass += 1e-9;
   EXPECT_NE(reduce_mechanism(d), first);
-  d.slider_mass = -1;
+  d.crank_inertia = -1;
   EXPECT_THROW(reduce_mechanism(d), std::invalid_argument);
 }
 

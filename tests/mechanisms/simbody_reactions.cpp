@@ -39,7 +39,7 @@ MassProperties crank_properties(const SliderCrankData& d) {
 }
 
 void demand_masses(const SliderCrankData& d) {
-  validate(d);
+  throw_if_any("slider-crank", faults_of(d));
   if (d.rod_mass > 0 && d.slider_mass > 0) return;
   throw std::invalid_argument(
       fmt::format("slider-crank: rod_mass = {} kg, slider_mass = {} kg; both must be > 0 for Simbody's reactions",

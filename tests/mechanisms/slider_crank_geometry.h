@@ -13,7 +13,7 @@ namespace kurbel {
 class SliderCrankGeometry {
  public:
   explicit SliderCrankGeometry(const SliderCrankData& data) : d_(data), changes_(data.changes()) {
-    validate(data);
+    throw_if_any("slider-crank", faults_of(data));
     if (changes_) d_.rod_length = d_.radius + std::fabs(d_.offset);
   }
   const SliderCrankData& data() const { return d_; }

@@ -41,6 +41,9 @@ TEST(Headline, NumbersAreReadWithThePrefixOfTheirUnit) {
             "12000 … 15000 N·m; 800 to -15000 N; 3 and 21000 J");
   EXPECT_EQ(readable("\"shaft 1e+05 N\" of NACA_1e+05, 20000 N·m² and 20000 Nm"),
             "\"shaft 1e+05 N\" of NACA_1e+05, 20000 N·m² and 20000 Nm");
+  // Numbers within names, of machines, drawings and days.
+  EXPECT_EQ(headline("T-94500102-T of 2026-11-27, 1M0012345-AB: 94500102 rad"),
+            "T-94500102-T of 2026-11-27, 1M0012345-AB: 94500000 rad");
   EXPECT_EQ(readable("x - 0 and 5 -0.5"), "x - 0 and 5 -0.5");
 }
 

@@ -200,12 +200,12 @@ effects = { elasticity = true }
   const double torque1[] = {92.1957142987, 153.0251589656, 40.2846729602, 174.820172816511};
   const double torque2[] = {65.0793277402, 150.0246656526, 241.7080377611, 116.5467818777};
   for (int i = 0; i < 4; ++i) {
-    Eigen::VectorXcd force = Eigen::VectorXcd::Zero(3);
-    force[0] = 100;
-    const std::vector<Complex> tau = response.torques(w[i], force);
-    EXPECT_NEAR(std::abs(response.motion(w[i], force)[0]), amp1[i], 1e-6 * amp1[i]);
-    EXPECT_NEAR(std::abs(tau[0]), torque1[i], 1e-10 * torque1[i]);
-    EXPECT_NEAR(std::abs(tau[1]), torque2[i], 1e-10 * torque2[i]);
+    Forcing force = Forcing::none(d);
+    force.torque[0] = 100;
+    const auto joints = response.swings(w[i], force);
+    EXPECT_NEAR(std::abs(response.motion(w[i], force).q[0]), amp1[i], 1e-6 * amp1[i]);
+    EXPECT_NEAR(std::abs(joints[0].torque), torque1[i], 1e-10 * torque1[i]);
+    EXPECT_NEAR(std::abs(joints[1].torque), torque2[i], 1e-10 * torque2[i]);
   }
 }
 
@@ -222,9 +222,9 @@ effects = { elasticity = true }
   FrequencyResponse response(d);
   for (const double w : {1.0, 20.0, 49.9, 50.0, 51.0, 300.0}) {
     const Complex spring(1000, 3 * w), expected = 0.5 / 2.5 * spring / (spring - w * w * 0.4);
-    Eigen::VectorXcd force = Eigen::VectorXcd::Zero(2);
-    force[0] = 1;
-    EXPECT_LT(std::abs(response.torques(w, force)[0] - expected), 1e-12 * std::abs(expected)) << w;
+    Forcing force = Forcing::none(d);
+    force.torque[0] = 1;
+    EXPECT_LT(std::abs(response.swings(w, force)[0].torque - expected), 1e-12 * std::abs(expected)) << w;
   }
 }
 

@@ -141,7 +141,7 @@ TEST(OrbitCycle, FlywheelThatOnlyTheElasticMachineNeedsIsProposed) {
   ASSERT_TRUE(s.meeting) << s.meeting_words;
   EXPECT_GT(s.meeting->flywheel, 0);
   EXPECT_NEAR(*s.meeting->delta, *options.delta, 2e-5 * *options.delta);
-  EXPECT_NE(output_of(s).conclusion().find("by the work equation no flywheel is needed"), std::string::npos);
+  EXPECT_NE(output_of(s).conclusion().find("By the work equation no flywheel is needed"), std::string::npos);
 }
 
 // A crank far behind a soft shaft swings however heavy the flywheel at the motor is.

@@ -217,7 +217,7 @@ TEST(Size, FlywheelThatIsNotNeededIsSaidSo) {
   const Sizing s = size_flywheel(test::scene_from(heavy), demand(1.5));
   EXPECT_FALSE(s.needed);
   EXPECT_LE(s.methods[0].flywheel, 0);
-  EXPECT_NE(output_of(s).conclusion().find("no flywheel is needed"), std::string::npos);
+  EXPECT_NE(output_of(s).conclusion().find("No flywheel is needed"), std::string::npos);
   const Sizing large = size_flywheel(test::scene_from(press(straight(1200, 9), "5000 kg*m2")), demand(0.1));
   EXPECT_NE(output_of(large).text().find("already larger than needed"), std::string::npos);
 }

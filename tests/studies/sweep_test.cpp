@@ -19,6 +19,7 @@
 #include "studies/sweep/sweep_plots.h"
 #include "studies/variants/machine.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sweep_rows.h"
 
 namespace kurbel::sweep_test {
 namespace {
@@ -346,7 +347,7 @@ TEST(SweepMachine, ShardsMergedInThreadsAreOneSweepToTheLastBit) {
   swept(design, b, q, {"peak_torque", "max_speed"}, 2, 3, 2);
   swept(design, c, q, {"peak_torque", "max_speed"}, 3, 3, 2);
   EXPECT_EQ(merge_sweeps({b.path(), a.path(), c.path(), a.path()}, merged.path()), 45u);
-  expect_same_rows(SweepStore(merged.path()).read(), one.rows);
+  expect_same_rows(test::rows_of(SweepStore(merged.path())), one.rows);
   EXPECT_THROW(merge_sweeps({a.path()}, merged.path()), std::invalid_argument);  // is there already
 }
 

@@ -1,4 +1,4 @@
-// conclusions.h — what must hold of every conclusion: one text in all renderings, and no digits that nobody needs.
+// conclusions.h — requirements on every conclusion: one text in all renderings, and no superfluous digits.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace kurbel::test {
 
-// Numbers of a text outside of quotes and names, by another reading than the program's.
+// Numbers in a text outside of quotes and names, parsed independently of the program.
 inline std::vector<std::string> numbers_in(const std::string& text) {
   std::vector<std::string> numbers;
   bool quoted = false;
@@ -42,7 +42,7 @@ inline std::string in_one_run_of_words(std::string text) {
   return words;
 }
 
-// The same first sentence on the terminal, in short and in full, on the page and in JSON; at most four digits.
+// The same first sentence on the terminal, in the short and the full form, on the page and in JSON; at most four digits.
 inline void expect_sound_conclusion(const Findings& f, const std::string& whose) {
   const std::vector<std::string> sentences = concluded(f.claims);
   ASSERT_FALSE(sentences.empty()) << whose;

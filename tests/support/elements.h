@@ -1,4 +1,4 @@
-// elements.h — the demands that every element must meet: exact Jacobian in each mode (jacobians.h), no trace when off.
+// elements.h — requirements on every element: exact Jacobian in each mode (jacobians.h), no trace when switched off.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace kurbel::test {
 
-// Two scenes that are the same machine: same states, Jacobian, guards, and the same trajectory to the last bit.
+// Two scenes that describe the same machine: same states, Jacobian, guards, and the same trajectory to the last bit.
 inline void expect_same_machine(const std::string& off, const std::string& without) {
   const Scene a = scene_from(off), b = scene_from(without);
   Equations ea(compile(a, a.effects), false), eb(compile(b, b.effects), false);

@@ -8,7 +8,7 @@
 
 namespace kurbel::test {
 
-// All bytes of a file; empty where there is none.
+// All bytes of a file; empty if there is none.
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream text;

@@ -1,5 +1,5 @@
-// free_bodies.h — every node of a network cut free: inertia, elements, and what its joints and gears bring. Where all
-// nodes are in balance every joint's torque is the same by its one side and by its other (theory 5.18).
+// free_bodies.h — free-body check of every node of a network: inertia, elements, torques of its joints and gears. If
+// all nodes are in balance, every joint's torque is the same from either side (theory 5.18).
 #pragma once
 
 #include <fmt/format.h>
@@ -14,13 +14,13 @@
 namespace kurbel::test {
 
 struct OpenNode {
-  double part = 0;  // what is left over what meets there
+  double part = 0;  // residual over the sum of magnitudes at the node
   std::string words = {};
 };
 
-// By what is published of a state alone, node by node; no walk through a tree is shared with what found the torques.
-// Nodes at which a standing shaft is held are left out, for holds of elements are not published; those of gears
-// that a standing member makes one joint, whose torque meets no node of its own; and the frame.
+// Uses only the published quantities of a state, node by node, independently of the tree traversal that determines the
+// torques. Omitted are nodes at which a standing shaft is held, since holding torques of elements are not published;
+// nodes of gears reduced to one joint by a standing member, whose torque meets no node of its own; and the frame.
 inline OpenNode most_open_node(Equations& equations, double t, std::span<const double> y) {
   const Snapshot& s = equations.snapshot(t, y);
   const Model& m = equations.model();

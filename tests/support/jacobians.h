@@ -1,5 +1,5 @@
-// jacobians.h — the exact Jacobian of the equations against central differences of their flow; two scenes that must be
-// one model.
+// jacobians.h — the exact Jacobian of the equations against central differences of their flow; comparison of two
+// scenes that must give one model.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,8 +49,8 @@ inline Slopes slopes_of(Equations& equations, double t, const std::vector<double
   return slopes_of(equations, t, y, step);
 }
 
-// Every entry, relative to the largest of its row, each state in its scale; from a row on, where those before it are
-// known (the slip of a locked clutch).
+// Every entry, relative to the largest of its row, each state in its scale; from `first_row` on if earlier rows are
+// known to differ (the slip of a locked clutch).
 inline void expect_exact(const Slopes& slopes, Equations& equations, double tolerance, std::size_t first_row = 0) {
   const std::vector<double> scale = equations.error_control(1).scale;
   for (std::size_t r = first_row; r < slopes.size; ++r) {
@@ -67,7 +67,7 @@ inline void expect_exact_jacobian(Equations& equations, const std::vector<double
   expect_exact(slopes_of(equations, 0.1, y), equations, tolerance, first_row);
 }
 
-// The same at given twists and speeds of the free shafts, in the modes that belong to them.
+// The same at given twists and speeds of the free shafts, in the corresponding modes.
 inline void expect_exact_jacobian(const std::string& scene_text, double angle, const std::vector<double>& twists,
                                   const std::vector<double>& speeds) {
   const Scene scene = scene_from(scene_text);
@@ -75,7 +75,7 @@ inline void expect_exact_jacobian(const std::string& scene_text, double angle, c
   expect_exact_jacobian(equations, equations.state_of(0.1, angle, twists, speeds));
 }
 
-// The same at the start of a scene, in the modes that hold there; the last states are then moved off it by `offset`.
+// The same at the start of a scene, in the modes there; the last states are then shifted by `offset`.
 inline void expect_exact_jacobian_near_start(const std::string& scene_text, const std::vector<double>& offset = {},
                                              double tolerance = 3e-7) {
   const Scene scene = scene_from(scene_text);

@@ -1,4 +1,4 @@
-// scenes.h — runs scenes from tests as a user would, and asks for figures by name.
+// scenes.h — runs scenes in tests as a user would, and looks up figures by name.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ inline std::string source_path(const std::string& relative) { return KURBEL_SOUR
 inline Scene scene_from(const std::string& text) { return parse_scene(text, "test.toml", all_kinds()); }
 inline Scene scene_file(const std::string& relative) { return read_scene(source_path(relative), all_kinds()); }
 
-// Runs with the scene's own effects; errors measured unless told otherwise.
+// Runs with the scene's own effects; errors are measured unless switched off.
 inline Result run(const Scene& scene, bool measure_error = true) {
   return simulate(scene, scene.effects, "test",
                   SimulateOptions{.measure_error = measure_error, .method = {}, .accuracy = {}, .until = {}});
@@ -29,7 +29,7 @@ inline double figure(const Result& result, const std::string& name) {
   return found ? found->value : std::nan("");
 }
 
-// A state at a given time: run until then, errors off.
+// A state at a given time: runs until then, without errors.
 inline Result run_until(Scene scene, double t) {
   scene.run.until = t;
   return run(scene, false);

@@ -1,4 +1,4 @@
-// sheet_page.h — what a printed sheet says, read back from its page: cells of tables, marks of diagrams.
+// sheet_page.h — contents of a printed sheet, read back from its page: cells of tables, marks of diagrams.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ inline std::vector<SheetCell> cells_of(const std::string& html) {
     list.push_back({(*i)[1], (*i)[2], (*i)[4], std::stod((*i)[3])});
   return list;
 }
-// The first of its row and column.
+// The first cell of this row and column.
 inline double cell_at(const std::vector<SheetCell>& cells, const std::string& row, const std::string& column) {
   for (const SheetCell& c : cells)
     if (c.row == row && c.column == column) return c.value;
@@ -29,7 +29,7 @@ inline double cell_at(const std::vector<SheetCell>& cells, const std::string& ro
   return std::nan("");
 }
 
-// Of a diagram with heights to scale.
+// A mark of a diagram with heights to scale.
 struct SheetMark {
   std::string diagram, of, position;
   double per_mm = 0, zero = 0, x = 0, y = 0, value = 0;

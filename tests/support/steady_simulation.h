@@ -1,5 +1,5 @@
-// steady_simulation.h — simulates a scene until its cycles repeat, and measures δ at the crank and at the motor: what the
-// studies' steady cycles are held against.
+// steady_simulation.h — simulates a scene until its cycles repeat, and measures δ at the crank and at the motor: the
+// reference for the studies' steady cycles.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,16 +21,16 @@ struct SteadySimulation {
   double link_delta = 0, motor_delta = 0;  // of the last cycle; the motor's shaft by its own mid speed
   double link_error = 0, motor_error = 0;  // difference to a run with 100 × looser tolerances
   double mid_speed = 0;                    // of the link [rad/s]
-  bool settled = false;                    // speed and δ have come within 1e-5 of where they tend to
+  bool settled = false;                    // speed and δ are within 1e-5 of their limits
   double speed_change = 0;                 // of the link's mid speed from cycle to cycle, over itself
-  double speed_to_come = 0;                // what it has still to change, over itself; ∞: it tends nowhere
+  double speed_to_come = 0;                // its remaining change, relative; ∞: no limit
   int cycles = 0;
   std::vector<double> phi, link, motor;  // last cycle: angle [rad], speeds [rad/s], the motor's reduced to the link
 };
 
 namespace settling {
 
-// Speeds of two nodes over each cycle; their extremes are located by roots of the acceleration.
+// Speeds of two nodes over each cycle; their extremes are located as roots of the acceleration.
 class CycleSpeeds final : public Observer {
  public:
   struct Cycle {
@@ -64,7 +64,7 @@ class CycleSpeeds final : public Observer {
       see(view.equations().snapshot(t, y), view.equations(), y);
     }
   }
-  // Whole ones, the open one left out.
+  // Number of whole cycles, without the open one.
   std::size_t whole() const { return cycles_.empty() ? 0 : cycles_.size() - 1; }
   const Cycle& cycle(std::size_t i) const { return cycles_[i]; }
 
@@ -77,7 +77,7 @@ class CycleSpeeds final : public Observer {
     const double angle = equations.angle_with_turns(static_cast<std::size_t>(model_.reduction_angle), y);
     const auto index = static_cast<std::size_t>(std::max(0.0, std::floor(angle / cycle_)));
     if (index >= cycles_.size()) {
-      if (cycles_.size() > 2)  // only the last two are looked at again
+      if (cycles_.size() > 2)  // only the last two are used again
         for (auto* list : {&cycles_[cycles_.size() - 2].phi, &cycles_[cycles_.size() - 2].speed[0],
                            &cycles_[cycles_.size() - 2].speed[1]})
           list->clear();
@@ -100,9 +100,9 @@ class CycleSpeeds final : public Observer {
 };
 
 inline constexpr double tolerance = 1e-9, near_enough = 1e-5;
-inline constexpr double noise = 100 * tolerance;  // that integration leaves in a speed, over itself
+inline constexpr double noise = 100 * tolerance;  // integration error of a speed, relative
 
-// Settled is what has nothing left to change: δ of a machine that runs away may stand still long before.
+// Settled means that no change remains: δ of a runaway machine may be constant long before.
 inline void judge(const CycleSpeeds& speeds, SteadySimulation& result) {
   const std::size_t n = speeds.whole();
   std::vector<double> mid, delta[2];
@@ -121,7 +121,7 @@ inline void judge(const CycleSpeeds& speeds, SteadySimulation& result) {
 }  // namespace settling
 
 // Starts at the cycle's begin with `start_speed` of the reduction link and twists in equilibrium. `cycle` is the
-// cycle's angle; runs double in length until settled, at most `most_cycles`. Throws as compile does.
+// cycle's angle; the length of runs is doubled until settled, at most `most_cycles`. Throws as compile does.
 inline SteadySimulation simulate_steady(Scene scene, const Effects& effects, double start_speed, double cycle,
                                         int motor_node, const SimulateOptions& options, int most_cycles = 320) {
   scene.run.start = {};
@@ -161,7 +161,7 @@ inline SteadySimulation simulate_steady(Scene scene, const Effects& effects, dou
     result.phi = last.phi;
     result.link = last.speed[0];
     result.motor = last.speed[1];
-    // The cycle closes: its first point comes again.
+    // The cycle closes: its first point is repeated.
     result.phi.push_back(result.phi.front() + cycle);
     result.link.push_back(result.link.front());
     result.motor.push_back(result.motor.front());

@@ -1,4 +1,4 @@
-// thorough.h — whether tests take their long form, as scripts/test --thorough asks for by KURBEL_THOROUGH=1.
+// thorough.h — whether tests run in their long form, set by scripts/test --thorough through KURBEL_THOROUGH=1.
 #pragma once
 
 #include <cstdlib>

@@ -1,12 +1,12 @@
-// twins.h — one machine written in two ways: behind an ideal gear or reduced to the shaft before it, forwards or
-// mirrored; and the comparison of all that its runs put out.
+// twins.h — one machine described in two ways: behind an ideal gear or reduced to the shaft before it, forwards or
+// mirrored; and the comparison of all results of its runs.
 //
-// A scene's text holds its values in angle brackets, each with the letter of its kind:
+// Values in a scene's text are in angle brackets, each with the letter of its kind:
 //     <J 0.3> kg·m²   <k 200> N·m/rad   <c 2> N·m·s/rad   <q 0.1> N·m·s²/rad²   <M 40> N·m   <w 30> rad/s   <a 0.1> rad
-// and any other quantity by the power of the ratio that it goes with: <^-3 kg/m3 870>. Written so they are magnitudes;
-// a plus makes them turn their sign with the sense of rotation: <M+ 40>, <w+ 30>, <^0+ m 0.2>. <?a|b> is the text a, in
-// a mirrored machine b. <curve+ speed N*m: 0 40, 60 -5; interpolation = "smooth"> is a table. "F:" before any of them
-// takes the view of the far group in a text of the near one.
+// other quantities with the power of the ratio by which they transform: <^-3 kg/m3 870>. Without plus they are
+// magnitudes; with a plus their sign changes with the sense of rotation: <M+ 40>, <w+ 30>, <^0+ m 0.2>. <?a|b> is the
+// text a, in a mirrored machine b. <curve+ speed N*m: 0 40, 60 -5; interpolation = "smooth"> is a table. "F:" before
+// any of them uses the view of the far group in a text of the near one.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,8 +26,8 @@
 
 namespace kurbel::test {
 
-// What is written with ω is seen as sign · ratio · ω: inertias as J/ratio², stiffness and damping alike, torques as
-// sign · M/ratio.                                                                                (theory 5.3)
+// A quantity written for ω is transformed to sign · ratio · ω: inertias J/ratio², stiffness and damping likewise,
+// torques sign · M/ratio.                                                                     (theory 5.3)
 struct View {
   double ratio = 1;
   int sign = 1;
@@ -112,10 +112,9 @@ inline std::string seen(const std::string& text, const View& here, const View& f
   return out;
 }
 
-// An ideal gear of ω_in = ratio · ω_out: a gearbox, or, where the ratio is negative, a planetary gear with its carrier
-// held.
+// An ideal gear with ω_in = ratio · ω_out: a gearbox or, for a negative ratio, a planetary gear with fixed carrier.
 struct IdealGear {
-  std::vector<std::pair<int, int>> teeth;  // of the stages; of a planetary gear of sun and ring
+  std::vector<std::pair<int, int>> teeth;  // of the stages; for a planetary gear of sun and ring
   bool reversing = false;
   double ratio() const {
     double product = reversing ? -1 : 1;
@@ -137,7 +136,7 @@ struct IdealGear {
 
 // --- scenes ----------------------------------------------------------------------------------------------------------
 
-// A text of tables, table by table.
+// Splits a text into its tables.
 inline std::vector<std::pair<std::string, std::string>> tables_in(const std::string& text) {
   std::vector<std::pair<std::string, std::string>> tables;
   for (std::size_t from = text.find("\n["); from != std::string::npos;) {
@@ -150,14 +149,14 @@ inline std::vector<std::pair<std::string, std::string>> tables_in(const std::str
 
 struct TwinScene {
   std::string name;
-  std::vector<std::string> near, far, rest;     // along the line: a gear stands before and after the far ones
+  std::vector<std::string> near, far, rest;     // along the line: there is a gear before and after the far ones
   std::vector<std::string> far_besides = {};    // further components of the far group: on a shaft, in branches
   std::string near_text, far_text;              // tables of all components, in the view of their group
   std::string end;                              // branches, effects, sequence, run
   std::map<std::string, int> output_sign = {};  // of mechanisms' outputs in the mirrored machine; default: 1
-  std::vector<std::string> travels = {};        // slides, whose travel counts the angle that their shaft starts with
+  std::vector<std::string> travels = {};        // slides whose travel includes the start angle of their shaft
   bool reversible = true;                       // the far group has a mirrored form
-  std::size_t gears = 4;                        // behind the first of these: laws over the angle fit few ratios
+  std::size_t gears = 4;                        // number of gears to use: laws over the angle fit few ratios only
   bool dear = false;                            // modes and reduction take 20 s and more: only in the thorough form
 };
 
@@ -168,12 +167,12 @@ inline std::string line_of(const std::vector<std::vector<std::string>>& groups) 
   return "line = [" + text + "]\n";
 }
 
-// The machine without gears: each group in its view.
+// The machine without gears: each group in its own view.
 inline std::string direct(const TwinScene& s, const View& near, const View& far) {
   return line_of({s.near, s.far, s.rest}) + seen(s.near_text, near, far) + seen(s.far_text, far, far) +
          seen(s.end, near, far);
 }
-// The machine with gears, each group as it is written.
+// The machine with gears, each group as written.
 inline std::string geared(const TwinScene& s, const IdealGear& gear) {
   std::vector<std::vector<std::string>> groups = {s.near, {"gear_to"}, s.far};
   if (!s.rest.empty()) groups.push_back({"gear_back"}), groups.push_back(s.rest);
@@ -183,27 +182,27 @@ inline std::string geared(const TwinScene& s, const IdealGear& gear) {
 
 // --- comparison ------------------------------------------------------------------------------------------------------
 
-// How what the first run says of a component becomes what the second one says.
+// Transforms the first run's results of a component to those of the second one.
 struct TwinMap {
   std::map<std::string, View> view = {};
-  View other = {};                              // of those that are not named
-  double turned = 0;                            // all angles are that much further [rad]
+  View other = {};                              // for components not in `view`
+  double turned = 0;                            // shift of all angles [rad]
   std::map<std::string, int> output_sign = {};  // of mechanisms' outputs
-  std::vector<std::string> slides = {};         // whose travel follows the sense of their shaft
-  std::vector<std::string> travels = {};        // slides that were told to start further on
+  std::vector<std::string> slides = {};         // slides whose travel has the sign of their shaft's sense
+  std::vector<std::string> travels = {};        // slides that start at a shifted position
   View of(const std::string& component) const {
     const auto found = view.find(component);
     return found == view.end() ? other : found->second;
   }
   // "torque.gear.sun" → gear
-  // Of "peak_torque.coupling", and of "torque_order.0.5.coupling", whose order stands between.
+  // "peak_torque.coupling" → coupling, and "torque_order.0.5.coupling", with the order in between.
   static std::string component_in(const std::string& name) {
     std::size_t first = name.find('.');
     while (first != std::string::npos && first + 1 < name.size() && std::isdigit(name[first + 1]))
       first = name.find('.', first + 1);
     return first == std::string::npos ? name : name.substr(first + 1, name.find('.', first + 1) - first - 1);
   }
-  // Shafts behind gears are that much further by their ratio: the shift that they have at the start, for good.
+  // Shafts behind gears are shifted according to their ratio: their shift at the start, which is constant.
   std::map<std::string, double> start_shift = {};  // of components
   double offset(const std::string& name) const {
     if (!name.starts_with("angle.") && !name.starts_with("final_angle.")) return 0;
@@ -227,7 +226,7 @@ struct TwinMap {
                            quantity == "motor_rms_torque" || quantity.ends_with("_order");
     for (const char* prefix : {"cycle_peak_", "cycle_rms_", "peak_", "rms_"})
       if (quantity.starts_with(prefix)) quantity = quantity.substr(std::string(prefix).size());
-    // Across the stroke a mirrored slider-crank has everything on the other side.
+    // Transverse quantities of a mirrored slider-crank change sign.
     for (const char* across : {"crank_pin_shift_y", "crank_pin_shift_y_rate", "guide_reaction", "rod_deflection"})
       if (quantity == across) return other.sign;
     if (quantity.starts_with("bending_")) return other.sign;
@@ -238,7 +237,7 @@ struct TwinMap {
         return found == output_sign.end() ? 1 : found->second;
       }
     if (unit == "rad" || unit == "rad/s" || unit == "rad/s2") return (magnitude ? 1 : v.sign) * v.ratio;
-    // Pulleys keep their radius, so that forces go with torques.
+    // Pulleys keep their radius, so that forces transform like torques.
     if (quantity == "strand_force" || quantity == "slack_force") return 1 / v.ratio;
     if (unit == "N*m") return (magnitude ? 1 : v.sign) / v.ratio;
     return 1;
@@ -255,7 +254,7 @@ inline TwinMap map_of(const TwinScene& s, const View& near, const View& far) {
   return map;
 }
 
-// A motor that is switched, as the mirrored one is to be reversed, has no heat of slip told of it.
+// No heat of slip is given for a motor with commands, such as a mirrored one, which is reversed.
 inline bool of_a_commanded_motor(const std::string& name) { return name.starts_with("motor_slip_heat."); }
 
 inline bool of_a_gear(const std::string& name) {
@@ -275,7 +274,7 @@ inline std::string turned(std::string words, int sign) {
   return words;
 }
 
-// The ends of a travel whose sign is the other one.
+// Names of the ends of a travel if its sign is reversed.
 inline std::string at_other_end(std::string words) {
   for (const auto& [a, b] : {std::pair{"extended", "folded"}, {"least", "greatest"}}) {
     const std::size_t of_a = words.find(a), of_b = words.find(b);
@@ -285,7 +284,7 @@ inline std::string at_other_end(std::string words) {
   return words;
 }
 
-// Channel by channel and row by row, over the largest value that the channel takes.
+// Channel by channel and row by row, relative to the largest value of the channel.
 inline void expect_same_channels(const Result& first, const Result& second, const TwinMap& map, double allowed) {
   const TrajectoryRecorder &a = *first.trajectory, &b = *second.trajectory;
   ASSERT_EQ(a.time().size(), b.time().size());
@@ -302,7 +301,7 @@ inline void expect_same_channels(const Result& first, const Result& second, cons
     const auto m = static_cast<std::size_t>(same - b.channels().begin());
     const double factor = map.factor(channel.name.text, channel.unit);
     double offset = map.offset(channel.name.text);
-    // An output that goes round stands where it stands, whatever whole turns it is told with.
+    // The position of a rotating output is compared modulo whole turns.
     if (channel.unit == "rad" && channel.name.text.starts_with("position.") && !a.time().empty())
       offset += 2 * M_PI * std::round((b.value(0, m) - factor * a.value(0, k) - offset) / (2 * M_PI));
     for (const std::string& slide : map.travels)
@@ -337,16 +336,16 @@ inline void expect_same_figures(const std::vector<Figure>& first, const std::vec
   };
   for (const Figure& f : first) {
     if (of_a_gear(f.name) || of_a_commanded_motor(f.name)) continue;
-    if (f.what.functional == Functional::order_phase) continue;  // a sense that turns over moves it by half a turn
+    if (f.what.functional == Functional::order_phase) continue;  // reversing the rotation shifts it by half a turn
     const Figure* other = counterpart(f.name);
-    if (!other && f.what.functional == Functional::order) continue;  // what is lost in its error is not told
+    if (!other && f.what.functional == Functional::order) continue;  // amplitudes within their error are not given
     if (!other) {
       ADD_FAILURE() << "the second run has no figure " << f.name;
       continue;
     }
     EXPECT_EQ(f.unit, other->unit) << f.name;
     const double factor = map.factor(f.name, f.unit);
-    // Of two equal peaks of opposite sign either may be the larger one.
+    // Of two equal peaks of opposite sign either may be the larger.
     const bool peak = f.name.starts_with("peak_") || f.name.starts_with("cycle_peak_");
     const double a = peak ? std::abs(factor * f.value) : factor * f.value + map.offset(f.name),
                  b = peak ? std::abs(other->value) : other->value;
@@ -408,7 +407,7 @@ inline void expect_same_energy(const EnergyBalance& a, const EnergyBalance& b, d
   same("stored energy at the end", a.stored_end, b.stored_end);
 }
 
-// All of the first run's channels, figures, works, events and notes stand in the second one, too. `allowed`: difference
+// All channels, figures, works, events and notes of the first run are in the second one, too. `allowed`: difference
 // over the largest value of a channel, over the value of a figure.
 inline void expect_same_run(const Result& first, const Result& second, TwinMap map, double allowed) {
   ASSERT_TRUE(first.complete && second.complete) << first.diagnosis << "\n" << second.diagnosis;
@@ -417,7 +416,7 @@ inline void expect_same_run(const Result& first, const Result& second, TwinMap m
   expect_same_figures(first.figures, second.figures, map, allowed);
   expect_same_events(first, second, map, allowed);
   expect_same_energy(first.energy, second.energy, allowed);
-  // Of rows that are too coarse a peak that two of them enclose decides.
+  // The note on coarse rows depends on a peak between two rows and may differ.
   const auto count = [](const Result& r) {
     return std::count_if(r.notes.begin(), r.notes.end(),
                          [](const std::string& note) { return !note.starts_with("the rows of trajectory.csv"); });

@@ -25,14 +25,14 @@ struct Row {
   std::string key() const { return source + " | " + what; }
 };
 
-// Digits that tell a number apart within what is allowed, and one more.
+// Digits that distinguish a number within the allowed difference, and one more.
 std::string up_to(double value, double within) {
   if (within <= 0 || value == 0) return fmt::format("{}", value);
   const int digits = static_cast<int>(std::floor(std::log10(std::abs(value))) - std::floor(std::log10(within))) + 2;
   return fmt::format("{:.{}g}", value, std::clamp(digits, 3, 16));
 }
 
-// A number as it was given, or as many digits as are compared where it was computed.
+// A number as given or, if computed, with the digits compared.
 std::string as_given(double value, double within) {
   const std::string shortest = fmt::format("{}", value);
   return std::count_if(shortest.begin(), shortest.end(), [](char c) { return c >= '0' && c <= '9'; }) <= 13
@@ -52,7 +52,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-// Rows of the page as it stands, by source and quantity: expected and found.
+// Rows of the existing page, by source and quantity: expected and found.
 const std::map<std::string, std::pair<std::string, std::string>>& rows_of_the_page() {
   static const auto rows = [] {
     std::map<std::string, std::pair<std::string, std::string>> found;
@@ -68,7 +68,7 @@ const std::map<std::string, std::pair<std::string, std::string>>& rows_of_the_pa
   return rows;
 }
 
-// The page says of this row what this test finds.
+// The row on the page must equal this test's result.
 void expect_on_the_page(const Row& row, double found, double within) {
   const auto at = rows_of_the_page().find(row.key());
   if (at == rows_of_the_page().end()) {

@@ -1,12 +1,12 @@
-// validation.h — a number of kurbel's held against one from outside, and its row in docs/validation.md.
+// validation.h — compares a number with an external reference, and adds its row to docs/validation.md.
 //
-// A test that follows a published case or a closed form says so here, and with that stands on the page:
+// A test that follows a published case or a closed form declares it here and is then listed on the page:
 //
 //     test::Validation khurmi(test::Against::published, "Khurmi, Gupta: Theory of Machines, ex. 12.3");
 //     khurmi.close("contact ratio", "", pair.contact_ratio, 1.4751556141, 1e-6);
 //
 // Each line is an expectation of the test, and a row of the page. The page is written by the tests themselves
-// (scripts/renew-docs); in every other run the row that stands there must be the one that the test finds.
+// (scripts/renew-docs); in every other run the existing row must equal the test's.
 #pragma once
 
 #include <optional>
@@ -16,25 +16,25 @@
 
 namespace kurbel::test {
 
-// What a number comes from. The page has a chapter for each.
+// Source of a reference number. The page has a chapter for each.
 enum class Against {
   published,    // printed in a book, a standard, a paper, a benchmark
   closed_form,  // a formula, evaluated by hand or in the test
-  reference,    // equations of motion of the test's own, integrated or summed by other means
+  reference,    // the test's own equations of motion, integrated or summed by other means
 };
 
-// One source, and the numbers that a test takes from it.
+// One source, and the reference numbers that a test takes from it.
 class Validation {
  public:
   Validation(Against against, std::string source) : against_(against), source_(std::move(source)) {}
 
-  // |found − expected| ≤ within, all in the unit named; `error` is what kurbel itself says of its number.
+  // |found − expected| ≤ within, all in the named unit; `error` is the error stated by kurbel.
   void near(const std::string& what, const std::string& unit, double found, double expected, double within,
             std::optional<double> error = {}) const;
-  // The same with `relative` to the expected number.
+  // The same, `relative` to the expected number.
   void close(const std::string& what, const std::string& unit, double found, double expected, double relative,
              std::optional<double> error = {}) const;
-  // A figure in SI and its error, both over `scale`, the size of the unit named [SI].
+  // A figure in SI and its error, both divided by `scale`, the size of the named unit [SI].
   void near(const std::string& what, const std::string& unit, double scale, const Figure* figure, double expected,
             double within) const;
 

@@ -1,5 +1,5 @@
-// waiting.h — a right answer that the program does not give yet: its test stands now, and asks to be turned round on the
-// day it is given.
+// waiting.h — a correct result that the program does not give yet: the test exists already, and fails as soon as the
+// result is correct, so that it is converted.
 #pragma once
 
 #include <gtest/gtest-spi.h>
@@ -10,8 +10,8 @@
 
 namespace kurbel::test {
 
-// `expectations`: EXPECT_… with the right values, as they will stand when part `part` of the plan has mended what is wrong.
-// Until then at least one of them fails, or they meet a refusal, which is noted; once all hold, this test fails.
+// `expectations`: EXPECT_… with the correct values, valid once part `part` of the plan has corrected the error. Until
+// then at least one of them fails, or an exception is thrown; once all hold, this test fails.
 inline void waits_for_part(int part, const std::function<void()>& expectations) {
   testing::TestPartResultArray results;
   bool refused = false;

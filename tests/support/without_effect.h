@@ -1,4 +1,4 @@
-// without_effect.h — a scene as if an effect had never been written into it.
+// without_effect.h — a scene without the data of an effect.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace kurbel::test {
 
-// Takes every key that gives the effect its parameters out of a section and what is nested in it; required keys and
-// those with a default stay.
+// Removes all keys that parametrise the effect from a section and its nested sections; required keys and those with a
+// default stay.
 inline void erase_effect(Section& section, const std::string& effect) {
   std::erase_if(section.settings, [&](const Setting& setting) {
     const auto& keys = section.kind->keys;
