@@ -128,6 +128,54 @@ Status guarded(Component* c, const char* function, unsigned allowed, const Do& a
   });
 }
 
+// All of an instance as an importer keeps it, and as bytes: the phase, the time, and what the instance says of itself.
+struct Kept {
+  InstanceState state;
+  unsigned phase = 0;
+  double last_time = 0;
+};
+inline const Kept& kept(const void* state) {
+  if (!state) throw std::invalid_argument("there is no state");
+  return *static_cast<const Kept*>(state);
+}
+inline void keep(Component& c, void** state) {
+  if (!state) throw std::invalid_argument("there is no place for the state");
+  auto now = std::make_unique<Kept>(Kept{c.instance->state(), c.phase, c.last_time});
+  delete static_cast<Kept*>(*state);  // given back: taken anew
+  *state = now.release();
+}
+inline void restore(Component& c, const void* state) {
+  const Kept& to = kept(state);
+  c.instance->restore(to.state);
+  c.phase = to.phase, c.last_time = to.last_time;
+}
+inline void forget(void** state) {
+  if (!state) return;
+  delete static_cast<Kept*>(*state);
+  *state = nullptr;
+}
+inline std::string text_of(Component& c, const void* state) {
+  const Kept& of = kept(state);
+  return fmt::format("{} {} ", of.phase, of.last_time) + c.instance->text(of.state);
+}
+inline void serialise(Component& c, const void* state, void* bytes, std::size_t size) {
+  const std::string text = text_of(c, state);
+  if (size != text.size()) throw std::invalid_argument("the size is not that of the serialised state");
+  std::copy(text.begin(), text.end(), static_cast<char*>(bytes));
+}
+inline void* deserialise(Component& c, const void* bytes, std::size_t size) {
+  const std::string text(static_cast<const char*>(bytes), size);
+  std::istringstream stream(text);
+  auto of = std::make_unique<Kept>();
+  if (!(stream >> of->phase >> of->last_time)) throw std::invalid_argument("this is no state of this component");
+  stream.get();
+  of->state = c.instance->state_from(text.substr(static_cast<std::size_t>(stream.tellg())));
+  return of.release();
+}
+
+// A communication point differs from where the last step ended by round-off at most.
+inline bool is_at(double point, double t) { return std::abs(point - t) <= 1e-9 * std::max(1.0, std::abs(t)); }
+
 inline Status rates_of(Component& c, std::span<double> rates) {
   if (c.instance->derivatives(rates)) return Status::ok;
   c.log(Status::discard, "logStatusError",

@@ -1,7 +1,6 @@
 // fmi2_functions.cpp — every function of FMI 2.0; those of other types than Real and of steps that are on their way answer
 // that they are not supported.
 #include <algorithm>
-#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,14 +48,6 @@ std::string path_of(const std::string& location) {
   }
   return path;
 }
-
-bool goes_on_at(double point, double t) { return std::abs(point - t) <= 1e-9 * std::max(1.0, std::abs(t)); }
-
-struct Kept2 {
-  InstanceState state;
-  unsigned phase;
-  double last_time;
-};
 
 }  // namespace
 
@@ -169,55 +160,25 @@ KURBEL_FMI2 fmi2SetString(fmi2Component component, const fmi2ValueReference*, st
 // --- all of it, kept and restored (2.1.8) ---
 
 KURBEL_FMI2 fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return call2(component, "fmi2GetFMUstate", anywhere & ~failed, [&](Component& c) {
-    if (!state) throw std::invalid_argument("there is no place for the state");
-    auto kept = std::make_unique<Kept2>(Kept2{c.instance->state(), c.phase, c.last_time});
-    delete static_cast<Kept2*>(*state);  // given back: taken anew
-    *state = kept.release();
-  });
+  return call2(component, "fmi2GetFMUstate", anywhere & ~failed, [&](Component& c) { keep(c, state); });
 }
 KURBEL_FMI2 fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
-  return call2(component, "fmi2SetFMUstate", anywhere, [&](Component& c) {
-    if (!state) throw std::invalid_argument("there is no state");
-    const Kept2& kept = *static_cast<Kept2*>(state);
-    c.instance->restore(kept.state);
-    c.phase = kept.phase, c.last_time = kept.last_time;
-  });
+  return call2(component, "fmi2SetFMUstate", anywhere, [&](Component& c) { restore(c, state); });
 }
 KURBEL_FMI2 fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
-  return call2(component, "fmi2FreeFMUstate", anywhere, [&](Component&) {
-    if (!state) return;
-    delete static_cast<Kept2*>(*state);
-    *state = nullptr;
-  });
-}
-static std::string text2_of(Component& c, fmi2FMUstate state) {
-  if (!state) throw std::invalid_argument("there is no state");
-  const Kept2& kept = *static_cast<Kept2*>(state);
-  return fmt::format("{} {} ", kept.phase, kept.last_time) + c.instance->text(kept.state);
+  return call2(component, "fmi2FreeFMUstate", anywhere, [&](Component&) { forget(state); });
 }
 KURBEL_FMI2 fmi2SerializedFMUstateSize(fmi2Component component, fmi2FMUstate state, std::size_t* size) {
   return call2(component, "fmi2SerializedFMUstateSize", anywhere,
-               [&](Component& c) { *size = text2_of(c, state).size(); });
+               [&](Component& c) { *size = text_of(c, state).size(); });
 }
 KURBEL_FMI2 fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fmi2Byte bytes[], std::size_t size) {
-  return call2(component, "fmi2SerializeFMUstate", anywhere, [&](Component& c) {
-    const std::string text = text2_of(c, state);
-    if (size != text.size()) throw std::invalid_argument("the size is not that of the serialised state");
-    std::memcpy(bytes, text.data(), size);
-  });
+  return call2(component, "fmi2SerializeFMUstate", anywhere, [&](Component& c) { serialise(c, state, bytes, size); });
 }
 KURBEL_FMI2 fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], std::size_t size,
                                     fmi2FMUstate* state) {
-  return call2(component, "fmi2DeSerializeFMUstate", anywhere, [&](Component& c) {
-    const std::string text(bytes, size);
-    std::istringstream stream(text);
-    auto kept = std::make_unique<Kept2>();
-    if (!(stream >> kept->phase >> kept->last_time)) throw std::invalid_argument("this is no state of this component");
-    stream.get();
-    kept->state = c.instance->state_from(text.substr(static_cast<std::size_t>(stream.tellg())));
-    *state = kept.release();
-  });
+  return call2(component, "fmi2DeSerializeFMUstate", anywhere,
+               [&](Component& c) { *state = deserialise(c, bytes, size); });
 }
 
 // --- derivatives (2.1.9) ---
@@ -310,7 +271,7 @@ KURBEL_FMI2 fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2Valu
 }
 KURBEL_FMI2 fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real step, fmi2Boolean) {
   return call2(component, "fmi2DoStep", step_mode, [&](Component& c) {
-    if (!goes_on_at(point, c.instance->time()))
+    if (!is_at(point, c.instance->time()))
       throw std::invalid_argument(fmt::format("the step begins at {:.9g} s, where the instance is not", point));
     if (!(step > 0) || !std::isfinite(step)) throw std::invalid_argument("the step must be longer than 0");
     c.last_time = c.instance->go(step, nullptr);

@@ -1,6 +1,5 @@
 // fmi3_functions.cpp — the functions of FMI 3.0 that do something; the others: fmi3_refused.cpp.
 #include <algorithm>
-#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,9 +34,6 @@ bool same_count(std::size_t a, std::size_t b) {
   if (a != b) throw std::invalid_argument("as many values as value references are needed: all variables are scalars");
   return true;
 }
-// A communication point differs from where the last step ended by round-off at most.
-bool is_at(double point, double t) { return std::abs(point - t) <= 1e-9 * std::max(1.0, std::abs(t)); }
-
 }  // namespace
 
 extern "C" {
@@ -151,63 +147,27 @@ KURBEL_FMI3 fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference refer
 
 // --- all of it, kept and restored (2.2.8) ---
 
-struct Kept3 {
-  InstanceState state;
-  unsigned phase;
-  double last_time;
-};
-
 KURBEL_FMI3 fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
-  return call3(instance, "fmi3GetFMUState", anywhere & ~(failed | within_step), [&](Component& c) {
-    if (!state) throw std::invalid_argument("there is no place for the state");
-    auto kept = std::make_unique<Kept3>(Kept3{c.instance->state(), c.phase, c.last_time});
-    delete static_cast<Kept3*>(*state);  // given back: taken anew
-    *state = kept.release();
-  });
+  return call3(instance, "fmi3GetFMUState", anywhere & ~(failed | within_step), [&](Component& c) { keep(c, state); });
 }
 KURBEL_FMI3 fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
-  return call3(instance, "fmi3SetFMUState", anywhere & ~within_step, [&](Component& c) {
-    if (!state) throw std::invalid_argument("there is no state");
-    const Kept3& kept = *static_cast<Kept3*>(state);
-    c.instance->restore(kept.state);
-    c.phase = kept.phase, c.last_time = kept.last_time;
-  });
+  return call3(instance, "fmi3SetFMUState", anywhere & ~within_step, [&](Component& c) { restore(c, state); });
 }
 KURBEL_FMI3 fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
-  return call3(instance, "fmi3FreeFMUState", anywhere, [&](Component&) {
-    if (!state) return;
-    delete static_cast<Kept3*>(*state);
-    *state = nullptr;
-  });
-}
-
-static std::string text_of(Component& c, fmi3FMUState state) {
-  if (!state) throw std::invalid_argument("there is no state");
-  const Kept3& kept = *static_cast<Kept3*>(state);
-  return fmt::format("{} {} ", kept.phase, kept.last_time) + c.instance->text(kept.state);
+  return call3(instance, "fmi3FreeFMUState", anywhere, [&](Component&) { forget(state); });
 }
 KURBEL_FMI3 fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state, std::size_t* size) {
   return call3(instance, "fmi3SerializedFMUStateSize", anywhere & ~within_step,
                [&](Component& c) { *size = text_of(c, state).size(); });
 }
 KURBEL_FMI3 fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[], std::size_t size) {
-  return call3(instance, "fmi3SerializeFMUState", anywhere & ~within_step, [&](Component& c) {
-    const std::string text = text_of(c, state);
-    if (size != text.size()) throw std::invalid_argument("the size is not that of the serialised state");
-    std::memcpy(bytes, text.data(), size);
-  });
+  return call3(instance, "fmi3SerializeFMUState", anywhere & ~within_step,
+               [&](Component& c) { serialise(c, state, bytes, size); });
 }
 KURBEL_FMI3 fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], std::size_t size,
                                     fmi3FMUState* state) {
-  return call3(instance, "fmi3DeserializeFMUState", anywhere & ~within_step, [&](Component& c) {
-    const std::string text(reinterpret_cast<const char*>(bytes), size);
-    std::istringstream stream(text);
-    auto kept = std::make_unique<Kept3>();
-    if (!(stream >> kept->phase >> kept->last_time)) throw std::invalid_argument("this is no state of this component");
-    stream.get();
-    kept->state = c.instance->state_from(text.substr(static_cast<std::size_t>(stream.tellg())));
-    *state = kept.release();
-  });
+  return call3(instance, "fmi3DeserializeFMUState", anywhere & ~within_step,
+               [&](Component& c) { *state = deserialise(c, bytes, size); });
 }
 
 // --- derivatives (2.2.11) ---

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/events/event_words.h"
 #include "engine/run/checkpoint.h"
 #include "engine/run/event_location.h"
 #include "library/fmi/ports.h"
@@ -212,7 +213,15 @@ double Instance::apply_inputs() {
   const double edge = equations_->next_edge(state.t);
   const bool here = edge - state.t <= same_time * std::max(1.0, std::abs(state.t));
   const double t = here ? std::max(edge, state.t) : state.t;
+  const std::size_t known = events_.size();
   equations_->pass_edge(t, state.y, events_);
+  for (std::size_t k = 0; k < s_.inputs.size(); ++k) {
+    const ExportedInput& in = machine_.inputs[k];
+    const auto told = [&](const Event& event) { return event.component == in.of; };
+    if (in.what == ExportedInput::What::command && s_.inputs[k] != s_.applied[k] &&
+        std::none_of(events_.begin() + static_cast<std::ptrdiff_t>(known), events_.end(), told))
+      events_.push_back(command_event(t, in.of, s_.applied[k], s_.inputs[k], 0));
+  }
   equations_->wrap(state.y);
   state.modes = equations_->modes();
   s_.applied = s_.inputs;
@@ -436,19 +445,6 @@ std::vector<double> Instance::directional(std::span<const std::uint32_t> unknown
   });
   equations_->changing_modes().command = kept.modes.command;
   return result;
-}
-
-InstanceState Instance::state() {
-  made();
-  s_.here.state.modes = equations_->modes();
-  return s_;
-}
-
-void Instance::restore(const InstanceState& state) {
-  s_ = state;
-  if (s_.stale) return;
-  if (compiled_ != s_.parameters) compile();
-  equations_->bind(s_.here.state.modes);
 }
 
 }  // namespace kurbel

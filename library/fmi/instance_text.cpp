@@ -1,4 +1,4 @@
-// instance_text.cpp — the state of an instance as text, and back to the last bit.
+// instance_text.cpp — the state of an instance, kept and restored, and as text, to the last bit.
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -6,6 +6,19 @@
 #include "library/fmi/instance.h"
 
 namespace kurbel {
+
+InstanceState Instance::state() {
+  made();
+  s_.here.state.modes = equations_->modes();
+  return s_;
+}
+
+void Instance::restore(const InstanceState& state) {
+  s_ = state;
+  if (s_.stale) return;
+  if (compiled_ != s_.parameters) compile();
+  equations_->bind(s_.here.state.modes);
+}
 
 std::string Instance::text(const InstanceState& state) {
   made();

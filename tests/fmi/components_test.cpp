@@ -58,7 +58,7 @@ TEST_P(Components, SaysTheTruthOfItself) {
   const Library library(unpacked->library());
   for (const std::string& function : functions_of(fmi())) EXPECT_TRUE(library.find(function)) << function;
 #ifdef KURBEL_AS_RELEASED
-  EXPECT_LE(fs::file_size(unpacked->library()), 3'400'000u);  // 3 MB are wanted
+  EXPECT_LE(fs::file_size(unpacked->library()), 3'000'000u);
   std::istringstream needs(command("readelf -d " + unpacked->library()));
   for (std::string line; std::getline(needs, line);)
     if (line.find("NEEDED") != std::string::npos) {
