@@ -1,5 +1,6 @@
 // events_test.cpp — exported components: events at the times of a run, what happens at the start, ways back, what depends on
 // what, units, speeds from outside.
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -144,6 +145,13 @@ TEST(Start, AnEventAtExactlyTheStartIsPassed) {
     EXPECT_EQ(slave["torque.brake"], 0);
     for (const double z : slave.indicators()) EXPECT_GT(z, 0);
     for (const double rate : slave.rates()) EXPECT_TRUE(std::isfinite(rate));
+    slave.time(0.5 *
+               (1 - 1e-15));  // where an importer's sum of steps ends: the edge is passed, and is not the next one
+    slave.enter_events();
+    const Slave::Event later = slave.discrete();
+    EXPECT_GT(later.next.value_or(1), 0.6);
+    const std::vector<Happened> events = logged_events(slave);
+    EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const auto& e) { return e.what.starts_with("brake: "); }));
   }
 }
 
