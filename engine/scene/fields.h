@@ -4,9 +4,7 @@
 //       return Fields<Spring>()
 //           .add(required("stiffness", "N/m", positive, "k"), &Spring::k)
 //           .add(quantity("damping", "N*s/m", any_number, "c; default: none"), &Spring::c)
-//           .add(choice("seat", "flat", "of its ends"), &Spring::ground, {{"flat", true}, {"open", false}})
-//           .add(quantity("preload", "N", any_number, "default: by the stiffness"), &Spring::preload,
-//                [](const Spring& s) { return 1e-3 * s.k; });
+//           .add(choice("seat", "flat", "of its ends"), &Spring::ground, {{"flat", true}, {"open", false}});
 //     }
 //     void build_spring(const Section& section, const Reading<Spring>& spring, Network& net);
 //     kind_of<spring_fields, build_spring>(between_shafts, "spring", "a spring")
@@ -16,10 +14,7 @@
 // std::optional member is empty if not given. The result is a D with its location (Reading): faults refer to members, not to
 // keys. Fields are read in the order of the table, so that a default may use the members above it.
 //
-// Reasons: a member pointer is checked by the compiler, is the shortest name of a parameter and needs no macro. A table by
-// values (not by traits of the struct) allows several kinds to fill one physical struct by keys with different names, docs
-// and domains, as needed by links of mechanisms and the two sides of a gear. A key declared twice, or a member filled
-// twice, is a std::logic_error when the table is made, at program start.
+// A key declared twice, or a member filled twice, is a std::logic_error when the table is made, at program start.
 #pragma once
 
 #include <bit>
@@ -93,7 +88,6 @@ constexpr KeyType type_of() {
     static_assert(!sizeof(M), "no key fills a member of this type: an enum needs its words, a struct its fields");
 }
 
-// The nearest integers.
 int whole(double number);
 std::vector<int> wholes(const std::vector<double>& numbers);
 
@@ -157,7 +151,6 @@ class FieldTable {
   void read(std::byte* data, const Place& place) const;
   // Names of the keys of a member; throws std::logic_error if there are none.
   const std::vector<std::string>& names_of(Member member) const;
-  // The key of a member; for a group the first given one.
   const std::string& key_of(Member member, const Section& section) const;
 
   std::vector<Key> keys;
@@ -173,7 +166,6 @@ class FieldTable {
   std::vector<Entry> entries_;
 };
 
-// Sets the member to the value of its word.
 template <class V>
 Setter by_words(const Words<V>& words) {
   return [words](std::byte* member, const Setting& s) {
@@ -192,7 +184,6 @@ Reader by_forms(std::ptrdiff_t member, std::ptrdiff_t form, std::vector<Key> key
     as<double>(data + member) = place.section->number(given->name);
   };
 }
-// Reads nested tables, each through `put`.
 Reader nested(Key key, bool list, bool numbered, bool named, Reader put);
 
 template <class M, class T>
@@ -297,7 +288,6 @@ class Fields {
     return enter(std::move(key), member,
                  [scale](std::byte* to, const Setting& s) { fields_detail::as<double>(to) = scale.factor * s.number; });
   }
-  // Words with values.
   template <class V, class B>
   Fields& add(Key key, V B::*member, const Words<std::type_identity_t<V>>& words) {
     key.type = KeyType::text;
@@ -396,8 +386,7 @@ class Fields {
   fields_detail::FieldTable table_;
 };
 
-// Tables of one or several kinds nested in another table. T: type of each after reading: the data, a Reading of them, or a
-// variant of these.
+// Tables of one or several kinds nested in another. T: the data after reading, a Reading of them, or a variant of these.
 template <class T>
 class Tables {
  public:

@@ -26,7 +26,6 @@ target_include_directories(kurbel_fmi SYSTEM PRIVATE ${KLU_INCLUDE})
 set(archives ${SUNDIALS_ARCHIVES})
 list(FILTER archives EXCLUDE REGEX "cvode|sunnonlinsolfixedpoint")
 # SUNDIALS' own tables of coefficients are many.
-add_executable(kurbel_list_tables library/fmi/list_tables.cpp)
 target_link_libraries(kurbel_list_tables PRIVATE ${archives} ${CMAKE_DL_LIBS} m)
 add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h VERBATIM
   COMMAND sh -c "$<TARGET_FILE:kurbel_list_tables> > ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h" DEPENDS kurbel_list_tables)
