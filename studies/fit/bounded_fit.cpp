@@ -95,6 +95,26 @@ double Determination::correlation(std::size_t i, std::size_t k) const {
   return known[i] && known[k] && both > 0 ? covariance(a, b) / std::sqrt(both) : 0;
 }
 
+namespace {
+
+// Right singular vectors of the columns `of` in equal length, by falling singular value.
+struct Directions {
+  Eigen::VectorXd scale, value;
+  Eigen::MatrixXd v;
+  bool determined(Eigen::Index k, double floor) const { return value[k] > floor * value[0]; }
+};
+Directions directions_of(const Eigen::MatrixXd& jacobian, const std::vector<Eigen::Index>& of) {
+  Eigen::MatrixXd j = columns_of(jacobian, of);
+  Directions found{.scale = j.colwise().norm(), .value = Eigen::VectorXd::Zero(j.cols()), .v = {}};
+  for (Eigen::Index k = 0; k < j.cols(); ++k) j.col(k) /= found.scale[k];
+  const Svd svd = full_v_svd(j);
+  found.value.head(svd.values.size()) = svd.values;
+  found.v = svd.v;
+  return found;
+}
+
+}  // namespace
+
 Determination determined_by(const Eigen::MatrixXd& jacobian, const std::vector<int>& on_bound, double floor,
                             const Eigen::MatrixXd& scores) {
   const Eigen::Index p = jacobian.cols();
@@ -105,54 +125,54 @@ Determination determined_by(const Eigen::MatrixXd& jacobian, const std::vector<i
   const Eigen::VectorXd length = jacobian.colwise().norm();
   const double longest = p > 0 ? length.maxCoeff() : 0;
   constexpr double nothing = 1e-9;  // of the longest column
-  std::vector<Eigen::Index> free;
+  std::vector<Eigen::Index> seen, free;
   for (Eigen::Index k = 0; k < p; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    if (!(length[k] > nothing * longest))
+    if (!(length[k] > nothing * longest)) {
       found.no_trace.push_back(i);
-    else if (on_bound[i] == 0)
-      free.push_back(k);
-  }
-  if (free.empty()) return found;
-  Eigen::MatrixXd j = columns_of(jacobian, free);
-  const Eigen::VectorXd scale = j.colwise().norm();
-  for (Eigen::Index k = 0; k < j.cols(); ++k) j.col(k) /= scale[k];
-  const Svd svd = full_v_svd(j);
-  const auto count = static_cast<Eigen::Index>(free.size());
-  const auto value = [&](Eigen::Index k) { return k < svd.values.size() ? svd.values[k] : 0.0; };
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(count, count);  // of Jᵀ J, of what is determined
-  std::vector<bool> moved(free.size(), false);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::VectorXd v = svd.v.col(k);
-    if (value(k) > floor * value(0)) {
-      inverse += v * v.transpose() / (value(k) * value(k));
       continue;
     }
-    SharedDirection direction{.unknowns = {}, .parts = {}, .singular_value = value(k) / value(0)};
-    std::vector<Eigen::Index> order(free.size());
+    seen.push_back(k);
+    found.known[i] = on_bound[i] == 0;
+    if (found.known[i]) free.push_back(k);
+  }
+  if (free.empty()) return found;
+  // A bound does not determine an unknown that another one on the bound can replace.
+  const Directions all = directions_of(jacobian, seen);
+  for (Eigen::Index k = 0; k < all.v.cols(); ++k) {
+    if (all.determined(k, floor)) continue;
+    const Eigen::VectorXd v = all.v.col(k);
+    SharedDirection direction{.unknowns = {}, .parts = {}, .singular_value = all.value[k] / all.value[0]};
+    std::vector<Eigen::Index> order(seen.size());
     std::iota(order.begin(), order.end(), Eigen::Index{0});
     std::sort(order.begin(), order.end(),
               [&](Eigen::Index a, Eigen::Index b) { return std::abs(v[a]) > std::abs(v[b]); });
     constexpr double worth_naming = 0.05;
     for (const Eigen::Index i : order) {
       if (std::abs(v[i]) < worth_naming) break;
-      direction.unknowns.push_back(static_cast<std::size_t>(free[static_cast<std::size_t>(i)]));
+      direction.unknowns.push_back(static_cast<std::size_t>(seen[static_cast<std::size_t>(i)]));
       direction.parts.push_back(v[i]);
-      moved[static_cast<std::size_t>(i)] = true;
     }
-    found.undetermined.push_back(std::move(direction));
+    const bool all_on_bounds = std::all_of(direction.unknowns.begin(), direction.unknowns.end(),
+                                           [&](std::size_t i) { return on_bound[i] != 0; });
+    for (const std::size_t i : direction.unknowns) found.known[i] = false;
+    if (!all_on_bounds) found.undetermined.push_back(std::move(direction));
   }
+  const Directions within = directions_of(jacobian, free);
+  const auto count = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(count, count);  // of Jᵀ J, of what is determined
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (within.determined(k, floor))
+      inverse += within.v.col(k) * within.v.col(k).transpose() / (within.value[k] * within.value[k]);
   if (scores.rows() > 0) {
     Eigen::MatrixXd g = columns_of(scores, free);
-    for (Eigen::Index k = 0; k < g.cols(); ++k) g.col(k) /= scale[k];
+    for (Eigen::Index k = 0; k < count; ++k) g.col(k) /= within.scale[k];
     inverse = (inverse * (g.transpose() * g) * inverse).eval();
   }
-  for (Eigen::Index a = 0; a < count; ++a) {
-    found.known[static_cast<std::size_t>(free[static_cast<std::size_t>(a)])] = !moved[static_cast<std::size_t>(a)];
+  for (Eigen::Index a = 0; a < count; ++a)
     for (Eigen::Index b = 0; b < count; ++b)
       found.covariance(free[static_cast<std::size_t>(a)], free[static_cast<std::size_t>(b)]) =
-          inverse(a, b) / (scale[a] * scale[b]);
-  }
+          inverse(a, b) / (within.scale[a] * within.scale[b]);
   return found;
 }
 

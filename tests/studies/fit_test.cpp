@@ -435,6 +435,10 @@ TEST(BoundedFit, NamesTheDirectionThatColumnsShare) {
   EXPECT_EQ(d.known, (std::vector<bool>{false, false, true}));
   // Cov of the third: 1/(|c|² − (c·a)²/|a|²), a = (1, 2, 0, 1), c = (0, 1, 1, −1).
   EXPECT_NEAR(d.covariance(2, 2), 1 / (3.0 - 1.0 / 6), 1e-9);
+  // Nor is it where one of the two ends on its bound.
+  const Determination bound = determined_by(j, {0, 1, 0}, 1e-4);
+  ASSERT_EQ(bound.undetermined.size(), 1u);
+  EXPECT_EQ(bound.known, (std::vector<bool>{false, false, true}));
 }
 
 }  // namespace
