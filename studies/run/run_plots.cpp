@@ -84,16 +84,16 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
   std::string si_unit;
   for (const Result* r : results) {
     if (r->traces->last_cycles.empty()) continue;
-    for (const Trace& trace : r->traces->last_cycles.back().traces) {
+    const CycleTraces& last = r->traces->last_cycles.back();
+    for (const Trace& trace : last.traces) {
       if (trace.name != channel) continue;
       if (plot.series.empty()) si_unit = trace.unit;
+      plot.note = fmt::format("Last whole cycle ({}: {:.4g} … {:.4g} s).", r->label, last.begin, last.end);
       Series& series = plot.series.emplace_back(series_of(trace, r->label, role_of(*r, results)));
       for (double& x : series.x) x *= 180 / std::numbers::pi;
     }
   }
   if (plot.series.empty()) return {};
-  const CycleTraces& last = results.back()->traces->last_cycles.back();
-  plot.note = fmt::format("Last whole cycle ({}: {:.4g} … {:.4g} s).", results.back()->label, last.begin, last.end);
   return in_readable_unit(std::move(plot), si_unit, speed_unit_of(*results.back()));
 }
 

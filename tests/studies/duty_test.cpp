@@ -346,6 +346,29 @@ TEST(LoopWork, OfACompressorIsTheIndicatedWork) {
   EXPECT_EQ(figure(r, "loop_work.compressor"), figure(r, "useful_work_per_cycle"));
 }
 
+// A model that was stopped before its first whole cycle has no curve over the angle; the other one keeps its own.
+TEST(Plots, AreDrawnWhereOneModelOfTwoHasNoWholeCycle) {
+  SimulateOptions options;
+  options.traces = true;
+  options.measure_error = false;
+  Scene scene = test::scene_file("scenes/worn_crank_pin.toml");
+  const Result whole = simulate(scene, scene.effects, "whole", options);
+  scene.run.until = 0.01 * whole.traces->last_cycles.back().end;
+  const Result cut = simulate(scene, scene.effects, "cut", options);
+  ASSERT_TRUE(cut.traces->last_cycles.empty());
+  for (const auto& results : {std::vector{&whole, &cut}, std::vector{&cut, &whole}}) {
+    std::size_t over_angle = 0;
+    for (const Plot& plot : motion_plots(results)) {
+      if (!plot.note.starts_with("Last whole cycle (whole: ")) continue;
+      ++over_angle;
+      EXPECT_EQ(plot.series.size(), 1u) << plot.title;
+      EXPECT_EQ(plot.series.front().name, "whole") << plot.title;
+    }
+    EXPECT_GT(over_angle, 1u);
+    EXPECT_FALSE(machine_view(results).title.empty());
+  }
+}
+
 // The loop of the page is closed, and its area, by trapezoids, is that work; the tachogram's marks are the periods.
 TEST(LoopWork, IsTheAreaOfTheIndicatorDiagram) {
   SimulateOptions options;
