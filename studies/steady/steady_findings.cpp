@@ -388,8 +388,9 @@ Findings findings_of(const SteadyStudy& s) {
              .complete = s.complete,
              .diagnosis = s.diagnosis,
              .opening = Findings::Opening::title_and_conclusion};
-  const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());
   f.claims = claims_of(s);
+  if (s.cycles.empty()) return f;  // interrupted before the first
+  const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());
   f.claim(limit_claims(ratings, "rating"));
   const Chapter cycle = f.chapter("Steady cycle");
   f.chapter(chapter_of_measurement);

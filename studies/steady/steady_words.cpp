@@ -70,6 +70,7 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
 }
 
 Claims claims_of(const SteadyStudy& s) {
+  if (s.cycles.empty()) return {*claimed(Predicate::incomplete, s.conclusion, s.link)};  // interrupted before the first
   const SteadyCycle& last = s.cycles.back();
   Claims claims = last.model ? start_claims(last.model) : Claims{};
   const bool vibrates = last.kind == Orbit::Kind::vibrating;
