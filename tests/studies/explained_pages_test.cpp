@@ -31,7 +31,8 @@ namespace {
 // Letters with what belongs to them: primes, raised letters, indices. Words and functions are none.
 std::set<std::string> symbols_of(const std::string& formula) {
   static const std::regex part(
-      "(?:(?:Δ)?(?:[A-Za-z]|[\xCE\xCF][\x80-\xBF])(?:′|″|₀|₁|₂|₃|₄|ⁿ|ᵗ|ᶜ|ʳ|\xCC[\x80-\xBF])*(?:_(?:[A-Za-z0-9*]|[\xCE\xCF]["
+      "(?:(?:Δ)?(?:[A-Za-z]|[\xCE\xCF][\x80-\xBF])(?:′|″|₀|₁|₂|₃|₄|ⁿ|ᵗ|ᶜ|ʳ|\xCC[\x80-\xBF])*(?:_(?:[A-Za-z0-9*]|["
+      "\xCE\xCF]["
       "\x80-"
       "\xBF])+)?(?:′)?)|[A-Za-z]{2,}");
   static const std::regex word("[A-Za-z]{2,}");

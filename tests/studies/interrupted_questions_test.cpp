@@ -45,8 +45,7 @@ TEST_P(InterruptedQuestions, ShowWhatTheyHave) {
   const Scene scene = test::scene_file(std::string("scenes/") + GetParam() + ".toml");
   for (const Question& question : questions()) {
     SCOPED_TRACE(question.name);
-    for (const int after : {0, 1500, 9000, 30000})
-      show_interrupted(question, scene, std::chrono::microseconds(after));
+    for (const int after : {0, 1500, 9000, 30000}) show_interrupted(question, scene, std::chrono::microseconds(after));
   }
 }
 
