@@ -662,8 +662,11 @@
       svg.style.setProperty('--words', `${Math.min(13 / scale, 22).toFixed(1)}px`);
     }
     const words = Math.min(13 / Math.min(beside ? high / box.height : room / box.width, parseFloat(line.svg.style.maxHeight) / box.height), 24);
+    // On paper some 650 pixels wide, whatever the window.
+    const printed = beside ? 1.4 * words : 9.2 / Math.min(650 / box.width, parseFloat(line.svg.style.maxHeight) / box.height);
     line.svg.style.setProperty('--words', `${words.toFixed(1)}px`);
-    placeNames(line, 1.4 * words);  // as large as they are printed
+    line.svg.style.setProperty('--printed', `${printed.toFixed(1)}px`);
+    placeNames(line, Math.max(words, printed));
   }
 
   // What stands on a shaft, seen from the side: each draws itself about (x, y) and says how thick it is along the shaft.

@@ -28,7 +28,7 @@ const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '-
 try {
   const ways = [[1400, 'light'], [500, 'dark']];
   for (const [number, [report, sheet]] of process.argv.slice(2).map(name => name.split('=').map(part => path.resolve(part))).entries())
-  for (const [width, colorScheme] of process.env.KURBEL_THOROUGH || number === 0 ? ways : [ways[number % 2]]) {
+  for (const [width, colorScheme] of process.env.KURBEL_THOROUGH || number === 0 ? ways : [ways[sheet ? 0 : number % 2]]) {  // sheets: as printed from a wide window
     const page = await browser.newPage({viewport: {width, height: 900}, colorScheme});
     const complaints = [], requests = [];
     page.on('console', message => { if (['error', 'warning'].includes(message.type())) complaints.push(message.text()); });
