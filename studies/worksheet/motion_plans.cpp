@@ -46,7 +46,7 @@ class Points {
         e_(static_cast<Real>(m.ratio) * at.alpha),
         l_(m.mechanism.data.linkage(m.crank_angle(at.phi))),
         of_link_(l_.bodies.size()) {
-    // Away from a dead centre, where joints may stand on each other, their names are told by their places.
+    // Names follow from positions, so they are taken away from a dead centre, where joints may coincide.
     const double apart = m.crank_angle(0.7);
     const PlanarLinkage there = m.mechanism.data.linkage(apart);
     const std::vector<PlanePoint> drawn = m.joints(apart);
