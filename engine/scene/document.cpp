@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #ifndef KURBEL_FMI_RUNTIME
+#define TOML_MAX_NESTED_VALUES 64  // also that of tables by dots, below
 #include <toml++/toml.h>
 #endif
 
@@ -25,7 +26,12 @@ Location location(const toml::source_position& place) {
 }
 Location location(const toml::source_region& region) { return location(region.begin); }
 
-DocumentValue convert(const toml::node& node) {
+constexpr int most_nested = TOML_MAX_NESTED_VALUES;
+
+DocumentValue convert(const toml::node& node, const std::string& file, int depth = 0) {
+  if (depth > most_nested)
+    throw SceneError(
+        {{file, location(node.source()), fmt::format("tables are nested more than {} deep", most_nested)}});
   DocumentValue value;
   value.at = location(node.source());
   value.end = location(node.source().end);
@@ -33,12 +39,12 @@ DocumentValue convert(const toml::node& node) {
   if (const auto* table = node.as_table()) {
     value.type = Type::table;
     for (const auto& [key, child] : *table)
-      value.entries.push_back({std::string(key.str()), location(key.source()), convert(child)});
+      value.entries.push_back({std::string(key.str()), location(key.source()), convert(child, file, depth + 1)});
     std::sort(value.entries.begin(), value.entries.end(),
               [](const DocumentEntry& a, const DocumentEntry& b) { return a.at < b.at; });
   } else if (const auto* array = node.as_array()) {
     value.type = Type::list;
-    for (const toml::node& item : *array) value.items.push_back(convert(item));
+    for (const toml::node& item : *array) value.items.push_back(convert(item, file, depth + 1));
   } else if (const auto* text = node.as_string()) {
     value.type = Type::text;
     value.text = text->get();
@@ -225,7 +231,8 @@ std::string why_not_toml(std::string_view said, std::string_view line, int colum
     return "a text does not end on this line; its closing quote is missing";
   if (said.find("whitespace, saw ','") != std::string_view::npos)
     return "unexpected comma; decimals are written with a point";
-  if (said.find("TOML_MAX_NESTED_VALUES") != std::string_view::npos) return "values are nested more than 256 deep";
+  if (said.find("TOML_MAX_NESTED_VALUES") != std::string_view::npos)
+    return fmt::format("values are nested more than {} deep", most_nested);
   if (const std::size_t name = said.find('\'');
       said.find("cannot redefine existing") != std::string_view::npos && name != std::string_view::npos)
     return fmt::format("{} stands twice; keep one", in_quotes(said.substr(name + 1, said.rfind('\'') - name - 1)));
@@ -252,7 +259,7 @@ DocumentValue parse_toml(const std::string& text, const std::string& file) {
   }
   if (const Message message = unfit_for_toml(text, file); message.at.line > 0) throw SceneError({message});
   try {
-    return convert(toml::parse(text, file));
+    return convert(toml::parse(text, file), file);
   } catch (const toml::parse_error& error) {
     throw SceneError(
         {{file, within(text, location(error.source())),

@@ -206,6 +206,7 @@ class Sizer {
     if (!orbit.repeats() && options_.mid_speed && !options_.basis) orbit = hold(*options_.mid_speed, as_it_is, tried);
     if (!orbit.repeats()) return without_a_cycle(as_it_is);
     const OrbitCycle found = orbit_cycle(orbit);
+    along_ = orbit.map->shared_model();
     s_.cycle = found.cycle;
     if (const auto looser = looser_orbit_cycle(orbit)) looser_ = looser->cycle;
     s_.engine = drive_varies_with_angle();
@@ -378,9 +379,10 @@ class Sizer {
 
   // A tool that works during less than half of the cycle.
   void find_punch() {
+    const std::vector<WorkAccount>& accounts = (along_ ? *along_ : model()).accounts;
     double energy = 0, acting = 0;
     for (std::size_t k = 0; k < s_.cycle.share.size(); ++k) {
-      if (model().accounts[k].kind != Account::useful) continue;
+      if (accounts[k].kind != Account::useful) continue;
       const Piecewise& share = s_.cycle.share[k];
       energy -= share.total();
       const double noise = 1e-9 * share.largest();
@@ -420,6 +422,7 @@ class Sizer {
   Scene scene_;
   std::optional<RigidMachine> machine_;  // of the classical basis
   std::shared_ptr<const Model> model_;   // of the steady motion's
+  std::shared_ptr<const Model> along_;   // of the cycle along an orbit: a held speed adds an account
   std::vector<std::string> beyond_;      // what the rigid machine cannot carry
   std::optional<MachineCycle> looser_;
   double constant_inertia_ = 0;        // on the link [kg·m²]

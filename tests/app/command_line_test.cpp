@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "tests/support/files.h"
+#include "tests/support/started.h"
 
 namespace kurbel::command_line_test {
 namespace {
@@ -492,6 +493,7 @@ TEST_F(CommandLine, ProgressIsShownForLongWorkOnATerminalAndWipedOut) {
 
 TEST_F(CommandLine, InterruptEndsALongRunWithinASecondAndMarksItsFiles) {
   const pid_t child = start({"run", scene("until = \"10000000 s\"\n"), "--out", "out"});
+  test::wait_for_handler(child);
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   const auto begin = Clock::now();
   kill(child, SIGINT);
@@ -525,6 +527,7 @@ TEST_F(CommandLine, CompleteResultsOutliveRunsThatFailAreInterruptedOrKilled) {
   EXPECT_EQ(all(), before);
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     const pid_t child = start({"run", scene("until = \"10000000 s\"\n"), "--out", "out"});
+    test::wait_for_handler(child);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     kill(child, signal);
     EXPECT_EQ(wait(child).code, signal == SIGKILL ? -1 : 130);

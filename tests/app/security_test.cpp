@@ -25,6 +25,7 @@
 #include "engine/scene/document.h"
 #include "engine/tables/table_text.h"
 #include "tests/support/files.h"
+#include "tests/support/started.h"
 
 namespace kurbel::security_test {
 namespace {
@@ -276,6 +277,7 @@ TEST_F(Security, HasNoCommandRun) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"check", "s.toml"}, {"run", "s.toml"}, {"compare", "s.toml"}, {"modes", "s.toml"}, {"steady", "s.toml"}}) {
     const pid_t child = start(words, [] {
+      setenv("ASAN_OPTIONS", "detect_leaks=0", 1);  // which traces, too
       ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
       raise(SIGSTOP);
     });
@@ -422,6 +424,7 @@ TEST_F(Security, EndsByItsBudgetAndByCtrlC) {
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(8));
   scene("longer.toml", "t", pulse);
   const pid_t child = start({"run", "longer.toml", "--no-files"});
+  test::wait_for_handler(child);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const auto asked = Clock::now();
   kill(child, SIGINT);

@@ -55,11 +55,11 @@ FitOptions asked(const std::string& scene, const std::string& record, Over over,
 
 std::string coasting_record(double sigma, int points, std::uint64_t seed, double shift = 0) {
   std::mt19937_64 random(seed);
-  std::normal_distribution<double> noise(0, sigma);
+  std::normal_distribution<double> noise(0, 1);
   std::string text = "t [s],n [rad/s]\n";
   for (int i = 0; i < points; ++i) {
     const double t = 3.0 * i / (points - 1);
-    text += fmt::format("{},{}\n", t, coasted(t + shift) + (sigma > 0 ? noise(random) : 0));
+    text += fmt::format("{},{}\n", t, coasted(t + shift) + sigma * noise(random));
   }
   return text;
 }

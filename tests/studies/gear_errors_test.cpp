@@ -149,7 +149,8 @@ TEST(GearErrors, of_a_moment_of_inertia_cover_an_outline_of_twenty_times_as_many
 TEST(GearErrors, stand_beside_every_figure) {
   const Gears gears = find_gears(test::scene_file("scenes/gear_pair.toml"), {.pair = "", .speed = 100.0});
   const StudyOutput output = output_of(gears);
-  for (const Json& pair : Json::parse(output.json())["pairs"])
+  const Json parsed = Json::parse(output.json());
+  for (const Json& pair : parsed["pairs"])
     for (const Json& of : {pair, pair["wheels"][0], pair["wheels"][1], pair["mesh_stiffness"]})
       for (const auto& [key, value] : of.items()) {
         if (!value.is_number_float() || key.ends_with("_error") || key == "module" || key == "helix") continue;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/instruction_counts.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::instruction_counts_test {
@@ -23,6 +24,7 @@ INSTANTIATE_TEST_SUITE_P(Each, EffectOffCosts,
 
 // Right-hand side and Jacobian with the effect off take as many instructions as those of the scene that never had it.
 TEST_P(EffectOffCosts, NotOneInstruction) {
+  if (test::sanitized) GTEST_SKIP() << "valgrind does not run instrumented programs";
   if (!bench::callgrind_is_installed()) GTEST_SKIP() << "valgrind is not installed";
   const std::string scene = test::source_path(GetParam().scene), effect = GetParam().effect;
   const auto off = bench::counted_instructions(KURBEL_COUNTER, scene, effect, "off"),

@@ -89,7 +89,7 @@ class Validator {
     }
     if (keyword == "additionalProperties") {
       for (auto it = value.begin(); value.is_object() && it != value.end(); ++it) {
-        if (schema["properties"].contains(it.key())) continue;
+        if (schema.contains("properties") && schema["properties"].contains(it.key())) continue;
         if (rule.is_boolean()) return at + ": unknown key " + it.key();
         if (const std::string text = check(rule, it.value(), at + "." + it.key()); !text.empty()) return text;
       }
