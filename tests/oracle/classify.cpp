@@ -364,6 +364,7 @@ json classify(const Observed& seen, const Observed* later) {
     while (!driven.empty() && !driven.back().driven) driven.pop_back();
     if (driven.size() > 2) j["driven_part"] = MotionJudge(seen, driven).all();
   }
+  j["fastest_shaft"] = seen.fastest_shaft;
   if (later && later->moments.size() > 2) {
     const MotionJudge judge(*later, later->moments);
     json l = judge.all();
