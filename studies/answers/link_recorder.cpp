@@ -1,6 +1,8 @@
 // link_recorder.cpp — the link's angle and speed from step to step.
 #include "studies/answers/link_recorder.h"
 
+#include <numbers>
+
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 
@@ -35,7 +37,7 @@ void LinkRecorder::step(StepView& view) {
   angle_ = angle_in(view.y());
   foremost_ = std::max(foremost_, angle_), fastest_ = std::max(fastest_, std::abs(speed));
   if (std::abs(speed) > least_sense * m_.speed_scale) {
-    if (sense > 0 && sense_ < 0) ++turned_forwards_;
+    if (sense > 0 && sense_ < 0 && fell_back() > std::numbers::pi) swung_forwards_ = view.t();
     if (sense < 0 && sense_ >= 0) backwards_since_ = view.t();
     sense_ = sense;
   }

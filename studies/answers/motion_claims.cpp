@@ -71,11 +71,12 @@ class Judge {
     return stop == outcome_.events.rend() ? std::nullopt : std::optional(stop->t);
   }
 
-  // An applied brake, by command or always, whose shaft stands; null: none.
-  const std::string* brake_that_holds() const {
+  // An applied brake, by command or always, whose shaft stands; null: none. `put_on`: only of those off at the start.
+  const std::string* brake_that_holds(bool put_on = false) const {
     for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
       const Network::ShaftElement& element = m_.network.elements[e];
       if (m_.network.kind_of(element.component) != "brake" || !equations_.modes().active[e]) continue;
+      if (put_on && !(element.window.first_on() > 0)) continue;
       if (equations_.at_standstill(at(m_.shaft_of_node[at(element.node)])) && command_of(element.component) > 0)
         return &element.component;
     }
@@ -148,13 +149,16 @@ class Judge {
                    link(), {.at = since, .value = std::abs(torque), .limit = 0, .unit = "N*m"});
   }
 
-  // By more than half a turn from its foremost position, finally, and without a drive backwards. Motion commanded by
-  // a sequence may be intended, as long as anything drives.
+  // By more than half a turn from its foremost position, finally, and without a drive backwards: it has not swung
+  // forwards again from there, since the drive is off if it is. Motion commanded by a sequence may be intended, as long
+  // as anything drives.
   std::optional<Claim> backwards(const Result& r) const {
     const Sources sources(m_);
     if (r.begins_at > 0 || m_.scene.run.start.speed < 0 || sources.none()) return {};
     if (!(speed() < -turns_back_from * m_.speed_scale) || recorder_.fell_back() < std::numbers::pi) return {};
-    if (is_commanded() ? sources.drive(equations_.modes().active) : recorder_.turned_forwards() > 0) return {};
+    if (is_commanded() ? sources.drive(equations_.modes().active)
+                       : recorder_.swung_forwards() > r.periods.run_down_begin.value_or(0))
+      return {};
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
     const bool slows_down = speed() * gain() * now_.alpha[shaft_] < 0;
@@ -229,15 +233,17 @@ class Judge {
     return claim;
   }
 
-  // Less than one turn, and nearly at rest, although something drives.
+  // Less than one turn, and nearly at rest, although something drives; a brake put on meanwhile is meant to stop it.
   std::optional<Claim> never_gets_round(const Result& r, double fastest) const {
-    if (is_commanded() || !r.cycles.empty() || m_.cycle == 0 || r.periods.run_down_begin || brake_that_holds())
+    if (is_commanded() || !r.cycles.empty() || m_.cycle == 0 || r.periods.run_down_begin || brake_that_holds(true))
       return {};
     if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    const std::string* brake = brake_that_holds();
     return claimed(
         Predicate::does_not_get_round,
-        fmt::format("\"{}\" does not complete a cycle: it is at {:.1f}° at the end, with {}, where {} N·m drive it",
-                    link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive()),
+        fmt::format("\"{}\" does not complete a cycle: it is at {:.1f}° at the end, with {}, where {} N·m drive it{}",
+                    link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive(),
+                    brake ? fmt::format(" and \"{}\" holds it", *brake) : ""),
         link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }
 

@@ -100,6 +100,21 @@ class RunWords {
   const Periods& p_;
 };
 
+// Of a motor without a duty the rated torque is a limit of steady motion.
+void motors_not_assessed(const Result& r, Claims& claims) {
+  if (!r.model || r.periods.steady) return;
+  for (const MotorTorque& motor : r.model->motors) {
+    const auto* rating = r.model->network.data.find<MotorRating>(motor.component);
+    if (!rating || !rating->torque || rating->states_duty() || r.find("thermal_use." + motor.component)) continue;
+    std::optional<Claim> claim =
+        claimed_aside(Predicate::not_assessed,
+                      fmt::format("\"{}\", RMS torque ({}): not assessed", motor.component, load_case::steady),
+                      motor.component, {.limit = *rating->torque, .unit = "N*m"});
+    claim->load_case = load_case::steady;
+    add(claims, std::move(claim));
+  }
+}
+
 // Alternate rest and motion of a shaft other than the link, in one sense, while the link turns.
 void sticking_shafts(const Result& r, Claims& claims) {
   if (!r.model || !r.model->commands.empty() || !r.periods.steady) return;
@@ -164,6 +179,7 @@ Claims run_claims(const Result& r, const std::string& whose) {
                    [](const Claim& c) { return c.topic() == Topic::runs && c.in_conclusion; }))
     add(claims, RunWords(r).all());
   overloaded_motors(r, claims);
+  motors_not_assessed(r, claims);
   sticking_shafts(r, claims);
   if (r.unconfirmed())
     add(claims,

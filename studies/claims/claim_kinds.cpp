@@ -37,7 +37,8 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{turns_back, runs, fault, below,
               "the link turned back for good, by more than half a turn from its foremost place, against what drives it "
-              "forwards or with nothing that drives; of a sequence with nothing that drives alone",
+              "forwards or with nothing that drives; of a sequence with nothing that drives alone; not of what swung "
+              "forwards again from there",
               "value: speed at the end [rad/s]; limit: 0",
               "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
               "drive it forwards",
@@ -55,11 +56,13 @@ constexpr std::array kinds = {
               "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
               "changes by +6.5 % a sixteenth of the time, and that does not shrink",
               "run, compare"},
-    ClaimKind{does_not_get_round, runs, fault, above,
-              "no whole cycle, at the end a fifth of the largest speed at most, and something drives",
-              "value: the torque that drives, on the link [N·m]",
-              "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
-              "run, compare"},
+    ClaimKind{
+        does_not_get_round, runs, fault, above,
+        "no whole cycle, at the end a fifth of the largest speed at most, and something drives; no brake that was "
+        "put on meanwhile holds it",
+        "value: the torque that drives, on the link [N·m]",
+        "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
+        "run, compare"},
     ClaimKind{slips_to_the_end, runs, warning, above,
               "a closed clutch, limiter or belt slips at the end under torque, or a brake that is on from the start",
               "value: the speed of slip [rad/s]",
@@ -80,11 +83,12 @@ constexpr std::array kinds = {
         "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
         "value: the difference of speed [rad/s]",
         "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare, steady"},
-    ClaimKind{runs_steadily, runs, note, anything,
-              "what the mid speed of the cycle still has to go to its limit is at most 0.1 % of it, and the link does "
-              "not stand within the cycle",
-              "at: end of the run-up; value: mean speed [rad/s]",
-              "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
+    ClaimKind{
+        runs_steadily, runs, note, anything,
+        "what the mid speed of the cycle, since the last command, still has to go to its limit is at most 0.1 % of "
+        "it, and the link does not stand within the cycle",
+        "at: end of the run-up; value: mean speed [rad/s]", "\"press\" runs steadily at 59.77 rpm from 0.9627 s on",
+        "run, compare, steady"},
     ClaimKind{vibrates, runs, note, anything,
               "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
               "its last quarter, and gains less than a quarter of its way; it decays or grows where the amplitude of "
@@ -175,10 +179,12 @@ constexpr std::array kinds = {
               "value, limit: as the requirement has them",
               "All 5 ratings assessed hold, the nearest \"clutch\", heat of an engagement (run): 69 % of the limit",
               "run, compare, steady, modes"},
-    ClaimKind{not_assessed, bears, note, anything,
-              "a limit that the scene states is of a load case that this command does not compute",
-              "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
-              "run, compare, steady, modes"},
+    ClaimKind{
+        not_assessed, bears, note, anything,
+        "a limit that the scene states is of a load case that this command does not compute, or that the run does "
+        "not reach",
+        "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
+        "run, compare, steady, modes"},
     ClaimKind{
         margin_kept, bears, note, above,
         "at the operating speeds of the scene every natural frequency keeps the margin wanted from every excitation",

@@ -31,14 +31,15 @@ double range_of(std::span<const double> v) {
 }
 
 // The means of a machine without a cycle: angle over time.
-std::vector<double> means_of_parts(const SpeedRecorder& speed, double end) {
+std::vector<double> means_of_parts(const SpeedRecorder& speed, double begin, double end) {
   const std::vector<double>& angle = speed.angles();
   std::vector<double> means;
   if (angle.empty() || !(speed.interval() > 0)) return means;
   const std::size_t last = std::min(angle.size() - 1, static_cast<std::size_t>(end / speed.interval() * (1 + 1e-12)));
-  const std::size_t part = last / parts_without_cycle;
+  const auto first = static_cast<std::size_t>(std::ceil(begin / speed.interval() * (1 - 1e-12)));
+  const std::size_t part = last > first ? (last - first) / parts_without_cycle : 0;
   if (part == 0) return means;
-  for (std::size_t k = last % part; k + part <= last; k += part)
+  for (std::size_t k = first + (last - first) % part; k + part <= last; k += part)
     means.push_back((angle[k + part] - angle[k]) / (static_cast<double>(part) * speed.interval()));
   return means;
 }
@@ -57,9 +58,25 @@ std::vector<double> at_equal_times(const std::vector<double>& time, const std::v
   return mean.size() > 2 ? even : mean;
 }
 
+// End of the last change of a command, or of a window of time, before `end`; 0: none, or the sequence repeats.
+double switched_last(const Model& model, const EventLog& events, double end) {
+  double last = 0;
+  if (model.scene.sequence.repeat) return last;
+  for (const Event& e : events) {
+    if ((e.kind != EventKind::command && e.kind != EventKind::window) || e.t >= end) continue;
+    double ramp = 0;
+    for (const SequenceStep& step : model.scene.sequence.steps)
+      if (e.kind == EventKind::command && step.to == e.value &&
+          std::count(step.set.begin(), step.set.end(), e.component))
+        ramp = std::max(ramp, step.over);
+    last = std::max(last, e.t + ramp);
+  }
+  return last;
+}
+
 // Data for the judgement.
 struct DrivenTime {
-  double end = 0;                     // [s]
+  double begin = 0, end = 0;          // since the last switching [s]
   const CycleRecord* last = nullptr;  // cycle
   std::vector<double> means = {};     // of the speed [rad/s]
   double speed = 0;                   // the last cycle's mean, or the speed at the end
@@ -68,15 +85,17 @@ struct DrivenTime {
 DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
                        const Periods& periods, const RunOutcome& outcome) {
   DrivenTime d{.end = periods.run_down_begin.value_or(outcome.t)};
+  d.begin = switched_last(model, outcome.events, d.end);
   std::vector<double> middle;
   for (const CycleRecord& c : cycles) {
     if (c.end > d.end) break;
+    d.last = &c;
+    if (c.begin < d.begin) continue;
     middle.push_back(0.5 * (c.begin + c.end));
     d.means.push_back(c.mid_speed());
-    d.last = &c;
   }
   d.means = at_equal_times(middle, d.means);
-  if (model.cycle == 0) d.means = means_of_parts(speed, d.end);
+  if (model.cycle == 0) d.means = means_of_parts(speed, d.begin, d.end);
   d.speed = d.last ? d.last->mid_speed() : speed.driven().empty() ? 0 : speed.driven().last();
   return d;
 }
@@ -85,9 +104,10 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   const char* unit = model.cycle > 0 ? "cycle" : "sixteenth of the time";
   const char* speed = model.cycle > 0 ? "mid" : "mean";
   if (d.means.size() < 3) {
-    periods.verdict = model.cycle > 0 ? fmt::format("{} whole cycle{}, of at least 3 needed", d.means.size(),
-                                                    d.means.size() == 1 ? "" : "s")
-                                      : "too short a time to decide";
+    periods.verdict = model.cycle > 0
+                          ? fmt::format("{} whole cycle{}{}, of at least 3 needed", d.means.size(),
+                                        d.means.size() == 1 ? "" : "s", d.begin > 0 ? " since the last command" : "")
+                          : "too short a time to decide";
     return;
   }
   const double noise = std::min(noise_of_tolerance * tolerance, most_noise) * std::abs(d.speed);
@@ -134,8 +154,8 @@ void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime&
 }
 
 // Standstill of the link, if it lasts; without dry friction a machine only approaches it.
-void find_standstill(const Model& model, const BandHistory& speed, const RunOutcome& outcome, double reference,
-                     double tolerance, Periods& periods) {
+void find_standstill(const Model& model, const BandHistory& speed, const RunOutcome& outcome, double tolerance,
+                     Periods& periods) {
   const int shaft = model.shaft_of_node[static_cast<std::size_t>(model.reduction_node)];
   const std::string name = model.node_label(model.shafts[static_cast<std::size_t>(shaft)].reference);
   for (const Event& event : outcome.events) {
@@ -144,7 +164,7 @@ void find_standstill(const Model& model, const BandHistory& speed, const RunOutc
     if (event.kind == EventKind::motion) periods.standstill.reset();
   }
   if (periods.standstill || speed.empty()) return;
-  const double level = at_rest * std::max(std::abs(reference), at_rest * model.speed_scale);
+  const double level = at_rest * model.speed_scale;
   const std::optional<double> entry = speed.last_outside(-level, level);
   if (!entry || *entry >= outcome.t) return;
   periods.standstill = entry;
@@ -194,7 +214,7 @@ Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles,
   judge_steadiness(model, d, tolerance, periods);
   if (periods.steady && !speed.driven().empty()) find_run_up(model, speed.driven(), d, tolerance, periods);
   if (periods.steady) periods.steady_speed = d.speed;
-  if (periods.run_down_begin) find_standstill(model, speed.coasting(), outcome, d.speed, tolerance, periods);
+  if (periods.run_down_begin) find_standstill(model, speed.coasting(), outcome, tolerance, periods);
   return periods;
 }
 

@@ -3,8 +3,10 @@
 // All from the reduction link's speed ω on the dense output of the steps, not from samples.
 //
 // driven time   from the start until the last driving source is finally switched off; the whole run if none is.
-// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle that ends within the driven time, converted to equal time steps.
-//               For machines without a cycle: mean speeds of sixteen equal parts of the driven time.
+// last command  the last change of a command, up to the end of its ramp, or of a window of time within the driven time; the
+//               start, if there is none or the sequence repeats.
+// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle of the driven time since the last command, converted to equal
+//               time steps. For machines without a cycle: mean speeds of sixteen equal parts of that time.
 // steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
 //               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
 //               the last one. Changes that do not decrease have no limit, however small they are: a runaway, a drift.
@@ -14,8 +16,7 @@
 //               starts within that range has no run-up.
 // run-down      from the end of the driven time to standstill, or to the end. The three periods and their works have the
 //               same borders everywhere (duty/work_periods.h).
-// standstill    the link comes to rest and is held to the end; otherwise |ω| finally stays below 0.1 % of the last mid
-//               speed, or of the speed at the end of the driven time.
+// standstill    the link comes to rest and is held to the end; otherwise |ω| finally stays below 0.1 % of its usual speed.
 #pragma once
 
 #include <span>

@@ -1,10 +1,12 @@
 // motion_claims_test.cpp — what falls, who holds, what stands behind springs, what slips meanwhile, what vibrates.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "studies/answers/run_claims.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady_words.h"
@@ -67,6 +69,23 @@ TEST(Falling, IsNotSaidOfWhatSwings) {
   EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << said(r);
 }
 
+// It falls until the motor is on, is lifted for twice as long, and falls: from v = 10 t₀ to v − 10 (5 − 3 t₀). Sagging by
+// less or more than half a turn, 10 t₀², makes no swing of it.
+TEST(Falling, IsSaidOfAWeightThatSaggedAtFirst) {
+  for (const double late : {0.5, 0.8}) {
+    const Result r = test::run(fmt::format(R"(
+      line = ["motor", "drum"]
+      motor = {{ kind = "torque source", torque = "40 N*m", inertia = "1 kg*m2", start = "{} s", stop = "{} s" }}
+      drum = {{ kind = "load", torque = "20 N*m", acts = "always", inertia = "1 kg*m2" }}
+      run = {{ start = "rest", until = "5 s" }}
+    )",
+                                           late, 3 * late));
+    const Claim* falls = find(r.claims, Predicate::turns_back, "motor");
+    ASSERT_TRUE(falls) << late << ' ' << said(r);
+    EXPECT_NEAR(*falls->evidence.value, 10 * late - 10 * (5 - 3 * late), 1e-6);
+  }
+}
+
 // The brake's 100 N·m and the weight's 20 N·m stop 2 kg·m² from 10 rad/s within 1/6 s.
 TEST(Holding, IsSaidOfWhatCameToRest) {
   const Result r =
@@ -104,6 +123,50 @@ TEST(Brakes, ThatComeOnInTimeAndAreTooWeakAreSaid) {
     run = { start = { speed = "50 rad/s" }, until = "10 s" }
   )");
   EXPECT_TRUE(said(r).starts_with("\"brake\" does not stop it: it slips at 20 rad/s after 9 s")) << said(r);
+}
+
+// The brake's 60 N·m stop a crank of 0.5 rad/s within its first cycle against the motor's 50: on from the start it is in the
+// way, put on at 1 ms it is meant to stop it.
+TEST(Brakes, ThatAreOnFromTheStartLetItNotGetRound) {
+  const auto crank = [](const std::string& brake) {
+    return test::run(R"(
+      line = ["motor", "crank"]
+      motor = { kind = "torque source", torque = "50 N*m", inertia = "1 kg*m2" }
+      crank = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "1 kg*m2", slider_mass = "1 g" }
+      brake = { kind = "brake", on = "motor", torque = "60 N*m")" +
+                     brake + R"( }
+      run = { start = { speed = "0.5 rad/s" }, until = "3 s" }
+    )");
+  };
+  const Result r = crank("");
+  const Claim* halts = find(r.claims, Predicate::does_not_get_round);
+  ASSERT_TRUE(halts) << said(r);
+  EXPECT_NEAR(*halts->evidence.value, 50, 1e-9);
+  EXPECT_TRUE(has(said(r), "where 50 N·m drive it and \"brake\" holds it")) << said(r);
+  EXPECT_FALSE(find(crank(", start = \"1 ms\"").claims, Predicate::does_not_get_round));
+}
+
+// 100 N·m·(1 − ω/100) on 1 kg·m²: 1 s is no steady motion, 20 s are one, at the load's 60 N·m.
+TEST(Motors, WithoutADutyAreNotAssessedBeforeTheMotionIsSteady) {
+  const auto claim = [](const char* until, Predicate what) {
+    const Claims claims = run_claims(test::run(fmt::format(R"(
+      line = ["motor", "load"]
+      motor = {{ kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", rated_torque = "40 N*m", inertia = "0.5 kg*m2" }}
+      load = {{ kind = "load", torque = "60 N*m", inertia = "0.5 kg*m2" }}
+      run = {{ until = "{}" }}
+    )",
+                                                           until)));
+    const Claim* found = find(claims, what, "motor");
+    return found ? std::optional(*found) : std::nullopt;
+  };
+  const auto open = claim("1 s", Predicate::not_assessed);
+  ASSERT_TRUE(open);
+  EXPECT_FALSE(open->in_conclusion);
+  EXPECT_EQ(*open->evidence.limit, 40);
+  EXPECT_FALSE(claim("20 s", Predicate::not_assessed));
+  const auto hot = claim("20 s", Predicate::motor_overloaded);
+  ASSERT_TRUE(hot);
+  EXPECT_NEAR(*hot->evidence.value, 1.5, 1e-6);
 }
 
 // A crank whose speed rises and falls in every cycle runs on with its brake on: it slows down within the cycle alone.

@@ -62,7 +62,7 @@ class MotionJudge {
     j["cycle"] = m_.cycle, j["usual_speed"] = usual_, j["usual_torque"] = m_.torque_scale, j["until"] = until_;
     j["begins"] = turns_at(p_.front()) ? "turning" : "at rest";
     j["moves"] = moves(), j["end"] = end(), j["speed_at_end"] = p_.back().speed, j["held_at_end"] = p_.back().held;
-    j["fastest"] = fastest(), j["rests_since"] = rests_since();
+    j["fastest"] = fastest(), j["rests_since"] = rests_since(), j["held_since"] = held_since();
     j["driven_at_end"] = p_.back().driven, j["drives_at_end"] = drives_at_end(), j["drive_at_end"] = p_.back().drive;
     j["load_at_end"] = p_.back().load, j["drives_until"] = drives_until();
     j["pushed_at_end"] = pushed(), j["falls"] = falls();
@@ -94,6 +94,12 @@ class MotionJudge {
     for (auto m = p_.rbegin(); m != p_.rend(); ++m)
       if (turns_at(*m)) return m->t;
     return 0;
+  }
+  // Null: it is not held at the end.
+  json held_since() const {
+    if (!p_.back().held) return {};
+    const auto free = std::find_if(p_.rbegin(), p_.rend(), [](const Moment& m) { return !m.held; });
+    return free == p_.rend() ? 0 : free->t;
   }
   bool drives(const Moment& m) const { return m.driven && acts_at(m.drive); }
   // In all of the last 2 % of the time.
@@ -232,12 +238,22 @@ class MotionJudge {
       near = near || means < 0.01;
       if (means < 1e-3 && extremes < 5e-3) period = p;
     }
-    // Of eighths of the time, where each has a period at least.
-    const double eighth = (until_ - from) / 8, lap = list.empty() ? 0 : list.back().end - list.back().begin;
+    // Of eighths of the time, or of the whole periods that fit into one: parts of a period have means of their own.
+    double end_of_both = until_, length = (until_ - from) / 8, length_before = length;
+    if (m_.cycle > 0) {
+      const std::size_t p = std::max<std::size_t>(period, 1);
+      const double lap = list.empty() ? HUGE_VAL : list.back().end - list.back().begin;
+      const std::size_t n = p * static_cast<std::size_t>(length / (lap * static_cast<double>(p)));
+      const bool fits = n > 0 && 2 * n <= list.size();
+      const auto begin_of_last = [&](std::size_t laps) { return list[list.size() - laps].begin; };
+      end_of_both = fits ? list.back().end : until_;
+      length = fits ? end_of_both - begin_of_last(n) : 0;
+      length_before = fits ? begin_of_last(n) - begin_of_last(2 * n) : 0;
+    }
     double drift = 0;
-    if (eighth > (m_.cycle > 0 ? lap * static_cast<double>(std::max<std::size_t>(period, 1)) : 0)) {
-      const double last = mean_speed(until_ - eighth, until_),
-                   before = mean_speed(until_ - 2 * eighth, until_ - eighth);
+    if (length > 0 && length_before > 0) {
+      const double border = end_of_both - length, last = mean_speed(border, end_of_both),
+                   before = mean_speed(border - length_before, border);
       drift = std::abs(last - before) / std::max(std::abs(last), 1e-12 * usual_);
     }
     const std::string how = end();
@@ -287,7 +303,7 @@ json facts_of(const Contact& c, double until) {
   using State = Stretch::State;
   json j{{"component", c.component}, {"kind", c.kind}, {"capacity", c.capacity}, {"usual_speed", c.usual_speed}};
   double open = 0, holds = 0, slips = 0, longest = 0, deepest = 0, held_torque = 0, heat = 0, hottest = 0;
-  int lets_go = 0, engages = 0, slipping = 0;
+  int lets_go = 0, lets_go_at_all = 0, engages = 0, slipping = 0;
   json first;
   for (std::size_t k = 0; k < c.stretches.size(); ++k) {
     const Stretch& s = c.stretches[k];
@@ -296,11 +312,13 @@ json facts_of(const Contact& c, double until) {
     heat += s.heat, hottest = std::max(hottest, s.heat);
     if (s.state == State::holds && closed(s.command_begin) && closed(s.command_end))
       held_torque = std::max(held_torque, s.torque);
-    if (!counts(s, c)) continue;
-    ++slipping;
     const bool held_before =
         k > 0 && c.stretches[k - 1].state == State::holds && closed(c.stretches[k - 1].command_end);
-    if (held_before && closed(s.command_begin)) {
+    const bool lets = s.state == State::slips && held_before && closed(s.command_begin);
+    if (lets) ++lets_go_at_all;
+    if (!counts(s, c)) continue;
+    ++slipping;
+    if (lets) {
       if (++lets_go == 1) first = s.begin;
       longest = std::max(longest, length), deepest = std::max(deepest, s.slipped);
     } else if (s.command_end >= s.command_begin) {
@@ -308,7 +326,8 @@ json facts_of(const Contact& c, double until) {
     }
   }
   j["open"] = open, j["holds"] = holds, j["slips"] = slips;
-  j["times_slipping"] = slipping, j["lets_go"] = lets_go, j["engages"] = engages, j["first_let_go"] = first;
+  j["times_slipping"] = slipping, j["lets_go"] = lets_go, j["lets_go_at_all"] = lets_go_at_all, j["engages"] = engages,
+  j["first_let_go"] = first;
   j["longest"] = longest, j["deepest"] = deepest, j["greatest_held_torque"] = held_torque;
   j["heat"] = heat, j["hottest"] = hottest;
   if (!c.stretches.empty()) {
@@ -345,6 +364,7 @@ json classify(const Observed& seen, const Observed* later) {
     while (!driven.empty() && !driven.back().driven) driven.pop_back();
     if (driven.size() > 2) j["driven_part"] = MotionJudge(seen, driven).all();
   }
+  j["fastest_shaft"] = seen.fastest_shaft;
   if (later && later->moments.size() > 2) {
     const MotionJudge judge(*later, later->moments);
     json l = judge.all();

@@ -10,6 +10,7 @@
 //                             gained is less than a quarter of the way it went
 //               "forwards", "backwards": else, by the sense of the last 2 % of the time
 //   rests_since the last point at which it turned, of one that rests; 0 where it never did
+//   held_since  the last point at which its shaft was not tied to the frame, of one that is at the end
 //   driven      a source is within its window of time and not told 0;  drives: and gives a torque that acts
 //   pushed      at the end a source whose own shaft stands gives more than 1e-3 of the usual torque, or a clutch, limiter or
 //               belt slips under torque
@@ -24,17 +25,17 @@
 //   steady      of the time since the last command, window of time or start:
 //               "yes"  cycles repeat: the mean speeds of the last p cycles and of the p before them differ by less than 0.1 %,
 //                      extremes by less than 0.5 % of the mean speed, p = 1 … 6, and the mean speed of the last eighth differs
-//                      by less than 1 % from that of the eighth before it, where an eighth has a period
+//                      by less than 1 % from that of the eighth before it; with a cycle: of the whole periods in an eighth
 //               "no"   for no p that fits do they differ by less than 1 %, or the eighths differ by more than 5 %
 //               else "unclear"; without a cycle ten equal parts of that time stand for the cycles, and p = 1
 //   run_up      when the link's speed enters for good the range of the last p cycles, wider by 1 % of the mean speed
 //   driven_part the same, of the time up to which any source is on, where none is at the end
 //   stands_within    share of the time of the last p cycles in which the link does not turn
 //   later       the same machine run on to several times the time: its speed in the mean of the last tenth, what it does at the end
-//   fastest_shaft    at the end of the longer run, of any shaft over its usual speed
+//   fastest_shaft    at the end, of any shaft over its usual speed
 //   two_periods a torque depends on time and something on the link's angle: nothing need ever come again
 //   contacts    lets_go: slips at a command of 1 that has not changed since it held; engages: slips otherwise while it is told
-//               more than 0; open: told 0;  a slip counts from 1e-3 of the usual speed, or 1e-2 rad in all
+//               more than 0; open: told 0;  a slip counts from 1e-3 of the usual speed, or 1e-2 rad in all; lets_go_at_all: without that
 //   limits      of ratings that the scene states: greatest value sampled over the limit
 #pragma once
 

@@ -22,7 +22,7 @@ def motion(**changes):
 
 def contact(kind="clutch", **changes):
     return {"component": "clutch", "kind": kind, "capacity": 100.0, "usual_speed": 30.0, "open": 0.0, "holds": 9.0, "slips": 1.0,
-            "times_slipping": 1, "lets_go": 0, "engages": 1, "first_let_go": None, "longest": 0.0, "deepest": 0.0,
+            "times_slipping": 1, "lets_go": 0, "lets_go_at_all": changes.get("lets_go", 0), "engages": 1, "first_let_go": None, "longest": 0.0, "deepest": 0.0,
             "greatest_held_torque": 50.0, "heat": 10.0, "hottest": 10.0, "at_end": "holds", "slips_since": 1.0, "command_at_end": 1.0,
             "slip_at_end": 0.0, "torque_of_last": 50.0, "slips_to_the_end": False, **changes}
 
@@ -35,7 +35,7 @@ def answer(conclusion='"press" runs steadily at 30 rad/s from 1 s on.', truth=No
     later = {**m, "until": 40.0, "rests_since": 40.0 if m["end"] != "rests" else m["rests_since"], "complete": True, "fastest_shaft": 1.0,
              "mean_speed_of_last_tenth": m["speed_at_end"], "mean_speed_before": m["speed_at_end"], **(later or {})}
     return {"scene": "x.toml",
-            "truth": {"complete": True, "prescribed": False, "two_periods": False, "link": "press", "sequence": sequence, "repeats": False, "motion": m, "later": later,
+            "truth": {"complete": True, "prescribed": False, "fastest_shaft": 1.0, "two_periods": False, "link": "press", "sequence": sequence, "repeats": False, "motion": m, "later": later,
                       "contacts": list(contacts), "motors": list(motors), "limits": list(limits), "held": list(held),
                       "torques": torques or {}, **({"driven_part": driven_part} if driven_part else {})},
             "run": {"complete": True, "conclusion": conclusion, "periods": periods, "model": {"effects": "none"}, "ratings": list(ratings), "text": text,
@@ -159,6 +159,21 @@ TRUE = {
                              steady=NOTHING),
     "lets go": answer('"press" runs steadily at 30 rad/s from 1 s on. "clutch" lets go 10 times although it is closed, first at 1 s.',
                       contacts=[contact(lets_go=10, deepest=0.5)]),
+    "lets go for a moment": answer('"press" runs steadily at 30 rad/s from 1 s on. "clutch" lets go 10 times although it is closed, first at 1 s.',
+                                   contacts=[contact(lets_go=2, lets_go_at_all=10)]),
+    "is settled by its drag": answer('"press" is at 60 rad/s after 10 s.', {"speed_at_end": 60.0, "steady": "unclear"},
+                                     later={"mean_speed_of_last_tenth": 500.0, "mean_speed_before": 370.0}),
+    "another shaft runs away": answer(later={"fastest_shaft": 3.4}, steady={
+        "complete": False, "conclusion": "No steady cycle (rigid): it runs away: …", "cycles": [{"found": False, "label": "rigid", "effects": "none"}]}),
+    "the elastic machine alone rests": answer(steady={"complete": False, "conclusion": "No steady cycle (elastic): it slows down.", "cycles": [
+        {"found": False, "label": "elastic", "effects": "elasticity"}]}),
+    "is held when it long stands": answer('"press" is at rest after 10 s.', {**REST, "held_since": 9.0}, later={"held_since": 39.0}, steady={
+        "complete": True, "conclusion": "At the end the machine comes to rest at 5 s and stays there", "cycles": []}),
+    "creeps to rest": answer('"press" is at rest after 10 s.', {**REST, "held_since": 7.0}, periods={"standstill": 7.0}, steady=NOTHING),
+    "swings": answer('"press" vibrates to the end.', {**REST, "end": "vibrates", "falls": True, "speed_at_end": -30.0}, steady=NOTHING,
+                     claims=[("vibrates", "press")]),
+    "a motor's rating exceeded": answer('3 of 3 ratings EXCEEDED, worst "brake". "press" runs steadily.', motors=[{**MOTOR, "late_rms_torque": 30.0}],
+                                        claims=[("runs_steadily", "press"), ("limit_exceeded", "motor")]),
     "exceeded": answer('A rating is EXCEEDED, "clutch".', limits=[HOT], ratings=[TELLS]),
     "falls": answer('"press" turns backwards, at -30 rad/s at the end.', {"falls": True, "end": "backwards", "speed_at_end": -30.0, "steady": "unclear"},
                     periods={"steady": False}),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/scenes.h"
@@ -200,6 +201,41 @@ accuracy = 1e-7
   ASSERT_TRUE(r.complete) << r.diagnosis;
   ASSERT_TRUE(r.periods.run_down_begin);
   EXPECT_FALSE(r.periods.standstill);
+}
+
+// Half the voltage from 40 s on: ω = 50 + 50 e^(−(t−40)/2). What it still has to go is that of the time since.
+TEST(Periods, AreJudgedSinceTheLastCommand) {
+  const Result r = run(motor_and_rotor(56) + "[sequence]\nsteps = [{ at = \"40 s\", set = \"motor\", to = 0.5 }]\n");
+  EXPECT_TRUE(r.periods.steady) << r.periods.verdict;
+  EXPECT_NEAR(*r.periods.remaining, 50 * std::exp(-8.0), 50 * std::exp(-8.0));
+  ASSERT_TRUE(r.periods.run_up_end);
+  // Within 1 % of ω(56) = 50.0168 from above: 50 e^(−x/2) = 0.01 ω + 50 e^(−8)
+  const double last = 50 + 50 * std::exp(-8.0);
+  EXPECT_NEAR(*r.periods.run_up_end, 40 - 2 * std::log((1.01 * last - 50) / 50), 1e-5);
+}
+
+// Two cycles of a motion since the last command are too few, whatever cycles there were before it.
+TEST(Periods, OfFewCyclesSinceTheLastCommandAreNotSteady) {
+  const std::string motor =
+      "kind = \"dc shunt motor\"\nstall_torque = \"100 N*m\"\nno_load_speed = \"100 rad/s\"\ninertia = \"1e-3 kg*m2\"";
+  const Result r = run(with_crank(motor, "0.1 kg*m2", 100, 0.62) +
+                       "[sequence]\nsteps = [{ at = \"0.13 s\", set = \"motor\", to = -0.5 }]\n");
+  ASSERT_EQ(std::count_if(r.cycles.begin(), r.cycles.end(), [](const CycleRecord& c) { return c.begin >= 0.13; }), 2);
+  ASSERT_GT(r.cycles.size(), 3u);
+  EXPECT_FALSE(r.periods.steady);
+  EXPECT_EQ(r.periods.verdict, "2 whole cycles since the last command, of at least 3 needed");
+}
+
+// Off after 1 ms at a tenth of the usual 100 rad/s: ω = 50 − 40 e^(−t), then e^(−t/2) down to 0.1 rad/s.
+TEST(Periods, StandstillIsByTheUsualSpeedHoweverSlowTheDriveWas) {
+  const Result r = run(R"(
+line = ["motor", "rotor"]
+motor = { kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", inertia = "1 kg*m2", stop = "1 ms" }
+rotor = { kind = "load", damping = "1 N*m*s/rad", inertia = "1 kg*m2" }
+run = { start = { speed = "10 rad/s" }, until = "20 s", accuracy = 1e-7 }
+)");
+  ASSERT_TRUE(r.periods.standstill) << r.periods.verdict;
+  EXPECT_NEAR(*r.periods.standstill, 1e-3 + 2 * std::log((50 - 40 * std::exp(-1e-3)) / 0.1), 1e-5);
 }
 
 // --- nothing depends on what is sampled ---
