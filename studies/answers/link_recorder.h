@@ -8,7 +8,7 @@
 namespace kurbel {
 
 // Evaluated at the ends of steps; reversals are located on the solution. The link turns above 1e-3 of its usual
-// speed; its sense of rotation is updated above 1e-2 of it.
+// speed, at quarters of a step; its sense of rotation is updated above 1e-2 of it.
 class LinkRecorder final : public Observer {
  public:
   LinkRecorder(const Model& model, double until) : m_(model), until_(until) {}
