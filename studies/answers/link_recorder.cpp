@@ -37,7 +37,7 @@ void LinkRecorder::step(StepView& view) {
   angle_ = angle_in(view.y());
   foremost_ = std::max(foremost_, angle_), fastest_ = std::max(fastest_, std::abs(speed));
   if (std::abs(speed) > least_sense * m_.speed_scale) {
-    if (sense > 0 && sense_ < 0 && fell_back() > std::numbers::pi) swung_forwards_ = view.t();
+    if (sense > 0 && sense_ < 0 && fell_back() > std::numbers::pi) turned_forwards_ = view.t();
     if (sense < 0 && sense_ >= 0) backwards_since_ = view.t();
     sense_ = sense;
   }

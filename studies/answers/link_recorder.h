@@ -15,7 +15,7 @@ class LinkRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override {
-    tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, swung_forwards_, late_from_, late_begin_,
+    tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, turned_forwards_, late_from_, late_begin_,
          late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_,
          extreme_, turned_back_, first_swing_, last_swing_);
   }
@@ -23,7 +23,7 @@ class LinkRecorder final : public Observer {
   // Its greatest angle minus the angle at the end, turns counted [rad].
   double fell_back() const { return foremost_ - angle_; }
   // Its last reversal to forwards more than half a turn behind its greatest angle [s]; 0: none.
-  double swung_forwards() const { return swung_forwards_; }
+  double turned_forwards() const { return turned_forwards_; }
   double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
   double turned_at() const { return turned_at_; }              // end of the last step in which it turned [s]
   // It has not turned for the last fiftieth of the time up to t.
@@ -46,7 +46,7 @@ class LinkRecorder final : public Observer {
   const Model& m_;
   double until_;
   bool began_ = false;
-  double angle_ = 0, foremost_ = 0, turned_at_ = 0, backwards_since_ = 0, swung_forwards_ = 0;
+  double angle_ = 0, foremost_ = 0, turned_at_ = 0, backwards_since_ = 0, turned_forwards_ = 0;
   int sense_ = 0;
   double late_from_ = 0, late_begin_ = 0;
   int late_sense_ = 0, changes_ = 0;
