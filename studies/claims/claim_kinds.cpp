@@ -37,7 +37,7 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{turns_back, runs, fault, below,
               "the link turned back for good, by more than half a turn from its foremost place, against what drives it "
-              "forwards or with nothing that drives; of a sequence with nothing that drives alone; not of what swung "
+              "forwards or with nothing that drives; of a sequence with nothing that drives alone; not of what turned "
               "forwards again from there",
               "value: speed at the end [rad/s]; limit: 0",
               "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
