@@ -16,6 +16,7 @@
 #include "studies/cycle/machine_cycle.h"
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
+#include "studies/forces/oil_film.h"
 #include "studies/validity/substitutes.h"
 
 namespace kurbel {
@@ -143,6 +144,7 @@ class Study {
     if (simulated) tell_outside_data(out_, simulated->outside_data, *out_.simulated, true);
     if (out_.balancing && !out_.prescribed->torque.error)
       for (Counterweight& c : out_.balancing->counterweights) c.peak_bearing.error.reset();
+    out_.films = films_of(out_.joints, out_.front(), out_.notes);
     for (std::optional<ForceCycle>* cycle : {&out_.prescribed, &out_.simulated})
       if (*cycle) mark_unbounded(out_.unbounded, **cycle);
     return std::move(out_);
