@@ -17,6 +17,7 @@
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
 #include "studies/forces/oil_film.h"
+#include "studies/reduce/mechanism_words.h"
 #include "studies/validity/substitutes.h"
 
 namespace kurbel {
@@ -126,7 +127,8 @@ class Study {
     out_.friction = effects_.joint_friction && asked.mechanism().joints;
     if (const std::string why = data_.undetermined(); !why.empty())
       throw std::invalid_argument(fmt::format("{}: {}; ask run, steady or reduce", asked.name, why));
-    for (const std::string& line : data_.about()) out_.notes.push_back(asked.name + ": " + line);
+    for (const std::string& line : mechanism_words(machine_.model()))
+      if (line.starts_with(asked.name + ": ")) out_.notes.push_back(line);
     statics_.emplace(data_, out_.joints, out_.friction, !effects_.gravity);
     loads_.add_edges(statics_->turnings());
     solve_first();
