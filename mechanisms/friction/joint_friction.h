@@ -38,7 +38,10 @@ struct RubbingJoint {
   double width = 0;          // between the two faces of a slide [m], ≥ 0
   double rolling_arm = 0;    // k_r of the rollers of a slide [m], ≥ 0
   double roller_radius = 0;  // r_r [m], > 0 if rolling_arm > 0
+  // Of a pin's film, for `forces` alone, all ≥ 0: R_q of journal and bore [m], η [Pa·s], radial clearance and length [m].
+  double roughness = 0, bore_roughness = 0, viscosity = 0, clearance = 0, film_length = 0;
 
+  bool film() const { return roughness > 0 || viscosity > 0; }
   bool rubs(bool slides) const { return slides ? !friction.none() || rolling_arm > 0 : radius > 0 && !friction.none(); }
 };
 

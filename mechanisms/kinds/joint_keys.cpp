@@ -39,15 +39,36 @@ Fields<Friction> friction() {
       .check(check_friction);
 }
 
+// Of the oil film in a pin. Text as arrays: the run-time of exported components has no relocations for it.
+constexpr struct FilmKey {
+  char name[15], unit[5];
+  double RubbingJoint::*member;
+  KeyDocText doc;
+} film_keys[] = {{"roughness", "m", &RubbingJoint::roughness,
+                  "R_q of the journal, for which friction it is (figure of forces; the run's friction is unchanged)"},
+                 {"bore_roughness", "m", &RubbingJoint::bore_roughness, "R_q of its bore"},
+                 {"viscosity", "Pa*s", &RubbingJoint::viscosity, "of the oil at its temperature; none or 0: dry"},
+                 {"clearance", "m", &RubbingJoint::clearance, "radial: bore's radius less journal's"},
+                 {"film_length", "m", &RubbingJoint::film_length, "of the bearing along its axis"}};
+
+void add_film(Fields<RubbingJoint>& to) {
+  for (const FilmKey& key : film_keys) to.add(quantity(key.name, key.unit, not_negative, key.doc), key.member);
+}
+
 const Tables<RubbingJoint>& journals() {
-  static const auto made = Tables<RubbingJoint>().add(
-      "journal",
-      "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r sin(atan f) the radius of the "
-      "friction circle",
-      Fields<RubbingJoint>()
-          .add(required("radius", "m", positive, "of the journal; of a rolling bearing half its bore"),
-               &RubbingJoint::radius)
-          .add(friction(), &RubbingJoint::friction));
+  static const auto made = [] {
+    Fields<RubbingJoint> fields;
+    fields
+        .add(required("radius", "m", positive, "of the journal; of a rolling bearing half its bore"),
+             &RubbingJoint::radius)
+        .add(friction(), &RubbingJoint::friction);
+    add_film(fields);
+    return Tables<RubbingJoint>().add(
+        "journal",
+        "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r sin(atan f) the radius of the "
+        "friction circle",
+        fields);
+  }();
   return made;
 }
 
@@ -110,8 +131,10 @@ bool fits(const Reading<RubbingJoint>& joint, bool slides) {
     return !joint.given(member) ||
            joint.refuse(member, fmt::format("belongs to a {}; this joint is a {}", of, slides ? "slide" : "pin"));
   };
-  if (slides) return keep_off(&RubbingJoint::radius, "pin");
-  bool sound = true;
+  bool sound = !slides || keep_off(&RubbingJoint::radius, "pin");
+  if (slides)
+    for (const FilmKey& key : film_keys) sound = keep_off(key.member, "pin") && sound;
+  if (slides) return sound;
   for (const auto member : {&RubbingJoint::length, &RubbingJoint::middle, &RubbingJoint::width,
                             &RubbingJoint::rolling_arm, &RubbingJoint::roller_radius})
     sound = keep_off(member, "slide") && sound;
@@ -185,6 +208,7 @@ const Tables<Reading<RubbingJoint>>& rubbing_tables() {
         .add(quantity("radius", "m", positive, "of a pin's journal; of a rolling bearing half its bore"),
              &Joint::radius)
         .add(friction(), &Joint::friction);
+    add_film(fields);
     tables.add("joint",
                "A joint with friction: of a pin ρ times the reaction, ρ = r sin(atan f) the radius of the friction "
                "circle; of a slide f N, from both edges where the reaction leaves its length",

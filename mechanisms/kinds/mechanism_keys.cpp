@@ -118,10 +118,17 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
     mechanism.emplace(s.name, data);
   } catch (const OutOfTime&) {
     throw;
-  } catch (const std::exception&) {  // Simbody's own checks, which speak of matrices
-    messages.add(s.at, fmt::format("{} \"{}\": its lengths, masses and inertias lie too far apart to be computed "
-                                   "together ({}); check their units",
-                                   s.kind->name, s.name, masses_of(s)));
+  } catch (const std::exception& why) {
+    const std::string masses = masses_of(s);
+    const bool by_sketch =
+        has_bodies && masses.empty();  // its own words; else Simbody's checks, which speak of matrices
+    messages.add(s.at, by_sketch
+                           ? fmt::format("{} \"{}\": its links cannot be followed over the cycle ({}); probably a "
+                                         "dead position or change point is too near: change a length clearly",
+                                         s.kind->name, s.name, why.what())
+                           : fmt::format("{} \"{}\": its lengths, masses and inertias lie too far apart to be "
+                                         "computed together ({}); check their units",
+                                         s.kind->name, s.name, masses));
     return;
   }
   if (mechanism->stroke() == 0 && !mounting.loads.empty()) {

@@ -130,6 +130,11 @@ inline constexpr Definition of_one_study[] = {
      "greatest force on the frame by the inertia of what moves"},
     {"shaking_moment", "largest shaking moment", "N*m", "", "9", "forces",
      "greatest moment on the frame about the main bearing by the inertia of what moves"},
+    {"film_parameter", "film parameter λ", "", "", "8.16", "forces",
+     "smallest film of a pin's journal over the cycle, by its load and sliding speed at each position, over the root "
+     "of the "
+     "squared roughnesses of both surfaces: boundary friction below 1, mixed up to 3, fluid above",
+     "λ = h_min/√(R_q1² + R_q2²)", "a bearing calculation: squeezing of the film is not in it"},
     // gears
     {"centre_distance", "centre distance", "mm", "", "6", "gears", "between the wheels' axes, as they run"},
     {"contact_ratio", "contact ratio ε_α", "", "", "6", "gears",

@@ -155,6 +155,7 @@ struct Label {
 };
 inline constexpr Label labels[] = {
     {"largest reaction of ", "", "reaction"},
+    {"least film parameter of ", "", "film_parameter"},
     {"largest shaking force", "", "shaking_force"},
     {"largest shaking moment", "", "shaking_moment"},
     {"largest ", ", moment", "reaction_moment"},

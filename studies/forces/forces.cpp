@@ -16,6 +16,8 @@
 #include "studies/cycle/machine_cycle.h"
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
+#include "studies/forces/oil_film.h"
+#include "studies/reduce/mechanism_words.h"
 #include "studies/validity/substitutes.h"
 
 namespace kurbel {
@@ -125,7 +127,8 @@ class Study {
     out_.friction = effects_.joint_friction && asked.mechanism().joints;
     if (const std::string why = data_.undetermined(); !why.empty())
       throw std::invalid_argument(fmt::format("{}: {}; ask run, steady or reduce", asked.name, why));
-    for (const std::string& line : data_.about()) out_.notes.push_back(asked.name + ": " + line);
+    for (const std::string& line : mechanism_words(machine_.model()))
+      if (line.starts_with(asked.name + ": ")) out_.notes.push_back(line);
     statics_.emplace(data_, out_.joints, out_.friction, !effects_.gravity);
     loads_.add_edges(statics_->turnings());
     solve_first();
@@ -143,6 +146,7 @@ class Study {
     if (simulated) tell_outside_data(out_, simulated->outside_data, *out_.simulated, true);
     if (out_.balancing && !out_.prescribed->torque.error)
       for (Counterweight& c : out_.balancing->counterweights) c.peak_bearing.error.reset();
+    out_.films = films_of(out_.joints, out_.front(), out_.notes);
     for (std::optional<ForceCycle>* cycle : {&out_.prescribed, &out_.simulated})
       if (*cycle) mark_unbounded(out_.unbounded, **cycle);
     return std::move(out_);

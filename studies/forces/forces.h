@@ -165,6 +165,16 @@ struct Balancing {
   std::vector<Counterweight> counterweights;  // the first: the existing one
 };
 
+// Which friction it is in a pin over the cycle (oil_film.h).
+struct PinFilm {
+  std::string joint;
+  Estimate film, parameter;             // smallest over the cycle: h_min [m], λ
+  double phi = 0, load = 0, speed = 0;  // where: angle [rad], |R| [N], sliding speed [m/s]
+  double boundary = 0, mixed = 0;       // shares of the cycle's positions; the rest is fluid
+  bool dry = false;
+  std::string words() const;  // "boundary, mixed, fluid"
+};
+
 struct Forces {
   std::string title, scene_file, scene_text, mechanism, kind;
   SpeedUnit speed_unit;
@@ -174,6 +184,7 @@ struct Forces {
   bool friction = false;  // joints have friction, and it is on
   std::optional<ForceCycle> prescribed, simulated;
   std::optional<ForceCycle> rigid;     // the second problem without elasticity, for plots
+  std::vector<PinFilm> films;          // in the cycle of front(), of pins with data of their oil
   std::vector<PositionForces> also;    // first problem, at the further angles requested
   std::optional<Balancing> balancing;  // of a slider-crank, at the speed of the first problem
   UnboundedReactions unbounded;

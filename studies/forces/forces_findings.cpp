@@ -301,6 +301,28 @@ void show_friction_circle(Findings& to, Chapter in, const RubbingJoint& j) {
                              1e3 * friction_circle_radius(j.radius, f_k)));
 }
 
+void say_films(Findings& to, Chapter in, const Forces& f) {
+  if (f.films.empty()) return;
+  for (const PinFilm& p : f.films)
+    to.figures.push_back({"least film parameter of the " + p.joint, p.parameter.value, "", p.parameter.error,
+                          fmt::format("{}; at φ = {:.1f}°", p.words(), degrees(p.phi)), 0, "film_parameter"});
+  to.say(in,
+         table_of("films",
+                  fmt::format("Oil films of the pins, least over the cycle, {} motion (theory 8.16)", f.front().label),
+                  f.films)
+             .headed("oil films of the pins")
+             .text_in(0)
+             .always()
+             .column("joint", "pin", &PinFilm::joint)
+             .column("load", "load [N]", &PinFilm::load)
+             .column("sliding_speed", "sliding speed [m/s]", &PinFilm::speed)
+             .estimate("film", "film [m]", &PinFilm::film)
+             .estimate("film_parameter", "λ", &PinFilm::parameter)
+             .column("boundary", "boundary λ < 1", &PinFilm::boundary, {.digits = 3})
+             .column("mixed", "mixed λ < 3", &PinFilm::mixed, {.digits = 3})
+             .column("friction", "friction", [](const PinFilm& p) { return p.words(); }));
+}
+
 // --- all of it ---
 
 void say_positions(Findings& to, Chapter in, const Forces& f) {
@@ -396,6 +418,7 @@ Findings findings_of(const Forces& f) {
   to.draw(polar, [&f] { return polar_plots(f); });
   say_positions(to, positions, f);
   say_work(to, work, f);
+  say_films(to, work, f);
   say_shaking(to, shaking, f);
   say_links(to, links, front);
   to.tell("links", links_list(front));

@@ -151,5 +151,33 @@ until = "1 s"
   }
 }
 
+// All three cranks and the coupler in one line twice a turn: the third one does not help, and the message says where.
+TEST(LinkageKeys, CranksInOneLineAreRefusedByTheAngle) {
+  try {
+    compile(test::scene_from(R"(
+line = ["m"]
+[m]
+kind   = "linkage"
+unit   = "mm"
+points = { O = [0, 0], A = [50, 80], B = [300, 80], C = [250, 0], M = [150, 80], N = [100, 0] }
+frame  = "O C N"
+[m.links]
+crank   = { points = "O A", mass = "2 kg" }
+coupler = { points = "A M B", mass = "5 kg" }
+second  = { points = "C B", mass = "2 kg" }
+third   = { points = "N M", mass = "2 kg" }
+[run]
+start = { speed = "60 rpm" }
+until = "1 s"
+)"),
+            Effects{});
+    ADD_FAILURE() << "not refused";
+  } catch (const SceneError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("cannot be closed at φ = "), std::string::npos) << what;
+    EXPECT_NE(what.find("change a length clearly"), std::string::npos) << what;
+  }
+}
+
 }  // namespace
 }  // namespace kurbel::linkage_scenes_test
