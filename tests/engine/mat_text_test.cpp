@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <array>
 #include <filesystem>
@@ -138,6 +139,21 @@ TEST_F(MatText, WhatIsNotReadSaysWhatToDo) {
       "has no vector or matrix of numbers; it has no variable; save the columns of the table as vectors of numbers");
   write(whole.substr(0, whole.size() - 20));
   EXPECT_EQ(refusal(), "is damaged or truncated behind its variable \"n\"; save it anew");
+}
+
+// 128 MB of zeros in some 130 kB; and a text that is longer than its numbers.
+TEST_F(MatText, WhatUnpacksBeyondBoundsIsRefused) {
+  std::string zeros(128'000'000, '\0'), packed(200'000, '\0');
+  uLongf size = packed.size();
+  ASSERT_EQ(compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(zeros.data()),
+                      zeros.size(), 9),
+            Z_OK);
+  std::string tag = {15, 0, 0, 0, 0, 0, 0, 0};
+  for (int k = 0; k < 4; ++k) tag[static_cast<std::size_t>(4 + k)] = static_cast<char>(size >> 8 * k & 0xFF);
+  write(std::string(124, ' ') + std::string("\0\1IM", 4) + tag + packed.substr(0, size));
+  EXPECT_EQ(refusal(), "unpacks to more than 64 MB; save the variables that are needed");
+  write(MAT_FT_MAT5, MAT_COMPRESSION_NONE);
+  EXPECT_THROW(mat_as_text(test::text_of(path_), "", path_, 40), SceneError);
 }
 
 // Cut off anywhere, and with any byte changed: a table or a refusal.
