@@ -125,12 +125,14 @@ TEST_F(MatText, WhatIsNotReadSaysWhatToDo) {
   EXPECT_EQ(refusal(), "its variable \"z\" is complex; save real and imaginary parts as variables of their own");
   write(MAT_FT_MAT73, MAT_COMPRESSION_NONE);
   EXPECT_EQ(refusal(), "is a MAT file of version 7.3 (HDF5), which is not read; save it anew: save('file.mat', '-v7')");
-  write(MAT_FT_MAT4, MAT_COMPRESSION_NONE);
+  // Of version 4: type, rows, columns, no imaginary part, length of the name.
+  write(std::string("\0\0\0\0\1\0\0\0\1\0\0\0\0\0\0\0\2\0\0\0t\0", 22) + std::string(200, '\0'));
   EXPECT_EQ(refusal(),
             "is no MAT file of version 5, or a truncated one; save it anew: save('file.mat', '-v7'), or as .csv");
   write(MAT_FT_MAT5, MAT_COMPRESSION_NONE);
   EXPECT_EQ(refusal("q"),
-            "has no variable of numbers \"q\"; it has rate, t, remark, n and m; save the columns of the table as "
+            "has no variable of numbers \"q\"; it has \"rate\", \"t\", \"remark\", \"n\" and \"m\"; save the columns "
+            "of the table as "
             "vectors of numbers");
   const std::string whole = test::text_of(path_);
   write(whole.substr(0, 128));
