@@ -12,6 +12,7 @@
 
 #include "engine/scene/keys.h"
 #include "engine/scene/messages.h"
+#include "engine/tables/mat_text.h"
 
 namespace kurbel {
 namespace {
@@ -152,6 +153,7 @@ class Workbook {
 
 std::string sheet_as_text(const std::string& bytes, const std::string& sheet, const std::string& path,
                           std::size_t limit) {
+  if (!is_archive(bytes)) return mat_as_text(bytes, sheet, path, limit);
   return Workbook(bytes, path, limit).text(sheet);
 }
 

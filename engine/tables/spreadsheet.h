@@ -9,8 +9,9 @@ namespace kurbel {
 // Whether a file begins like a zip archive, as .xlsx files do.
 inline bool is_archive(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
-// The sheet with this name, or the first. Values are those saved in the sheet. Parts of the archive and the resulting text
-// are limited to `limit`, whatever sizes the archive declares. Throws SceneError for `path`.
+// The sheet with this name, or the first; of what is no archive, a MAT file's variables. Values are those saved in the
+// sheet. Parts of the archive and the resulting text are limited to `limit`, whatever sizes the archive declares. Throws
+// SceneError for `path`.
 std::string sheet_as_text(const std::string& bytes, const std::string& sheet, const std::string& path,
                           std::size_t limit);
 

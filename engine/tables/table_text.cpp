@@ -86,7 +86,7 @@ std::string in_utf8(std::string bytes, const std::string& path) {
 
 TableText read_table_text(const std::string& path, const std::string& sheet) {
   std::string bytes = read_text_file(path, max_table_bytes);
-  if (is_archive(bytes)) return {sheet_as_text(bytes, sheet, path, max_table_bytes), true};
+  if (is_archive(bytes) || path.ends_with(".mat")) return {sheet_as_text(bytes, sheet, path, max_table_bytes), true};
   if (!sheet.empty())
     throw SceneError(
         {{path, {}, fmt::format("is no .xlsx file, and has no sheet {}; drop the key", in_quotes(sheet))}});

@@ -13,7 +13,7 @@ struct TableText {
 };
 
 // Reads UTF-8 and UTF-16 with or without byte order mark, else Latin-1; lines that end with \n, \r\n or \r; a sheet of an
-// .xlsx file by its name, by default the first. Throws SceneError.
+// .xlsx file by its name, by default the first; the variables of a .mat file. Throws SceneError.
 TableText read_table_text(const std::string& path, const std::string& sheet = {});
 
 }  // namespace kurbel

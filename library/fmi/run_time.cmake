@@ -7,7 +7,7 @@ set(rooms engine/base engine/scene engine/elements engine/model engine/equations
 list(JOIN rooms "|" rooms)
 set(run_time ${KURBEL_SOURCES})
 list(FILTER run_time INCLUDE REGEX "/((${rooms})/[a-z_]+|library/fmi/(exported_machine|instance|instance_text|ports|variables))\\.cpp$")
-list(FILTER run_time EXCLUDE REGEX "/(spreadsheet|periodic_schur|multistep_stepper)\\.cpp$")
+list(FILTER run_time EXCLUDE REGEX "/(spreadsheet|mat_text|periodic_schur|multistep_stepper)\\.cpp$")
 # Of Simbody's island those that do without Simbody.
 get_target_property(loops kurbel_simbody SOURCES)
 list(FILTER loops INCLUDE REGEX "/mechanisms/loops/[a-z_]+\\.cpp$")

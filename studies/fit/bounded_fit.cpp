@@ -176,4 +176,17 @@ Determination determined_by(const Eigen::MatrixXd& jacobian, const std::vector<i
   return found;
 }
 
+Eigen::VectorXd leverage(const Eigen::MatrixXd& jacobian, const std::vector<int>& on_bound, double floor) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < jacobian.cols(); ++k)
+    if (on_bound[static_cast<std::size_t>(k)] == 0 && !jacobian.col(k).isZero(0)) free.push_back(k);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(jacobian.rows());
+  if (free.empty()) return sum;
+  const Directions within = directions_of(jacobian, free);
+  for (Eigen::Index k = 0; k < within.v.cols(); ++k)
+    if (within.determined(k, floor))
+      sum += (columns_of(jacobian, free) * within.v.col(k).cwiseQuotient(within.scale) / within.value[k]).cwiseAbs2();
+  return sum;
+}
+
 }  // namespace kurbel

@@ -56,4 +56,7 @@ struct Determination {
 Determination determined_by(const Eigen::MatrixXd& jacobian, const std::vector<int>& on_bound, double floor,
                             const Eigen::MatrixXd& scores = {});
 
+// The diagonal of J (Jᵀ J)⁻¹ Jᵀ: how much of an unknown each value determines. Unknowns on bounds are held.
+Eigen::VectorXd leverage(const Eigen::MatrixXd& jacobian, const std::vector<int>& on_bound, double floor);
+
 }  // namespace kurbel

@@ -57,12 +57,15 @@ class FitWork {
   }
 
   // Each record counts by what it leaves when it is fitted by itself: what the machine lacks there must not draw unknowns
-  // that others determine. Then all of them together, and errors.
+  // that others determine. Then all of them together, and errors. Of its values as many are spent as it determines unknowns
+  // when all are fitted together: one that several share is not taken from each of them.
   void weigh() {
     const std::size_t count = problem_.records().size();
     std::vector<Eigen::VectorXd> alone(count, state_.best.u);
+    std::vector<double> spent(count, 0);
+    const Eigen::MatrixXd by_deviation = problem_.deviations().asDiagonal() * state_.best.jacobian;
     constexpr int rounds = 2, most_steps = 12;
-    for (int round = 0; round < rounds; ++round)
+    for (int round = 0; round < rounds; ++round) {
       for (std::size_t r = 0; r < count; ++r) {
         problem_.active.assign(count, false), problem_.active[r] = true;
         const bool enough = static_cast<std::size_t>(problem_.comparisons()[r].size()) > problem_.unknowns_of(r);
@@ -70,8 +73,14 @@ class FitWork {
         const bool changes = round == 0 ? count > 1 : problem_.records()[r].channels.size() > 1;
         if (enough && changes)
           if (const BoundedFit found = problem_.fit(alone[r], most_steps); found.r.size() > 0) alone[r] = found.u;
-        if (problem_.residuals(alone[r])) problem_.weigh(r, alone[r]);
+        if (problem_.residuals(alone[r])) problem_.weigh(r, alone[r], spent[r]);
       }
+      const Eigen::VectorXd parts =
+          leverage(problem_.deviations().cwiseInverse().asDiagonal() * by_deviation, state_.best.on_bound, floor());
+      Eigen::Index begin = 0;
+      for (std::size_t r = 0; r < count; begin += problem_.comparisons()[r++].size())
+        spent[r] = parts.segment(begin, problem_.comparisons()[r].size()).sum();
+    }
     problem_.active.assign(count, true);
     const int before = state_.best.steps;
     state_.best = problem_.fit(count > 1 ? state_.best.u : alone[0]);
@@ -92,6 +101,12 @@ class FitWork {
       if (const auto& record = problem_.unknowns()[k].record)
         u[static_cast<Eigen::Index>(k)] = alone[*record][static_cast<Eigen::Index>(k)];
     return u;
+  }
+
+  // Singular values below it are errors of the derivatives.
+  double floor() const {
+    constexpr double least = 1e-4, most = 1e-2;
+    return std::clamp(3 * problem_.noise(), least, most);
   }
 
   void determine() {
@@ -115,9 +130,7 @@ class FitWork {
     Eigen::MatrixXd all(cycles_ > 0 ? rows : 0, problem_.size());
     if (Eigen::Index next = 0; cycles_ > 0)
       for (const Eigen::MatrixXd& part : scores) all.middleRows(next, part.rows()) = part, next += part.rows();
-    constexpr double least_floor = 1e-4, most_floor = 1e-2;
-    const double floor = std::clamp(3 * problem_.noise(), least_floor, most_floor);
-    state_.determined = determined_by(j, state_.best.on_bound, floor, all);
+    state_.determined = determined_by(j, state_.best.on_bound, floor(), all);
     const double freedom = std::max(independent - static_cast<double>(problem_.size()), 1.0);
     const double reduced = state_.best.cost() / freedom;
     constexpr double below_machine_error = 0.5;  // of weights by what is left it is 1
@@ -184,6 +197,10 @@ class FitWork {
     }
     settings.insert(settings.end(), fitted.begin(), fitted.end());
     study_.written = SettledText(first.text, first.file, settings).text();
+    for (const Unknown& unknown : problem_.unknowns())
+      if (unknown.concerns(0) && unknown.moves_machine() && unknown.kind != Unknown::Kind::key)
+        study_.notes.push_back(
+            fmt::format("a fitted scene that is written (--write) has keys alone: not the {}", unknown.name));
   }
 
   void say_what_is_joined() {

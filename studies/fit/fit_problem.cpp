@@ -133,6 +133,13 @@ Eigen::VectorXd FitProblem::stacked(const std::vector<Response>& responses, cons
   return r;
 }
 
+Eigen::VectorXd FitProblem::deviations() const {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(values_compared()));
+  Eigen::Index begin = 0;
+  for (const ComparedRecord& c : comparisons_) all.segment(begin, c.size()) = c.deviation(), begin += c.size();
+  return all;
+}
+
 std::optional<Eigen::VectorXd> FitProblem::residuals(const Eigen::VectorXd& u) {
   std::vector<Item> items;
   for (std::size_t r = 0; r < records_.size(); ++r)
@@ -224,10 +231,6 @@ BoundedFit FitProblem::fit(const Eigen::VectorXd& u, int most_steps) {
       .residuals = [this](const Eigen::VectorXd& at) { return residuals(at); },
       .derivative = [this](const Eigen::VectorXd& at, const Eigen::VectorXd&) { return derivative(at); }};
   return fit_within_bounds(problem, u, most_steps);
-}
-
-void FitProblem::weigh(std::size_t record, const Eigen::VectorXd& u) {
-  comparisons_[record].weigh_by(shown(record, u) - comparisons_[record].data(), unknowns_of(record));
 }
 
 std::size_t FitProblem::unknowns_of(std::size_t record) const {

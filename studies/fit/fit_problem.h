@@ -43,10 +43,13 @@ class FitProblem {
   const std::string& failure() const { return failure_; }
   std::size_t runs() const { return runs_; }
 
+  Eigen::VectorXd deviations() const;  // of all records' values
   // The values of a record to be compared, at u. From the responses at the last u.
   Eigen::VectorXd shown(std::size_t record, const Eigen::VectorXd& u) const;
-  // Weights a record by its residuals, from the responses at the last u.
-  void weigh(std::size_t record, const Eigen::VectorXd& u);
+  // Weights a record, of which it determines so many of the unknowns, by its residuals, from the responses at the last u.
+  void weigh(std::size_t record, const Eigen::VectorXd& u, double determined) {
+    comparisons_[record].weigh_by(shown(record, u) - comparisons_[record].data(), determined);
+  }
   std::size_t unknowns_of(std::size_t record) const;  // number of unknowns that may affect it
 
   // Runs of one machine at many u, in threads. Throws OutOfTime on interruption.

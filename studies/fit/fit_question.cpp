@@ -162,7 +162,7 @@ OptionsOf<FitAsked> options() {
     options.add({.name = name, .doc = doc + "; repeatable", .each_time = true}, member);
   };
   texts("measured", &FitAsked::measured,
-        "a measured record (CSV, XLSX): \"half.csv\", \"half=file.csv\" with a name of its own, \"down.csv in "
+        "a measured record (CSV, XLSX, MAT): \"half.csv\", \"half=file.csv\" with a name of its own, \"down.csv in "
         "down.toml\" of another scene");
   texts("map", &FitAsked::maps,
         "which column is which channel, \"speed=speed.engine\"; \"c*=speed.engine\": columns of many cycles; "

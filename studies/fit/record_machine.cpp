@@ -353,11 +353,11 @@ Eigen::VectorXd ComparedRecord::points_of(const Response& response, const std::v
   return all;
 }
 
-void ComparedRecord::weigh_by(const Eigen::VectorXd& left, std::size_t unknowns) {
+void ComparedRecord::weigh_by(const Eigen::VectorXd& left, double unknowns) {
   for (std::size_t c = 0; c < lengths_.size(); ++c)
     if (orders_.empty() && record_.over != Over::mode)
       lengths_[c] = correlation_length(left.segment(begin(c), per_channel_));
-  const double values = independent(), freedom = std::max(values - static_cast<double>(unknowns), 1.0);
+  const double values = independent(), freedom = std::max(values - unknowns, 1.0);
   double squares = 0, scattered = 0;  // over the scatter
   for (std::size_t c = 0; c < lengths_.size(); ++c) {
     const auto part = left.segment(begin(c), per_channel_);

@@ -82,10 +82,10 @@ class ComparedRecord {
   // From points to the compared values: a linear map.
   Eigen::VectorXd compared(const Eigen::VectorXd& points) const;
   Eigen::VectorXd measured_points() const;
-  // Sets the weights from the residual `left` of a fit with `unknowns`: for a channel without scatter it is the
+  // Sets the weights from the residual `left` of a fit of which the record determines so many `unknowns`: for a channel without scatter it is the
   // deviation; with scatter the deviation is multiplied by the root of the reduced χ² if that exceeds 1. Correlated
   // values count as one: deviations grow by √τ, τ = 1 + 2 Σ ρ_k.
-  void weigh_by(const Eigen::VectorXd& left, std::size_t unknowns);
+  void weigh_by(const Eigen::VectorXd& left, double unknowns);
   double widened() const { return widened_; }                             // factor on deviations from scatter
   double length(std::size_t channel) const { return lengths_[channel]; }  // τ ≥ 1: number of correlated values
   double independent() const;                                             // number of values, correlated ones once

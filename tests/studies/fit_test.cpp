@@ -228,6 +228,7 @@ TEST_F(Fit, FindsGainAndOffsetOfAChannelAndOffsetOfATable) {
       "{ speed = \"100 rad/s\" }\nuntil = \"4 s\"\naccuracy = 1e-9\n",
       file("straight.csv", straight), Over::time, {"n=speed.rotor"}, {"offset of load.table=-1..3 N*m"}));
   EXPECT_NEAR(table.unknowns.at(0).value, 1, 1e-6);
+  EXPECT_NE(table.notes.at(0).find("offset of load.table"), std::string::npos) << table.notes.at(0);
 }
 
 // A torque over the angle drives a rotor: J (ω² − c)/2 = M₁ sin φ + M₂/2 sin 2φ; c by the mean speed 2π/∮dφ/ω. Straight
@@ -407,38 +408,6 @@ TEST_F(Fit, RefusesWhatSaysNothing) {
   EXPECT_NE(
       said(asked(coasting, record, Over::time, {"n=speed.rotor"}, {"drag.dampin=0.05..0.6 N*m*s/rad"})).find("dampin"),
       std::string::npos);
-}
-
-// min (x − 2)² + (y − 1/4)² in the unit square: x presses against 1.
-TEST(BoundedFit, HoldsWhatPressesAgainstABound) {
-  const BoundedProblem problem{
-      .residuals = [](const Eigen::VectorXd& u) -> std::optional<Eigen::VectorXd> {
-        return Eigen::Vector2d(u[0] - 2, u[1] - 0.25);
-      },
-      .derivative = [](const Eigen::VectorXd&, const Eigen::VectorXd&) -> std::optional<Eigen::MatrixXd> {
-        return Eigen::MatrixXd::Identity(2, 2);
-      }};
-  const BoundedFit fit = fit_within_bounds(problem, Eigen::Vector2d(0.1, 0.9));
-  EXPECT_NEAR(fit.u[0], 1, 1e-12);
-  EXPECT_NEAR(fit.u[1], 0.25, 1e-6);
-  EXPECT_EQ(fit.on_bound, (std::vector<int>{1, 0}));
-}
-
-// Two columns in the ratio 3: the direction (1, −1) of columns of equal length is not seen; the third is known.
-TEST(BoundedFit, NamesTheDirectionThatColumnsShare) {
-  Eigen::MatrixXd j(4, 3);
-  j << 1, 3, 0, 2, 6, 1, 0, 0, 1, 1, 3, -1;
-  const Determination d = determined_by(j, {0, 0, 0}, 1e-4);
-  ASSERT_EQ(d.undetermined.size(), 1u);
-  ASSERT_EQ(d.undetermined[0].unknowns.size(), 2u);
-  EXPECT_NEAR(d.undetermined[0].parts[0] / d.undetermined[0].parts[1], -1, 1e-9);
-  EXPECT_EQ(d.known, (std::vector<bool>{false, false, true}));
-  // Cov of the third: 1/(|c|² − (c·a)²/|a|²), a = (1, 2, 0, 1), c = (0, 1, 1, −1).
-  EXPECT_NEAR(d.covariance(2, 2), 1 / (3.0 - 1.0 / 6), 1e-9);
-  // Nor is it where one of the two ends on its bound.
-  const Determination bound = determined_by(j, {0, 1, 0}, 1e-4);
-  ASSERT_EQ(bound.undetermined.size(), 1u);
-  EXPECT_EQ(bound.known, (std::vector<bool>{false, false, true}));
 }
 
 }  // namespace

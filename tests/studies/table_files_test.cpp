@@ -1,7 +1,5 @@
 // table_files_test.cpp — a trajectory as CSV, MAT and XLSX: the same rows and, to the last bit, the same numbers.
-#include <dlfcn.h>
 #include <gtest/gtest.h>
-#include <matio.h>
 
 #include <cmath>
 #include <filesystem>
@@ -18,6 +16,7 @@
 #include "studies/tables/table_files.h"
 #include "studies/tables/trajectory_rows.h"
 #include "tests/support/files.h"
+#include "tests/support/matio.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test::table_files_test {
@@ -55,15 +54,6 @@ std::vector<std::vector<double>> columns_of(const DataTable& table) {
     }
   });
   return columns;
-}
-
-// A function of libmatio, loaded for these tests: it brings forty libraries along, which no other process has to load.
-template <class Function>
-Function* of_matio(const char* name) {
-  static void* const library = dlopen("libmatio.so", RTLD_NOW);
-  void* const found = library ? dlsym(library, name) : nullptr;
-  if (!found) throw std::runtime_error(std::string("libmatio is not installed (libmatio-dev): ") + name);
-  return reinterpret_cast<Function*>(found);
 }
 
 // A MAT file read by libmatio.
