@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tests/hard/families.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/thorough.h"
 
 namespace kurbel::hard::hard_cases_test {
@@ -25,7 +26,7 @@ class HardCases : public ::testing::TestWithParam<std::size_t> {};
 TEST_P(HardCases, EndRight) {
   // Budgets are the bench's. Here an answer must be right however slow the machine is.
   HardCase hard_case = all_cases()[GetParam()];
-  hard_case.budget *= 2;
+  hard_case.budget *= 2 * test::slower;
   for (std::size_t m = 0; m < all_methods().size(); ++m) {
     const std::string& method = all_methods()[m];
     const bool taken = !hard_case.heavy && (test::thorough() || (GetParam() + m) % 3 == 0);
