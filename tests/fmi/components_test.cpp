@@ -236,6 +236,11 @@ accuracy = 1e-8
     EXPECT_NEAR(by("torque.brake", "brake.command"), -44, 1e-12 * 44);
     EXPECT_EQ(by("torque.spring", "brake.command"), 0);
     EXPECT_NEAR(by("derivative: speed of spring.out", "wheel.torque"), 1.0 / 5, 1e-12 / 5);
+    if (fmi == 3) {
+      const std::vector<unsigned> both = {(*unpacked)["derivative: speed of spring.out"].reference,
+                                          (*unpacked)["torque.spring"].reference};
+      EXPECT_NEAR(slave.adjoint(both, {2, 3}, (*unpacked)[twist].reference), 2 * 700.0 / 5 + 3 * 700, 1e-12 * 2380);
+    }
     const double speed = slave["speed.wheel"];
     EXPECT_THROW(slave.directional(100000, unpacked->states[0]), std::runtime_error);
     EXPECT_EQ(slave["speed.wheel"], speed);
