@@ -398,18 +398,20 @@ TEST(Instances, RefuseWhatIsOutOfTurnAndHarmNobody) {
     good.terminate();
     EXPECT_THROW(good.step(0.1, 0.1), std::runtime_error);
     const Folder other;
-    std::string geared = shaft_alone;
-    geared.replace(geared.find("[brakeless]"), 0, "[gear]\nkind = \"gearbox\"\nstages = [{ ratio = 2 }]\n");
-    geared.replace(geared.find("\"wheel\"]"), 0, "\"gear\", ");
-    const auto fixed = exported(written(other, geared), fmi, "--parameter 'gear.stages[1].ratio'");
-    EXPECT_EQ((*fixed)["gear.stages[1].ratio"].variability, "fixed");
+    std::string belted = shaft_alone;
+    belted.replace(belted.find("[brakeless]"), 0,
+                   "[belt]\nkind = \"belt\"\ndiameter_in = \"100 mm\"\ndiameter_out = \"200 mm\"\n"
+                   "pretension = \"9 kN\"\nfriction_coefficient = 0.3\nwrap_angle = \"180 deg\"\n");
+    belted.replace(belted.find("\"wheel\"]"), 0, "\"belt\", ");
+    const auto fixed = exported(written(other, belted), fmi, "--parameter belt.diameter_out");
+    EXPECT_EQ((*fixed)["belt.diameter_out"].variability, "fixed");
     const Library its(fixed->library());
     Slave slave(*fixed, its, Kind::co_simulation);
-    slave.set("gear.stages[1].ratio", 2.5);
+    slave.set("belt.diameter_out", 0.25);
     slave.initialise(0);
     EXPECT_NEAR(slave["speed.brakeless"] / slave["speed.wheel"], 2.5, 1e-12);
-    EXPECT_THROW(slave.set("gear.stages[1].ratio", 3), std::runtime_error);
-    EXPECT_EQ(slave["gear.stages[1].ratio"], 2.5);
+    EXPECT_THROW(slave.set("belt.diameter_out", 0.3), std::runtime_error);
+    EXPECT_EQ(slave["belt.diameter_out"], 0.25);
   }
 }
 
