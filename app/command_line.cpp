@@ -74,10 +74,10 @@ void add_scene(OptionList& command, std::string& scene, bool& allow_files, std::
   command.add_flag("--allow-files", allow_files,
                    "let the scene read data files outside of its own folder (default: only there and below)");
   command
-      .add_option(
-          "--set", set,
-          "COMPONENT.KEY=VALUE instead of what the scene says, e.g. \"main_coupling.stiffness=1 MN*m/rad\", "
-          "\"run.start.speed=58 rpm\", \"gearbox.stages[2].ratio=3.5\"; without a value: the key's default; repeatable")
+      .add_option("--set", set,
+                  "COMPONENT.KEY=VALUE instead of what the scene says, e.g. \"main_coupling.stiffness=1 MN*m/rad\", "
+                  "\"run.start.speed=58 rpm\", \"gearbox.stages[2].efficiency=0.97\"; without a value: the key's "
+                  "default; repeatable")
       .repeatable();
 }
 

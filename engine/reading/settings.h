@@ -1,6 +1,6 @@
 // settings.h — values given in addition to a scene, such as `--set` on a command line: main_coupling.stiffness=1 MN*m/rad.
 //
-//   PATH=VALUE   PATH: component.key, run.accuracy, press.load.nominal_force, gearbox.stages[2].ratio
+//   PATH=VALUE   PATH: component.key, run.accuracy, press.load.nominal_force, gearbox.stages[2].module
 //                VALUE: as in a scene, quotes may be omitted; empty: the key is removed, its default applies
 //
 // They are inserted into the scene's text, so that the scene read, shown, stored or compared is the one that ran. Faults

@@ -160,7 +160,7 @@ void add_parameters(ExportedMachine& machine, const Scene& scene, const std::vec
     if (!found.setting)
       refuse(
           fmt::format("parameter {}: the scene has no such quantity; name one that it gives, as "
-                      "main_coupling.stiffness, or gearbox.stages[2].ratio",
+                      "main_coupling.stiffness, or gearbox.stages[2].module",
                       path));
     machine.parameters.push_back(
         {.path = path, .unit = found.key->unit, .doc = found.key->doc, .start = found.setting->number});

@@ -92,6 +92,7 @@ class Description {
     put("modelIdentifier", m_.name.c_str());
     put("needsExecutionTool", "false");
     put("canBeInstantiatedOnlyOncePerProcess", "false");
+    if (!three_) put("canNotUseMemoryManagementFunctions", "true");  // it takes none of the importer's
     put(three_ ? "canGetAndSetFMUState" : "canGetAndSetFMUstate", "true");
     put(three_ ? "canSerializeFMUState" : "canSerializeFMUstate", "true");
     put(three_ ? "providesDirectionalDerivatives" : "providesDirectionalDerivative", "true");

@@ -30,7 +30,7 @@ struct ExportedInput {
 
 // A number of the scene that the importer may change.
 struct ExportedParameter {
-  std::string path = {};  // "main_coupling.stiffness", "gearbox.stages[2].ratio"
+  std::string path = {};  // "main_coupling.stiffness", "gearbox.stages[2].module"
   std::string unit = {};  // SI, as in a scene
   std::string doc = {};
   double start = 0;

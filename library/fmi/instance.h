@@ -89,7 +89,8 @@ class Instance {
   void put_commands(double until);
   void check_input(std::size_t k, double value) const;
   const ExportedVariable& variable(std::uint32_t reference) const;
-  std::vector<double> values_of(std::span<const std::uint32_t> unknowns);
+  void add_differences(std::span<const std::uint32_t> unknowns, double h, const std::function<void(double by)>& move,
+                       std::vector<double>& result);
   const Snapshot& now();
 
   ExportedMachine machine_;

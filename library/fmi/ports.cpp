@@ -29,7 +29,7 @@ struct TorqueFromOutside {
   Rated rated() const { return {}; }
 };
 
-// "gearbox.stages[2].ratio": a segment with its place in a list, from 1; 0: no list.
+// "gearbox.stages[2].module": a segment with its place in a list, from 1; 0: no list.
 struct Segment {
   std::string name;
   std::size_t item = 0;

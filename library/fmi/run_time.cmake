@@ -6,7 +6,7 @@ set(rooms engine/base engine/scene engine/elements engine/model engine/equations
   mechanisms/link_forces mechanisms/joints mechanisms/kinds)
 list(JOIN rooms "|" rooms)
 set(run_time ${KURBEL_SOURCES})
-list(FILTER run_time INCLUDE REGEX "/((${rooms})/[a-z_]+|library/fmi/(exported_machine|instance|instance_text|ports|variables))\\.cpp$")
+list(FILTER run_time INCLUDE REGEX "/((${rooms})/[a-z_]+|library/fmi/(directional|exported_machine|instance|instance_text|ports|variables))\\.cpp$")
 list(FILTER run_time EXCLUDE REGEX "/(spreadsheet|mat_text|periodic_schur|multistep_stepper)\\.cpp$")
 # Of Simbody's island those that do without Simbody.
 get_target_property(loops kurbel_simbody SOURCES)
@@ -42,7 +42,7 @@ find_program(GOLD ld.gold)
 if(GOLD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_link_options(kurbel_fmi PRIVATE -fuse-ld=gold -Wl,--icf=all)
 endif()
-target_link_options(kurbel_fmi PRIVATE -static-libgcc -Wl,--gc-sections -Wl,--exclude-libs,ALL -Wl,-O2 -Wl,--as-needed
+target_link_options(kurbel_fmi PRIVATE -Wl,--gc-sections -Wl,--exclude-libs,ALL -Wl,-O2 -Wl,--as-needed
   -Wl,--version-script=${PROJECT_SOURCE_DIR}/library/fmi/exported.map)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   target_link_options(kurbel_fmi PRIVATE -s -Os ${as_a_whole} $<$<CXX_COMPILER_ID:GNU>:-flto-partition=one>)

@@ -65,7 +65,7 @@ def _options(given):
     return said
 
 
-def study(name, scene, *, set=None, **options):
+def study(name, /, scene, *, set=None, **options):
     """One of study_names() put to a scene; options as the command has them: mid_speed="60 rpm"; those that may be given
     again there as a list."""
     return Study(_kurbel.study(name, machine(scene, set=set), _options(options)))

@@ -87,7 +87,7 @@ TEST_P(Task, EveryCommandSaysWhatThePageSays) {
 
 INSTANTIATE_TEST_SUITE_P(Worked, Task,
                          ::testing::Values("press", "compressor", "genset", "flywheel", "tolerances", "fan_report",
-                                           "compressor_report", "ship_report", "fit"),
+                                           "compressor_report", "ship_report", "fit", "hoist_control"),
                          [](const auto& info) { return info.param; });
 
 // Each page is in the list of pages, and each scene in a page.

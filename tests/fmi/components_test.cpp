@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <random>
 #include <sstream>
 #include <thread>
@@ -131,7 +132,24 @@ TEST_P(Components, GoesOnFromAKeptStateToTheLastBit) {
   }
 }
 
-// ∂ẋ/∂x by the component against differences of its own rates; and where no dependency is said, there is none.
+// Fourth-order differences of some values over a state.
+std::vector<double> slopes(Slave& slave, const std::vector<double>& x, std::size_t j, double h,
+                           const std::function<std::vector<double>()>& values) {
+  std::vector<std::vector<double>> at;
+  for (const double by : {-2.0, -1.0, 1.0, 2.0}) {
+    std::vector<double> moved = x;
+    moved[j] += by * h;
+    slave.states(moved);
+    at.push_back(values());
+  }
+  slave.states(x);
+  std::vector<double> slope(at[0].size());
+  for (std::size_t i = 0; i < slope.size(); ++i)
+    slope[i] = (at[0][i] - 8 * at[1][i] + 8 * at[2][i] - at[3][i]) / (12 * h);
+  return slope;
+}
+
+// ∂ẋ/∂x and ∂y/∂x by the component against differences of its own rates; and where no dependency is said, there is none.
 TEST_P(Components, KnowsItsDerivatives) {
   const auto unpacked = exported(scene(machine().scene), fmi());
   const Library library(unpacked->library());
@@ -140,26 +158,92 @@ TEST_P(Components, KnowsItsDerivatives) {
   std::vector<double> times = {0.37 * machine().until};
   integrate(slave, 0, times, 1e-7, [](std::size_t) {});
   const std::vector<double> x = slave.states(), nominal = slave.nominals(), rates = slave.rates();
+  const auto outputs = [&] {
+    std::vector<double> values;
+    for (const unsigned output : unpacked->outputs) values.push_back(slave.get(output));
+    return values;
+  };
+  const std::vector<double> shown = outputs();
   for (std::size_t j = 0; j < x.size(); ++j) {
-    std::vector<std::vector<double>> rate;
     const double h = 1e-5 * nominal[j];
-    for (const double by : {-2.0, -1.0, 1.0, 2.0}) {
-      std::vector<double> moved = x;
-      moved[j] += by * h;
-      slave.states(moved);
-      rate.push_back(slave.rates());
-    }
-    slave.states(x);
+    const std::vector<double> slope = slopes(slave, x, j, h, [&] { return slave.rates(); });
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double slope = (rate[0][i] - 8 * rate[1][i] + 8 * rate[2][i] - rate[3][i]) / (12 * h);
       const double found = slave.directional(unpacked->derivatives[i], unpacked->states[j]);
       const double size = std::abs(found) + 1e-5 * (std::abs(rates[i]) + nominal[i]) / nominal[j];
-      EXPECT_NEAR(found, slope, 2e-5 * size) << i << " by " << j;
+      EXPECT_NEAR(found, slope[i], 2e-5 * size) << i << " by " << j;
       const auto& on = unpacked->dependencies.at(unpacked->derivatives[i]);
       if (std::find(on.begin(), on.end(), unpacked->states[j]) == on.end()) {
         EXPECT_EQ(found, 0) << "no dependency is said: " << i << " on " << j;
       }
     }
+    const std::vector<double> of_outputs = slopes(slave, x, j, h, outputs);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      const double found = slave.directional(unpacked->outputs[i], unpacked->states[j]);
+      const double size = std::abs(found) + 1e-5 * std::abs(shown[i]) / nominal[j];
+      EXPECT_NEAR(found, of_outputs[i], 2e-5 * size) << unpacked->variables[unpacked->outputs[i]].name << " by " << j;
+    }
+  }
+}
+
+// A brake on a wheel that a spring with a damper drives: τ = k θ + d (ω_a − ω_b), J ω̇_b = τ − c M.
+TEST(Derivatives, AreThoseOfTheClosedForms) {
+  const Folder folder;
+  const std::string file = written(folder, R"(
+title = "Braked wheel"
+line = ["rotor", "spring", "wheel"]
+[rotor]
+kind = "flywheel"
+inertia = "3 kg*m2"
+[spring]
+kind = "coupling"
+stiffness = "700 N*m/rad"
+damping = "0.3 N*m*s/rad"
+[wheel]
+kind = "flywheel"
+inertia = "5 kg*m2"
+[brake]
+kind = "brake"
+torque = "44 N*m"
+[[branch]]
+from = "wheel"
+line = ["brake"]
+[effects]
+elasticity = ["spring"]
+[run]
+start = { speed = "10 rad/s" }
+until = "1 s"
+accuracy = 1e-8
+)");
+  for (const int fmi : {2, 3}) {
+    const auto unpacked = exported(file, fmi, "--input brake.command --input wheel.torque");
+    const Library library(unpacked->library());
+    Slave slave(*unpacked, library, Kind::co_simulation);
+    slave.set("brake.command", 0.7);
+    slave.initialise(0);
+    slave.step(0, 0.1);
+    const auto by = [&](const std::string& unknown, const std::string& known) {
+      return slave.directional((*unpacked)[unknown].reference, (*unpacked)[known].reference);
+    };
+    const std::string a = "state: speed of rotor", b = "state: speed of spring.out", twist = "state: twist of spring";
+    EXPECT_EQ(by("torque.spring", twist), 700);
+    EXPECT_EQ(by("torque.spring", a), 0.3);
+    EXPECT_EQ(by("torque.spring", b), -0.3);
+    EXPECT_EQ(by("twist.spring", twist), 1);
+    EXPECT_EQ(by("speed.wheel", b), 1);
+    EXPECT_EQ(by("speed.wheel", twist), 0);
+    EXPECT_NEAR(by("spring_torque.spring", twist), 700, 1e-9 * 700);  // of those by differences
+    EXPECT_NEAR(by("derivative: speed of spring.out", "brake.command"), -44.0 / 5, 1e-12 * 44 / 5);
+    EXPECT_NEAR(by("torque.brake", "brake.command"), -44, 1e-12 * 44);
+    EXPECT_EQ(by("torque.spring", "brake.command"), 0);
+    EXPECT_NEAR(by("derivative: speed of spring.out", "wheel.torque"), 1.0 / 5, 1e-12 / 5);
+    if (fmi == 3) {
+      const std::vector<unsigned> both = {(*unpacked)["derivative: speed of spring.out"].reference,
+                                          (*unpacked)["torque.spring"].reference};
+      EXPECT_NEAR(slave.adjoint(both, {2, 3}, (*unpacked)[twist].reference), 2 * 700.0 / 5 + 3 * 700, 1e-12 * 2380);
+    }
+    const double speed = slave["speed.wheel"];
+    EXPECT_THROW(slave.directional(100000, unpacked->states[0]), std::runtime_error);
+    EXPECT_EQ(slave["speed.wheel"], speed);
   }
 }
 
@@ -204,7 +288,7 @@ TEST(Inputs, ATorqueTurnsAWheelAsItsClosedFormSays) {
       }
       // ∂ω̇/∂M = 1/I, ∂ω̇/∂ω = −b/I
       EXPECT_NEAR(slave.directional(unpacked->derivatives.back(), (*unpacked)["wheel.torque"].reference),
-                  1 / (3 + inertia), 1e-10);
+                  1 / (3 + inertia), 1e-13);
       EXPECT_NEAR(slave.directional(unpacked->derivatives.back(), unpacked->states.back()), -0.5 / (3 + inertia),
                   1e-12);
     }
@@ -313,7 +397,35 @@ TEST(Instances, RefuseWhatIsOutOfTurnAndHarmNobody) {
     EXPECT_NEAR(good["speed.wheel"], 10 * std::exp(-0.5 * 0.1 / 8), 1e-8);
     good.terminate();
     EXPECT_THROW(good.step(0.1, 0.1), std::runtime_error);
+    const Folder other;
+    std::string belted = shaft_alone;
+    belted.replace(belted.find("[brakeless]"), 0,
+                   "[belt]\nkind = \"belt\"\ndiameter_in = \"100 mm\"\ndiameter_out = \"200 mm\"\n"
+                   "pretension = \"9 kN\"\nfriction_coefficient = 0.3\nwrap_angle = \"180 deg\"\n");
+    belted.replace(belted.find("\"wheel\"]"), 0, "\"belt\", ");
+    const auto fixed = exported(written(other, belted), fmi, "--parameter belt.diameter_out");
+    EXPECT_EQ((*fixed)["belt.diameter_out"].variability, "fixed");
+    const Library its(fixed->library());
+    Slave slave(*fixed, its, Kind::co_simulation);
+    slave.set("belt.diameter_out", 0.25);
+    slave.initialise(0);
+    EXPECT_NEAR(slave["speed.brakeless"] / slave["speed.wheel"], 2.5, 1e-12);
+    EXPECT_THROW(slave.set("belt.diameter_out", 0.3), std::runtime_error);
+    EXPECT_EQ(slave["belt.diameter_out"], 0.25);
   }
+}
+
+// docs/tasks/hoist_control.md: what its controller prints, digit by digit.
+TEST(Export, TheWorkedTaskSaysWhatItsPageSays) {
+  const fs::path folder = fs::path(KURBEL_SOURCE_DIR) / "docs/tasks";
+  const auto unpacked = exported((folder / "hoist_control.toml").string(), 3,
+                                 "--kind cs --input motor.command --input brake.command --output speed.motor "
+                                 "--output torque.motor");
+  const std::string printed = command("python3 " + (folder / "hoist_control.py").string() + " " + unpacked->folder);
+  std::ifstream page(folder / "hoist_control.md");
+  const std::string text((std::istreambuf_iterator<char>(page)), {});
+  EXPECT_NE(text.find("```text\n" + printed + "```"), std::string::npos) << printed;
+  EXPECT_EQ(std::count(printed.begin(), printed.end(), '\n'), 4);
 }
 
 TEST(Export, RefusesWithTheReason) {

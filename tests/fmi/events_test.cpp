@@ -36,6 +36,48 @@ until = "1 s"
 accuracy = 1e-7
 )";
 
+const char* const clutch_and_brake = R"(
+title = "A wheel is coupled, braked, and coupled again"
+line = ["motor", "clutch", "wheel"]
+[motor]
+kind = "induction motor"
+rated_power = "4 kW"
+rated_speed = "1440 rpm"
+synchronous_speed = "1500 rpm"
+breakdown_ratio = 2.8
+inertia = "0.02 kg*m2"
+[clutch]
+kind = "clutch"
+torque = "60 N*m"
+static_torque = "70 N*m"
+inertia_in = "0.01 kg*m2"
+inertia_out = "0.02 kg*m2"
+[wheel]
+kind = "flywheel"
+inertia = "0.1 kg*m2"
+[brake]
+kind = "brake"
+torque = "50 N*m"
+inertia = "0.01 kg*m2"
+[[branch]]
+from = "wheel"
+line = ["brake"]
+[sequence]
+steps = [
+  { at = "0 s", set = "clutch", to = 0 },
+  { at = "0 s", set = "brake", to = 0 },
+  { at = "0.3 s", set = "clutch", to = 1, over = "0.1 s" },
+  { at = "1 s", set = "clutch", to = 0 },
+  { at = "1.05 s", set = "brake", to = 1 },
+  { at = "1.6 s", set = "brake", to = 0 },
+  { at = "1.7 s", set = "clutch", to = 1 },
+]
+[run]
+start = "rest"
+until = "2.2 s"
+accuracy = 1e-7
+)";
+
 // Lines "t = … s: at 0.5 s brake: is set off" of the log.
 std::vector<Happened> logged_events(const Slave& slave) {
   std::vector<Happened> events;
@@ -62,32 +104,35 @@ void expect_alike(const std::vector<Happened>& found, const std::vector<Happened
 }
 
 struct Case {
-  const char* scene;  // empty: the wheel that rattles
+  const char* name;
   double until;
-  std::size_t least;  // events
+  std::size_t least;           // events; 0: none at all
+  const char* text = nullptr;  // null: the scene of this name
 };
+const Case cases[] = {
+    {"crank_press", 1.35, 7},         {"planetary_brake", 1.6, 2}, {"clutch_and_brake", 2.2, 8, clutch_and_brake},
+    {"backlash", 0.25, 15, rattling}, {"dc_hoist", 2, 4},          {"diesel_generator", 2.5, 1},
+    {"six_link_press", 2, 5},         {"gear_pair", 0.3, 0},       {"stephenson", 0.5, 0}};
 class Events : public testing::TestWithParam<std::tuple<Case, int>> {
  protected:
   void SetUp() override {
     const Case& c = std::get<0>(GetParam());
-    static const Folder folder;
-    const std::string file = c.scene[0] ? scene(c.scene) : written(folder, rattling);
+    static std::map<std::string, Folder> folders;
+    const std::string file = c.text ? written(folders[c.name], c.text) : scene(c.name);
     until_ = c.until;
     expected_ = run(file, until_).events;
     ASSERT_GE(expected_.size(), c.least);
+    ASSERT_EQ(expected_.empty(), c.least == 0);
     unpacked_ = exported(file, std::get<1>(GetParam()));
   }
   double until_ = 0;
   std::vector<Happened> expected_;
   std::shared_ptr<const Unpacked> unpacked_;
 };
-INSTANTIATE_TEST_SUITE_P(Scenes, Events,
-                         testing::Combine(testing::Values(Case{"planetary_brake", 1.6, 2}, Case{"dc_hoist", 2, 4},
-                                                          Case{"", 0.25, 15}),
-                                          testing::Values(2, 3)),
+INSTANTIATE_TEST_SUITE_P(Scenes, Events, testing::Combine(testing::ValuesIn(cases), testing::Values(2, 3)),
                          [](const auto& of) {
-                           const std::string name = std::get<0>(of.param).scene;
-                           return (name.empty() ? "backlash" : name) + "_fmi" + std::to_string(std::get<1>(of.param));
+                           return std::string(std::get<0>(of.param).name) + "_fmi" +
+                                  std::to_string(std::get<1>(of.param));
                          });
 
 // Communication points lie anywhere between the events.

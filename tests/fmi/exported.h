@@ -80,7 +80,7 @@ struct Trajectory {
 };
 inline const Trajectory& run(const std::string& file, double until) {
   static std::map<std::string, Trajectory> known;
-  const auto [place, fresh] = known.try_emplace(file);
+  const auto [place, fresh] = known.try_emplace(file + " until " + std::to_string(until));
   Trajectory& t = place->second;
   if (!fresh) return t;
   const Folder folder;

@@ -100,6 +100,7 @@ class Slave {
   std::vector<double> nominals();
   bool completed();
   double directional(unsigned unknown, unsigned known);
+  double adjoint(const std::vector<unsigned>& unknowns, const std::vector<double>& seeds, unsigned known);  // FMI 3
   void terminate();
   void reset();
   int raw_step_in_wrong_state();  // the status of a step that must be refused

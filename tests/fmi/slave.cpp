@@ -259,6 +259,13 @@ double Slave::directional(unsigned unknown, unsigned known) {
          "directional derivative");
   return found;
 }
+double Slave::adjoint(const std::vector<unsigned>& unknowns, const std::vector<double>& seeds, unsigned known) {
+  double found = NAN;
+  expect(function<int (*)(void*, Ref, Size, Ref, Size, const double*, Size, double*, Size)>("GetAdjointDerivative")(
+             instance_, unknowns.data(), unknowns.size(), &known, 1, seeds.data(), seeds.size(), &found, 1),
+         "adjoint derivative");
+  return found;
+}
 void Slave::terminate() { expect(function<int (*)(void*)>("Terminate")(instance_), "end"); }
 void Slave::reset() { expect(function<int (*)(void*)>("Reset")(instance_), "reset"); }
 

@@ -126,6 +126,8 @@ void Unpacked::read_description() {
                                                                         "canInterpolateInputs",
                                                                         "maxOutputDerivativeOrder",
                                                                         "canRunAsynchronuously"};
+      complain_unless(three || node.attribute("canNotUseMemoryManagementFunctions").as_bool(),
+                      "3.3.1/4.3.1: the importer's memory is not taken, and that is not said");
       for (const pugi::xml_attribute a : node.attributes())
         complain_unless(known.count(a.name()) > 0, std::string("3.3/4.3: no such capability ") + a.name());
     }

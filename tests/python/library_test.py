@@ -259,6 +259,13 @@ class Studies(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "at is given 2 times"):
             kurbel.modes(TWO_MASSES, at=["1 s", "2 s"])
 
+    def test_an_option_may_be_called_name(self):
+        study = kurbel.export(TWO_MASSES, fmi=2, kind="cs", name="two")
+        self.assertIn("two.fmu holds the machine for co-simulation by FMI 2.0", study.conclusion)
+        with tempfile.TemporaryDirectory() as folder:
+            study.write(folder)
+            self.assertTrue(os.path.exists(os.path.join(folder, "two.fmu")))
+
     def test_a_sheet_to_be_printed_is_among_the_files(self):
         study = kurbel.forces(PRESS, sheet=True, no_run=True)
         self.assertIn("</html>", study.tables["sheet.html"])

@@ -41,7 +41,8 @@ def parameters_of_node(node):
     """[(name, kind, has a default)] of a definition, without what is in front of a method's own."""
     a = node.args
     plain = a.posonlyargs + a.args
-    rows = [(p.arg, "plain", i >= len(plain) - len(a.defaults)) for i, p in enumerate(plain)]
+    rows = [(p.arg, "first" if p in a.posonlyargs else "plain", i >= len(plain) - len(a.defaults))
+            for i, p in enumerate(plain)]
     rows += [(a.vararg.arg, "rest", False)] if a.vararg else []
     rows += [(p.arg, "keyword", default is not None) for p, default in zip(a.kwonlyargs, a.kw_defaults)]
     rows += [(a.kwarg.arg, "keywords", False)] if a.kwarg else []
@@ -52,8 +53,8 @@ def parameters_of(function):
     """The same of what the module has: pybind11's functions tell their signature in their first line."""
     if not inspect.isfunction(function):
         return parameters_of_node(ast.parse(f"def {function.__doc__.splitlines()[0]}: ...").body[0])
-    kinds = {inspect.Parameter.POSITIONAL_OR_KEYWORD: "plain", inspect.Parameter.KEYWORD_ONLY: "keyword",
-             inspect.Parameter.VAR_POSITIONAL: "rest", inspect.Parameter.VAR_KEYWORD: "keywords"}
+    kinds = {inspect.Parameter.POSITIONAL_ONLY: "first", inspect.Parameter.POSITIONAL_OR_KEYWORD: "plain",
+             inspect.Parameter.KEYWORD_ONLY: "keyword", inspect.Parameter.VAR_POSITIONAL: "rest", inspect.Parameter.VAR_KEYWORD: "keywords"}
     return [(p.name, kinds[p.kind], p.default is not p.empty)
             for p in inspect.signature(function).parameters.values() if p.name != "self"]
 
