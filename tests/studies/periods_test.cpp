@@ -215,7 +215,7 @@ TEST(Periods, AreJudgedSinceTheLastCommand) {
 }
 
 // Two cycles of a motion since the last command are too few, though their mid speeds and those before the motor was
-// reversed lie on a sequence with a limit: this limit is 0.05 % off.
+// reversed lie on a sequence with a limit: the limit is 0.04 % off.
 TEST(Periods, OfFewCyclesSinceTheLastCommandAreNotSteady) {
   const auto reversed = [](double until) {
     return run(fmt::format(R"(
