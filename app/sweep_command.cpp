@@ -55,7 +55,7 @@ const OptionsOf<SweepAsked>& sweep_options() {
           .add(machine_options(), &SweepAsked::machine)
           .add({.name = "error_every",
                 .doc = "measure the errors of every 20th row only, e.g. 20 (default: 1)",
-                .domain = {.low = 1, .high = 1e9}},
+                .domain = {.low = 1, .high = 1'000'000}},
                &SweepAsked::errors_every)
           .add({.name = "into",
                 .doc = "the database (SQLite) that is filled or continued, on a local disk; what is committed (four "
