@@ -32,7 +32,7 @@ OptionsOf<UncertaintyAsked> options() {
       .add(machine_options(), &UncertaintyAsked::machine)
       .add({.name = "samples",
             .doc = "machines drawn from the tolerances (default: 500)",
-            .domain = {.low = 10, .high = 1'000'000}},
+            .domain = {.low = 20, .high = 1'000'000}},
            &Asked::samples)
       .add(
           {.name = "seed", .doc = "of the random numbers (default: 1)", .domain = {.low = 0, .high = 9007199254740992}},

@@ -113,6 +113,18 @@ TEST_F(SweepCommand, WrongOptionsAreToldBeforeAnythingIsWritten) {
   EXPECT_EQ(sweep("--into there/is/none.db " + varied + "--design lhs:4").code, 2);
 }
 
+// The bounds stand with the option alone: what it declares is what the study takes.
+TEST_F(SweepCommand, BoundsOfAnOptionAreThoseDeclared) {
+  for (const auto& [options, told] : {std::pair{"uncertainty two.toml --samples 19", "--samples \"19\": must be 20 … "},
+                                      std::pair{"modes two.toml --orders 1001", "at most 1000"},
+                                      std::pair{"modes two.toml --spot-checks 101", "must be 0 … 100"},
+                                      std::pair{"reduce two.toml --orders 0", "must be 1 … 1000"}}) {
+    const Said said = kurbel(std::string(options) + " --no-files");
+    EXPECT_EQ(said.code, 2) << options;
+    EXPECT_NE(said.text.find(told), std::string::npos) << options << "\n" << said.text;
+  }
+}
+
 TEST_F(SweepCommand, GoesOnWhereItEndedAndTakesNoOtherSweepsFile) {
   ASSERT_EQ(sweep("--into r.db " + varied + "--design grid:5x3 --jobs 2").code, 0);
   const Said again = sweep("--into r.db " + varied + "--design grid:5x3");
