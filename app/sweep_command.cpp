@@ -2,7 +2,6 @@
 // kurbel diff: two machines side by side.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <memory>
 #include <stdexcept>
 
@@ -12,7 +11,6 @@
 #include "engine/scene/document.h"
 #include "engine/tables/table_text.h"
 #include "studies/difference/difference.h"
-#include "studies/question/option_values.h"
 #include "studies/sweep/sweep.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/variants/in_threads.h"
@@ -21,38 +19,73 @@
 namespace kurbel::app::sweep_command {
 namespace {
 
-constexpr int most_threads = 1024;
-
-// Why a text is no number of threads; an empty text is accepted, as the check runs for every option.
-std::string thread_count(const std::string& text) {
-  if (text.empty()) return "";
-  int count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  const bool is_count = error == std::errc() && end == text.data() + text.size() && count >= 1 && count <= most_threads;
-  return is_count ? "" : fmt::format("Value {} not in range [1 - {}]", text, most_threads);
-}
-
-struct SweepArguments {
-  StudyOptions study;
+struct SweepAsked {
+  MachineAsked machine;
   std::vector<std::string> vary, figures, limits;
-  std::string variants, design, of = "run", errors = "measure", into, shard = "1/1", delta, xlsx;
+  std::string variants, design, into, shard = "1/1", xlsx;
+  std::size_t errors_every = 1;
   int jobs = 0;
   std::uint64_t seed = 1;
 };
 
-std::size_t errors_every(const std::string& errors) {
-  if (errors == "measure") return 1;
-  if (errors == "none") return 0;
-  std::size_t every = 0;
-  const char* const end = errors.data() + errors.size();
-  if (errors.starts_with("every:") && errors.size() > 6 && errors.size() < 16)
-    if (const auto read = std::from_chars(errors.data() + 6, end, every); read.ptr == end && every > 0) return every;
-  throw std::invalid_argument(
-      fmt::format("--errors {}: must be measure, none or every:N, e.g. every:20", in_quotes(errors)));
+const OptionsOf<SweepAsked>& sweep_options() {
+  static const auto made =
+      OptionsOf<SweepAsked>()
+          .add({.name = "vary",
+                .doc = "KEY=FROM..TO UNIT or KEY=A,B,C UNIT, e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\", "
+                       "\"flywheel.inertia=200,400,800 kg*m2\"; repeatable",
+                .each_time = true},
+               &SweepAsked::vary)
+          .add({.name = "variants",
+                .doc = "a table instead: a CSV file whose header names the keys, \"flywheel.inertia [kg*m2]\"; a row "
+                       "a variant"},
+               &SweepAsked::variants)
+          .add({.name = "design",
+                .doc = "grid:21x3, sobol:4096, lhs:500, random:500, or saltelli:1024 for Sobol indices, which makes "
+                       "1024 (k + 2) rows (default: grid, of lists)"},
+               &SweepAsked::design)
+          .add({.name = "figures",
+                .doc = "names joined by commas, or a quantity for all that have it: delta,peak_torque (default: all)",
+                .words = true},
+               &SweepAsked::figures)
+          .add({.name = "limit",
+                .doc = "\"delta.press <= 0.05\": counted, drawn, and how sure; repeatable",
+                .each_time = true},
+               &SweepAsked::limits)
+          .add(machine_options(), &SweepAsked::machine)
+          .add({.name = "error_every",
+                .doc = "measure the errors of every 20th row only, e.g. 20 (default: 1)",
+                .domain = {.low = 1, .high = 1'000'000}},
+               &SweepAsked::errors_every)
+          .add({.name = "into",
+                .doc = "the database (SQLite) that is filled or continued, on a local disk; what is committed (four "
+                       "times a second) survives a kill and, if the disk really flushes, a power cut"},
+               &SweepAsked::into)
+          .add({.name = "jobs", .doc = "threads (default: one for each core)", .domain = {.low = 1, .high = 1024}},
+               &SweepAsked::jobs)
+          .add({.name = "shard", .doc = "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together"},
+               &SweepAsked::shard)
+          .add({.name = "seed",
+                .doc = "of random, lhs, and the shift of sobol (default: 1; 0: sobol as published)",
+                .domain = {.low = 0, .high = 9007199254740992}},
+               &SweepAsked::seed)
+          .add({.name = "xlsx", .doc = "writes the variants as a spread sheet, too"}, &SweepAsked::xlsx);
+  return made;
+}
+
+struct SweepArguments {
+  StudyOptions study;
+  DeclaredOptions declared;
+};
+
+// As the database records it.
+std::string errors_in_words(const SweepAsked& a) {
+  if (!a.machine.measure_error) return "none";
+  return a.errors_every == 1 ? "measure" : fmt::format("every:{}", a.errors_every);
 }
 
 // The varied parameters: --variants with its values, else --vary.
-VariantTable table_asked(const SweepArguments& a) {
+VariantTable table_asked(const SweepAsked& a) {
   if (!a.variants.empty()) {
     if (!a.vary.empty() || !a.design.empty())
       throw std::invalid_argument("--variants is the whole design; omit --vary and --design");
@@ -66,52 +99,45 @@ VariantTable table_asked(const SweepArguments& a) {
   return table;
 }
 
-Design design_of(const SweepArguments& a, VariantTable table) {
+Design design_of(const SweepAsked& a, VariantTable table) {
   if (!a.variants.empty()) return Design(std::move(table));
   return Design(a.design.empty() ? "grid" : a.design, std::move(table.parameters), a.seed);
 }
 
-MachineQuestion question_of(const SweepArguments& a, const Inquiry& inquiry) {
-  MachineQuestion q = kurbel::question_of(inquiry, a.of);
-  q.errors_every = errors_every(a.errors);
-  if (!a.delta.empty() && q.of != SweepStudy::size)
-    throw std::invalid_argument(fmt::format("--delta {}: belongs to --of size", a.delta));
-  if (!a.delta.empty()) q.delta = quantity_of("--delta", a.delta, "a plain number", "0.05", any_number);
-  return q;
-}
-
-SweepIdentity identity_of(const SweepArguments& a, const Scene& scene, const Design& design,
-                          const std::vector<SweptFigure>& figures) {
+SweepIdentity identity_of(const SweepAsked& a, const std::vector<std::string>& settings, const Scene& scene,
+                          const Design& design, const std::vector<SweptFigure>& figures) {
   std::map<std::string, std::string> meta{{"title", scene.title},
-                                          {"scene file", a.study.scene},
+                                          {"scene file", scene.file},
                                           {"scene text", scene.text},
-                                          {"settings", joined_lines(a.study.set)},
-                                          {"of", a.of},
-                                          {"errors", a.errors},
+                                          {"settings", joined_lines(settings)},
+                                          {"of", a.machine.of},
+                                          {"errors", errors_in_words(a)},
                                           {"seed", std::to_string(a.seed)}};
-  if (!a.delta.empty()) meta["delta"] = a.delta;
+  if (a.machine.delta) meta["delta"] = fmt::format("{}", *a.machine.delta);
   if (!a.variants.empty()) meta["variants"] = read_table_text(a.variants).text;
   return identity_of(design, figures, a.shard, std::move(meta));
 }
 
-int sweep(const SweepArguments& a) {
+int sweep(const SweepArguments& given) {
+  // All errors are reported before anything is written.
+  const Scene scene = read(given.study);
+  const SweepAsked a = sweep_options().read(given.declared.given(), "sweep", scene, true);
   VariantTable table = table_asked(a);
   SweepJob job{.jobs = threads_of(a.jobs)};
   read_shard("--shard", a.shard, job);
-  // All errors are reported before anything is written.
-  const Scene scene = read(a.study);
-  Progress progress(a.study.quiet);
-  const MachineQuestion question = question_of(a, inquiry_of(scene, a.study, progress));
+  Progress progress(given.study.quiet);
+  MachineQuestion question = question_of(inquiry_of(scene, given.study, progress), a.machine);
+  question.errors_every *= a.errors_every;
   const VariedScene varied(question, table.parameters);
   const Design design = design_of(a, std::move(table));
   job.design = &design;
   const std::vector<SweptFigure> figures = chosen(figures_of(question), a.figures);
   for (const std::string& limit : a.limits) parse_limit(limit, figures);
-  check_folder(a.study);
+  check_folder(given.study);
   if (!a.xlsx.empty()) check_xlsx(a.xlsx, design.rows() / job.shards);
 
-  SweepStore store(a.into, identity_of(a, scene, design, figures));
-  job.watch = watch_of(a.study, progress);
+  SweepStore store(a.into, identity_of(a, given.study.set, scene, design, figures));
+  job.watch = watch_of(given.study, progress);
   job.evaluator = [&] { return machine_evaluator(question, varied, figures); };
   const SweepEnd end = run_sweep(job, store);
   if (end.there > 0)
@@ -120,42 +146,14 @@ int sweep(const SweepArguments& a) {
   study.wanted = end.rows;
   study.interrupted = interrupted();
   if (!a.xlsx.empty()) write_xlsx(study, a.xlsx);
-  return present(output_of(study), a.study);
+  return present(output_of(study), given.study);
 }
 
 void set_up_sweep(OptionList& command, int& code) {
   const auto a = std::make_shared<SweepArguments>();
   add_study_options(command, a->study);
-  command
-      .add_option("--vary", a->vary,
-                  "KEY=FROM..TO UNIT or KEY=A,B,C UNIT, e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\", "
-                  "\"flywheel.inertia=200,400,800 kg*m2\"; repeatable")
-      .repeatable();
-  command.add_option(
-      "--variants", a->variants,
-      "a table instead: a CSV file whose header names the keys, \"flywheel.inertia [kg*m2]\"; a row a variant");
-  command.add_option("--design", a->design,
-                     "grid:21x3, sobol:4096, lhs:500, random:500, or saltelli:1024 for Sobol indices, which makes 1024 "
-                     "(k + 2) rows (default: grid, of lists)");
-  command
-      .add_option(
-          "--figures", a->figures,
-          "names joined by commas, or a quantity for all that have it: delta,peak_torque.main_coupling (default: all)")
-      .split_at(',');
-  command.add_option("--limit", a->limits, "\"delta.press <= 0.05\": counted, drawn, and how sure; repeatable")
-      .repeatable();
-  command.add_option("--of", a->of, "run (default), steady, modes or size");
-  command.add_option("--delta", a->delta, "demanded δ, of --of size");
-  command.add_option("--errors", a->errors, "measure (default), none, or every:20 for those of every 20th row");
-  command
-      .add_option("--into", a->into,
-                  "the database (SQLite) that is filled or continued, on a local disk; what is committed (four times a "
-                  "second) survives a kill and, if the disk really flushes, a power cut")
-      .required();
-  command.add_option("--jobs", a->jobs, "threads (default: one for each core)").check(thread_count);
-  command.add_option("--shard", a->shard, "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together");
-  command.add_option("--seed", a->seed, "of random, lhs, and the shift of sobol (default: 1; 0: sobol as published)");
-  command.add_option("--xlsx", a->xlsx, "writes the variants as a spread sheet, too");
+  a->declared.add_to(command, sweep_options().declared());
+  command.option("--into").required();
   command.action([&code, a] { code = sweep(*a); });
 }
 

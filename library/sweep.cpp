@@ -130,7 +130,8 @@ std::size_t merge(const std::vector<std::string>& files, const std::string& into
 
 SweepAnswer answer(const Machine& machine, const std::string& of, bool errors, const Watcher& watcher) {
   return asked_of(machine.parts(), [&] {
-    const MachineAnswer found = answer_of(question_of(inquiry_of(machine.parts(), watcher), of, errors));
+    const MachineAnswer found =
+        answer_of(question_of(inquiry_of(machine.parts(), watcher), {.of = of, .measure_error = errors}));
     std::vector<FigureValue> figures;
     for (const Figure& f : found.figures) figures.push_back({f.name, f.value, f.unit, f.error, f.at});
     return SweepAnswer{name_of(found.state), found.diagnosis, FigureValues(std::move(figures))};
@@ -142,7 +143,7 @@ SweepRows sweep(const Machine& machine, const Variation& variation, const std::v
   return asked_of(machine.parts(), [&] {
     const MachineParts& parts = machine.parts();
     const Design design = design_of(variation);
-    const MachineQuestion question = question_of(inquiry_of(parts, choices.watcher), of);
+    const MachineQuestion question = question_of(inquiry_of(parts, choices.watcher), {.of = of});
     const VariedScene varied(question, design.parameters());
     const std::vector<SweptFigure> wanted = chosen(figures_of(question), figures);
     const SweepIdentity identity = identity_of(design, wanted, choices.shard,

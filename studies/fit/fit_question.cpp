@@ -36,7 +36,7 @@ std::string behind(std::string& text, const std::string& word) {
 
 // The scene itself, or another file's text.
 MachineQuestion scene_of(const Inquiry& inquiry, const std::string& file) {
-  MachineQuestion question = question_of(inquiry, "steady", false);
+  MachineQuestion question = question_of(inquiry, {.of = "steady", .measure_error = false});
   if (file.empty()) return question;
   question.text = read_text_file(file, max_scene_bytes), question.file = file, question.settings.clear();
   return question;

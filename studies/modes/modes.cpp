@@ -108,13 +108,8 @@ class Study {
 
   void check_options() const {
     if (options_.count < 1) throw std::invalid_argument(fmt::format("--count {}: must be ≥ 1", options_.count));
-    if (options_.orders < 0 || options_.orders > 1000)
-      throw std::invalid_argument(fmt::format("--orders {:g}: must be > 0 and ≤ 1000", options_.orders));
     if (options_.slowest < 0 || (options_.fastest != 0 && options_.fastest <= options_.slowest))
       throw std::invalid_argument("--range: give two speeds ≥ 0, the smaller one first, e.g. \"0 rpm\" \"3000 rpm\"");
-    if (options_.spot_checks < 0 || options_.spot_checks > 100)
-      throw std::invalid_argument(fmt::format("--spot-checks {}: must be from 0 to 100", options_.spot_checks));
-    if (options_.barred_factor <= 0) throw std::invalid_argument("--barred: must be > 0");
   }
 
   // The motion at a requested speed depends on the start if there are contacts or internal states; otherwise all

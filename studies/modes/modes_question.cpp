@@ -57,8 +57,8 @@ OptionsOf<ModesAsked> options() {
       .add({.name = "orders",
             .doc = "highest excitation order (default: 12 … 24)",
             .example = "12",
-            .what = "a plain number > 0",
-            .domain = positive},
+            .what = "a plain number > 0, at most 1000",
+            .domain = {.low = 0, .high = 1000, .low_open = true}},
            &ModesOptions::orders)
       .add({.name = "barred",
             .doc = "bars speeds where the torque of a joint without limits oscillates by more than this times its mean "

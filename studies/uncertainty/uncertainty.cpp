@@ -303,7 +303,6 @@ bool FigureUncertainty::is_linear() const {
 }
 
 UncertaintyStudy study_uncertainty(const MachineQuestion& question, const UncertaintyOptions& options) {
-  if (options.samples < 20) throw std::invalid_argument("--samples: must be 20 or more");
   return UncertaintyWork(question, options).run();
 }
 

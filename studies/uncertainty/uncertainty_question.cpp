@@ -9,12 +9,11 @@ namespace {
 
 struct UncertaintyAsked : UncertaintyOptions {
   UncertaintyAsked() { jobs = threads_of(0); }
-  std::string of = "run";
-  bool measure_error = true;
+  MachineAsked machine;
 };
 
 StudyOutput uncertain(const Inquiry& inquiry, UncertaintyAsked asked) {
-  const MachineQuestion question = question_of(inquiry, asked.of, asked.measure_error);
+  const MachineQuestion question = question_of(inquiry, asked.machine);
   asked.watch = inquiry.watch;
   return output_of(study_uncertainty(question, asked));
 }
@@ -30,18 +29,16 @@ OptionsOf<UncertaintyAsked> options() {
             .doc = "\"delta.press <= 0.05\": the probability that it holds; repeatable",
             .each_time = true},
            &Asked::limits)
-      .add({.name = "of", .doc = "run (default), steady, modes or size"}, &UncertaintyAsked::of)
+      .add(machine_options(), &UncertaintyAsked::machine)
       .add({.name = "samples",
             .doc = "machines drawn from the tolerances (default: 500)",
-            .domain = {.low = 10, .high = 1'000'000}},
+            .domain = {.low = 20, .high = 1'000'000}},
            &Asked::samples)
       .add(
           {.name = "seed", .doc = "of the random numbers (default: 1)", .domain = {.low = 0, .high = 9007199254740992}},
           &Asked::seed)
       .add({.name = "jobs", .doc = "threads (default: one for each core)", .domain = {.low = 1, .high = 1024}},
            &Asked::jobs)
-      .add({.name = "no_error", .doc = "skip the runs that measure errors: none is undecided then"},
-           &UncertaintyAsked::measure_error, false)
       .add({.name = "no_trials", .doc = "skip the runs that try, one by one, the effects that are off"}, &Asked::biases,
            false);
 }

@@ -49,14 +49,26 @@ bool same_machine(const Scene& a, const Scene& b) {
 
 }  // namespace
 
-MachineQuestion question_of(const Inquiry& inquiry, const std::string& of, bool measure_error) {
+OptionsOf<MachineAsked> machine_options() {
+  return OptionsOf<MachineAsked>()
+      .add({.name = "of", .doc = "run (default), steady, modes or size"}, &MachineAsked::of)
+      .add({.name = "delta", .doc = "demanded δ, of --of size", .example = "0.05", .what = "a plain number"},
+           &MachineAsked::delta)
+      .add({.name = "no_error", .doc = "skip the runs that measure errors: figures count as exact then"},
+           &MachineAsked::measure_error, false);
+}
+
+MachineQuestion question_of(const Inquiry& inquiry, const MachineAsked& asked) {
+  const SweepStudy of = study_named(asked.of);
+  if (asked.delta && of != SweepStudy::size)
+    throw std::invalid_argument(inquiry.dashes ? "--delta: belongs to --of size" : "delta: belongs to of = \"size\"");
   return {.text = inquiry.text,
           .file = inquiry.file,
           .settings = inquiry.settings,
           .allowed = inquiry.allowed,
-          .of = study_named(of),
-          .errors_every = measure_error ? 1u : 0u,
-          .delta = {},
+          .of = of,
+          .errors_every = asked.measure_error ? 1u : 0u,
+          .delta = asked.delta,
           .every_order = false,
           .interrupted = inquiry.watch.interrupted};
 }

@@ -27,8 +27,15 @@ struct MachineQuestion {
   bool every_order = false;      // figures of all orders, not only of the significant ones
   const std::atomic<bool>* interrupted = nullptr;
 };
-// Throws std::invalid_argument for another study.
-MachineQuestion question_of(const Inquiry& inquiry, const std::string& of, bool measure_error = true);
+// What machines are asked, and its options in every command that varies them.
+struct MachineAsked {
+  std::string of = "run";
+  std::optional<double> delta = {};
+  bool measure_error = true;
+};
+OptionsOf<MachineAsked> machine_options();
+// Throws std::invalid_argument for another study, and for δ of one that needs none.
+MachineQuestion question_of(const Inquiry& inquiry, const MachineAsked& asked);
 
 // A scene that is read once and changed for each row. Keys of components that hold one quantity are changed in place,
 // which is checked once per parameter against reading; all others are read again.

@@ -88,7 +88,9 @@ TEST_F(SweepCommand, WrongOptionsAreToldBeforeAnythingIsWritten) {
       {varied + "--design lhs:4 --figures peak_torque,peek", "no such figure"},
       {varied + "--design lhs:4 --limit 'peak_torque.spring <= 3 m'", "torque"},
       {varied + "--design lhs:4 --shard 0/3", "I/N"},
-      {varied + "--design lhs:4 --errors some", "every:N"},
+      {varied + "--design lhs:4 --error-every 0", "--error-every \"0\": must be 1 …"},
+      {varied + "--design lhs:4 --jobs 0", "--jobs \"0\": must be 1 … 1024"},
+      {varied + "--design lhs:4 --delta 0.05", "--delta: belongs to --of size"},
       {varied + "--design lhs:4 --of modesty", "run, steady, modes or size"},
       {varied + "--variants v.csv", "omit"},
       {"--vary 'mass.inertia=1,2 kg*m2' --vary 'mass.inertia=1,2 kg*m2'", "twice"},
@@ -109,6 +111,18 @@ TEST_F(SweepCommand, WrongOptionsAreToldBeforeAnythingIsWritten) {
   std::ofstream(folder_ / "no.db") << "no database, but a text of some length";
   EXPECT_EQ(sweep("--into no.db " + varied + "--design lhs:4").code, 2);
   EXPECT_EQ(sweep("--into there/is/none.db " + varied + "--design lhs:4").code, 2);
+}
+
+// The bounds stand with the option alone: what it declares is what the study takes.
+TEST_F(SweepCommand, BoundsOfAnOptionAreThoseDeclared) {
+  for (const auto& [options, told] : {std::pair{"uncertainty two.toml --samples 19", "--samples \"19\": must be 20 … "},
+                                      std::pair{"modes two.toml --orders 1001", "at most 1000"},
+                                      std::pair{"modes two.toml --spot-checks 101", "must be 0 … 100"},
+                                      std::pair{"reduce two.toml --orders 0", "must be 1 … 1000"}}) {
+    const Said said = kurbel(std::string(options) + " --no-files");
+    EXPECT_EQ(said.code, 2) << options;
+    EXPECT_NE(said.text.find(told), std::string::npos) << options << "\n" << said.text;
+  }
 }
 
 TEST_F(SweepCommand, GoesOnWhereItEndedAndTakesNoOtherSweepsFile) {
