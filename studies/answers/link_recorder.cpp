@@ -37,17 +37,21 @@ void LinkRecorder::step(StepView& view) {
   angle_ = angle_in(view.y());
   foremost_ = std::max(foremost_, angle_), fastest_ = std::max(fastest_, std::abs(speed));
   if (std::abs(speed) > least_sense * m_.speed_scale) {
-    if (sense > 0 && sense_ < 0 && fell_back() > std::numbers::pi) swung_forwards_ = view.t();
+    if (sense > 0 && sense_ < 0 && fell_back() > std::numbers::pi) turned_forwards_ = view.t();
     if (sense < 0 && sense_ >= 0) backwards_since_ = view.t();
     sense_ = sense;
   }
-  const bool turns = std::abs(speed) > least_turning * m_.speed_scale;
-  if (turns) turned_at_ = view.t();
+  const double least = least_turning * m_.speed_scale;
+  const auto speed_at = [&](double t) { return view.at(t, state); };
+  const bool turns = std::abs(speed) > least;
+  bool turned = turns;  // a swing may have its greatest speeds within steps
+  for (double part = 0.25; part < 1 && !turned; part += 0.25)
+    turned = std::abs(link.gain * speed_at(std::lerp(view.t_previous(), view.t(), part))) > least;
+  if (turned) turned_at_ = view.t();
   if (view.t() < late_from_) return;
   if (view.t_previous() < late_from_) late_begin_ = low_ = high_ = before;
   way_ += std::abs(angle_ - before), late_fastest_ = std::max(late_fastest_, std::abs(speed));
   low_ = std::min(low_, angle_), high_ = std::max(high_, angle_);
-  const auto speed_at = [&](double t) { return view.at(t, state); };
   if (const double from = speed_at(view.t_previous()), to = speed_at(view.t()); from * to < 0) {
     reversal_ = find_root(speed_at, view.t_previous(), from, view.t(), to);
     extreme_ = angle_in(view.at(reversal_));

@@ -8,14 +8,14 @@
 namespace kurbel {
 
 // Evaluated at the ends of steps; reversals are located on the solution. The link turns above 1e-3 of its usual
-// speed; its sense of rotation is updated above 1e-2 of it.
+// speed, at quarters of a step; its sense of rotation is updated above 1e-2 of it.
 class LinkRecorder final : public Observer {
  public:
   LinkRecorder(const Model& model, double until) : m_(model), until_(until) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override {
-    tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, swung_forwards_, late_from_, late_begin_,
+    tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, turned_forwards_, late_from_, late_begin_,
          late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_,
          extreme_, turned_back_, first_swing_, last_swing_);
   }
@@ -23,7 +23,7 @@ class LinkRecorder final : public Observer {
   // Its greatest angle minus the angle at the end, turns counted [rad].
   double fell_back() const { return foremost_ - angle_; }
   // Its last reversal to forwards more than half a turn behind its greatest angle [s]; 0: none.
-  double swung_forwards() const { return swung_forwards_; }
+  double turned_forwards() const { return turned_forwards_; }
   double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
   double turned_at() const { return turned_at_; }              // end of the last step in which it turned [s]
   // It has not turned for the last fiftieth of the time up to t.
@@ -46,7 +46,7 @@ class LinkRecorder final : public Observer {
   const Model& m_;
   double until_;
   bool began_ = false;
-  double angle_ = 0, foremost_ = 0, turned_at_ = 0, backwards_since_ = 0, swung_forwards_ = 0;
+  double angle_ = 0, foremost_ = 0, turned_at_ = 0, backwards_since_ = 0, turned_forwards_ = 0;
   int sense_ = 0;
   double late_from_ = 0, late_begin_ = 0;
   int late_sense_ = 0, changes_ = 0;

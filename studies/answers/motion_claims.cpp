@@ -149,7 +149,7 @@ class Judge {
                    link(), {.at = since, .value = std::abs(torque), .limit = 0, .unit = "N*m"});
   }
 
-  // By more than half a turn from its foremost position, finally, and without a drive backwards: it has not swung
+  // By more than half a turn from its foremost position, finally, and without a drive backwards: it has not turned
   // forwards again from there, since the drive is off if it is. Motion commanded by a sequence may be intended, as long
   // as anything drives.
   std::optional<Claim> backwards(const Result& r) const {
@@ -157,7 +157,7 @@ class Judge {
     if (r.begins_at > 0 || m_.scene.run.start.speed < 0 || sources.none()) return {};
     if (!(speed() < -turns_back_from * m_.speed_scale) || recorder_.fell_back() < std::numbers::pi) return {};
     if (is_commanded() ? sources.drive(equations_.modes().active)
-                       : recorder_.swung_forwards() > r.periods.run_down_begin.value_or(0))
+                       : recorder_.turned_forwards() > r.periods.run_down_begin.value_or(0))
       return {};
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;

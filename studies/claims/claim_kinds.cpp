@@ -37,7 +37,7 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{turns_back, runs, fault, below,
               "the link turned back for good, by more than half a turn from its foremost place, against what drives it "
-              "forwards or with nothing that drives; of a sequence with nothing that drives alone; not of what swung "
+              "forwards or with nothing that drives; of a sequence with nothing that drives alone; not of what turned "
               "forwards again from there",
               "value: speed at the end [rad/s]; limit: 0",
               "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
@@ -85,8 +85,8 @@ constexpr std::array kinds = {
         "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare, steady"},
     ClaimKind{
         runs_steadily, runs, note, anything,
-        "what the mid speed of the cycle, since the last command, still has to go to its limit is at most 0.1 % of "
-        "it, and the link does not stand within the cycle",
+        "what the mid speed of the cycle still has to go to its limit, by the last three cycles or more without a "
+        "command, is at most 0.1 % of it, and the link does not stand within the cycle",
         "at: end of the run-up; value: mean speed [rad/s]", "\"press\" runs steadily at 59.77 rpm from 0.9627 s on",
         "run, compare, steady"},
     ClaimKind{vibrates, runs, note, anything,

@@ -12,7 +12,7 @@ namespace {
 constexpr double least_told = 1e-8;  // of a speed: nearer to its limit nobody asks
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
 constexpr double nowhere = 1e3;  // times the speed: a limit so far away is rounding
-constexpr std::size_t parts_without_cycle = 16;
+constexpr std::size_t parts_without_cycle = 16, least_means = 3;
 // Scatter of the mid speed between cycles for a local tolerance, as a multiple of it; never more than most_noise.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
 
@@ -58,34 +58,37 @@ std::vector<double> at_equal_times(const std::vector<double>& time, const std::v
   return mean.size() > 2 ? even : mean;
 }
 
-// End of the last change of a command, or of a window of time, before `end`; 0: none, or the sequence repeats.
-double switched_last(const Model& model, const EventLog& events, double end) {
-  double last = 0;
-  if (model.scene.sequence.repeat) return last;
+// Between changes of a command, with their ramps, and of windows of time, up to `end`; the whole, if the sequence repeats.
+struct Section {
+  double begin = 0, end = 0;  // [s]
+};
+std::vector<Section> sections(const Model& model, const EventLog& events, double end) {
+  std::vector<Section> list{{0, end}};
+  if (model.scene.sequence.repeat) return list;
   for (const Event& e : events) {
-    if ((e.kind != EventKind::command && e.kind != EventKind::window) || e.t >= end) continue;
+    const bool commands = e.kind == EventKind::command;
+    if ((!commands && e.kind != EventKind::window) || e.t >= end) continue;
     double ramp = 0;
     for (const SequenceStep& step : model.scene.sequence.steps)
-      if (e.kind == EventKind::command && step.to == e.value &&
-          std::count(step.set.begin(), step.set.end(), e.component))
+      if (commands && step.to == e.value && std::count(step.set.begin(), step.set.end(), e.component) > 0)
         ramp = std::max(ramp, step.over);
-    last = std::max(last, e.t + ramp);
+    list.back().end = e.t;
+    list.push_back({std::max(list.back().begin, e.t + ramp), end});
   }
-  return last;
+  return list;
 }
 
-// Data for the judgement.
+// Data for the judgement, of one section.
 struct DrivenTime {
-  double begin = 0, end = 0;          // since the last switching [s]
+  double begin = 0, end = 0;          // [s]
   const CycleRecord* last = nullptr;  // cycle
   std::vector<double> means = {};     // of the speed [rad/s]
-  double speed = 0;                   // the last cycle's mean, or the speed at the end
+  double speed = 0;                   // the last cycle's mean, or the speed at the end of the driven time
 };
 
-DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
-                       const Periods& periods, const RunOutcome& outcome) {
-  DrivenTime d{.end = periods.run_down_begin.value_or(outcome.t)};
-  d.begin = switched_last(model, outcome.events, d.end);
+DrivenTime data_of(const Section& section, const Model& model, const std::vector<CycleRecord>& cycles,
+                   const SpeedRecorder& speed) {
+  DrivenTime d{.begin = section.begin, .end = section.end};
   std::vector<double> middle;
   for (const CycleRecord& c : cycles) {
     if (c.end > d.end) break;
@@ -94,16 +97,23 @@ DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycle
     middle.push_back(0.5 * (c.begin + c.end));
     d.means.push_back(c.mid_speed());
   }
-  d.means = at_equal_times(middle, d.means);
-  if (model.cycle == 0) d.means = means_of_parts(speed, d.begin, d.end);
+  d.means = model.cycle > 0 ? at_equal_times(middle, d.means) : means_of_parts(speed, d.begin, d.end);
   d.speed = d.last ? d.last->mid_speed() : speed.driven().empty() ? 0 : speed.driven().last();
   return d;
+}
+
+DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
+                       const Periods& periods, const RunOutcome& outcome) {
+  const std::vector<Section> list = sections(model, outcome.events, periods.run_down_begin.value_or(outcome.t));
+  for (auto section = list.rbegin(); section != list.rend(); ++section)
+    if (DrivenTime d = data_of(*section, model, cycles, speed); d.means.size() >= least_means) return d;
+  return data_of(list.back(), model, cycles, speed);
 }
 
 void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance, Periods& periods) {
   const char* unit = model.cycle > 0 ? "cycle" : "sixteenth of the time";
   const char* speed = model.cycle > 0 ? "mid" : "mean";
-  if (d.means.size() < 3) {
+  if (d.means.size() < least_means) {
     periods.verdict = model.cycle > 0
                           ? fmt::format("{} whole cycle{}{}, of at least 3 needed", d.means.size(),
                                         d.means.size() == 1 ? "" : "s", d.begin > 0 ? " since the last command" : "")
@@ -139,9 +149,10 @@ void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime&
   const double high = (d.last ? d.last->omega_max : d.speed) + margin;
   const std::optional<double> entry = speed.last_outside(low, high);
   if (!entry) return;
-  if (d.last && *entry > d.last->begin) {
+  if (*entry > (d.last ? d.last->begin : d.end)) {
     periods.steady = periods.without_limit = false;
-    periods.verdict = fmt::format("after the last whole cycle the speed leaves its range, at {:.6g} s", *entry);
+    periods.verdict = fmt::format("{} the speed leaves its range, at {:.6g} s",
+                                  d.last ? "after the last whole cycle" : "after the last command", *entry);
     return;
   }
   periods.run_up_end = entry;

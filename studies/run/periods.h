@@ -3,10 +3,10 @@
 // All from the reduction link's speed ω on the dense output of the steps, not from samples.
 //
 // driven time   from the start until the last driving source is finally switched off; the whole run if none is.
-// last command  the last change of a command, up to the end of its ramp, or of a window of time within the driven time; the
-//               start, if there is none or the sequence repeats.
-// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle of the driven time since the last command, converted to equal
-//               time steps. For machines without a cycle: mean speeds of sixteen equal parts of that time.
+// section       of the driven time, between changes of a command, up to the end of their ramps, and of windows of time; the
+//               whole of it, if the sequence repeats. What counts is the last section that has three mid speeds.
+// mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle of the section, converted to equal time steps. For machines
+//               without a cycle: mean speeds of sixteen equal parts of it.
 // steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
 //               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
 //               the last one. Changes that do not decrease have no limit, however small they are: a runaway, a drift.

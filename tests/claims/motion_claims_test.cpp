@@ -200,6 +200,32 @@ TEST(Stalls, AreSaidOfAMotorThatStandsBehindASpring) {
   EXPECT_LT(*stalls->evidence.at, 3);
 }
 
+// The same behind a shaft that is hardly damped: at 3.51 s it still turns at 1e-3 of its usual speed, between the ends of
+// steps; at 5 s it stands.
+TEST(Stalls, AreNotSaidWhileItTrembles) {
+  const auto machine = [](const char* until) {
+    return test::run(fmt::format(R"(
+      line = ["motor", "shaft", "machine"]
+      motor = {{ kind = "dc shunt motor", stall_torque = "401.38 N*m", no_load_speed = "22.166 rad/s", inertia = "1.3856 kg*m2" }}
+      shaft = {{ kind = "shaft", stiffness = "15232 N*m/rad", damping_ratio = 0.017 }}
+      effects = {{ elasticity = true }}
+      run = {{ until = "{}" }}
+      [machine]
+      kind = "slider-crank"
+      radius = "83.172 mm"
+      rod = "216.74 mm"
+      crank_inertia = "3.233 kg*m2"
+      slider_mass = "64.472 kg"
+      load = {{ kind = "table", force = {{ over = "angle", unit = ["deg", "N"], period = "360 deg", points = [[0, 0], [180, 0], [200, 24257], [330, 24257], [360, 0]] }} }}
+    )",
+                                 until));
+  };
+  const Result trembles = machine("3.55768 s"), stands = machine("5 s");
+  EXPECT_FALSE(find(trembles.claims, Predicate::stalls)) << said(trembles);
+  EXPECT_TRUE(find(trembles.claims, Predicate::does_not_get_round)) << said(trembles);
+  EXPECT_TRUE(find(stands.claims, Predicate::stalls)) << said(stands);
+}
+
 // What a clutch did on the way is said of a machine that stalls, too.
 TEST(Stalls, HideNoClutch) {
   const Result r = test::run(R"(
