@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -44,44 +45,43 @@ class LastSwing {
   double greatest_ = 0;  // [rad/s]; 0: it did not reverse
 };
 
-// Last time at which the link was faster than a part of its rated speed, checked eight times per step; if its speed is
+// Last times at which the link was faster than parts of its rated speed, located on the dense output; if its speed is
 // prescribed, the fastest of the free shafts.
 class LastMotion final : public Observer {
  public:
+  static constexpr std::array<double, 3> parts{1e-2, 1e-3, 1e-9};
   explicit LastMotion(const Model& m) : m_(m), link_(at(m.angles[at(m.reduction_angle)].shaft)) {}
   void step(StepView& view) override {
-    const bool free = link_ < m_.free_shafts;
-    const std::size_t first = free ? link_ : 0, end = free ? link_ + 1 : m_.free_shafts;
-    constexpr int looks = 8;
+    constexpr int looks = 8;  // per step
+    double before = view.t_previous(), speed_before = part_of_rated(view, before);
     for (int k = 1; k <= looks; ++k) {
       const double t = k < looks ? view.t_previous() + (view.t() - view.t_previous()) * k / looks : view.t();
-      double speed = 0;
-      for (std::size_t s = first; s < end; ++s) {
-        const std::size_t state = view.equations().speed_index(static_cast<int>(s));
-        speed = std::max(speed, std::abs(view.at(t, state)) / m_.shafts[s].speed_scale);
-      }
-      see(t, speed);
+      const double speed = part_of_rated(view, t);
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        if (speed > parts[i])
+          last_[i] = t;
+        else if (speed_before > parts[i])
+          last_[i] = find_root([&](double x) { return part_of_rated(view, x) - parts[i]; }, before,
+                               speed_before - parts[i], t, speed - parts[i]);
+      before = t, speed_before = speed;
     }
   }
-  // [s]; 0: never.
-  double above(double part) const {
-    const auto slower = std::find_if(falling_.begin(), falling_.end(), [&](const auto& e) { return e.second <= part; });
-    return slower == falling_.begin() ? 0 : std::prev(slower)->first;
-  }
+  // For each of the parts [s]; 0: never.
+  const std::array<double, parts.size()>& times() const { return last_; }
 
  private:
-  void see(double t, double speed) {
-    constexpr double same = 0.999;  // keeps the list short; the time may be later, never earlier
-    while (!falling_.empty() && falling_.back().second <= speed) falling_.pop_back();
-    if (!falling_.empty() && speed > same * falling_.back().second)
-      falling_.back().first = t;
-    else if (speed > 0)
-      falling_.emplace_back(t, speed);
+  double part_of_rated(StepView& view, double t) const {
+    const bool free = link_ < m_.free_shafts;
+    double speed = 0;
+    for (std::size_t s = free ? link_ : 0; s < (free ? link_ + 1 : m_.free_shafts); ++s)
+      speed = std::max(
+          speed, std::abs(view.at(t, view.equations().speed_index(static_cast<int>(s)))) / m_.shafts[s].speed_scale);
+    return speed;
   }
 
   const Model& m_;
   std::size_t link_;
-  std::vector<std::pair<double, double>> falling_;  // time [s], speed: each faster than all after it
+  std::array<double, parts.size()> last_{};
 };
 
 // Times at which the link reverses from forwards to backwards, located on the dense output.

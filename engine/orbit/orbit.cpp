@@ -14,6 +14,7 @@
 #include "engine/orbit/sequence_ahead.h"
 #include "engine/orbit/settling.h"
 #include "engine/return_map/family.h"
+#include "engine/run/speed_history.h"
 
 namespace kurbel {
 namespace {
@@ -150,20 +151,15 @@ class Search {
     end(Orbit::Kind::equilibrium,
         with_holders(fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link())));
   }
-  // Parts held by friction or losses are at rest; others approach the rest asymptotically.
+  // The machine comes to rest by an event, or approaches the rest; as in the periods of a run.
   std::string at_rest() {
-    constexpr double as_good_as_still = 1e-3;  // as in the periods of a run
-    constexpr double held_still = 1e-12;
-    if (last_motion_.above(still) == 0) return with_holders("the machine stands from its start on");
-    const double end = last_motion_.above(held_still);
-    const auto held = std::find_if(events_.begin(), events_.end(), [&](const Event& e) {
-      return (e.kind == EventKind::rest || e.kind == EventKind::held) && e.t >= (1 - 1e-12) * end;
-    });
-    if (held != events_.end() && !equations_.held(state_.t, state_.y).empty())
-      return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", held->t));
+    const auto [hundredth, thousandth, last] = last_motion_.times();
+    if (last == 0) return with_holders("the machine stands from its start on");
+    if (const Event* rest = rest_of(events_, hundredth, thousandth, {}))
+      return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t));
     return with_holders(
         fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from {:.4g} s on", link(),
-                    last_motion_.above(as_good_as_still)));
+                    thousandth));
   }
   std::string with_holders(std::string text) {
     for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;

@@ -7,10 +7,13 @@
 // dense output of the solver over one step, as the polynomial through nine Chebyshev points.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "engine/events/event.h"
 #include "engine/run/run.h"
 #include "engine/run/sources.h"
 
@@ -54,6 +57,19 @@ class BandHistory {
  private:
   std::vector<Stretch> low_, high_;  // increasing minima, decreasing maxima
 };
+
+// The event with which a machine comes to rest that turned faster than 1 % of its usual speed until `hundredth` [s] and
+// 0.1 % until `thousandth`: the first rest after that, not later than the last thousandth would take at the rate of the
+// hundredths before it. Null: it only approaches the rest, and is held when no speed is left; or nothing holds it.
+// `component`: whose event; empty: any.
+inline const Event* rest_of(const EventLog& events, double hundredth, double thousandth, const std::string& component) {
+  const double latest = thousandth + (thousandth - hundredth);
+  const auto rest = std::find_if(events.begin(), events.end(), [&](const Event& e) {
+    return (e.kind == EventKind::rest || (component.empty() && e.kind == EventKind::held)) &&
+           e.t >= (1 - 1e-12) * thousandth && (component.empty() || e.component == component);
+  });
+  return rest != events.end() && rest->t <= latest ? &*rest : nullptr;
+}
 
 // Observes the reduction link: its speed while something drives and after that, and its angle at equal intervals.
 class SpeedRecorder final : public Observer {

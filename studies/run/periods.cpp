@@ -169,14 +169,14 @@ void find_standstill(const Model& model, const BandHistory& speed, const RunOutc
                      Periods& periods) {
   const int shaft = model.shaft_of_node[static_cast<std::size_t>(model.reduction_node)];
   const std::string name = model.node_label(model.shafts[static_cast<std::size_t>(shaft)].reference);
-  for (const Event& event : outcome.events) {
-    if (event.component != name || event.t <= *periods.run_down_begin) continue;
-    if (event.kind == EventKind::rest) periods.standstill = event.t;
-    if (event.kind == EventKind::motion) periods.standstill.reset();
-  }
-  if (periods.standstill || speed.empty()) return;
   const double level = at_rest * model.speed_scale;
-  const std::optional<double> entry = speed.last_outside(-level, level);
+  const std::optional<double> entry = speed.last_outside(-level, level),
+                              before = speed.last_outside(-10 * level, 10 * level);
+  if (const Event* rest =
+          rest_of(outcome.events, before.value_or(-HUGE_VAL), entry.value_or(*periods.run_down_begin), name)) {
+    periods.standstill = rest->t;
+    return;
+  }
   if (!entry || *entry >= outcome.t) return;
   periods.standstill = entry;
   const double shift = std::min(tolerance * model.speed_scale, 0.5 * level);

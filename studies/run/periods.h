@@ -16,7 +16,8 @@
 //               starts within that range has no run-up.
 // run-down      from the end of the driven time to standstill, or to the end. The three periods and their works have the
 //               same borders everywhere (duty/work_periods.h).
-// standstill    the link comes to rest and is held to the end; otherwise |ω| finally stays below 0.1 % of its usual speed.
+// standstill    |ω| finally stays below 0.1 % of its usual speed; or the link comes to rest by an event soon after that
+//               (rest_of, engine/run/speed_history.h), however it trembles later.
 #pragma once
 
 #include <span>
