@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #ifndef KURBEL_FMI_RUNTIME
-#define TOML_MAX_NESTED_VALUES 64  // also that of tables by dots, below
 #include <toml++/toml.h>
 #endif
 
@@ -26,12 +25,12 @@ Location location(const toml::source_position& place) {
 }
 Location location(const toml::source_region& region) { return location(region.begin); }
 
-constexpr int most_nested = TOML_MAX_NESTED_VALUES;
+constexpr int most_nested = 64;  // toml++ stops at 256 braces, but not at tables by dots
 
 DocumentValue convert(const toml::node& node, const std::string& file, int depth = 0) {
   if (depth > most_nested)
     throw SceneError(
-        {{file, location(node.source()), fmt::format("tables are nested more than {} deep", most_nested)}});
+        {{file, location(node.source()), fmt::format("values are nested more than {} deep", most_nested)}});
   DocumentValue value;
   value.at = location(node.source());
   value.end = location(node.source().end);
