@@ -169,6 +169,24 @@ TEST(Facade, TwoMachinesFigureByFigure) {
             std::string::npos);
 }
 
+TEST(Facade, AMachineIsExportedForOtherTools) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kurbel_facade_export";
+  std::filesystem::remove_all(folder);
+  const Study exported = study("export", Machine::from_text(two_masses, "two.toml"),
+                               {{"fmi", "3"}, {"kind", "both"}, {"input", "fan.torque"}, {"output", "speed.fan"}});
+  EXPECT_NE(exported.text().find("1 inputs"), std::string::npos) << exported.text();
+  exported.write(folder.string());
+  std::ifstream component(folder / "two.fmu", std::ios::binary);
+  std::string magic(2, ' ');
+  component.read(magic.data(), 2);
+  EXPECT_EQ(magic, "PK");
+  EXPECT_NE(message_of([] {
+              study("export", Machine::from_text(two_masses), {{"fmi", "4"}});
+            }).find("fmi"),
+            std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
 // 100 runs before, so that pools and tables are filled.
 TEST(Facade, AThousandLoadsRunsAndFreesLeakNothing) {
   if (test::sanitized) GTEST_SKIP() << "the sanitizer keeps what is freed, and tells leaks itself";
