@@ -17,7 +17,8 @@ struct PieceGuard {
     return q - curve.period() * std::round((q - middle) / curve.period());
   }
   static void guard(const Curve& curve, int piece, double q, double scale, double* g) {
-    if (curve.period() > 0 && piece + 1 >= static_cast<int>(curve.x().size())) {  // piece of a curve with more pieces
+    // A piece of another curve, or of a state that was tampered with.
+    if (curve.period() > 0 && (piece < 0 || piece + 1 >= static_cast<int>(curve.x().size()))) {
       g[0] = g[1] = -1;
       return;
     }
