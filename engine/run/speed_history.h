@@ -59,8 +59,8 @@ class BandHistory {
 };
 
 // The event with which a machine comes to rest that turned faster than 1 % of its usual speed until `hundredth` [s] and
-// 0.1 % until `thousandth`: the first rest after that, not later than the last thousandth would take at the rate of the
-// hundredths before it. Null: it only approaches the rest, and is held when no speed is left; or nothing holds it.
+// 0.1 % until `thousandth` [s]: the first rest after that, within the time that it took from 1 % to 0.1 % (a constant
+// deceleration needs a ninth of it). Null: it only approaches the rest, however it is held later; or nothing holds it.
 // `component`: whose event; empty: any.
 inline const Event* rest_of(const EventLog& events, double hundredth, double thousandth, const std::string& component) {
   const double latest = thousandth + (thousandth - hundredth);
