@@ -54,7 +54,7 @@ const OptionsOf<SweepAsked>& sweep_options() {
                &SweepAsked::limits)
           .add(machine_options(), &SweepAsked::machine)
           .add({.name = "error_every",
-                .doc = "measure the errors of every 20th row only, e.g. 20 (default: 1)",
+                .doc = "20 measures the errors of every 20th row only (default: 1)",
                 .domain = {.low = 1, .high = 1'000'000}},
                &SweepAsked::errors_every)
           .add({.name = "into",
