@@ -74,9 +74,8 @@ class Search {
   }
   // More for what changes slowly: a shaft that drag brings to the speed of another one takes its time.
   int most_rounds() const {
-    constexpr double slow = 1e-3;  // change per period, over the rated values
     constexpr int times = 4;
-    return options_.most_rounds * (settled_rounds_ > 0 && out_.still_changes < slow ? times : 1);
+    return options_.most_rounds * (slow_ ? times : 1);
   }
   bool has_own_period() const { return kurbel::has_own_period(m_, period_); }
   Pace pace() { return pace_of(equations_, state_); }
@@ -187,6 +186,8 @@ class Search {
     const Eigen::VectorXd change = section.read(state_.modes, state_.y);
     Eigen::Index most = 0;
     out_.still_changes = change.size() > 0 ? change.cwiseAbs().maxCoeff(&most) : 0;
+    constexpr double slow = 1e-3;
+    slow_ = slow_ || out_.still_changes < slow;
     if (change.size() > 0) {
       changes_most_ = section.name(equations_, static_cast<std::size_t>(most));
       angle_changes_most_ = section.is_angle(static_cast<std::size_t>(most));
@@ -419,6 +420,7 @@ class Search {
   State state_;
   Orbit out_;
   bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
+  bool slow_ = false;                                       // a period has changed little
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
   int settled_rounds_ = 0, next_trial_ = 1;
   LastSwing swings_;

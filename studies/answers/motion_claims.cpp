@@ -283,8 +283,8 @@ class Judge {
   }
   // Nearly at rest for a moment only, where that is not said of the whole motion.
   std::optional<Claim> swings() const {
-    const double reached = recorder_.speed_of_swing(), slow = turns_back_from * m_.speed_scale;
-    if (rests() || std::abs(speed()) > slow || reached < slow) return {};
+    const double reached = recorder_.speed_of_swing();
+    if (rests() || std::abs(speed()) > turns_back_from * m_.speed_scale || reached < stands * m_.speed_scale) return {};
     return claimed_aside(
         Predicate::vibrates,
         fmt::format("\"{}\" vibrates at the end, at up to {}", link(), m_.scene.speed_unit.text(reached, 4)), link(),

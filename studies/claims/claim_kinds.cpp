@@ -52,8 +52,7 @@ constexpr std::array kinds = {
     ClaimKind{runs_away, runs, fault, above,
               "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
               "higher speed (up to a hundred times) do loads and drag hold what drives; tried by going on to eight "
-              "times the time, it still gains from each "
-              "doubling of the time to the next",
+              "times the time, it still gains from each doubling of the time to the next",
               "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
               "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
               "changes by +6.5 % a sixteenth of the time, and that does not shrink",
@@ -95,8 +94,7 @@ constexpr std::array kinds = {
               "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
               "its last quarter, and gains less than a quarter of its way; it decays or grows where the amplitude of "
               "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
-              "slower than 1 % of "
-              "its usual speed at the end and was faster in its last swing, beside the conclusion",
+              "slower than 1 % of its usual speed at the end and swings there, beside the conclusion",
               "value: frequency [Hz]",
               "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
               "run, compare, steady"},
