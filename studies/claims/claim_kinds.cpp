@@ -94,7 +94,7 @@ constexpr std::array kinds = {
               "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
               "its last quarter, and gains less than a quarter of its way; it decays or grows where the amplitude of "
               "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
-              "slower than 1 % of its usual speed at the end and swings there, beside the conclusion",
+              "slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
               "value: frequency [Hz]",
               "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
               "run, compare, steady"},
@@ -109,7 +109,7 @@ constexpr std::array kinds = {
     ClaimKind{at_rest, runs, note, anything,
               "the link moved, and stands at the end: its speed stays below 0.1 % of the usual one for good, or dry "
               "friction holds it soon after that (time of rest: that hold, where friction is the greater part of what "
-              "brakes at 0.1 %, and no swing turns there)",
+              "brakes at 0.1 %, and no vibration reverses there)",
               "at: of its rest; value: speed at the end [rad/s]", "\"pendulum\" is at rest after 6 s",
               "run, compare, steady"},
     ClaimKind{not_steady_yet, runs, note, anything, "the mid speed still has more than 0.1 % to go",
