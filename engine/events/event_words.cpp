@@ -36,6 +36,16 @@ std::string change_of(const Contact& contact, int sense) {
   return sense > 0 ? "moves forwards" : "moves backwards";
 }
 
+// Four digits, however large or small the number is.
+std::string without_exponent(double value) {
+  value += 0.0;  // no −0
+  const int before = value == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  std::string text = fmt::format("{:.{}f}", value, std::max(0, 4 - before));
+  if (before < 4) text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 std::string command_text(double to) { return to == 0 ? "off" : to == 1 ? "on" : fmt::format("{:.4g}", to); }
 
 }  // namespace
@@ -118,20 +128,21 @@ Event restless_event(double t, const std::string& owners, std::size_t events, do
 }
 
 std::string words_of(const Contact& contact, const std::string& holders, const Holding& holding) {
-  constexpr double rounding = 1e-8;  // of what is held: nothing acts
-  const bool nothing = std::abs(holding.acts) <= rounding * std::max(std::abs(holding.backwards), holding.forwards);
-  const double acts = nothing ? 0 : holding.acts;
-  if (nothing && holding.forwards == 0 && holding.backwards == 0)
-    return fmt::format("\"{}\" is held at the end by {}: no torque acts, and any torque would move it", contact.name,
-                       holders);
+  constexpr double rounding = 1e-8;  // of what is held, or usual: nothing acts
+  const double least = rounding * std::max({std::abs(holding.backwards), holding.forwards, contact.torque_scale});
+  const double acts = std::abs(holding.acts) <= least ? 0 : holding.acts;
   const auto side = [&](double limit, const char* way) {
-    return std::abs(limit) > holding.unbounded
-               ? fmt::format("{}: it is self-locking", way)
-               : fmt::format("{}: up to {:.4g} N·m are held, {:.4g} N·m more would move it", way, limit + 0.0,
-                             std::abs(limit - acts));
+    return std::abs(limit) > holding.unbounded ? fmt::format("{}: it is self-locking", way)
+           : std::abs(limit - acts) <= least
+               ? fmt::format("{}: any torque would move it", way)
+               : fmt::format("{}: up to {} N·m are held, {} N·m more would move it", way, without_exponent(limit),
+                             without_exponent(std::abs(limit - acts)));
   };
-  return fmt::format("\"{}\" is held at the end by {}: {:.4g} N·m act; {}; {}", contact.name, holders, acts,
-                     side(holding.forwards, "forwards"), side(holding.backwards, "backwards"));
+  const std::string held = fmt::format("\"{}\" is held at the end by {}: ", contact.name, holders);
+  if (acts == 0 && holding.forwards <= least && holding.backwards >= -least)
+    return held + "no torque acts, and any torque would move it";
+  return fmt::format("{}{} N·m act; {}; {}", held, without_exponent(acts), side(holding.forwards, "forwards"),
+                     side(holding.backwards, "backwards"));
 }
 
 }  // namespace kurbel

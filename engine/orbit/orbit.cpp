@@ -43,7 +43,7 @@ class Search {
     state_.y = equations_.start(0);
     state_.modes = equations_.modes();
     try {
-      while (!done_ && out_.rounds < options_.most_rounds) go_on();
+      while (!done_ && out_.rounds < most_rounds()) go_on();
     } catch (const std::runtime_error& error) {  // an element without solution, such as jamming joints
       end(Orbit::Kind::failed, error.what());
     }
@@ -71,6 +71,11 @@ class Search {
   bool is_settled() const {
     return m_.scene.sequence.repeat ||
            (!waits_for_angle(m_, state_.modes) && state_.t >= switched_until(m_, period_, state_));
+  }
+  // More for what changes slowly: a shaft that drag brings to the speed of another one takes its time.
+  int most_rounds() const {
+    constexpr int times = 4;
+    return options_.most_rounds * (slow_ ? times : 1);
   }
   bool has_own_period() const { return kurbel::has_own_period(m_, period_); }
   Pace pace() { return pace_of(equations_, state_); }
@@ -155,7 +160,8 @@ class Search {
   std::string at_rest() {
     const auto [hundredth, thousandth, last] = last_motion_.times();
     if (last == 0) return with_holders("the machine stands from its start on");
-    if (const Event* rest = rest_of(events_, hundredth, thousandth, {}))
+    const int shaft = m_.shaft_of_node[at(m_.reduction_node)];
+    if (const Event* rest = rest_of(events_, hundredth, thousandth, m_.node_label(m_.shafts[at(shaft)].reference)))
       return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t));
     return with_holders(
         fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from {:.4g} s on", link(),
@@ -180,6 +186,8 @@ class Search {
     const Eigen::VectorXd change = section.read(state_.modes, state_.y);
     Eigen::Index most = 0;
     out_.still_changes = change.size() > 0 ? change.cwiseAbs().maxCoeff(&most) : 0;
+    constexpr double slow = 1e-3;
+    slow_ = slow_ || out_.still_changes < slow;
     if (change.size() > 0) {
       changes_most_ = section.name(equations_, static_cast<std::size_t>(most));
       angle_changes_most_ = section.is_angle(static_cast<std::size_t>(most));
@@ -412,6 +420,7 @@ class Search {
   State state_;
   Orbit out_;
   bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
+  bool slow_ = false;                                       // a period has changed little
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
   int settled_rounds_ = 0, next_trial_ = 1;
   LastSwing swings_;

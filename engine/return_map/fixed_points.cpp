@@ -14,6 +14,7 @@ constexpr double slowest_shrinking = 0.999;  // ratio from period to period; nea
 constexpr double floor_of_rounds = 1e-10;    // of the rated values: smaller changes are noise
 constexpr double same_motion = 1e-3;         // of the rated values, and of the time of a period
 constexpr int rounds_looked_at = 6;
+constexpr double most_missed = 1e-8;    // of the usual speeds
 constexpr double looser_residual = 10;  // at which a looser search ends, over its tolerance
 
 // Sensitivity of the largest eigenvalue to an entry of the matrix.
@@ -89,8 +90,13 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
   return out;
 }
 
+void SteadyPoint::find(const ReturnMap::Image& image) {
+  found = image.missed <= most_missed;
+  why = found ? "" : "what sticks at the begin of the period slips at its end";
+}
+
 void SteadyPoint::take(const Eigen::VectorXd& at, const ReturnMap::Image& image) {
-  found = true;
+  find(image);
   z = at;
   derivative = image.derivative;
   multipliers = multipliers_of(derivative);
@@ -106,8 +112,9 @@ SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double 
   out.z = guess;
   std::vector<double> changes;
   Eigen::VectorXd change = Eigen::VectorXd::Zero(guess.size());
+  ReturnMap::Image round;
   for (int i = 0; i < rounds_looked_at; ++i) {
-    const ReturnMap::Image round = map.image(out.z, false);
+    round = map.image(out.z, false);
     ++out.rounds;
     out.cost = map.cost() - cost_before;
     out.end = round.end;
@@ -132,7 +139,7 @@ SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double 
   for (std::size_t i = 0; i + 1 < changes.size(); ++i) shrinking = std::max(shrinking, changes[i + 1] / changes[i]);
   shrinking = std::max(out.residual <= floor_of_rounds ? 0.5 : 0, std::min(shrinking, slowest_shrinking));
   out.to_come = change * shrinking / (1 - shrinking);
-  out.found = true;
+  out.find(round);
   return out;
 }
 

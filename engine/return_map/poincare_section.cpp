@@ -276,6 +276,16 @@ Eigen::VectorXd PoincareSection::read(const Modes& modes, std::span<const double
   return z;
 }
 
+double PoincareSection::missed(const Equations& equations, const Eigen::VectorXd& z, std::span<const double> y) const {
+  double most = 0;
+  for (std::size_t s = 0; s < equations.model().free_shafts; ++s) {
+    const std::size_t i = equations.speed_index(static_cast<int>(s));
+    const double told = z.size() > 0 ? directions_.row(row(i)).dot(z) : 0;
+    most = std::max(most, std::abs(y[i] - state_.y[i] - told) / equations.model().shafts[s].speed_scale);
+  }
+  return most;
+}
+
 Eigen::MatrixXd PoincareSection::read_directions(const Eigen::MatrixXd& of_y) const {
   Eigen::MatrixXd z = Eigen::MatrixXd::Zero(row(size()), of_y.cols());
   for (std::size_t j = 0; j < size(); ++j)

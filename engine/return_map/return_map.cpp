@@ -154,7 +154,10 @@ ReturnMap::Image ReturnMap::judge(const RunOutcome& outcome, double from, double
   const std::span<const double> y(outcome.state.data(), equations.size());
   image.link_angle = equations.angle_with_turns(link, y);
   image.turned = image.link_angle - link_begin;
-  if (section_) image.z = section_->read(equations.modes(), y);
+  if (section_) {
+    image.z = section_->read(equations.modes(), y);
+    image.missed = section_->missed(equations, image.z, y);
+  }
   const std::string name = m.node_label(m.reduction_node);
   const double phi = place_within(image.link_angle, periodicity_.angle);
   const double speed = m.angles[link].gain * equations.snapshot(outcome.t, y).now.speed[m.angles[link].shaft] * sense_;

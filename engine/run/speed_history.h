@@ -58,17 +58,20 @@ class BandHistory {
   std::vector<Stretch> low_, high_;  // increasing minima, decreasing maxima
 };
 
-// The event with which a machine comes to rest that turned faster than 1 % of its usual speed until `hundredth` [s] and
-// 0.1 % until `thousandth` [s]: the first rest after that, within the time that it took from 1 % to 0.1 % (a constant
-// deceleration needs a ninth of it). Null: it only approaches the rest, however it is held later; or nothing holds it.
-// `component`: whose event; empty: any.
-inline const Event* rest_of(const EventLog& events, double hundredth, double thousandth, const std::string& component) {
-  const double latest = thousandth + (thousandth - hundredth);
+// Rest: the speed stays below 0.1 % of the usual one for good; or, where dry friction ends the motion, the event with which
+// it holds. That event is the first hold after the speed was last above 1 % (`hundredth` [s]); the speed is below 0.1 % for
+// good by then (`thousandth`). A constant deceleration takes a ninth of the time between these two for the rest of the way.
+// With α = a + b ω it takes at most ln 2/ln(11/2) of that time where friction is the greater part at 0.1 %, b ω ≤ a; else
+// the machine was slow before it was stopped. A hold before `thousandth` ends a swing, and no motion.
+// Null: the machine rests when it is slow. `link`: name of its shaft's own events; losses of any gear may hold it, too.
+inline const Event* rest_of(const EventLog& events, double hundredth, double thousandth, const std::string& link) {
+  constexpr double longest = 0.4066, rounding = 1e-12;  // ln 2/ln 5.5
   const auto rest = std::find_if(events.begin(), events.end(), [&](const Event& e) {
-    return (e.kind == EventKind::rest || (component.empty() && e.kind == EventKind::held)) &&
-           e.t >= (1 - 1e-12) * thousandth && (component.empty() || e.component == component);
+    return e.t >= (1 - rounding) * hundredth &&
+           (e.kind == EventKind::held || (e.kind == EventKind::rest && e.component == link));
   });
-  return rest != events.end() && rest->t <= latest ? &*rest : nullptr;
+  const double latest = thousandth + longest * (thousandth - hundredth) + rounding * thousandth;
+  return rest != events.end() && rest->t >= (1 - rounding) * thousandth && rest->t <= latest ? &*rest : nullptr;
 }
 
 // Observes the reduction link: its speed while something drives and after that, and its angle at equal intervals.

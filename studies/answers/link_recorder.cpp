@@ -2,6 +2,7 @@
 #include "studies/answers/link_recorder.h"
 
 #include <numbers>
+#include <utility>
 
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -44,11 +45,12 @@ void LinkRecorder::step(StepView& view) {
   const double least = least_turning * m_.speed_scale;
   const auto speed_at = [&](double t) { return view.at(t, state); };
   const bool turns = std::abs(speed) > least;
-  bool turned = turns;  // a swing may have its greatest speeds within steps
-  for (double part = 0.25; part < 1 && !turned; part += 0.25)
-    turned = std::abs(link.gain * speed_at(std::lerp(view.t_previous(), view.t(), part))) > least;
-  if (turned) turned_at_ = view.t();
-  if (view.t() < late_from_) return;
+  double reached = std::abs(speed);  // a swing may have its greatest speeds within steps
+  const bool is_late = view.t() >= late_from_;
+  for (double part = 0.25; part < 1 && (is_late || !(reached > least)); part += 0.25)
+    reached = std::max(reached, std::abs(link.gain * speed_at(std::lerp(view.t_previous(), view.t(), part))));
+  if (reached > least) turned_at_ = view.t();
+  if (!is_late) return;
   if (view.t_previous() < late_from_) late_begin_ = low_ = high_ = before;
   way_ += std::abs(angle_ - before), late_fastest_ = std::max(late_fastest_, std::abs(speed));
   low_ = std::min(low_, angle_), high_ = std::max(high_, angle_);
@@ -57,8 +59,11 @@ void LinkRecorder::step(StepView& view) {
     extreme_ = angle_in(view.at(reversal_));
     low_ = std::min(low_, extreme_), high_ = std::max(high_, extreme_);
   }
+  if (late_sense_ == -sense && turns) swing_before_ = std::exchange(swing_fastest_, 0);
+  swing_fastest_ = std::max(swing_fastest_, reached);
   if (!turns) return;
   if (late_sense_ == -sense) {
+    if (changes_ > 0) half_swing_ = reversal_ - last_change_;
     if (++changes_ == 1)
       first_change_ = reversal_;
     else

@@ -17,7 +17,7 @@ class LinkRecorder final : public Observer {
   void remember(Tape& tape) override {
     tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, turned_forwards_, late_from_, late_begin_,
          late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_,
-         extreme_, turned_back_, first_swing_, last_swing_);
+         extreme_, turned_back_, first_swing_, last_swing_, half_swing_, swing_fastest_, swing_before_);
   }
 
   // Its greatest angle minus the angle at the end, turns counted [rad].
@@ -26,13 +26,15 @@ class LinkRecorder final : public Observer {
   double turned_forwards() const { return turned_forwards_; }
   double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
   double turned_at() const { return turned_at_; }              // end of the last step in which it turned [s]
-  // It has not turned for the last fiftieth of the time up to t.
-  bool rests(double t) const { return t - turned_at_ > 0.02 * t; }
-  // In the last quarter of the time it reversed at least twice, advanced by less than a quarter of the path covered,
-  // and reached more than a twentieth of its greatest speed.
-  bool vibrates() const {
-    return changes_ >= 2 && std::abs(angle_ - late_begin_) < 0.25 * way_ && late_fastest_ > 0.05 * fastest_;
-  }
+  // It has not turned for the last fiftieth of the time up to t, nor for the time between its last two reversals: a swing
+  // stands where it turns.
+  bool rests(double t) const { return t - turned_at_ > std::max(0.02 * t, half_swing_); }
+  // In the last quarter of the time it reversed at least twice, and advanced by less than a quarter of the path covered.
+  bool swings() const { return changes_ >= 2 && std::abs(angle_ - late_begin_) < 0.25 * way_; }
+  // It swings, and reached more than a twentieth of its greatest speed in that quarter.
+  bool vibrates() const { return swings() && late_fastest_ > 0.05 * fastest_; }
+  // Greatest |speed| since its last reversal but one [rad/s]; 0: it does not swing.
+  double speed_of_swing() const { return swings() ? std::max(swing_fastest_, swing_before_) : 0; }
   // Extreme angles in that quarter [rad], and frequency of its reversals there [Hz].
   double lowest() const { return low_; }
   double highest() const { return high_; }
@@ -54,6 +56,8 @@ class LinkRecorder final : public Observer {
   double reversal_ = 0, first_change_ = 0, last_change_ = 0;  // [s]
   double extreme_ = 0, turned_back_ = 0;                      // the angles at reversal_ and at last_change_
   double first_swing_ = 0, last_swing_ = 0;
+  double half_swing_ = 0;                        // between the last two reversals [s]
+  double swing_fastest_ = 0, swing_before_ = 0;  // since the last reversal, and between that and the one before [rad/s]
 };
 
 }  // namespace kurbel

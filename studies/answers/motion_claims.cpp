@@ -176,7 +176,7 @@ class Judge {
     const Periods& p = r.periods;
     const double limit = far_away * m_.speed_scale;
     if (is_commanded() || p.steady || p.run_down_begin || !p.without_limit) return {};
-    if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed()) return {};
+    if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed() || settles_later()) return {};
     return claimed(Predicate::runs_away,
                    fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data, and {}", link(),
                                m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
@@ -201,6 +201,34 @@ class Judge {
     return false;
   } catch (const std::exception&) {  // nothing is known of higher speeds
     return false;
+  }
+
+  // Tried: the run goes on to eight times its time. Its mean speeds over the time as long again, twice and four times as
+  // long grow by less from one to the next: slower than the logarithm of time, for what dampers take is not in the balance
+  // of the rigid machine.
+  bool settles_later() const {
+    constexpr std::int64_t most = 10;  // times the evaluations of the run itself
+    Equations equations(equations_.shared_model(), false);
+    State state{outcome_.t, outcome_.state, equations_.modes()};
+    state.y.resize(equations.state_count());
+    std::array<double, 3> mean{};
+    for (double& speed : mean) {
+      equations.bind(state.modes);
+      const double begin = equations.angle_with_turns(at(m_.reduction_angle), state.y);
+      RunOptions run{.tolerance = 1e-6,
+                     .method = "auto",
+                     .until = 2 * state.t,
+                     .budget = m_.scene.run.budget,
+                     .most_flow_calls = most * outcome_.statistics.stepper.flow_calls,
+                     .interrupted = nullptr,
+                     .progress = {}};
+      run.from = {state.t, state.y};
+      const RunOutcome on = integrate(equations, run, {});
+      if (!on.complete) return false;
+      speed = std::abs(equations.angle_with_turns(at(m_.reduction_angle), on.state) - begin) / (on.t - state.t);
+      state = {on.t, on.state, equations.modes()};
+    }
+    return mean[2] - mean[1] < mean[1] - mean[0];
   }
 
   // Held from the start although something drives, and not by an applied brake.
@@ -252,6 +280,15 @@ class Judge {
     if (is_commanded() || p.steady || rests() || !recorder_.vibrates()) return {};
     return claimed(Predicate::vibrates, fmt::format("\"{}\" vibrates {}", link(), course_of_vibration()), link(),
                    {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
+  }
+  // Nearly at rest for a moment only, where that is not said of the whole motion.
+  std::optional<Claim> swings() const {
+    const double reached = recorder_.speed_of_swing();
+    if (rests() || std::abs(speed()) > turns_back_from * m_.speed_scale || reached < stands * m_.speed_scale) return {};
+    return claimed_aside(
+        Predicate::vibrates,
+        fmt::format("\"{}\" vibrates at the end, at up to {}", link(), m_.scene.speed_unit.text(reached, 4)), link(),
+        {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
   }
   // A lasting vibration by its range, one that decays or grows by its amplitudes.
   std::string course_of_vibration() const {
@@ -357,7 +394,8 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
                     judge.never_gets_round(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
       add(claims, std::move(claim));
     if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); }))
-      add(claims, judge.vibrates(result.periods));
+      if (std::optional<Claim> claim = judge.vibrates(result.periods); claim || (claim = judge.swings()))
+        add(claims, std::move(claim));
   }
   for (Claim& claim : contacts) claims.push_back(std::move(claim));
   return claims;

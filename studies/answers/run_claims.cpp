@@ -28,6 +28,7 @@ class RunWords {
     const bool rests = last && last->value == 0;
     const std::string end = !last                  ? std::string()
                             : rests                ? "at rest"
+                            : !swing().empty()     ? swing()
                             : all_but_rests(*last) ? fmt::format("nearly at rest ({})", speed(last->value))
                                                    : "at " + speed_and_sense(last->value);
     const Evidence at_end = last ? of(*last) : Evidence{.at = r_.until};
@@ -76,6 +77,13 @@ class RunWords {
     Evidence evidence = mean ? of(*mean) : Evidence{.value = p_.steady_speed, .unit = "rad/s"};
     evidence.at = p_.run_up_end;
     return claimed(Predicate::runs_steadily, std::move(text), link(), std::move(evidence));
+  }
+  // "vibrating, at up to 5 rpm": where it passes through rest, the speed of that moment tells nothing.
+  std::string swing() const {
+    for (const Claim& c : r_.claims)
+      if (const std::size_t at = c.text.find(", at up to"); c.predicate == Predicate::vibrates && at < c.text.size())
+        return "vibrating" + c.text.substr(at);
+    return {};
   }
   // ", held by "brake" against the 147 N·m that act": for a link at rest with a torque on it.
   std::string held() const {

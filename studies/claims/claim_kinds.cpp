@@ -51,7 +51,8 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{runs_away, runs, fault, above,
               "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
-              "higher speed (up to a hundred times) do loads and drag hold what drives",
+              "higher speed (up to a hundred times) do loads and drag hold what drives; tried by going on to eight "
+              "times the time, it still gains from each doubling of the time to the next",
               "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
               "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
               "changes by +6.5 % a sixteenth of the time, and that does not shrink",
@@ -92,8 +93,8 @@ constexpr std::array kinds = {
     ClaimKind{vibrates, runs, note, anything,
               "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
               "its last quarter, and gains less than a quarter of its way; it decays or grows where the amplitude of "
-              "the last "
-              "two reversals differs by more than a tenth from that of the first two",
+              "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
+              "slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
               "value: frequency [Hz]",
               "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
               "run, compare, steady"},
@@ -105,7 +106,10 @@ constexpr std::array kinds = {
               "\"press\" goes through its operating sequence and ends at rest", "run, compare"},
     ClaimKind{does_not_move, runs, note, anything, "the link never moved, and nothing drives it", "none",
               "\"drum\" does not move", "run, compare, steady"},
-    ClaimKind{at_rest, runs, note, anything, "the link moved, and stands at the end",
+    ClaimKind{at_rest, runs, note, anything,
+              "the link moved, and stands at the end: its speed stays below 0.1 % of the usual one for good, or dry "
+              "friction holds it soon after that (time of rest: that hold, where friction is the greater part of what "
+              "brakes at 0.1 %, and no vibration reverses there)",
               "at: of its rest; value: speed at the end [rad/s]", "\"pendulum\" is at rest after 6 s",
               "run, compare, steady"},
     ClaimKind{not_steady_yet, runs, note, anything, "the mid speed still has more than 0.1 % to go",

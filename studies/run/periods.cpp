@@ -69,9 +69,12 @@ std::vector<Section> sections(const Model& model, const EventLog& events, double
     const bool commands = e.kind == EventKind::command;
     if ((!commands && e.kind != EventKind::window) || e.t >= end) continue;
     double ramp = 0;
-    for (const SequenceStep& step : model.scene.sequence.steps)
-      if (commands && step.to == e.value && std::count(step.set.begin(), step.set.end(), e.component) > 0)
-        ramp = std::max(ramp, step.over);
+    for (const SequenceStep& step : model.scene.sequence.steps) {
+      const bool follows = !step.law.empty();  // a law over time: to its last value
+      if (commands && (follows ? step.law.y().back() : step.to) == e.value &&
+          std::count(step.set.begin(), step.set.end(), e.component) > 0)
+        ramp = std::max(ramp, follows ? step.law.x().back() : step.over);
+    }
     list.back().end = e.t;
     list.push_back({std::max(list.back().begin, e.t + ramp), end});
   }
@@ -169,11 +172,10 @@ void find_standstill(const Model& model, const BandHistory& speed, const RunOutc
                      Periods& periods) {
   const int shaft = model.shaft_of_node[static_cast<std::size_t>(model.reduction_node)];
   const std::string name = model.node_label(model.shafts[static_cast<std::size_t>(shaft)].reference);
-  const double level = at_rest * model.speed_scale;
+  const double level = at_rest * model.speed_scale, begin = *periods.run_down_begin;
   const std::optional<double> entry = speed.last_outside(-level, level),
                               before = speed.last_outside(-10 * level, 10 * level);
-  if (const Event* rest =
-          rest_of(outcome.events, before.value_or(-HUGE_VAL), entry.value_or(*periods.run_down_begin), name)) {
+  if (const Event* rest = rest_of(outcome.events, before.value_or(begin), entry.value_or(begin), name)) {
     periods.standstill = rest->t;
     return;
   }

@@ -3,8 +3,8 @@
 // All from the reduction link's speed ω on the dense output of the steps, not from samples.
 //
 // driven time   from the start until the last driving source is finally switched off; the whole run if none is.
-// section       of the driven time, between changes of a command, up to the end of their ramps, and of windows of time; the
-//               whole of it, if the sequence repeats. What counts is the last section that has three mid speeds.
+// section       of the driven time, between changes of a command, up to the end of their ramps and laws over time, and of
+//               windows of time; the whole of it, if the sequence repeats. What counts is the last section that has three mid speeds.
 // mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle of the section, converted to equal time steps. For machines
 //               without a cycle: mean speeds of sixteen equal parts of it.
 // steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
@@ -16,8 +16,8 @@
 //               starts within that range has no run-up.
 // run-down      from the end of the driven time to standstill, or to the end. The three periods and their works have the
 //               same borders everywhere (duty/work_periods.h).
-// standstill    |ω| finally stays below 0.1 % of its usual speed; or the link comes to rest by an event soon after that
-//               (rest_of, engine/run/speed_history.h), however it trembles later.
+// standstill    |ω| finally stays below 0.1 % of its usual speed; or, where dry friction ends the motion, the link is held
+//               soon after that (rest_of, engine/run/speed_history.h), however it trembles later.
 #pragma once
 
 #include <span>

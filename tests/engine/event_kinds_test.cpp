@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "engine/events/event_words.h"
 #include "tests/coverage/variant.h"
 #include "tests/published/published.h"
 #include "tests/support/scenes.h"
@@ -91,6 +92,27 @@ TEST(EventKinds, HaveANameEach) {
   std::set<std::string> names;
   for (int k = 0; k <= static_cast<int>(EventKind::note); ++k) names.insert(name_of(static_cast<EventKind>(k)));
   EXPECT_EQ(names.size(), static_cast<std::size_t>(EventKind::note) + 1);
+}
+
+// A torque that is rounding of the usual one is none, whatever could hold it; numbers in sentences have no exponents.
+TEST(WordsOfWhatIsHeld, TellWhatActsWithoutExponents) {
+  Contact gear;
+  gear.kind = Contact::Kind::loss, gear.torque_scale = 100, gear.name = "gear";
+  const auto words = [&](double acts, double backwards, double forwards) {
+    return words_of(gear, "gear",
+                    {.acts = acts, .backwards = backwards, .forwards = forwards, .unbounded = 1e3 * gear.torque_scale});
+  };
+  EXPECT_EQ(words(-1.022e-10, 0, 0),
+            "\"gear\" is held at the end by gear: no torque acts, and any torque would move it");
+  EXPECT_EQ(
+      words(1e-9, -3e-9, 12),
+      "\"gear\" is held at the end by gear: 0 N·m act; forwards: up to 12 N·m are held, 12 N·m more would move it; "
+      "backwards: any torque would move it");
+  EXPECT_EQ(
+      words(-14700, -50000, 36250.4),
+      "\"gear\" is held at the end by gear: -14700 N·m act; forwards: up to 36250 N·m are held, 50950 N·m more would "
+      "move it; backwards: up to -50000 N·m are held, 35300 N·m more would move it");
+  EXPECT_NE(words(2.5e-5, -1e-4, 1.5).find(": 0.000025 N·m act; forwards: up to 1.5 N·m"), std::string::npos);
 }
 
 }  // namespace

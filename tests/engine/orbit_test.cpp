@@ -143,6 +143,43 @@ TEST(Orbit, LawThatRepeatsSetsThePeriod) {
   EXPECT_NEAR(orbit.point.time, 0.4, 1e-12);
 }
 
+// A belt that sticks where the period begins and, once the machine is fast, slips there in every turn: the motion is that of
+// the run, and what drives covers what is taken out.
+TEST(Orbit, BeltThatSlipsWhereThePeriodBeginsIsOfTheMotion) {
+  const Scene scene = scene_from(R"(
+line = ["motor", "flywheel", "joint", "press"]
+[motor]
+kind = "pneumatic motor"
+max_power = "848.31 W"
+free_speed = "92.141 rad/s"
+inertia = "0.055769 kg*m2"
+[flywheel]
+kind = "flywheel"
+inertia = "0.40531 kg*m2"
+[joint]
+kind = "belt"
+diameter_in = "200 mm"
+diameter_out = "200 mm"
+friction_coefficient = 0.4
+wrap_angle = "160 deg"
+pretension = "170.75 N"
+[press]
+kind = "slider-crank"
+radius = "0.15369 m"
+rod = "0.47117 m"
+crank_inertia = "0.033193 kg*m2"
+slider_mass = "0.14626 kg"
+load = { kind = "medium", viscous = "17.299 N*s/m" }
+[run]
+until = "25 s"
+)");
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  const Result r = run(scene, false);
+  const double mean = figure(r, "mean_speed.press");
+  EXPECT_NEAR(2 * pi / orbit.point.time, mean, 1e-5 * mean);
+}
+
 TEST(Orbit, LoadThatActsForAWhileActsNoMore) {
   const Scene scene =
       scene_from(std::string("line = [\"motor\", \"load\", \"blow\"]\n") + dc_motor +

@@ -62,7 +62,8 @@ class MotionJudge {
     j["cycle"] = m_.cycle, j["usual_speed"] = usual_, j["usual_torque"] = m_.torque_scale, j["until"] = until_;
     j["begins"] = turns_at(p_.front()) ? "turning" : "at rest";
     j["moves"] = moves(), j["end"] = end(), j["speed_at_end"] = p_.back().speed, j["held_at_end"] = p_.back().held;
-    j["fastest"] = fastest(), j["rests_since"] = rests_since(), j["held_since"] = held_since();
+    j["fastest"] = fastest(), j["fastest_late"] = fastest_late(), j["rests_since"] = rests_since(),
+    j["held_since"] = held_since();
     j["driven_at_end"] = p_.back().driven, j["drives_at_end"] = drives_at_end(), j["drive_at_end"] = p_.back().drive;
     j["load_at_end"] = p_.back().load, j["drives_until"] = drives_until();
     j["pushed_at_end"] = pushed(), j["falls"] = falls();
@@ -73,7 +74,8 @@ class MotionJudge {
     return j;
   }
   std::string end() const {
-    if (!turns_at(p_.back()) && (p_.back().held || until_ - rests_since() > at_end * until_)) return "rests";
+    const double stands = until_ - rests_since();
+    if (!turns_at(p_.back()) && (p_.back().held || stands > std::max(at_end * until_, half_swing()))) return "rests";
     if (vibrates()) return "vibrates";
     return mean_speed(until_ - at_end * until_, until_) < 0 ? "backwards" : "forwards";
   }
@@ -94,6 +96,29 @@ class MotionJudge {
     for (auto m = p_.rbegin(); m != p_.rend(); ++m)
       if (turns_at(*m)) return m->t;
     return 0;
+  }
+  // From its last reversal but one to the last one, wherever it turned in between; 0: it never turned back.
+  double half_swing() const {
+    double last = HUGE_VAL, at = 0;
+    int sense = 0;
+    for (auto m = p_.rbegin(); m != p_.rend(); ++m) {
+      if (!turns_at(*m)) continue;
+      const int now = m->speed > 0 ? 1 : -1;
+      if (sense != 0 && now != sense) {
+        if (last < HUGE_VAL) return last - at;
+        last = at;
+      }
+      sense = now, at = m->t;
+    }
+    return 0;
+  }
+  // |speed| at the end; of one that vibrates the greatest one of its last half swing, or of the last 2 % of the time.
+  double fastest_late() const {
+    const double from = end() == "vibrates" ? until_ - std::max(half_swing(), at_end * until_) : until_;
+    double most = 0;
+    for (const Moment& m : p_)
+      if (m.t >= from) most = std::max(most, std::abs(m.speed));
+    return most;
   }
   // Null: it is not held at the end.
   json held_since() const {
@@ -167,12 +192,14 @@ class MotionJudge {
         last.state == Stretch::State::slips && last.command_end > 0 && last.torque > 1e-3 * m_.torque_scale;
     slips_under_torque_ = slips_under_torque_ || (slips && std::abs(last.sense) > turns * c.usual_speed);
   }
-  // The last change of what drives; sequences that repeat have no last one.
-  double settled_from() const {
+  // The last change of a command, of whether anything drives, and of any `windows`; sequences that repeat have no last one.
+  double settled_from(bool windows) const {
     if (m_.scene.sequence.repeat) return 0;
     double from = 0;
     for (std::size_t k = 1; k < p_.size(); ++k)
-      if (p_[k].driven != p_[k - 1].driven || std::abs(p_[k].told - p_[k - 1].told) > 1e-12) from = p_[k].t;
+      if (p_[k].driven != p_[k - 1].driven || std::abs(p_[k].told - p_[k - 1].told) > 1e-12 ||
+          (windows && p_[k].windows != p_[k - 1].windows))
+        from = p_[k].t;
     return from;
   }
   struct Lap {
@@ -218,8 +245,8 @@ class MotionJudge {
     return stands / (to - from);
   }
   void add_steadiness(json& j) const {
-    const double from = settled_from();
-    j["switched_last"] = from;
+    const double from = settled_from(true);
+    j["switched_last"] = from, j["drive_switched_last"] = settled_from(false);
     const std::vector<Lap> list = laps(from);
     j["laps"] = list.size();
     std::string word = "unclear";
@@ -273,11 +300,14 @@ class MotionJudge {
       j["period"] = period, j["mean_speed"] = mean_speed(first.begin, end.end);
       j["least_speed"] = least, j["greatest_speed"] = greatest;
       j["stands_within"] = stands_within(first.begin, end.end);
-      const double margin = 0.01 * std::abs(mean_speed(first.begin, end.end));
-      double entered = 0;
-      for (const Moment& m : p_)
-        if (m.speed < least - margin || m.speed > greatest + margin) entered = m.t;
-      j["run_up"] = entered;
+      const auto entered = [&](double part) {
+        const double margin = part * std::abs(mean_speed(first.begin, end.end));
+        double last = 0;
+        for (const Moment& m : p_)
+          if (m.speed < least - margin || m.speed > greatest + margin) last = m.t;
+        return last;
+      };
+      j["run_up"] = entered(0.01), j["run_up_earliest"] = entered(0.011), j["run_up_latest"] = entered(0.009);
     } else if (!list.empty()) {
       j["mean_speed"] = list.back().mean, j["least_speed"] = list.back().least,
       j["greatest_speed"] = list.back().greatest;

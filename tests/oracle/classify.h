@@ -5,10 +5,13 @@
 //
 //   begins      "at rest": the link does not turn at the first point; else "turning"
 //   moves       the link turns at any point
-//   end         "rests":      it does not turn at the end, and is held there or has not turned for the last 2 % of the time
+//   end         "rests":      it does not turn at the end, and is held there or has not turned for the last 2 % of the time,
+//                             nor for as long as its last two reversals lie apart: a swing stands at its turns
 //               "vibrates":   in the last quarter of the time it turns in both senses, twice at least, and the angle that it
 //                             gained is less than a quarter of the way it went
 //               "forwards", "backwards": else, by the sense of the last 2 % of the time
+//   fastest_late     the speed at the end; of one that vibrates the greatest of its last half swing, or of the last 2 % of the
+//               time
 //   rests_since the last point at which it turned, of one that rests; 0 where it never did
 //   held_since  the last point at which its shaft was not tied to the frame, of one that is at the end
 //   driven      a source is within its window of time and not told 0;  drives: and gives a torque that acts
@@ -28,7 +31,8 @@
 //                      by less than 1 % from that of the eighth before it; with a cycle: of the whole periods in an eighth
 //               "no"   for no p that fits do they differ by less than 1 %, or the eighths differ by more than 5 %
 //               else "unclear"; without a cycle ten equal parts of that time stand for the cycles, and p = 1
-//   run_up      when the link's speed enters for good the range of the last p cycles, wider by 1 % of the mean speed
+//   run_up      when the link's speed enters for good the range of the last p cycles, wider by 1 % of the mean speed; earliest,
+//               latest: wider by 1.1 %, 0.9 % (a swing that just touches the edge may belong to either side)
 //   driven_part the same, of the time up to which any source is on, where none is at the end
 //   stands_within    share of the time of the last p cycles in which the link does not turn
 //   later       the same machine run on to several times the time: its speed in the mean of the last tenth, what it does at the end

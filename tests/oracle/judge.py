@@ -105,7 +105,8 @@ class Judge:
         part = self.truth.get("driven_part", self.motion) if down is not None else self.motion
         if self.run.says("steady") and part["steady"] == "yes" and "run_up" in part:
             cycle = self.motion["cycle"] / max(abs(part["mean_speed"]), 1e-9) if self.motion["cycle"] else 0
-            if abs((up or 0) - part["run_up"]) > CLEARLY * until + 1.5 * cycle:
+            margin = CLEARLY * until + 1.5 * cycle
+            if not part["run_up_earliest"] - margin <= (up or 0) <= part["run_up_latest"] + margin:
                 self.contradiction("run-up ends elsewhere", f"said {up}, sampled {part['run_up']:.4g} s")
         if down is not None and self.truth.get("driven_part") and abs(down - self.truth["driven_part"]["until"]) > 0.001 * until:
             self.contradiction("run-down begins elsewhere", f"said {down:.5g}, the last source is on until {self.truth['driven_part']['until']:.5g} s")
@@ -128,8 +129,8 @@ class Judge:
             elif self.another_rest(at, m):
                 self.contradiction("comes to rest at another time", f"said {at:.4g}, sampled {m['rests_since']:.4g} s")
         at_rest = any(w in self.run.conclusion for w in ("is at rest", "ends at rest", "is nearly at rest", "nearly at rest"))
-        if at_rest and abs(m["speed_at_end"]) > 0.02 * self.usual:
-            self.contradiction("at rest, but turns", f"{m['speed_at_end']:.4g} rad/s at the end")
+        if at_rest and m["fastest_late"] > 0.02 * self.usual:
+            self.contradiction("at rest, but turns", f"{m['speed_at_end']:.4g} rad/s at the end, {m['fastest_late']:.4g} shortly before")
         acting = abs(m["load_at_end"]) + (abs(m["drive_at_end"]) if m["pushed_at_end"] else 0)
         if m["end"] == "rests" and m["held_at_end"] and acting > 1e-3 * m["usual_torque"] and self.holders() and \
                 not (m["does_not_start"] or m["stalls"] or self.braked_by_command()):
@@ -196,7 +197,7 @@ class Judge:
         before = abs(l["mean_speed_before"])
         grows = last > 1.3 * end and last > 1.3 * before
         fades = last - before < 0.5 * (before - end)  # the gain halves from half to half of the time: drag settles it
-        if r.says("runs away") and not grows:
+        if r.says("runs away") and (not grows or fades):
             self.contradiction("runs away, but settles", f"{end:.4g} rad/s at the end, {last:.4g} after {l['until'] / m['until']:.0f} times the time")
         if grows and not fades and last > 2 * end and last > 3 * self.usual and end > 1.5 * self.usual and not r.says("runs away") and not r.says("turns back") and not self.truth["sequence"] and \
                 not (r.says("not steady") or m["falls"]):
@@ -370,7 +371,7 @@ class Judge:
                 self.contradiction("steady: comes to rest, but never moved", f"said at {rests:.4g} s")
             elif where["end"] == "rests" and self.another_rest(rests, where) and not self.truth["sequence"]:
                 self.contradiction("steady: comes to rest at another time", f"said {rests:.4g}, sampled {where['rests_since']:.4g} s")
-        if not l or not l["complete"] or self.truth["sequence"] or l["switched_last"] > 0:
+        if not l or not l["complete"] or self.truth["sequence"] or l["drive_switched_last"] > 0:
             return
         cycles = [c for c in s.summary.get("cycles", ()) if c.get("found")]
         cycle = cycles[-1] if cycles and cycles[-1].get("effects") == self.run.summary.get("model", {}).get("effects") else None

@@ -21,6 +21,7 @@ struct Moment {
   double pushed = 0;            // greatest torque of a source whose own shaft stands, reduced [N·m]
   double load = 0;      // torque of all that neither drives nor opposes motion (weights, springs), reduced [N·m]
   double told = 0;      // a sum of all commands in force that changes with each of them
+  double windows = 0;   // the same of all windows of time
   bool driven = false;  // a source is within its window of time, and not told 0
   bool held = false;    // the link's shaft is tied to the frame
 };

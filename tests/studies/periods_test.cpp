@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/answers/run_claims.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::periods_test {
@@ -201,6 +202,127 @@ accuracy = 1e-7
   ASSERT_TRUE(r.complete) << r.diagnosis;
   ASSERT_TRUE(r.periods.run_down_begin);
   EXPECT_FALSE(r.periods.standstill);
+}
+
+// A compressor swings about its dead centre, slower and slower, and is held for a moment where it turns: below 0.1 % for good
+// before the last such turn, which is no rest.
+TEST(Periods, AHoldThatEndsASwingIsNoRest) {
+  const Result r = run(R"(
+line = ["motor", "coupling", "flywheel", "machine"]
+[motor]
+kind = "motor"
+torque = { over = "speed", unit = ["rad/s", "N*m"], points = [[0, 1612], [76.764, 967.18], [99.794, 0]] }
+inertia = "1.409 kg*m2"
+stop = "5.7843 s"
+[coupling]
+kind = "rubber coupling"
+stiffness = "258.91 N*m/rad"
+damping_ratio = 0.05
+branches = [{ stiffness = "103.56 N*m/rad", relaxation_time = "10 ms" }]
+[flywheel]
+kind = "flywheel"
+inertia = "1.0225 kg*m2"
+[machine]
+kind = "slider-crank"
+radius = "0.094276 m"
+rod = "0.37873 m"
+crank_inertia = "3.2876 kg*m2"
+slider_mass = "17.434 kg"
+gravity = "9.81 m/s2"
+stroke_angle = "0 deg"
+load = { kind = "compressor", bore = "0.17188 m", suction_pressure = "50513 Pa", delivery_pressure = "2.0205e+05 Pa", clearance = 0.06 }
+[effects]
+elasticity = true
+[run]
+until = "40 s"
+)",
+                       false);
+  ASSERT_TRUE(r.complete && r.periods.standstill) << r.diagnosis;
+  const auto hold = std::find_if(r.events.begin(), r.events.end(), [&](const Event& e) {
+    return e.kind == EventKind::rest && e.t >= *r.periods.standstill;
+  });
+  ASSERT_NE(hold, r.events.end());
+  EXPECT_GT(hold->t, *r.periods.standstill + 0.5);
+  EXPECT_TRUE(std::any_of(hold, r.events.end(), [](const Event& e) { return e.kind == EventKind::motion; }));
+}
+
+// Braked on the motor's side, the press swings on behind its coupling: at the end it passes through rest at less than 1 % of
+// its usual 170 rad/s, and was at 27 rad/s within the same swing.
+TEST(Periods, ASwingIsNotNearlyAtRestWhereItTurns) {
+  const Result r = run(R"(
+line = ["motor", "brake", "coupling", "machine"]
+[motor]
+kind = "dc shunt motor"
+stall_torque = "3960.2 N*m"
+no_load_speed = "170.18 rad/s"
+inertia = "1.4714 kg*m2"
+[brake]
+kind = "brake"
+torque = "9269.7 N*m"
+static_torque = "11363 N*m"
+inertia = "0.49047 kg*m2"
+[coupling]
+kind = "coupling"
+stiffness = "6690 N*m/rad"
+damping_ratio = 0.0154
+[machine]
+kind = "slider-crank"
+radius = "0.030677 m"
+rod = "0.13496 m"
+crank_inertia = "3.4333 kg*m2"
+slider_mass = "716.68 kg"
+load = { kind = "table", force = { over = "angle", unit = ["deg", "N"], period = "360 deg", points = [[0, 0], [180, 0], [200, 43390], [330, 43390], [360, 0]] } }
+[sequence]
+steps = [{ at = "0 s", set = "brake", to = 0 }, { at = "1.516 s", set = "brake" }]
+[effects]
+elasticity = true
+[run]
+until = "3.06579 s"
+)",
+                       false);
+  ASSERT_LT(std::abs(test::figure(r, "final_speed.machine")), 1.7);
+  std::string said;
+  for (const Claim& c : run_claims(r)) said += c.text + ". ";
+  EXPECT_NE(said.find("ends vibrating, at up to 2"), std::string::npos) << said;
+  EXPECT_EQ(said.find("nearly at rest"), std::string::npos) << said;
+}
+
+// What drives is held by what the coupling's damper takes, which no balance of the rigid machine has in it: the crank's uneven
+// inertia shakes it. At 1.7 times its speed the machine still gains by no less from turn to turn; it settles at three times.
+TEST(Periods, WhatADamperSettlesDoesNotRunAway) {
+  const auto claims = [](double until) {
+    return run_claims(run(fmt::format(R"(
+line = ["motor", "crank", "coupling", "wheel"]
+motor = {{ kind = "torque source", torque = "4 N*m", inertia = "0.01 kg*m2" }}
+coupling = {{ kind = "coupling", stiffness = "4000 N*m/rad", damping = "3 N*m*s/rad" }}
+wheel = {{ kind = "flywheel", inertia = "1 kg*m2" }}
+effects = {{ elasticity = true }}
+run = {{ start = {{ speed = "20 rad/s" }}, until = "{} s" }}
+[crank]
+kind = "slider-crank"
+radius = "0.1 m"
+rod = "0.4 m"
+slider_mass = "10 kg"
+crank_inertia = "0.03 kg*m2"
+)",
+                                      until),
+                          false));
+  };
+  const auto says = [](const Claims& all, Predicate what) {
+    return std::any_of(all.begin(), all.end(), [&](const Claim& c) { return c.predicate == what; });
+  };
+  EXPECT_FALSE(says(claims(4), Predicate::runs_away));
+  EXPECT_TRUE(says(claims(64), Predicate::runs_steadily));
+}
+
+// Along a law over time, from 40 s to 140 s: ω = 100 − (t − 40)/2 with a lag of 2 s. What counts is the time since its end.
+TEST(Periods, AreJudgedSinceTheEndOfALawOverTime) {
+  const Result r =
+      run(motor_and_rotor(170) +
+          "[sequence]\nsteps = [{ at = \"40 s\", set = \"motor\", law = { over = \"time\", formula = \"1 - "
+          "t/(200 s)\", range = [\"0 s\", \"100 s\"] } }]\n");
+  EXPECT_TRUE(r.periods.steady) << r.periods.verdict;
+  EXPECT_NEAR(r.periods.steady_speed, 50, 1e-3);
 }
 
 // Half the voltage from 40 s on: ω = 50 + 50 e^(−(t−40)/2). What it still has to go is that of the time since.
