@@ -198,10 +198,6 @@ Watch watch_of(const StudyOptions& options, Progress& progress) {
           .log = make_log(options.verbose)};
 }
 
-void add_former_name(OptionList& command, const std::string& name, std::string& value) {
-  command.add_option(name, value).hidden();
-}
-
 namespace {
 
 // Writes the files and reports where they are.

@@ -26,7 +26,6 @@ void DeclaredOptions::add_to(OptionList& command, const std::vector<DeclaredOpti
           name, [&storage] { storage.one = "true"; }, text.doc);
     } else if (option.form == OptionForm::one) {
       command.add_option(name, storage.one, text.doc);
-      if (!text.former.empty()) add_former_name(command, dashed(text.former), storage.one);
     } else {
       Option added = command.add_option(name, storage.several, text.doc);
       if (text.count > 0)

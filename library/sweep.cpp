@@ -128,10 +128,10 @@ Study sweep_report(const std::string& file, const std::vector<std::string>& limi
 
 std::size_t merge(const std::vector<std::string>& files, const std::string& into) { return merge_sweeps(files, into); }
 
-SweepAnswer answer(const Machine& machine, const std::string& of, bool errors, const Watcher& watcher) {
+SweepAnswer answer(const Machine& machine, const std::string& of, bool no_error, const Watcher& watcher) {
   return asked_of(machine.parts(), [&] {
     const MachineAnswer found =
-        answer_of(question_of(inquiry_of(machine.parts(), watcher), {.of = of, .measure_error = errors}));
+        answer_of(question_of(inquiry_of(machine.parts(), watcher), {.of = of, .measure_error = !no_error}));
     std::vector<FigureValue> figures;
     for (const Figure& f : found.figures) figures.push_back({f.name, f.value, f.unit, f.error, f.at});
     return SweepAnswer{name_of(found.state), found.diagnosis, FigureValues(std::move(figures))};

@@ -39,7 +39,7 @@ Question advise_question() {
                 .doc = "deviation allowed from the fullest model (default: 1 %)",
                 .example = "1 %",
                 .what = "a part > 0 and below 1",
-                .domain = {.low = 1e-9, .high = 1}},
+                .domain = {.low = 1e-12, .high = 1}},
                &AdviseOptions::within)
           .add({.name = "figures",
                 .doc = "figures that count, joined by commas, e.g. delta,peak_torque.main_coupling (default: all)"},

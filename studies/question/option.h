@@ -38,7 +38,6 @@ struct OptionText {
   int count = 0;               // number of values for several values; 0: any
   bool each_time = false;      // several values: one per occurrence of the option; otherwise also joined by commas
   bool words = false;          // several values: also as successive words on the command line
-  std::string former = {};     // a former name: still accepted, but shown nowhere
   bool makes_a_file = false;   // it adds a file to the results
 };
 

@@ -87,7 +87,7 @@ TEST(Facade, TheLaterSettingOfAPathHolds) {
 TEST(Facade, AColumnOutlivesItsRun) {
   TimeSeries torque, time;
   {
-    const kurbel::Run run = kurbel::run(Machine::from_text(two_masses), {.errors = false, .plots = false});
+    const kurbel::Run run = kurbel::run(Machine::from_text(two_masses), {.no_error = true, .page = false});
     torque = run.trajectory()["torque.coupling"], time = run.trajectory().time();
   }
   ASSERT_GT(torque.size(), 900u);
@@ -105,7 +105,7 @@ TEST(Facade, ARecordIsLaidOverRunAndCycle) {
   const Machine machine = Machine::from_text(two_masses);
   const std::string map = "T1=torque.coupling";
   const kurbel::Run run =
-      kurbel::run(machine, {.errors = false, .measured = file, .map = {map}, .shift = "-10 ms", .offset = {"T1=fit"}});
+      kurbel::run(machine, {.no_error = true, .measured = file, .map = {map}, .shift = "-10 ms", .offset = {"T1=fit"}});
   EXPECT_NEAR(run.figures()["measured_offset.torque.coupling"].value, 3, 0.02);
   // What is left: the record's four digits and straight lines between the run's rows.
   EXPECT_LT(run.figures()["residual_rms.torque.coupling"].value, 0.05);
@@ -126,7 +126,7 @@ TEST(Facade, ARunGoesOnFromAState) {
   const Machine machine = Machine::from_text(two_masses);
   Motion motion(machine);
   motion.go_to(0.1);
-  const kurbel::Run run = kurbel::run(machine, {.errors = false, .plots = false, .from_state = motion.state().text()});
+  const kurbel::Run run = kurbel::run(machine, {.no_error = true, .page = false, .from_state = motion.state().text()});
   const TimeSeries time = run.trajectory().time(), torque = run.trajectory()["torque.coupling"];
   EXPECT_EQ(time[0], 0.1);
   EXPECT_NEAR(time[time.size() - 1], 0.3, 1e-12);
@@ -146,7 +146,7 @@ TEST(Facade, FiguresOfAStudyHaveTheirModel) {
   EXPECT_NEAR(peaks.at("elastic"), 2 * 50 * 1.5 / 1.7, 1e-3);
   // Trials are made unless they are not wanted, as by the command.
   const Machine damped = Machine::from_text(two_masses).with({{"effects.elasticity", "false"}});
-  EXPECT_NE(kurbel::run(damped, {.errors = false, .trials = true}).study().text().find("elasticity"),
+  EXPECT_NE(kurbel::run(damped, {.no_error = true, .no_trials = false}).study().text().find("elasticity"),
             std::string::npos);
 }
 
@@ -198,7 +198,7 @@ TEST(Facade, AThousandLoadsRunsAndFreesLeakNothing) {
   const auto cycle = [] {
     const Machine machine =
         Machine::from_text(two_masses, "two.toml", {{"run.until", "20 ms"}, {"run.samples", "100"}});
-    const kurbel::Run run = kurbel::run(machine, {.errors = false, .plots = false});
+    const kurbel::Run run = kurbel::run(machine, {.no_error = true, .page = false});
     EXPECT_GE(run.trajectory().rows(), 100u);  // and rows at peaks
     EXPECT_FALSE(run.study().json().empty());
     Motion motion(machine);
@@ -264,7 +264,7 @@ TEST(Facade, WhatAStudyDoesNotAskForIsRefusedWithWhatItHas) {
             std::string::npos);
   EXPECT_NE(message_of([&] { study("stedy", machine); }).find("did you mean \"steady\""), std::string::npos);
   EXPECT_NE(message_of([&] {
-              kurbel::run(machine, {.errors = false}).figures()["peak_torque.couplin"];
+              kurbel::run(machine, {.no_error = true}).figures()["peak_torque.couplin"];
             }).find("did you mean \"peak_torque.coupling\""),
             std::string::npos);
   EXPECT_NE(message_of([&] {
