@@ -53,8 +53,7 @@ Inquiry inquiry_of(const Scene& scene, const StudyOptions& options, Progress& pr
           .allowed = options.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene,
           .watch = watch_of(options, progress),
           .page = !options.no_files,
-          .author = options.author,
-          .dashes = true};
+          .author = options.author};
 }
 
 int answer(const Question& question, const StudyOptions& options, const GivenOptions& given) {

@@ -121,10 +121,10 @@ SweepIdentity identity_of(const SweepAsked& a, const std::vector<std::string>& s
 int sweep(const SweepArguments& given) {
   // All errors are reported before anything is written.
   const Scene scene = read(given.study);
-  const SweepAsked a = sweep_options().read(given.declared.given(), "sweep", scene, true);
+  const SweepAsked a = sweep_options().read(given.declared.given(), "sweep", scene);
   VariantTable table = table_asked(a);
   SweepJob job{.jobs = threads_of(a.jobs)};
-  read_shard("--shard", a.shard, job);
+  read_shard(a.shard, job);
   Progress progress(given.study.quiet);
   MachineQuestion question = question_of(inquiry_of(scene, given.study, progress), a.machine);
   question.errors_every *= a.errors_every;

@@ -42,11 +42,9 @@ Study study(const std::string& name, const Machine& machine, const Options& give
 }
 
 Study diff(const Machine& a, const Machine& b, const Options& given, const Watcher& watcher) {
-  try {
+  return answered([&] {  // an error of either scene is placed in its file
     return study_of(difference(inquiry_of(a.parts(), watcher), inquiry_of(b.parts(), watcher), given));
-  } catch (const SceneError& error) {
-    throw bad_scene(error);  // of either scene: placed in its file
-  }
+  });
 }
 
 std::vector<FigureValue> Study::figures() const {

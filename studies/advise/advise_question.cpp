@@ -17,7 +17,7 @@ struct AdviseAsked : AdviseOptions {
 StudyOutput advised(const Inquiry& inquiry, AdviseAsked asked) {
   if (!asked.write.empty())
     if (const std::string why = why_no_file_at(asked.write); !why.empty())
-      throw std::invalid_argument(fmt::format("{}write {}: {}", inquiry.dashes ? "--" : "", asked.write, why));
+      throw std::invalid_argument(fmt::format("--write {}: {}", asked.write, why));
   asked.simulate = inquiry.simulation();
   Advice advice = advise(inquiry.scene, asked);
   if (!asked.write.empty() && advice.complete && !inquiry.watch.stopped()) write_whole(asked.write, advice.lean_scene);

@@ -14,7 +14,7 @@ const OptionsOf<MachineAsked>& options() {
 const std::vector<DeclaredOption>& difference_options() { return options().declared(); }
 
 StudyOutput difference(const Inquiry& first, const Inquiry& second, const GivenOptions& given) {
-  const MachineAsked asked = options().read(given, "diff", first.scene, first.dashes);
+  const MachineAsked asked = options().read(given, "diff", first.scene);
   const MachineQuestion one = question_of(first, asked), other = question_of(second, asked);
   first.watch.at(asked.of + " of both", 0);
   return output_of(difference_between(one, other, asked.of));

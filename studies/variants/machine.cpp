@@ -60,8 +60,7 @@ OptionsOf<MachineAsked> machine_options() {
 
 MachineQuestion question_of(const Inquiry& inquiry, const MachineAsked& asked) {
   const SweepStudy of = study_named(asked.of);
-  if (asked.delta && of != SweepStudy::size)
-    throw std::invalid_argument(inquiry.dashes ? "--delta: belongs to --of size" : "delta: belongs to of = \"size\"");
+  if (asked.delta && of != SweepStudy::size) throw std::invalid_argument("--delta: belongs to --of size");
   return {.text = inquiry.text,
           .file = inquiry.file,
           .settings = inquiry.settings,

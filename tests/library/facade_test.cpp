@@ -110,7 +110,8 @@ TEST(Facade, ARecordIsLaidOverRunAndCycle) {
   // What is left: the record's four digits and straight lines between the run's rows.
   EXPECT_LT(run.figures()["residual_rms.torque.coupling"].value, 0.05);
   // What the options lack or the file has wrongly is told before anything runs.
-  EXPECT_NE(message_of([&] { kurbel::run(machine, {.measured = file}); }).find("--map"), std::string::npos);
+  EXPECT_NE(message_of([&] { kurbel::run(machine, {.measured = file}); }).find("channel: map \"T1="),
+            std::string::npos);
   try {
     kurbel::run(machine, {.measured = file, .map = {"T2=torque.coupling"}});
     FAIL() << "was read";
@@ -167,6 +168,30 @@ TEST(Facade, TwoMachinesFigureByFigure) {
               modes(soft, {{"effects", "none"}, {"effects", "elasticity"}});
             }).find("effects is given 2 times; give one"),
             std::string::npos);
+}
+
+// Callers have no command line: an option has its name, and only command lines and quotations have dashes.
+TEST(Facade, MessagesNameOptionsAsCallersDo) {
+  const Machine machine = Machine::from_text(two_masses);
+  const auto said = [&](const std::string& name, const Options& options) {
+    return message_of([&] { study(name, machine, options); });
+  };
+  EXPECT_EQ(said("steady", {{"mid_speed", "3 m"}}).substr(0, 16), "mid_speed \"3 m\":");
+  EXPECT_EQ(said("size", {}).find("--"), std::string::npos) << said("size", {});
+  EXPECT_NE(said("size", {}).find("Give delta, e.g. delta 0.05"), std::string::npos) << said("size", {});
+  EXPECT_EQ(said("size", {{"delta", "0.1"}, {"machine", "press"}}), "delta and machine both given; keep one");
+  EXPECT_EQ(said("reduce", {{"to", "--to --here"}}).substr(0, 17), "to \"--to --here\":");
+  EXPECT_EQ(message_of([] { rows_of({{"a=1..2"}, "grid:0"}); }).substr(0, 16), "design \"grid:0\":");
+  EXPECT_EQ(message_of([] { rows_in("nowhere.db"); }),
+            "nowhere.db: no such file; kurbel sweep SCENE … --into nowhere.db makes one");
+  try {
+    machine.with({{"fan.inertia", "1 m"}});
+    FAIL() << "was read";
+  } catch (const BadScene& bad) {
+    ASSERT_EQ(bad.faults().size(), 1u);
+    EXPECT_EQ(bad.faults()[0].file, "set \"fan.inertia=1 m\"");
+    EXPECT_EQ(std::string(bad.what()).find("--set"), std::string::npos) << bad.what();
+  }
 }
 
 TEST(Facade, AMachineIsExportedForOtherTools) {
