@@ -75,6 +75,7 @@ def study(name, /, scene, *, set=None, **options):
 
 def diff(scene, other, *, set=None, other_set=None, **options):
     """Two machines figure by figure, and what differs in their scenes. `set` holds for both, `other_set` for the other.
+    Options:
 
     of        "run", "steady", "modes" or "size"
     no_error  skip the runs that measure errors
@@ -125,6 +126,7 @@ def _verb(name):
 
 
 for _name in study_names():
-    globals()[_name] = _verb(_name)
-    __all__.append(_name)
+    if _name not in __all__:  # diff: of machines, too
+        globals()[_name] = _verb(_name)
+        __all__.append(_name)
 del _name

@@ -163,6 +163,9 @@ TEST(Facade, TwoMachinesFigureByFigure) {
   const auto frequency = [](const Machine& m) { return answer(m, "modes").figures["natural_frequency.1"].value; };
   EXPECT_NEAR(frequency(stiff) / frequency(soft), 2, 1e-9);
   EXPECT_NEAR(frequency(soft), std::sqrt(4000 * (1 / 0.2 + 1 / 1.5)) / (2 * std::acos(-1.0)), 1e-6);
+  // The same by its name: a machine and other values of it.
+  EXPECT_EQ(study.json(),
+            kurbel::study("diff", soft, {{"other_set", "coupling.stiffness=16 kN*m/rad"}, {"of", "modes"}}).json());
   EXPECT_NE(message_of([&] { diff(soft, stiff, {{"off", "run"}}); }).find("diff has no option"), std::string::npos);
   EXPECT_NE(message_of([&] {
               modes(soft, {{"effects", "none"}, {"effects", "elasticity"}});
@@ -333,6 +336,7 @@ TEST(Facade, AStudyHasTheOptionsOfItsCommand) {
       EXPECT_EQ(command.erase(name), 1u) << study << " --" << name;
     }
     const std::vector<std::string> there = option_names(study);
+    if (study == "diff") command.insert("other");  // by its place
     EXPECT_EQ(std::set<std::string>(there.begin(), there.end()), command) << study;
   }
 }
