@@ -107,7 +107,7 @@ SweepRows sweep(const Variation& variation, const std::string& question, const s
       const std::vector<double> values = function(row.parameters);
       if (values.size() != columns.size())
         throw std::runtime_error(fmt::format("{} values for {} columns", values.size(), columns.size()));
-      for (std::size_t k = 0; k < values.size(); ++k) row.figures.push_back({k, values[k]});
+      for (std::size_t k = 0; k < values.size(); ++k) row.figures.push_back({{values[k]}, k});
     } catch (const std::exception& why) {
       row.figures.clear();
       row.state = RowState::failed;
