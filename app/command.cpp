@@ -32,10 +32,6 @@ Option& Option::split_at(char delimiter) {
   option_->delimiter(delimiter);
   return *this;
 }
-Option& Option::hidden() {
-  option_->group("");
-  return *this;
-}
 Option& Option::check(std::function<std::string(const std::string&)> fault) {
   option_->check(CLI::Validator([fault = std::move(fault)](std::string& value) { return fault(value); }, ""));
   return *this;
@@ -84,8 +80,7 @@ std::vector<OptionHelp> options_of(const std::function<void(OptionList&)>& set_u
   set_up(command);
   std::vector<OptionHelp> texts;
   for (const CLI::Option* option : program.get_subcommand(name)->get_options())
-    texts.push_back({option->get_name(), option->get_description(), option->get_lnames(), option->get_positional(),
-                     option->get_group().empty()});
+    texts.push_back({option->get_name(), option->get_description(), option->get_lnames(), option->get_positional()});
   return texts;
 }
 

@@ -28,7 +28,6 @@ class Option {
   Option& repeatable();           // one value each time it is given
   Option& one_value_each_time();  // further words are not values of the option
   Option& split_at(char delimiter);
-  Option& hidden();  // accepted, but shown nowhere
   // `fault` returns why a value is not accepted; empty: it is accepted.
   Option& check(std::function<std::string(const std::string&)> fault);
 
@@ -64,7 +63,7 @@ class OptionList {
 struct OptionHelp {
   std::string name, help;               // "--until"
   std::vector<std::string> long_names;  // "until"
-  bool by_place = false, hidden = false;
+  bool by_place = false;
 };
 // The options that a command declares.
 std::vector<OptionHelp> options_of(const std::function<void(OptionList&)>& set_up, const std::string& name);

@@ -189,17 +189,13 @@ void check_folder(const StudyOptions& options) {
   const std::filesystem::path folder = results_of(options);
   for (const std::filesystem::path& place : {folder, incomplete_place(folder)})
     if (const std::string why = why_no_results_in(place); !why.empty())
-      throw std::invalid_argument(fmt::format("--out {}: {}", folder.string(), why));
+      throw std::invalid_argument(fmt::format("--out {}: {}, or --no-files", folder.string(), why));
 }
 
 Watch watch_of(const StudyOptions& options, Progress& progress) {
   return {.interrupted = &interrupt_seen,
           .progress = [&progress](const std::string& what, double fraction) { progress(what, fraction); },
           .log = make_log(options.verbose)};
-}
-
-void add_former_name(OptionList& command, const std::string& name, std::string& value) {
-  command.add_option(name, value).hidden();
 }
 
 namespace {

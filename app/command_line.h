@@ -66,9 +66,6 @@ void check_folder(const StudyOptions& options);
 // Ctrl-C, progress line and the log of --verbose.
 Watch watch_of(const StudyOptions& options, Progress& progress);
 
-// A former name of an option: still accepted, but shown nowhere.
-void add_former_name(OptionList& command, const std::string& name, std::string& value);
-
 // Prints the results, writes the files unless they are switched off, and returns the exit code.
 int present(StudyOutput output, const StudyOptions& options);
 

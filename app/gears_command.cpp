@@ -96,7 +96,7 @@ int gears(GearsArguments a) {
   }
   a.study.scene = "pair_alone";  // names the folder of the results
   check_folder(a.study);
-  const GearsOptions asked = gears_options().read(a.declared.given(), question.name, Scene{}, true);
+  const GearsOptions asked = gears_options().read(a.declared.given(), question.name, Scene{});
   return present(alone(a, asked.speed), a.study);
 }
 

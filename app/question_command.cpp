@@ -20,13 +20,12 @@ void DeclaredOptions::add_to(OptionList& command, const std::vector<DeclaredOpti
       return "--" + name;
     };
     Storage& storage = storage_.emplace_back(Storage{text.name, {}, {}});
-    const std::string name = dashed(text.name);
+    const std::string name = text.by_place ? text.name : dashed(text.name);
     if (option.form == OptionForm::flag) {
       command.add_flag(
           name, [&storage] { storage.one = "true"; }, text.doc);
     } else if (option.form == OptionForm::one) {
-      command.add_option(name, storage.one, text.doc);
-      if (!text.former.empty()) add_former_name(command, dashed(text.former), storage.one);
+      command.add_option(name, storage.one, text.doc).required(text.by_place);
     } else {
       Option added = command.add_option(name, storage.several, text.doc);
       if (text.count > 0)
@@ -54,8 +53,7 @@ Inquiry inquiry_of(const Scene& scene, const StudyOptions& options, Progress& pr
           .allowed = options.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene,
           .watch = watch_of(options, progress),
           .page = !options.no_files,
-          .author = options.author,
-          .dashes = true};
+          .author = options.author};
 }
 
 int answer(const Question& question, const StudyOptions& options, const GivenOptions& given) {

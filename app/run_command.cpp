@@ -89,7 +89,7 @@ int present(const Study& study, const std::optional<Overlay>& overlay, const Run
 
 int run(const RunArguments& arguments) {
   const Scene scene = read(arguments.study);
-  const RunAsked asked = run_options().read(arguments.run.given(), "run", scene, true);
+  const RunAsked asked = run_options().read(arguments.run.given(), "run", scene);
   const Effects effects = asked.effects.value_or(scene.effects);
   const auto model = compile(scene, effects);
   if (arguments.explain) {
@@ -108,7 +108,7 @@ int run(const RunArguments& arguments) {
   if (!arguments.from_state.empty()) options.go_on_from = text_of_state(arguments.from_state);
   if (scene.run.model != "reduced" && (options.keep_state || !options.go_on_from.empty()))
     throw std::invalid_argument("--from-state and --save-state belong to the reduced model; set model = \"reduced\"");
-  const auto request = measurement_options().read(arguments.measurement.given(), "run", scene, true);
+  const auto request = measurement_options().read(arguments.measurement.given(), "run", scene);
   const auto measurement = measurement_of(request, arguments.from_state.empty(), *model, options);
   Result result;
   try {

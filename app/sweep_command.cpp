@@ -1,5 +1,4 @@
-// sweep_command.cpp — kurbel sweep: a design of variants of a scene, into a database; kurbel merge: shards into one;
-// kurbel diff: two machines side by side.
+// sweep_command.cpp — kurbel sweep: a design of variants of a scene, into a database; kurbel merge: shards into one.
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,7 +9,6 @@
 #include "app/verb.h"
 #include "engine/scene/document.h"
 #include "engine/tables/table_text.h"
-#include "studies/difference/difference.h"
 #include "studies/sweep/sweep.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/variants/in_threads.h"
@@ -121,10 +119,10 @@ SweepIdentity identity_of(const SweepAsked& a, const std::vector<std::string>& s
 int sweep(const SweepArguments& given) {
   // All errors are reported before anything is written.
   const Scene scene = read(given.study);
-  const SweepAsked a = sweep_options().read(given.declared.given(), "sweep", scene, true);
+  const SweepAsked a = sweep_options().read(given.declared.given(), "sweep", scene);
   VariantTable table = table_asked(a);
   SweepJob job{.jobs = threads_of(a.jobs)};
-  read_shard("--shard", a.shard, job);
+  read_shard(a.shard, job);
   Progress progress(given.study.quiet);
   MachineQuestion question = question_of(inquiry_of(scene, given.study, progress), a.machine);
   question.errors_every *= a.errors_every;
@@ -198,48 +196,6 @@ const Verb merge_verb{
               "and that no row has two results"},
      set_up_merge,
      false}};
-
-struct DifferenceArguments {
-  StudyOptions study;
-  std::string other;
-  std::vector<std::string> other_set;
-  DeclaredOptions declared;
-};
-
-int compare_scenes(const DifferenceArguments& a) {
-  StudyOptions second = a.study;
-  second.scene = a.other;
-  second.set.insert(second.set.end(), a.other_set.begin(), a.other_set.end());
-  // Errors in either scene are reported with their place.
-  const Scene one = read(a.study), other = read(second);
-  check_folder(a.study);
-  Progress progress(a.study.quiet);
-  return present(
-      difference(inquiry_of(one, a.study, progress), inquiry_of(other, second, progress), a.declared.given()), a.study);
-}
-
-void set_up_difference(OptionList& command, int& code) {
-  const auto a = std::make_shared<DifferenceArguments>();
-  add_study_options(command, a->study);
-  command.add_option("other", a->other, "scene file of the other machine").required();
-  command
-      .add_option("--other-set", a->other_set,
-                  "COMPONENT.KEY=VALUE in the other machine alone; --set holds for both; repeatable")
-      .repeatable();
-  a->declared.add_to(command, difference_options());
-  command.action([&code, a] { code = compare_scenes(*a); });
-}
-
-const Verb difference_verb{
-    {{.place = 22,
-      .name = "diff",
-      .arguments = "a.toml b.toml",
-      .help = "two machines figure by figure, and what differs in their scenes",
-      .does =
-          "puts the same question (`--of`) to two scenes, or to one with other values (`--other-set`): every figure of "
-          "both with its error, whether they differ by more than that, and the keys that differ",
-      .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | what one value does"}},
-     set_up_difference}};
 
 }  // namespace
 }  // namespace kurbel::app::sweep_command

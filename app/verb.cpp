@@ -85,7 +85,7 @@ std::string verbs_as_manual() {
     }
     for (const OptionHelp& option : declared_by(verb)) {
       if (option.name == "--help" || (verb.of_scene && shared.count(option.name))) continue;
-      if (option.by_place || option.hidden) continue;
+      if (option.by_place) continue;
       text += fmt::format(".TP\n.B {}\n{}\n", roff(option.name), roff(option.help));
     }
   }
@@ -145,8 +145,7 @@ std::string options_of_verb(const std::string& name) {
     if (verb.name != name) continue;
     std::string text;
     for (const OptionHelp& option : declared_by(verb))
-      if (!option.hidden)
-        for (const std::string& word : option.long_names) text += "--" + word + "\n";
+      for (const std::string& word : option.long_names) text += "--" + word + "\n";
     return text;
   }
   throw std::invalid_argument(fmt::format("no command \"{}\"; allowed: {}", name, listed(names)));

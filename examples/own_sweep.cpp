@@ -20,7 +20,7 @@ run      = { until = "0.3 s" }
   const kurbel::Variation variation{.vary = {"coupling.stiffness=2..10 kN*m/rad"}, .design = "grid:5"};
   const auto row = [&](const std::vector<double>& at) {
     const kurbel::Machine variant = machine.with({{"coupling.stiffness", std::to_string(at[0]) + " kN*m/rad"}});
-    const double peak = kurbel::run(variant, {.errors = false, .plots = false}).figures()["peak_torque.coupling"].value;
+    const double peak = kurbel::run(variant, {.no_error = true, .page = false}).figures()["peak_torque.coupling"].value;
     return std::vector<double>{peak, 40 + 3 * std::pow(at[0], 1.5)};
   };
   const std::string file = "own_sweep.db";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "engine/model/model.h"
 #include "engine/reading/read_scene.h"
@@ -26,22 +27,41 @@ std::vector<std::string> as_lines(const Settings& settings) {
 std::shared_ptr<const MachineParts> read(const std::string& text, const std::string& file,
                                          const std::vector<std::string>& settings) {
   auto parts = std::make_shared<MachineParts>(MachineParts{text, file, settings, {}, {}});
-  try {
+  return answered([&] {
     const auto settled = std::make_shared<const SettledText>(text, file, settings);
     parts->placed = [settled](const SceneError& error) { return settled->placed(error); };
     parts->scene = parse_scene(*settled, all_kinds());
-  } catch (const SceneError& error) {
-    throw bad_scene(error);
-  }
-  return parts;
+    return parts;
+  });
 }
 
 }  // namespace
 
 BadScene bad_scene(const SceneError& error) {
   std::vector<Fault> faults;
-  for (const Message& m : error.messages) faults.push_back({m.file, m.at.line, m.at.column, m.text});
-  return BadScene(error.what(), std::move(faults));
+  for (const Message& m : error.messages)
+    faults.push_back({for_callers(m.file), m.at.line, m.at.column, for_callers(m.text)});
+  return BadScene(for_callers(error.what()), std::move(faults));
+}
+
+std::string for_callers(const std::string& message) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  std::string words;
+  bool quoted = false, command = false;
+  for (std::size_t i = 0; i < message.size();) {
+    const std::string_view rest = std::string_view(message).substr(i);
+    const bool begins = i == 0 || std::string_view(" (\n").find(message[i - 1]) != std::string_view::npos;
+    if (rest.front() == '"') quoted = !quoted;
+    if (!quoted && std::string_view(";:,)\n").find(rest.front()) != std::string_view::npos) command = false;
+    if (!quoted && begins && rest.starts_with("kurbel ")) command = true;
+    if (quoted || command || !begins || !rest.starts_with("--") || rest.size() < 3 || !is_letter(rest[2])) {
+      words += message[i++];
+      continue;
+    }
+    for (i += 2; i < message.size() && (is_letter(message[i]) || message[i] == '-'); ++i)
+      words += message[i] == '-' ? '_' : message[i];
+  }
+  return words;
 }
 
 Watch watch_of(const Watcher& watcher) { return {.interrupted = watcher.interrupted, .progress = watcher.progress}; }
@@ -51,12 +71,7 @@ void refuse_name(const std::string& what, const std::string& name, const std::ve
 }
 
 Machine Machine::from_file(const std::string& path, const Settings& settings) {
-  std::string text;
-  try {
-    text = read_text_file(path, max_scene_bytes);
-  } catch (const SceneError& error) {
-    throw bad_scene(error);
-  }
+  const std::string text = answered([&] { return read_text_file(path, max_scene_bytes); });
   return Machine(read(text, path, as_lines(settings)));
 }
 

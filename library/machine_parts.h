@@ -34,14 +34,32 @@ inline Study study_of(StudyOutput output) {
 
 BadScene bad_scene(const SceneError& error);
 
-// The result of `ask`; errors in the machine's scene become BadScene, placed in the text as given.
+// A message in the words of a caller: "--mid-speed" is mid_speed. Quotations and command lines ("kurbel sweep …") stay.
+std::string for_callers(const std::string& message);
+
+// The result of `ask`; errors are in the words of a caller.
 template <class Ask>
-auto asked_of(const MachineParts& machine, const Ask& ask) {
+auto answered(const Ask& ask) {
   try {
     return ask();
   } catch (const SceneError& error) {
-    throw bad_scene(machine.placed(error));
+    throw bad_scene(error);
+  } catch (const BadScene&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(for_callers(error.what()));
   }
+}
+// The same for a machine: errors in its scene are placed in the text as given.
+template <class Ask>
+auto asked_of(const MachineParts& machine, const Ask& ask) {
+  return answered([&] {
+    try {
+      return ask();
+    } catch (const SceneError& error) {
+      throw machine.placed(error);
+    }
+  });
 }
 
 Watch watch_of(const Watcher& watcher);

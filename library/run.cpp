@@ -65,8 +65,8 @@ Trajectory trajectory_of(const Result& result) {
 
 SimulateOptions options_of(const RunChoices& choices, const Scene& scene) {
   SimulateOptions options;
-  options.measure_error = choices.errors;
-  options.traces = choices.plots;
+  options.measure_error = !choices.no_error;
+  options.traces = choices.page;
   if (choices.method) check_method(*choices.method, scene.run.model);
   options.method = choices.method;
   if (choices.accuracy && !(*choices.accuracy >= 1e-12 && *choices.accuracy <= 0.1))
@@ -94,8 +94,8 @@ Run run(const Machine& machine, const RunChoices& choices) {
     if (measurement) options.traces = true;
     const auto told = std::make_shared<ToldRun>();
     Result result = simulate(model, is_elastic(*model) ? "elastic" : "rigid", options);
-    told->has_trials = choices.trials;
-    if (choices.trials)
+    told->has_trials = !choices.no_trials;
+    if (told->has_trials)
       told->tried = with_trials(std::move(result), options);
     else
       told->tried.study = std::move(result);

@@ -42,11 +42,11 @@ Study study(const std::string& name, const Machine& machine, const Options& give
 }
 
 Study diff(const Machine& a, const Machine& b, const Options& given, const Watcher& watcher) {
-  try {
-    return study_of(difference(inquiry_of(a.parts(), watcher), inquiry_of(b.parts(), watcher), given));
-  } catch (const SceneError& error) {
-    throw bad_scene(error);  // of either scene: placed in its file
-  }
+  return answered([&] {  // an error of either scene is placed in its file
+    const MachineAsked asked = machine_options().read(given, "diff", a.parts().scene);
+    return study_of(output_of(difference_between(question_of(inquiry_of(a.parts(), watcher), asked),
+                                                 question_of(inquiry_of(b.parts(), watcher), asked), asked.of)));
+  });
 }
 
 std::vector<FigureValue> Study::figures() const {

@@ -18,11 +18,13 @@ namespace kurbel {
 namespace {
 
 Design design_of(const Variation& variation) {
-  std::vector<SweptParameter> parameters;
-  for (const std::string& text : variation.vary) parameters.push_back(parse_parameter(text));
-  if (parameters.empty())
-    throw std::invalid_argument("nothing is varied; give e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\"");
-  return Design(variation.design, std::move(parameters), variation.seed);
+  return answered([&] {
+    std::vector<SweptParameter> parameters;
+    for (const std::string& text : variation.vary) parameters.push_back(parse_parameter(text));
+    if (parameters.empty())
+      throw std::invalid_argument("nothing is varied; give e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\"");
+    return Design(variation.design, std::move(parameters), variation.seed);
+  });
 }
 
 SweepLine line_of(SweepRow&& row, std::size_t columns) {
@@ -62,7 +64,7 @@ SweepRows computed(const Design& design, const SweepIdentity& identity, const Sw
   if (choices.into.empty()) throw std::invalid_argument("a sweep needs a file that it fills: into");
   SweepJob job{
       .design = &design, .jobs = threads_of(choices.jobs), .evaluator = evaluator, .watch = watch_of(choices.watcher)};
-  read_shard("shard", choices.shard, job);
+  read_shard(choices.shard, job);
   SweepStore store(choices.into, identity);
   const SweepEnd end = run_sweep(job, store);
   SweepRows rows = choices.lines ? held_rows_of(store) : rows_of(store, {});
@@ -105,7 +107,7 @@ SweepRows sweep(const Variation& variation, const std::string& question, const s
       const std::vector<double> values = function(row.parameters);
       if (values.size() != columns.size())
         throw std::runtime_error(fmt::format("{} values for {} columns", values.size(), columns.size()));
-      for (std::size_t k = 0; k < values.size(); ++k) row.figures.push_back({k, values[k]});
+      for (std::size_t k = 0; k < values.size(); ++k) row.figures.push_back({{values[k]}, k});
     } catch (const std::exception& why) {
       row.figures.clear();
       row.state = RowState::failed;
@@ -113,25 +115,29 @@ SweepRows sweep(const Variation& variation, const std::string& question, const s
     }
     return !(choices.watcher.interrupted && choices.watcher.interrupted->load());
   };
-  return computed(design, identity, choices, [&] { return evaluator; });
+  return answered([&] { return computed(design, identity, choices, [&] { return evaluator; }); });
 }
 
 SweepRows rows_in(const std::string& file, const std::function<void(const SweepLine&)>& visit) {
-  const SweepStore store{std::filesystem::path(file)};
-  return visit ? rows_of(store, [&](SweepLine&& line) { visit(line); }) : held_rows_of(store);
+  return answered([&] {
+    const SweepStore store{std::filesystem::path(file)};
+    return visit ? rows_of(store, [&](SweepLine&& line) { visit(line); }) : held_rows_of(store);
+  });
 }
 
 Study sweep_report(const std::string& file, const std::vector<std::string>& limits) {
-  const auto kept = std::make_shared<const KeptSweep>(file, limits);
+  const auto kept = answered([&] { return std::make_shared<const KeptSweep>(file, limits); });
   return study_of({findings_of(kept->study), {}, {}, kept});
 }
 
-std::size_t merge(const std::vector<std::string>& files, const std::string& into) { return merge_sweeps(files, into); }
+std::size_t merge(const std::vector<std::string>& files, const std::string& into) {
+  return answered([&] { return merge_sweeps(files, into); });
+}
 
-SweepAnswer answer(const Machine& machine, const std::string& of, bool errors, const Watcher& watcher) {
+SweepAnswer answer(const Machine& machine, const std::string& of, bool no_error, const Watcher& watcher) {
   return asked_of(machine.parts(), [&] {
     const MachineAnswer found =
-        answer_of(question_of(inquiry_of(machine.parts(), watcher), {.of = of, .measure_error = errors}));
+        answer_of(question_of(inquiry_of(machine.parts(), watcher), {.of = of, .measure_error = !no_error}));
     std::vector<FigureValue> figures;
     for (const Figure& f : found.figures) figures.push_back({f.name, f.value, f.unit, f.error, f.at});
     return SweepAnswer{name_of(found.state), found.diagnosis, FigureValues(std::move(figures))};

@@ -171,14 +171,14 @@ void bind_sweep(py::module_& m) {
         "Shards of one sweep into one file; how many rows it has.");
   m.def(
       "answer",
-      [](const Machine& machine, const std::string& of, bool errors) {
+      [](const Machine& machine, const std::string& of, bool no_error) {
         const SweepAnswer found =
-            computed([&](const Watcher& watcher) { return answer(machine, of, errors, watcher); });
+            computed([&](const Watcher& watcher) { return answer(machine, of, no_error, watcher); });
         py::dict figures;
         for (const FigureValue& f : found.figures) figures[py::str(f.name)] = f;
         return py::make_tuple(found.state, found.diagnosis, figures);
       },
-      py::arg("machine"), py::arg("of"), py::arg("errors"));
+      py::arg("machine"), py::arg("of"), py::arg("no_error"));
 }
 
 void bind_run(py::module_& m) {
@@ -220,7 +220,7 @@ void bind_run(py::module_& m) {
   m.def(
       "run",
       [](const Machine& machine, std::optional<std::string> effects, std::optional<std::string> method,
-         std::optional<double> accuracy, std::optional<double> until, bool errors, bool plots, bool trials,
+         std::optional<double> accuracy, std::optional<double> until, bool no_error, bool page, bool no_trials,
          const std::string& measured, const std::vector<std::string>& map, const std::string& shift,
          const std::vector<std::string>& offset, const std::string& from_state) {
         return computed([&](const Watcher& watcher) {
@@ -228,9 +228,9 @@ void bind_run(py::module_& m) {
                                .method = method,
                                .accuracy = accuracy,
                                .until = until,
-                               .errors = errors,
-                               .plots = plots,
-                               .trials = trials,
+                               .no_error = no_error,
+                               .page = page,
+                               .no_trials = no_trials,
                                .measured = measured,
                                .map = map,
                                .shift = shift,
@@ -240,8 +240,8 @@ void bind_run(py::module_& m) {
         });
       },
       py::arg("machine"), py::kw_only(), py::arg("effects") = py::none(), py::arg("method") = py::none(),
-      py::arg("accuracy") = py::none(), py::arg("until") = py::none(), py::arg("errors") = true,
-      py::arg("plots") = true, py::arg("trials") = false, py::arg("measured") = "",
+      py::arg("accuracy") = py::none(), py::arg("until") = py::none(), py::arg("no_error") = false,
+      py::arg("page") = true, py::arg("no_trials") = true, py::arg("measured") = "",
       py::arg("map") = std::vector<std::string>{}, py::arg("shift") = "",
       py::arg("offset") = std::vector<std::string>{}, py::arg("from_state") = "");
 }

@@ -20,10 +20,11 @@ struct RunChoices {
   std::optional<std::string> method = {};   // "auto", "dop853", …
   std::optional<double> accuracy = {};      // of every figure over its scale, 1e-12 … 0.1
   std::optional<double> until = {};         // [s], > 0
-  bool errors = true;                       // measured by further runs
-  bool plots = true;                        // record what the page draws
-  // After a short run: the result of the rigid machine, and which effects that are off would change a key figure.
-  bool trials = false;
+  bool no_error = false;                    // skip the further runs that measure errors
+  bool page = true;                         // record what the page draws
+  // False: after a short run also the result of the rigid machine, and which effects that are off would change a key
+  // figure.
+  bool no_trials = true;
   // A measured record (a CSV file) to compare with, as by `--measured`; the deviations are figures:
   // "residual_rms.torque.main_coupling". Empty: none.
   std::string measured = {};

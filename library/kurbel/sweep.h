@@ -87,7 +87,7 @@ struct SweepAnswer {
   FigureValues figures;   // SI
 };
 // For one machine: "run", "steady", "modes" or "size". Throws BadScene, and std::invalid_argument for another question.
-SweepAnswer answer(const Machine& machine, const std::string& of = "run", bool errors = true,
+SweepAnswer answer(const Machine& machine, const std::string& of = "run", bool no_error = false,
                    const Watcher& watcher = {});
 
 }  // namespace kurbel

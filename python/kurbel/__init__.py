@@ -28,8 +28,8 @@ __all__ = ["Event", "Figure", "Machine", "Motion", "Run", "SceneError", "State",
            "merge", "motion", "new", "option_names", "rows_in", "run", "schema", "study", "study_names", "sweep"]
 
 
-def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None, errors=True, plots=True,
-        trials=False, measured="", map=(), shift="", offset=(), state=None):
+def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None, no_error=False, page=True,
+        no_trials=True, measured="", map=(), shift="", offset=(), from_state=None):
     """Simulates a scene: figures confirmed by further runs, trajectory, page.
 
     set       values put beside the scene: {"main_coupling.stiffness": "1 MN*m/rad"}
@@ -37,16 +37,18 @@ def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None
     method    "auto", "dop853", …
     accuracy  of every figure over its scale
     until     end of the simulated time [s]
-    errors    measure them by further runs, two or three of tighter tolerances: several times the time of one
-    plots     follow what the page draws; errors=False, plots=False is the quick way
-    trials    behind a short run: the rigid machine's figures, and which effects that are off would change a key figure
+    no_error  skip the runs that measure errors, two or three of tighter tolerances: several times the time of one
+    page      follow what the page draws; no_error=True, page=False is the quick way
+    no_trials  False: after a short run also the rigid machine's figures, and which effects that are off would change
+              a key figure
     measured  a test's record (a CSV file) laid over it; map: {"T1": "torque.main_coupling"}; shift: "0.2 s" or "fit";
               offset: {"T1": "5 N*m"}, {"T1": "fit"} or "fit"; the difference is given as figures
-    state     of Motion.state: goes on from there
+    from_state  of Motion.state: goes on from there
     """
-    choices = choices_of(effects=effects, method=method, accuracy=accuracy, until=until, errors=errors, plots=plots)
-    return Run(_kurbel.run(machine(scene, set=set), trials=trials, measured=str(measured), map=assigned(map),
-                           shift=str(shift), offset=assigned(offset), from_state=state.text if state else "",
+    choices = choices_of(effects=effects, method=method, accuracy=accuracy, until=until, no_error=no_error,
+                         page=page)
+    return Run(_kurbel.run(machine(scene, set=set), no_trials=no_trials, measured=str(measured), map=assigned(map),
+                           shift=str(shift), offset=assigned(offset), from_state=from_state.text if from_state else "",
                            **choices))
 
 
@@ -73,6 +75,7 @@ def study(name, /, scene, *, set=None, **options):
 
 def diff(scene, other, *, set=None, other_set=None, **options):
     """Two machines figure by figure, and what differs in their scenes. `set` holds for both, `other_set` for the other.
+    Options:
 
     of        "run", "steady", "modes" or "size"
     no_error  skip the runs that measure errors
@@ -123,6 +126,7 @@ def _verb(name):
 
 
 for _name in study_names():
-    globals()[_name] = _verb(_name)
-    __all__.append(_name)
+    if _name not in __all__:  # diff: of machines, too
+        globals()[_name] = _verb(_name)
+        __all__.append(_name)
 del _name

@@ -12,10 +12,10 @@ def _row(text, file, settings, figures, of, choices):
     try:
         variant = _kurbel.Machine.from_text(text, file, settings)
         if of == "run":
-            run = _kurbel.run(variant, plots=False, **choices)
+            run = _kurbel.run(variant, page=False, **choices)
             found, failed = run.figures, None if run.complete else run.diagnosis
         else:
-            state, diagnosis, found = _kurbel.answer(variant, of, choices.get("errors", True))
+            state, diagnosis, found = _kurbel.answer(variant, of, choices.get("no_error", False))
             failed = diagnosis if state == "failed" else None
     except (ValueError, RuntimeError) as why:
         return {}, str(why)
@@ -98,13 +98,13 @@ def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None,
               None: here, one by one
     into      a file (SQLite) that keeps the rows as they come, in threads of this process (`jobs`; 0: one a core), and
               that a later call goes on with; it makes the rows' report. Not with an executor
-    choices   of run, as of run(): errors, effects, method, accuracy, until; of others errors
+    choices   of run, as of run(): no_error, effects, method, accuracy, until; of others no_error
     """
     base = machine(scene, set=set)
     vary = [vary] if isinstance(vary, str) else list(vary)
     figures, choices = (figures,) if isinstance(figures, str) else tuple(figures), choices_of(**choices)
-    if of != "run" and choices.keys() - {"errors"}:
-        raise TypeError(f"of={of!r} takes no {', '.join(sorted(choices.keys() - {'errors'}))}; set them in the scene")
+    if of != "run" and choices.keys() - {"no_error"}:
+        raise TypeError(f"of={of!r} takes no {', '.join(sorted(choices.keys() - {'no_error'}))}; set them in the scene")
     if into is not None:
         if executor is not None or choices:
             raise TypeError(f"into goes without {'an executor' if executor is not None else ', '.join(choices)}; "

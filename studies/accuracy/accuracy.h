@@ -21,7 +21,7 @@ struct AccuracyOptions {
   std::vector<double> tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
   std::vector<std::string> methods = {};  // of the reduced model; empty: all that apply
   bool multibody = true;
-  std::string figure = {};            // the figure that questions refer to; empty: the first
+  std::vector<std::string> figures = {};  // followed before all others; questions refer to the first
   std::optional<double> within = {};  // "how cheap is an error of at most this?" relative, against the fullest model
   std::optional<double> budget = {};  // "how accurate is a result for this processor time?" [s]
   double time = 60;                   // processor time for the whole study, about [s]
@@ -105,7 +105,7 @@ struct AccuracyStudy {
   std::string name_of(const MeasuredSetting& s) const;  // "elastic, esdirk at 1e-05"
 };
 
-// Throws SceneError if no machine can be made from the scene, std::invalid_argument if `figure` is none of its figures.
+// Throws SceneError if no machine can be made from the scene, std::invalid_argument for a figure that it does not yield.
 AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& options);
 
 // Evaluates the settings: fronts, findings, answers. Part of measure_accuracy().

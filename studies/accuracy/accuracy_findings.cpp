@@ -188,9 +188,11 @@ Rows omission_table(const AccuracyStudy& study) {
 
 void add_key_figures(Findings& f, const AccuracyStudy& study) {
   const ModelLevel& full = study.levels[study.fullest];
-  for (std::size_t i = 0; i < std::min<std::size_t>(study.figures.size(), 3); ++i)
-    f.figures.push_back({fmt::format("{}, {}", study.figures[i].name, full.name), full.value[i], study.figures[i].unit,
-                         full.floor[i] * std::abs(full.value[i]), "", 0, study.figures[i].name});
+  for (std::size_t i = 0; i < std::min<std::size_t>(study.figures.size(), 3); ++i) {
+    const auto& [name, unit] = study.figures[i];
+    const Estimate value{full.value[i], full.floor[i] * std::abs(full.value[i])};
+    f.figures.push_back({value, fmt::format("{}, {}", name, full.name), unit, "", 0, name});
+  }
   const auto fastest =
       std::min_element(study.settings.begin(), study.settings.end(),
                        [](const MeasuredSetting& a, const MeasuredSetting& b) { return a.seconds < b.seconds; });

@@ -25,8 +25,8 @@ OptionsOf<AccuracyOptions> options() {
       .add({.name = "within",
             .doc = "the cheapest setting with at most this error, e.g. 0.1%",
             .example = "0.1 %",
-            .what = "a relative error > 0",
-            .domain = positive},
+            .what = "a part > 0 and below 1",
+            .domain = {.low = 1e-12, .high = 1}},
            &Asked::within)
       .add({.name = "budget",
             .doc = "the most exact setting for this processor time, e.g. 50ms",
@@ -34,8 +34,11 @@ OptionsOf<AccuracyOptions> options() {
             .what = "a time > 0",
             .domain = positive},
            &Asked::budget)
-      .add({.name = "figure", .doc = "the figure that this is about (default: the largest peak torque, else δ)"},
-           &Asked::figure)
+      .add(
+          {.name = "figures",
+           .doc = "names joined by commas, the one that this is about first (default: the largest peak torque, else δ)",
+           .words = true},
+          &Asked::figures)
       .add({.name = "methods", .doc = "only these, e.g. dop853 esdirk (default: all that apply)", .words = true},
            OptionForm::several,
            [](Asked& asked, const OptionValues& given) {

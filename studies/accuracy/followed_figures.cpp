@@ -14,7 +14,8 @@ namespace kurbel {
 namespace {
 
 // Peaks first, the largest one before all; then the other figures in this order.
-std::vector<const Figure*> worth_following(const Result& full, const Model& model, const std::string& wanted) {
+std::vector<const Figure*> worth_following(const Result& full, const Model& model,
+                                           const std::vector<std::string>& wanted) {
   std::vector<const Figure*> peaks, others;
   const auto sound = [](const Figure& f) {
     return std::abs(f.value) > 1e-9 * std::max(f.scale, 1e-300) && f.error && std::isfinite(*f.error);
@@ -31,20 +32,20 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
                    [](const Figure* a, const Figure* b) { return std::abs(a->value) > std::abs(b->value); });
   if (peaks.size() > 3) peaks.resize(3);
   peaks.insert(peaks.end(), others.begin(), others.end());
-  if (!wanted.empty()) {
-    const Figure* asked = full.find(wanted);
+  for (auto name = wanted.rbegin(); name != wanted.rend(); ++name) {
+    const Figure* asked = full.find(*name);
     if (!asked) {
       std::vector<std::string> names;
       for (const Figure& f : full.figures) names.push_back(f.name);
-      const std::string instead = told_instead(wanted, names);
-      throw std::invalid_argument(fmt::format("--figure \"{}\": the scene yields no such figure; {}", wanted,
+      const std::string instead = told_instead(*name, names);
+      throw std::invalid_argument(fmt::format("--figures \"{}\": the scene yields no such figure; {}", *name,
                                               instead.empty() ? fmt::format("it yields {}", fmt::join(names, ", "))
                                                               : fmt::format("what it yields is \"{}\"", instead)));
     }
     std::erase(peaks, asked);
     peaks.insert(peaks.begin(), asked);
   }
-  if (peaks.size() > 8) peaks.resize(8);
+  peaks.resize(std::min(peaks.size(), std::max<std::size_t>(8, wanted.size())));
   return peaks;
 }
 
@@ -52,7 +53,7 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
 
 void follow_figures(AccuracyWork& work) {
   const LevelAtWork& full = work.levels[work.study.fullest];
-  for (const Figure* f : worth_following(full.reference, *full.model, work.options.figure))
+  for (const Figure* f : worth_following(full.reference, *full.model, work.options.figures))
     work.study.figures.push_back({f->name, f->unit});
   for (LevelAtWork& level : work.levels)
     for (const FollowedFigure& followed : work.study.figures) {

@@ -133,12 +133,12 @@ Findings findings_of(const Advice& a) {
   if (a.complete && a.chosen > 0)
     f.claim(claimed_aside(Predicate::effects_suffice, fmt::format("effects that suffice: {}", chosen.words), {},
                           {.value = chosen.deviation, .limit = a.tolerance, .error = chosen.error}));
-  f.figures = {{"deviation", 100 * chosen.deviation, "%", 100 * chosen.error, "at most, measured", 3, "deviation"},
-               {"time of the full model", 1e3 * full.cpu_seconds, "ms", 1e3 * a.time_spread * full.cpu_seconds, "a run",
-                3, "processor_time"},
-               {"time of the lean model", 1e3 * chosen.cpu_seconds, "ms", 1e3 * a.time_spread * chosen.cpu_seconds,
-                "a run", 3, "processor_time"},
-               {"sets run", static_cast<double>(a.tried.size()), "", 0, "", 3, "sets_run"}};
+  const auto in_ms = [&a](double s) { return Estimate{1e3 * s, 1e3 * a.time_spread * s}; };
+  const Estimate deviation{100 * chosen.deviation, 100 * chosen.error}, sets{static_cast<double>(a.tried.size()), 0};
+  f.figures = {{deviation, "deviation", "%", "at most, measured", 3, "deviation"},
+               {in_ms(full.cpu_seconds), "time of the full model", "ms", "a run", 3, "processor_time"},
+               {in_ms(chosen.cpu_seconds), "time of the lean model", "ms", "a run", 3, "processor_time"},
+               {sets, "sets run", "", "", 3, "sets_run"}};
   const Chapter advice = f.chapter("Advice"), runs = f.chapter("Runs"), lean = f.chapter("Lean scene");
   f.tell("within", a.tolerance);
   f.draw(advice, [&a] { return plane(a); });

@@ -17,7 +17,7 @@ struct AdviseAsked : AdviseOptions {
 StudyOutput advised(const Inquiry& inquiry, AdviseAsked asked) {
   if (!asked.write.empty())
     if (const std::string why = why_no_file_at(asked.write); !why.empty())
-      throw std::invalid_argument(fmt::format("{}write {}: {}", inquiry.dashes ? "--" : "", asked.write, why));
+      throw std::invalid_argument(fmt::format("--write {}: {}", asked.write, why));
   asked.simulate = inquiry.simulation();
   Advice advice = advise(inquiry.scene, asked);
   if (!asked.write.empty() && advice.complete && !inquiry.watch.stopped()) write_whole(asked.write, advice.lean_scene);
@@ -39,7 +39,7 @@ Question advise_question() {
                 .doc = "deviation allowed from the fullest model (default: 1 %)",
                 .example = "1 %",
                 .what = "a part > 0 and below 1",
-                .domain = {.low = 1e-9, .high = 1}},
+                .domain = {.low = 1e-12, .high = 1}},
                &AdviseOptions::within)
           .add({.name = "figures",
                 .doc = "figures that count, joined by commas, e.g. delta,peak_torque.main_coupling (default: all)"},

@@ -40,8 +40,4 @@ MachineDifference difference_between(const MachineQuestion& a, const MachineQues
 
 Findings findings_of(const MachineDifference& difference);
 
-// The same as a question to two scenes; progress is shown for the first.
-const std::vector<DeclaredOption>& difference_options();
-StudyOutput difference(const Inquiry& first, const Inquiry& second, const GivenOptions& given);
-
 }  // namespace kurbel

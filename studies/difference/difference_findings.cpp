@@ -148,8 +148,8 @@ Findings findings_of(const MachineDifference& d) {
   f.conclude(d.complete(), conclusion(d));
   for (const FigureDifference* figure : by_size(d))
     if (f.figures.size() < 5) {
-      const Estimate b = read_in(d, *figure, *figure->b);
-      f.figures.push_back({figure->name, b.value, figure->unit == "rad/s" ? d.speed_unit().name : figure->unit, b.error,
+      f.figures.push_back({read_in(d, *figure, *figure->b), figure->name,
+                           figure->unit == "rad/s" ? d.speed_unit().name : figure->unit,
                            fmt::format("{} from {}", percent(*figure->relative()),
                                        told_shortly(figure->a->value, figure->unit, d.speed_unit())),
                            0, figure->name});

@@ -134,9 +134,11 @@ Findings findings_of(const EffectStudy& s) {
              .tells_diagnosis = false};
   f.conclude(s.full.complete, s.conclusion);
   for (const LeftOut& l : s.left_out)
-    if (l.failed.empty() && !l.changes.empty() && f.figures.size() < 4)
-      f.figures.push_back({"without " + words_of(l), 100 * l.changes.front().relative, "%",
-                           100 * l.changes.front().error, "off in " + l.changes.front().figure, 3, "change_without"});
+    if (l.failed.empty() && !l.changes.empty() && f.figures.size() < 4) {
+      const FigureChange& most = l.changes.front();
+      const Estimate change{100 * most.relative, 100 * most.error};
+      f.figures.push_back({change, "without " + words_of(l), "%", "off in " + most.figure, 3, "change_without"});
+    }
   const Chapter ranked = f.chapter("Effects, ranked"), full = f.chapter("The full model");
   f.say(ranked, Sentences{.lines = {full_model(s)}, .page = false, .apart = true});
   f.draw(ranked, [&s] { return plane(s); });

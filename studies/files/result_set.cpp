@@ -45,7 +45,7 @@ std::optional<std::string> why_not_replaced_now(int parent, const std::string& n
   const Descriptor folder = open_folder(parent, name);
   if (!folder || faccessat(parent, name.c_str(), W_OK, 0) != 0) {
     if (errno == ENOENT) return std::nullopt;
-    return fmt::format("no permission to write in {}; give another folder, or --no-files", path.string());
+    return fmt::format("no permission to write in {}; give another folder", path.string());
   }
   std::string found;
   for_each_name(folder.get(), [&](const std::string& entry) { found = entry; });
@@ -110,8 +110,7 @@ std::string why_no_results_in(const fs::path& folder) {
     existing = path.parent_path();
   }
   if (!fs::is_directory(existing, error)) return fmt::format("{} is a file; give a folder", existing.string());
-  const std::string why = why_nothing_made_in(existing);
-  return why.empty() ? "" : why + ", or --no-files";
+  return why_nothing_made_in(existing);
 }
 
 ResultSet::ResultSet(const fs::path& folder) : path_(resolved(folder)), target_(path_.filename()) {

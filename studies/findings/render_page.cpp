@@ -129,7 +129,7 @@ void Findings::note(Chapter in, const std::vector<std::string>& notes, const std
 
 KeyFigure key_figure(std::string name, const Estimate& value, std::string means, std::string note, int digits) {
   const std::string unit(definition_of(std::string_view(means))->unit);
-  return {std::move(name), value.value, unit, value.error, std::move(note), digits, std::move(means)};
+  return {value, std::move(name), unit, std::move(note), digits, std::move(means)};
 }
 
 void Findings::show_scene(const std::string& file, const std::string& text) {
@@ -141,8 +141,7 @@ void in_readable_unit(KeyFigure& figure) {
   constexpr double large = 1e4;
   if (!(std::abs(figure.value) >= large)) return;
   const ReadableUnit unit = readable_unit(figure.value, figure.unit);
-  figure.value *= unit.factor;
-  if (figure.error) *figure.error *= unit.factor;
+  static_cast<Estimate&>(figure) = unit.factor * figure;
   figure.unit = unit.unit;
 }
 

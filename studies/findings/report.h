@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "engine/scene/speed_unit.h"
 
 namespace kurbel {
@@ -21,11 +22,8 @@ enum class Role { rigid, elastic, reference, orange, green, vermillion, purple, 
 Role further_role(std::size_t i);  // colours for a list of similar items
 
 // A figure on the first screen.
-struct KeyFigure {
-  std::string name;
-  double value = 0;
-  std::string unit = {};  // SI, as in a scene: "N*m"
-  std::optional<double> error = {};
+struct KeyFigure : Estimate {
+  std::string name, unit = {};  // SI, as in a scene: "N*m"
   std::string note = {};
   int digits = 0;          // significant ones; 0: by the error
   std::string means = {};  // its name in the dictionary: "delta.press"; empty: it has none

@@ -163,7 +163,7 @@ class FitWork {
       const Unknown& unknown = problem_.unknowns()[k];
       const double range = unknown.range.high - unknown.range.low;
       study_.covariance.row(c) *= range, study_.covariance.col(c) *= range;
-      FittedUnknown& told = study_.unknowns.emplace_back(FittedUnknown{.unknown = unknown, .value = unknown.at(u[c])});
+      FittedUnknown& told = study_.unknowns.emplace_back(FittedUnknown{{unknown.at(u[c])}, unknown});
       if (std::count(d.no_trace.begin(), d.no_trace.end(), k)) {
         told.remark = "without influence on what is compared";
       } else if (state_.best.on_bound[k] != 0) {
@@ -319,9 +319,9 @@ class FitWork {
   void conclude() {
     for (const FittedUnknown& u : study_.unknowns) {
       if (u.unknown.kind != Unknown::Kind::key && study_.unknowns.size() > 3) continue;
-      study_.conclusion += fmt::format("{}{} = {}{}", study_.conclusion.empty() ? "" : ", ", u.unknown.name,
-                                       with_error({u.value, u.error}, u.unknown.range.unit),
-                                       u.remark.empty() ? "" : " (" + u.remark + ")");
+      study_.conclusion +=
+          fmt::format("{}{} = {}{}", study_.conclusion.empty() ? "" : ", ", u.unknown.name,
+                      with_error(u, u.unknown.range.unit), u.remark.empty() ? "" : " (" + u.remark + ")");
     }
     double worst = 0;
     for (const ChannelResidual& r : study_.residuals) worst = std::max(worst, r.range_part.value_or(0));

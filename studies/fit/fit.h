@@ -31,10 +31,9 @@ struct FitOptions {
   Watch watch = {};
 };
 
-struct FittedUnknown {
+// Values in the unknown's unit, with the standard error; none: on a bound, or not determined.
+struct FittedUnknown : Estimate {
   Unknown unknown;
-  double value = 0;                           // in its unit, as those below
-  std::optional<double> error = {};           // standard error; none: on a bound, or not determined
   std::optional<double> low = {}, high = {};  // 95 %
   std::string remark = {};                    // "on its lower bound", "not determined", "without influence"
 };

@@ -243,8 +243,7 @@ Findings findings_of(const FitStudy& s) {
   f.conclude(s.complete, s.conclusion);
   for (const FittedUnknown& u : s.unknowns)
     if (f.figures.size() < 4)
-      f.figures.push_back(
-          {u.unknown.name, u.value, u.unknown.range.unit, u.error, u.remark.empty() ? "standard error" : u.remark});
+      f.figures.push_back({u, u.unknown.name, u.unknown.range.unit, u.remark.empty() ? "standard error" : u.remark});
   const Chapter values = f.chapter("Values"), left = f.chapter("What is left"), checks = f.chapter("Checks"),
                 predictions = f.chapter("Predictions");
   f.say(values, value_table(s));

@@ -59,11 +59,11 @@ class Asking {
     each("map", asked_.maps, [](RecordRequest& r, const std::string& t) { r.maps.push_back(t); });
     each("hold", asked_.hold, [this](RecordRequest& r, const std::string& t) { hold(r, t); });
     each("cycles", asked_.cycles, [this](RecordRequest& r, const std::string& t) {
-      r.cycles = static_cast<int>(quantity_of(name("cycles"), t, "a number of cycles", "47", {.low = 1, .high = 1e6}));
+      r.cycles = static_cast<int>(quantity_of("--cycles", t, "a number of cycles", "47", {.low = 1, .high = 1e6}));
     });
     each("teeth", asked_.teeth, [](RecordRequest& r, const std::string& t) { r.teeth = t; });
     each("window", asked_.window, [this](RecordRequest& r, const std::string& t) {
-      r.window = quantity_of(name("window"), t, r.over == Over::time ? "a time > 0" : "an angle > 0",
+      r.window = quantity_of("--window", t, r.over == Over::time ? "a time > 0" : "an angle > 0",
                              r.over == Over::time ? "1 ms" : "12 deg", positive);
     });
     each("orders", asked_.orders, [this](RecordRequest& r, const std::string& t) { orders(r, t); });
@@ -73,12 +73,10 @@ class Asking {
   }
 
  private:
-  std::string name(const std::string& option) const { return (inquiry_.dashes ? "--" : "") + option; }
-
   void read_records() {
     if (asked_.measured.empty())
-      throw std::invalid_argument(fmt::format(
-          "{}: give the measured record, e.g. --measured half.csv --map \"speed=speed.engine\"", name("measured")));
+      throw std::invalid_argument(
+          "--measured: give the measured record, e.g. --measured half.csv --map \"speed=speed.engine\"");
     for (std::string text : asked_.measured) {
       RecordRequest& r = records_.emplace_back();
       r.scene = scene_of(inquiry_, behind(text, " in "));
@@ -88,8 +86,8 @@ class Asking {
       for (const std::string& other : names_)
         if (other == r.name)
           throw std::invalid_argument(
-              fmt::format("{} {}: two records have the name {}; give one a name of its own, e.g. \"second={}\"",
-                          name("measured"), in_quotes(text), r.name, r.file));
+              fmt::format("--measured {}: two records have the name {}; give one a name of its own, e.g. \"second={}\"",
+                          in_quotes(text), r.name, r.file));
       names_.push_back(r.name);
     }
   }
@@ -97,7 +95,7 @@ class Asking {
   template <class Take>
   void each(const std::string& option, const std::vector<std::string>& texts, const Take& take) {
     for (const std::string& text : texts) {
-      const OfRecord of = of_record(name(option) + " " + in_quotes(text), text, names_);
+      const OfRecord of = of_record("--" + option + " " + in_quotes(text), text, names_);
       for (std::size_t r = 0; r < records_.size(); ++r)
         if (!of.record || *of.record == r) take(records_[r], of.rest);
     }
@@ -107,34 +105,33 @@ class Asking {
     const std::string by = behind(text, " by ");
     if (!text.starts_with("mean speed") || by.empty())
       throw std::invalid_argument(
-          fmt::format("{} {}: must be \"mean speed by COMPONENT.KEY\" or \"mean speed=3000 rpm by COMPONENT.KEY\"",
-                      name("hold"), in_quotes(text)));
+          fmt::format("--hold {}: must be \"mean speed by COMPONENT.KEY\" or \"mean speed=3000 rpm by COMPONENT.KEY\"",
+                      in_quotes(text)));
     r.hold_by = by;
     if (const std::size_t equals = text.find('='); equals != std::string::npos)
-      r.mean_speed = speed_of(name("hold"), text.substr(equals + 1));
+      r.mean_speed = speed_of("--hold", text.substr(equals + 1));
   }
 
   void orders(RecordRequest& r, const std::string& text) {
     for (std::size_t begin = 0; begin <= text.size();) {
       const std::size_t comma = std::min(text.find(',', begin), text.size());
-      r.orders.push_back(
-          quantity_of(name("orders"), text.substr(begin, comma - begin), "an order > 0", "0.5", positive));
+      r.orders.push_back(quantity_of("--orders", text.substr(begin, comma - begin), "an order > 0", "0.5", positive));
       begin = comma + 1;
     }
   }
 
   PredictionRequest prediction(const std::string& text) {
-    const OfRecord of = of_record(name("predict") + " " + in_quotes(text), text, names_);
+    const OfRecord of = of_record("--predict " + in_quotes(text), text, names_);
     PredictionRequest made{.given = text, .like = of.record.value_or(0)};
     std::string rest = of.rest;
     made.against = behind(rest, " against ");
     if (const std::string speed = behind(rest, " at "); !speed.empty()) {
       if (records_[made.like].hold_by.empty())
         throw std::invalid_argument(
-            fmt::format("{} {}: a speed can be held only as in the fit; give --hold \"mean speed by "
+            fmt::format("--predict {}: a speed can be held only as in the fit; give --hold \"mean speed by "
                         "COMPONENT.KEY\"",
-                        name("predict"), in_quotes(text)));
-      made.mean_speed = speed_of(name("predict"), speed);
+                        in_quotes(text)));
+      made.mean_speed = speed_of("--predict", speed);
     }
     made.scene = scene_of(inquiry_, rest);
     return made;
@@ -149,7 +146,7 @@ class Asking {
 StudyOutput fitted(const Inquiry& inquiry, FitAsked asked) {
   if (!asked.write.empty())
     if (const std::string why = why_no_file_at(asked.write); !why.empty())
-      throw std::invalid_argument(fmt::format("{}write {}: {}", inquiry.dashes ? "--" : "", asked.write, why));
+      throw std::invalid_argument(fmt::format("--write {}: {}", asked.write, why));
   FitStudy study = fit_machine(Asking(inquiry, asked).options());
   if (!asked.write.empty() && study.complete) write_whole(asked.write, study.written);
   return output_of(std::move(study));

@@ -346,8 +346,6 @@ const Section& chosen_mechanism(const Scene& scene, const std::string& wanted) {
 }
 
 void check(const ForcesOptions& options) {
-  if (options.positions < 4 || options.positions > 3600)
-    throw std::invalid_argument(fmt::format("--positions {}: must be 4 … 3600 of a turn", options.positions));
   if (options.speed && !(std::isfinite(*options.speed) && *options.speed != 0))
     throw std::invalid_argument(fmt::format("--speed {}: must be a speed ≠ 0, e.g. \"300 rpm\"", *options.speed));
 }

@@ -119,8 +119,8 @@ std::string checks_of(const ForceCycle& c) {
 // --- tables ---
 
 KeyFigure key_figure(const NamedPeak& p) {
-  return {
-      "largest " + p.name, p.peak.told(), p.unit, p.peak.error, fmt::format("at φ = {}", at_angle(p.peak)), 0, p.means};
+  const Estimate most{p.peak.told(), p.peak.error};
+  return {most, "largest " + p.name, p.unit, fmt::format("at φ = {}", at_angle(p.peak)), 0, p.means};
 }
 
 RowsOf<std::size_t> peak_table(const Forces& f) {
@@ -304,7 +304,7 @@ void show_friction_circle(Findings& to, Chapter in, const RubbingJoint& j) {
 void say_films(Findings& to, Chapter in, const Forces& f) {
   if (f.films.empty()) return;
   for (const PinFilm& p : f.films)
-    to.figures.push_back({"least film parameter of the " + p.joint, p.parameter.value, "", p.parameter.error,
+    to.figures.push_back({p.parameter, "least film parameter of the " + p.joint, "",
                           fmt::format("{}; at φ = {:.1f}°", p.words(), degrees(p.phi)), 0, "film_parameter"});
   to.say(in,
          table_of("films",

@@ -97,18 +97,18 @@ class Fit {
       sum += r.measured.back() - r.simulated.back();
     }
     const auto n = static_cast<double>(r.time.size());
-    r.offset = measured.offset.fit ? sum / n : measured.offset.value;
-    r.mean = sum / n - r.offset;
+    r.offset.value = measured.offset.fit ? sum / n : measured.offset.value;
+    r.mean = sum / n - r.offset.value;
     double squares = 0;
     for (std::size_t i = 0; i < r.time.size(); ++i) {
-      r.measured[i] -= r.offset;
+      r.measured[i] -= r.offset.value;
       const double left = r.measured[i] - r.simulated[i];
       squares += left * left;
       if (i == 0 || std::abs(left) > std::abs(r.largest)) r.largest = left, r.at = r.time[i];
     }
     r.rms = std::sqrt(squares / n);
     if (const double range = range_of(r.measured); range > 0) r.relative = r.rms / range;
-    if (measured.offset.fit) r.offset_error = confidence * r.rms / std::sqrt(n);
+    if (measured.offset.fit) r.offset.error = confidence * r.rms / std::sqrt(n);
     return r;
   }
 
@@ -178,19 +178,19 @@ class Fit {
 
 std::optional<Alignment> align(const Measurement& measurement, const std::vector<Signal>& simulated) {
   const Fit fit(measurement, simulated);
-  Alignment found{.shift = measurement.shift.value, .shift_error = {}, .signals = {}};
+  Alignment found{.shift = {measurement.shift.value}, .signals = {}};
   if (measurement.shift.fit) {
     const std::optional<double> best = fit.best_shift();
     if (!best) return {};
-    found.shift = *best;
+    found.shift.value = *best;
   }
   for (std::size_t k = 0; k < simulated.size(); ++k) {
-    found.signals.push_back(fit.residuals(k, found.shift));
+    found.signals.push_back(fit.residuals(k, found.shift.value));
     if (found.signals.back().time.size() < fewest_points) return {};
   }
   if (!measurement.shift.fit) return found;
-  found.shift_error = fit.shift_error(found.shift, found.signals);
-  return found.shift_error ? std::optional(found) : std::nullopt;
+  found.shift.error = fit.shift_error(found.shift.value, found.signals);
+  return found.shift.error ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace kurbel

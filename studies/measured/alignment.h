@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "studies/measured/measurement.h"
 
 namespace kurbel {
@@ -37,8 +38,7 @@ class Signal {
 };
 
 struct Residuals {
-  double offset = 0;
-  std::optional<double> offset_error;             // if identified: twice its standard error
+  Estimate offset;                                // error: if identified, twice its standard error
   double rms = 0, mean = 0;                       // of the residuals
   double largest = 0, at = 0;                     // residual of largest magnitude, with its sign; its simulated time
   std::optional<double> relative;                 // rms over the measured range; empty if it does not vary
@@ -46,9 +46,8 @@ struct Residuals {
 };
 
 struct Alignment {
-  double shift = 0;                   // [s]
-  std::optional<double> shift_error;  // if identified: twice its standard error [s]
-  std::vector<Residuals> signals;     // in the order of the measurement
+  Estimate shift;                  // [s]; error: if identified, twice its standard error
+  std::vector<Residuals> signals;  // in the order of the measurement
 };
 
 // Signal k of the measurement against `simulated[k]`; all of these have the same ends. Empty: no common time, or a

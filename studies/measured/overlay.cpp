@@ -56,20 +56,20 @@ std::optional<Signal> signal_of(const SteadyCycle& c, const std::string& channel
 }
 
 void add_figures(std::vector<Figure>& figures, const Measurement& m, const Alignment& a) {
-  const auto add = [&](const std::string& name, double value, const std::string& unit, std::optional<double> error = {},
+  const auto add = [&](const std::string& name, const Estimate& value, const std::string& unit,
                        std::optional<double> at = {}) {
-    Figure figure = Figure::of_name(Name{quantities::other, "", name}, value, unit);
-    figure.error = error, figure.at = at;
+    Figure figure = Figure::of_name(Name{quantities::other, "", name}, value.value, unit);
+    figure.error = value.error, figure.at = at;
     figures.push_back(std::move(figure));
   };
-  if (a.shift_error || a.shift != 0) add("measured_shift", a.shift, "s", a.shift_error);
+  if (a.shift.error || a.shift.value != 0) add("measured_shift", a.shift, "s");
   for (std::size_t k = 0; k < m.signals.size(); ++k) {
     const MeasuredSignal& s = m.signals[k];
     const Residuals& r = a.signals[k];
-    add("residual_rms." + s.channel, r.rms, s.unit);
-    add("residual_largest." + s.channel, r.largest, s.unit, {}, r.at);
-    if (r.relative) add("residual_relative." + s.channel, *r.relative, "");
-    if (r.offset_error || r.offset != 0) add("measured_offset." + s.channel, r.offset, s.unit, r.offset_error);
+    add("residual_rms." + s.channel, {r.rms}, s.unit);
+    add("residual_largest." + s.channel, {r.largest}, s.unit, r.at);
+    if (r.relative) add("residual_relative." + s.channel, {*r.relative}, "");
+    if (r.offset.error || r.offset.value != 0) add("measured_offset." + s.channel, r.offset, s.unit);
   }
 }
 
@@ -90,7 +90,7 @@ std::string other_speed(const SteadyCycle& c, const Measurement& m, const Alignm
   for (std::size_t k = 0; k < m.signals.size(); ++k) {
     const Residuals& r = a.signals[k];
     if (!m.signals[k].channel.starts_with("speed.") || r.measured.empty()) continue;
-    const double here = mean(r.simulated), record = mean(r.measured) + r.offset;
+    const double here = mean(r.simulated), record = mean(r.measured) + r.offset.value;
     if (!(std::abs(here - record) > alike * std::abs(record))) continue;
     const SpeedUnit& unit = c.model->scene.speed_unit;
     return fmt::format(

@@ -29,9 +29,9 @@ std::vector<Row> rows_of(const Overlay& o) {
 }
 
 // A speed in the scene's unit; without an error if unknown.
-std::string told(double value, const std::optional<double>& error, const std::string& unit, const SpeedUnit& speed) {
-  const FigureCells cells = figure_cells({value, error}, unit, speed);
-  return cells.value + (error ? " " + cells.error : "") + (cells.unit.empty() ? "" : " " + cells.unit);
+std::string told(const Estimate& value, const std::string& unit, const SpeedUnit& speed) {
+  const FigureCells cells = figure_cells(value, unit, speed);
+  return cells.value + (value.error ? " " + cells.error : "") + (cells.unit.empty() ? "" : " " + cells.unit);
 }
 
 std::string percent(const std::optional<double>& share) { return share ? fmt::format("{:.3g} %", 100 * *share) : "—"; }
@@ -50,13 +50,12 @@ Rows table_of(const Overlay& o) {
           .only_for_people("largest",
                            [&](const Row& r) { return told_shortly(r.left->largest, r.signal->unit, o.speed); })
           .only_for_people("at", [](const Row& r) { return told_shortly(r.left->at, "s"); });
-  return table.only_for_people(
-      "offset", [&](const Row& r) { return told(r.left->offset, r.left->offset_error, r.signal->unit, o.speed); });
+  return table.only_for_people("offset", [&](const Row& r) { return told(r.left->offset, r.signal->unit, o.speed); });
 }
 
 std::string shift_in_words(const Overlay& o, const ModelOverlay& m) {
-  return fmt::format("{} model: simulated time = measured time {} {}{}{}", m.label, m.alignment.shift < 0 ? "−" : "+",
-                     told(std::abs(m.alignment.shift), m.alignment.shift_error, "s", {}),
+  return fmt::format("{} model: simulated time = measured time {} {}{}{}", m.label,
+                     m.alignment.shift.value < 0 ? "−" : "+", told(abs(m.alignment.shift), "s", {}),
                      o.measurement.shift.fit ? ", found by least squares" : "",
                      o.of_cycle ? "; time 0: the link passes its zero" : "");
 }
@@ -82,7 +81,7 @@ std::vector<std::string> short_words(const Overlay& o) {
   }
   if (rows.size() > most) lines.push_back(fmt::format("{} more columns: --all, or the report", rows.size() - most));
   const Alignment& a = o.models.back().alignment;
-  if (a.shift_error) lines.push_back("record shifted by " + told(a.shift, a.shift_error, "s", {}));
+  if (a.shift.error) lines.push_back("record shifted by " + told(a.shift, "s", {}));
   return lines;
 }
 
@@ -118,9 +117,9 @@ Plot overlay_plot(const Overlay& o, std::size_t k) {
     plot.series.push_back(std::move(series));
   }
   plot.series.push_back(dashed(measured_series(last, last.measured, "measured", Role::reference)));
-  plot.note =
-      fmt::format("Column {} of {}{}.", s.column, o.measurement.file,
-                  last.offset != 0 ? fmt::format(", {} taken off", told(last.offset, {}, s.unit, o.speed)) : "");
+  plot.note = fmt::format(
+      "Column {} of {}{}.", s.column, o.measurement.file,
+      last.offset.value != 0 ? fmt::format(", {} taken off", told({last.offset.value}, s.unit, o.speed)) : "");
   return in_readable_unit(std::move(plot), s.unit, o.speed);
 }
 
@@ -163,15 +162,15 @@ Record signal_record(const Overlay& o, const ModelOverlay& m, std::size_t k) {
           {"relative", r.relative},
           {"largest", r.largest},
           {"at", r.at},
-          {"offset", r.offset},
-          {"offset_error", r.offset_error},
+          {"offset", r.offset.value},
+          {"offset_error", r.offset.error},
           {"offset_found", s.offset.fit}};
 }
 
 Record model_record(const Overlay& o, const ModelOverlay& m) {
   return {{"label", m.label},
-          {"shift", m.alignment.shift},
-          {"shift_error", m.alignment.shift_error},
+          {"shift", m.alignment.shift.value},
+          {"shift_error", m.alignment.shift.error},
           {"shift_found", o.measurement.shift.fit},
           {"signals",
            each(numbers_below(o.measurement.signals.size()), [&](std::size_t k) { return signal_record(o, m, k); })}};

@@ -107,7 +107,6 @@ class Study {
   bool stopped() const { return options_.watch.stopped(); }
 
   void check_options() const {
-    if (options_.count < 1) throw std::invalid_argument(fmt::format("--count {}: must be ≥ 1", options_.count));
     if (options_.slowest < 0 || (options_.fastest != 0 && options_.fastest <= options_.slowest))
       throw std::invalid_argument("--range: give two speeds ≥ 0, the smaller one first, e.g. \"0 rpm\" \"3000 rpm\"");
   }

@@ -15,7 +15,6 @@
 namespace kurbel {
 
 std::string OptionValues::label() const {
-  if (!dashes_) return option_.text.name;
   std::string name = option_.text.name;
   std::replace(name.begin(), name.end(), '_', '-');
   return "--" + name;
@@ -55,7 +54,7 @@ std::int64_t OptionValues::whole() const {
 
 std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOption>& options,
                                                    const GivenOptions& given, const std::string& question,
-                                                   const Scene& scene, bool dashes) {
+                                                   const Scene& scene) {
   std::vector<std::string> names;
   for (const DeclaredOption& option : options) names.push_back(option.text.name);
   for (const auto& [name, value] : given)
@@ -77,7 +76,7 @@ std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOpt
         if (!one.empty()) texts.push_back(one);
     }
     if (texts.empty()) continue;
-    const OptionValues values(option, texts, scene, dashes);
+    const OptionValues values(option, texts, scene);
     if (option.form != OptionForm::several && texts.size() > 1)
       throw std::invalid_argument(fmt::format("{} is given {} times; give one", values.label(), texts.size()));
     if (option.text.count > 0 && texts.size() != static_cast<std::size_t>(option.text.count))

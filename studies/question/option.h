@@ -38,8 +38,8 @@ struct OptionText {
   int count = 0;               // number of values for several values; 0: any
   bool each_time = false;      // several values: one per occurrence of the option; otherwise also joined by commas
   bool words = false;          // several values: also as successive words on the command line
-  std::string former = {};     // a former name: still accepted, but shown nowhere
   bool makes_a_file = false;   // it adds a file to the results
+  bool by_place = false;       // on the command line by its place, behind the scene, and required there
 };
 
 enum class OptionForm { flag, one, several };
@@ -48,13 +48,13 @@ struct DeclaredOption {
   OptionForm form = OptionForm::one;
 };
 
-// The values given for one option, for its reader. Errors throw std::invalid_argument with the name as given and the
-// allowed values.
+// The values given for one option, for its reader. Errors throw std::invalid_argument with its name and the allowed
+// values. Messages name options as the command line does; the library renders them for its callers.
 class OptionValues {
  public:
-  OptionValues(const DeclaredOption& option, std::vector<std::string> texts, const Scene& scene, bool dashes)
-      : option_(option), texts_(std::move(texts)), scene_(scene), dashes_(dashes) {}
-  std::string label() const;        // "--mid-speed", "mid_speed"
+  OptionValues(const DeclaredOption& option, std::vector<std::string> texts, const Scene& scene)
+      : option_(option), texts_(std::move(texts)), scene_(scene) {}
+  std::string label() const;        // "--mid-speed"
   const std::string& text() const;  // the single value
   const std::vector<std::string>& texts() const { return texts_; }
   const Scene& scene() const { return scene_; }
@@ -82,14 +82,13 @@ class OptionValues {
   const DeclaredOption& option_;
   std::vector<std::string> texts_;
   const Scene& scene_;
-  bool dashes_;
 };
 
 // Finds the values of every option among those given. Throws std::invalid_argument for an undeclared option, with the
 // declared ones, and for an option that is repeated without permission.
 std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOption>& options,
                                                    const GivenOptions& given, const std::string& question,
-                                                   const Scene& scene, bool dashes);
+                                                   const Scene& scene);
 
 template <class Asked>
 class OptionsOf {
@@ -143,9 +142,9 @@ class OptionsOf {
   const std::vector<DeclaredOption>& declared() const { return declared_; }
   const std::vector<Reader>& readers() const { return readers_; }
 
-  Asked read(const GivenOptions& given, const std::string& question, const Scene& scene, bool dashes) const {
+  Asked read(const GivenOptions& given, const std::string& question, const Scene& scene) const {
     Asked asked;
-    const auto values = values_of(declared_, given, question, scene, dashes);
+    const auto values = values_of(declared_, given, question, scene);
     for (std::size_t k = 0; k < values.size(); ++k)
       if (values[k]) readers_[k](asked, *values[k]);
     return asked;

@@ -11,6 +11,7 @@ namespace kurbel {
 
 // Each is defined in the folder of its study.
 Question compare_question();
+Question difference_question();
 Question reduce_question();
 Question size_question();
 Question forces_question();
@@ -27,9 +28,9 @@ Question fit_question();
 
 const std::vector<Question>& questions() {
   static const std::vector<Question> all = {
-      compare_question(),  reduce_question(),      size_question(),   forces_question(),  gears_question(),
-      modes_question(),    report_question(),      steady_question(), effects_question(), advise_question(),
-      accuracy_question(), uncertainty_question(), fit_question(),    export_question()};
+      compare_question(), difference_question(), reduce_question(),      size_question(),   forces_question(),
+      gears_question(),   modes_question(),      report_question(),      steady_question(), effects_question(),
+      advise_question(),  accuracy_question(),   uncertainty_question(), fit_question(),    export_question()};
   return all;
 }
 

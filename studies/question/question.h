@@ -25,7 +25,6 @@ struct Inquiry {
   Watch watch = {};
   bool page = true;         // a page is written: data for its plots are recorded
   std::string author = {};  // for a worksheet
-  bool dashes = false;      // options are named as on the command line
 
   SimulateOptions simulation() const {
     SimulateOptions options;
@@ -54,7 +53,7 @@ Question make_question(QuestionText text, OptionsOf<Asked> options, StudyOutput 
   Question question{std::move(text), options.declared(), {}};
   question.answer = [name = question.name, options = std::move(options), answer](const Inquiry& inquiry,
                                                                                  const GivenOptions& given) {
-    return answer(inquiry, options.read(given, name, inquiry.scene, inquiry.dashes));
+    return answer(inquiry, options.read(given, name, inquiry.scene));
   };
   return question;
 }

@@ -31,12 +31,6 @@ class Reducer {
  public:
   Reducer(const Scene& scene, const ReduceOptions& options)
       : scene_(as_of(scene, scene.effects, options.at)), options_(options) {
-    if (options.positions < 1 || options.positions > 100000)
-      throw std::invalid_argument(fmt::format("--positions {}: must be 1 … 100000", options.positions));
-    if (options.orders < 0 || options.orders > 1000)
-      throw std::invalid_argument(fmt::format("--orders {}: must be 0 … 1000", options.orders));
-    if (options.speed && !(*options.speed > 0 && std::isfinite(*options.speed)))
-      throw std::invalid_argument("--speed: must be > 0");
     r_.title = scene.heading();
     r_.speed_unit = scene.speed_unit;
     r_.scene_file = scene.file;

@@ -183,7 +183,7 @@ Record record_of(const GearView::Wheel& wheel) {
 }
 
 Record record_of(const KeyFigure& figure) {
-  const TileText text = tile_text({figure.value, figure.error}, figure.digits);
+  const TileText text = tile_text(figure, figure.digits);
   Record r = {{"name", figure.name}, {"value", text.value}};
   if (!text.known.empty()) r.push_back({"known", text.known});
   r.push_back({"unit", pretty_unit(figure.unit)});

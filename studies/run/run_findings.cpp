@@ -18,9 +18,8 @@ namespace kurbel {
 namespace {
 
 KeyFigure key_of(const Figure& f, const std::string& note, const SpeedUnit& speed) {
-  if (f.unit != "rad/s") return {in_words(f), f.value, f.unit, f.error, note, 0, f.name};
-  const std::optional<double> error = f.error ? std::optional(speed.of(*f.error)) : std::nullopt;
-  return {in_words(f), speed.of(f.value), speed.name, error, note, 0, f.name};
+  if (f.unit != "rad/s") return {f, in_words(f), f.unit, note, 0, f.name};
+  return {f / speed.size, in_words(f), speed.name, note, 0, f.name};
 }
 
 std::string processor_time_in_words(const Result& r) {
@@ -229,13 +228,9 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
   add(first_of(c.b, quantities::cycle_fluctuation));
   add(first_of(c.b, quantities::mid_speed));
   const bool short_run = c.b.statistics.cpu_seconds < 1;
-  figures.push_back({"processor time of a run",
-                     (short_run ? 1e3 : 1) * c.b.statistics.cpu_seconds,
-                     short_run ? "ms" : "s",
-                     {},
-                     fmt::format("{}: {}", c.a.label, processor_time_in_words(c.a)),
-                     3,
-                     "processor_time"});
+  const Estimate time{(short_run ? 1e3 : 1) * c.b.statistics.cpu_seconds};
+  figures.push_back({time, "processor time of a run", short_run ? "ms" : "s",
+                     fmt::format("{}: {}", c.a.label, processor_time_in_words(c.a)), 3, "processor_time"});
   return figures;
 }
 

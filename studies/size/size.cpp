@@ -40,7 +40,7 @@ class Sizer {
     s_.speed_unit = scene.speed_unit;
     s_.scene_file = scene.file;
     s_.link = model().node_label(model().reduction_node);
-    s_.sheet = options.sheet;
+    s_.diagram_length = options.diagram_length;
   }
 
   Sizing run() {

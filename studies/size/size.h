@@ -28,9 +28,9 @@ struct SizeOptions {
   std::string flywheel;             // component to be sized; default: the scene's only flywheel, else one on the crank
   FlywheelForm form = FlywheelForm::rim;
   std::string material = "grey cast iron";
-  double diameter = 0, rim_speed = 0;  // [m], [m/s]; 0: by proportion, by the material
-  std::optional<double> sheet;         // length of the diagrams' angle axis [m]
-  bool simulate = true;                // find the steady motion of the sized machine
+  double diameter = 0, rim_speed = 0;    // [m], [m/s]; 0: by proportion, by the material
+  std::optional<double> diagram_length;  // length of the diagrams' angle axis [m]
+  bool simulate = true;                  // find the steady motion of the sized machine
   SimulateOptions simulation = {};
 };
 
@@ -111,7 +111,7 @@ struct Sizing {
   std::string dimensions_why;
   std::optional<PunchPress> punch;  // for loads that act during a part of the cycle only
   std::vector<DeltaReached> reached;
-  std::optional<double> sheet;
+  std::optional<double> diagram_length;
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;

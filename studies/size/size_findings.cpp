@@ -193,7 +193,7 @@ Rows positions_table(const Sizing& s) {
 
 // Scales of diagrams on a sheet, per millimetre (theory 3).
 Rows scales_table(const Sizing& s) {
-  const double length = 1e3 * *s.sheet, height = length / 2;
+  const double length = 1e3 * *s.diagram_length, height = length / 2;
   const double mu_phi = s.diagram.excess.length() / length;
   const double mu_m = round_scale(std::max(s.diagram.load_torque.largest(), s.diagram.drive_torque.largest()) / height);
   const double mu_a = mu_m * mu_phi;
@@ -415,7 +415,7 @@ Findings findings_of(const Sizing& s) {
     f.say(synthesis, Sentences{.lines = {punch_words(*s.punch)}, .page = false});
     f.tell("punch_press", punch_record(*s.punch));
   }
-  if (s.sheet) say_titled(f, scales, scales_table(s));
+  if (s.diagram_length) say_titled(f, scales, scales_table(s));
   say_notes(f, notes, s);
   f.tables = {{"diagrams", [&s] { return diagrams_data(s); }}};
   return f;

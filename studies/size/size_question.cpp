@@ -28,8 +28,7 @@ OptionsOf<SizeOptions> options() {
             .doc = "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\" (default: where drive and mean load balance)",
             .example = "60 rpm",
             .what = "a speed > 0",
-            .domain = positive,
-            .former = "mean_speed"},
+            .domain = positive},
            &Asked::mid_speed)
       .add(
           {.name = "basis",
@@ -55,14 +54,13 @@ OptionsOf<SizeOptions> options() {
             .what = "a speed > 0",
             .domain = positive},
            &Asked::rim_speed)
-      .add({.name = "sheet",
+      .add({.name = "diagram",
             .doc = "length of the diagrams for their scales, e.g. \"240 mm\"",
             .example = "240 mm",
             .what = "a length > 0",
             .domain = positive},
-           &Asked::sheet)
-      .add({.name = "no_simulation", .doc = "do not compute the steady motion of the sized machine"}, &Asked::simulate,
-           false);
+           &Asked::diagram_length)
+      .add({.name = "no_run", .doc = "do not compute the steady motion of the sized machine"}, &Asked::simulate, false);
 }
 
 }  // namespace

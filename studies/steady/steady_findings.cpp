@@ -332,8 +332,7 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
   for (const SteadyCycle& c : s.cycles) {
     if (!c.found) continue;
     if (const Figure* mean = c.find("mean_speed." + s.link))
-      f.figures.push_back(
-          {"mean speed, " + c.label, unit.of(mean->value), unit.name, (*mean / unit.size).error, "", 0, mean->name});
+      f.figures.push_back({*mean / unit.size, "mean speed, " + c.label, unit.name, "", 0, mean->name});
     if (const Figure* delta = c.find("delta." + s.link)) f.key("speed fluctuation δ, " + c.label, *delta, delta->name);
     if (!c.point.multipliers.empty())
       f.key(
@@ -345,7 +344,7 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
     for (const MotorUse& m : last.motors)
       if (m.rated)
         f.figures.push_back(
-            {"thermal use of " + m.component, 100 * *m.thermal(), "%", {}, "RMS over rated", 4, "thermal_use"});
+            {{100 * *m.thermal()}, "thermal use of " + m.component, "%", "RMS over rated", 4, "thermal_use"});
 }
 
 void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {

@@ -16,10 +16,10 @@
 namespace kurbel {
 
 Side side_of(const FigureLimit& limit, const SweepRow& row) {
-  const double value = value_in(row, limit.figure);
+  const auto [value, known] = figure_in(row, limit.figure);
   if (!std::isfinite(value)) return Side::unknown;
   const double beyond = limit.from_above ? value - limit.value : limit.value - value;
-  const double error = error_in(row, limit.figure).value_or(0);
+  const double error = known.value_or(0);
   if (error > 0 && std::abs(beyond) <= error) return Side::undecided;
   return beyond <= 0 ? Side::holds : Side::beyond;
 }

@@ -185,8 +185,8 @@ void SweepStore::each(const Visit& visit, std::size_t from, std::size_t to) cons
     for (; more_parameters && parameters->integer(0) == whole(r.row); more_parameters = parameters->step())
       r.parameters.push_back(parameters->number(1));
     for (; more_figures && figures->integer(0) == whole(r.row); more_figures = figures->step())
-      r.figures.push_back({static_cast<std::size_t>(figures->integer(1)), figures->number(2),
-                           figures->is_null(3) ? std::nullopt : std::optional(figures->number(3))});
+      r.figures.push_back({{figures->number(2), figures->is_null(3) ? std::nullopt : std::optional(figures->number(3))},
+                           static_cast<std::size_t>(figures->integer(1))});
     visit(std::move(r));
   }
 }

@@ -119,14 +119,14 @@ class Sweeping {
 
 }  // namespace
 
-void read_shard(const std::string& option, const std::string& text, SweepJob& job) {
+void read_shard(const std::string& text, SweepJob& job) {
   const std::size_t slash = std::min(text.find('/'), text.size());
   const char* const end = text.data() + text.size();
   const auto first = std::from_chars(text.data(), text.data() + slash, job.shard);
   const auto second = slash < text.size() ? std::from_chars(text.data() + slash + 1, end, job.shards) : first;
   if (first.ec != std::errc{} || first.ptr != text.data() + slash || second.ptr != end || slash == text.size() ||
       job.shard < 1 || job.shard > job.shards)
-    throw std::invalid_argument(fmt::format("{} {}: must be I/N with 1 ≤ I ≤ N, e.g. 3/64", option, in_quotes(text)));
+    throw std::invalid_argument(fmt::format("--shard {}: must be I/N with 1 ≤ I ≤ N, e.g. 3/64", in_quotes(text)));
 }
 
 std::string joined_lines(const std::vector<std::string>& texts) {

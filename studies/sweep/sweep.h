@@ -22,7 +22,7 @@ struct SweepJob {
 };
 
 // Rows of a shard: "3/64". Throws std::invalid_argument under the option's name.
-void read_shard(const std::string& option, const std::string& text, SweepJob& job);
+void read_shard(const std::string& text, SweepJob& job);
 // Identity from a design and the figures of its rows; meta: other entries of the identity.
 SweepIdentity identity_of(const Design& design, std::vector<SweptFigure> figures, const std::string& shard,
                           std::map<std::string, std::string> meta);

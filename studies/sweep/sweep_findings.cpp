@@ -118,10 +118,8 @@ Rows failure_table(const SweepStudyResult& s) {
 
 // --- worst machines ---
 
-struct Worst {
+struct Worst : Estimate {
   std::string figure, unit;
-  double value = 0;
-  std::optional<double> error;
   const SweepRow* row = nullptr;
 };
 
@@ -130,7 +128,7 @@ std::vector<Worst> worst_of(const SweepStudyResult& s) {
   for (std::size_t k = 0; k < s.identity.figures.size(); ++k)
     for (const SweepRow& r : s.tally.worst[k])
       if (list.size() < most_worst)
-        list.push_back({s.identity.figures[k].name, s.identity.figures[k].unit, value_in(r, k), error_in(r, k), &r});
+        list.push_back({figure_in(r, k), s.identity.figures[k].name, s.identity.figures[k].unit, &r});
   return list;
 }
 
@@ -180,7 +178,7 @@ void fill(std::vector<DataCell>& cells, const SweepStudyResult& s, const SweepRo
   for (std::size_t k = 0; k < s.identity.figures.size(); ++k) {
     const double v = value_in(r, k);
     cells.emplace_back(std::isfinite(v) ? v : NAN);
-    cells.emplace_back(error_in(r, k).value_or(NAN));
+    cells.emplace_back(figure_in(r, k).error.value_or(NAN));
   }
 }
 
@@ -320,7 +318,7 @@ Findings findings_of(const SweepStudyResult& s) {
   for (const Spread& spread : spreads_of(s))
     if (f.figures.size() < 4)
       f.figures.push_back(
-          {"greatest " + spread.figure.name, spread.greatest, spread.figure.unit, {}, "", 5, spread.figure.name});
+          {{spread.greatest}, "greatest " + spread.figure.name, spread.figure.unit, "", 5, spread.figure.name});
   const Chapter limits = f.chapter(s.limits.empty() ? "Over two parameters" : "Limits"),
                 influence = f.chapter("What moves the figures"), curves = f.chapter("Response"),
                 worst = f.chapter("Machines"), all = f.chapter("The sweep");

@@ -32,7 +32,8 @@ void add_curve(Plot& plot, const std::vector<std::pair<const SweepRow*, double>>
   Series low{.name = "− error", .role = Role::reference, .dashed = true}, high = low;
   high.name = "+ error";
   for (const auto& [row, x] : points) {
-    const double v = factor * value_in(*row, figure), error = factor * error_in(*row, figure).value_or(0);
+    const auto [v, known] = factor * figure_in(*row, figure);
+    const double error = known.value_or(0);
     curve.add(x, v);
     low.add(x, v - error);
     high.add(x, v + error);

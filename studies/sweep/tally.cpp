@@ -32,7 +32,7 @@ void take_up(Spread& spread, const SweepRow& row, std::size_t figure) {
   spread.mean += before / static_cast<double>(spread.rows);
   spread.deviation += before * (v - spread.mean);  // a sum of squares as yet (Welford)
   spread.least = std::min(spread.least, v), spread.greatest = std::max(spread.greatest, v);
-  if (const auto error = error_in(row, figure)) spread.error = std::max(spread.error.value_or(0), *error);
+  if (const auto error = figure_in(row, figure).error) spread.error = std::max(spread.error.value_or(0), *error);
 }
 
 void end(Spread& spread) {

@@ -78,7 +78,7 @@ std::string markdown_of(const Report& report) {
   if (!report.figures.empty()) {
     text += "| figure | value | |\n|---|---:|---|\n";
     for (const KeyFigure& f : report.figures) {
-      const TileText tile = tile_text({f.value, f.error}, f.digits);
+      const TileText tile = tile_text(f, f.digits);
       text += row_of({f.name, fmt::format("{} {}", tile.value, pretty_unit(f.unit)), f.note});
     }
     text += "\n";

@@ -229,8 +229,7 @@ class TrainReport {
     for (const KeyFigure& figure : compare.output.figures)
       if (!figure.note.empty() && figure.means != "processor_time")
         lines.push_back({figure.name,
-                         fmt::format("{} {}", tile_text({figure.value, figure.error}, figure.digits).value,
-                                     pretty_unit(figure.unit)),
+                         fmt::format("{} {}", tile_text(figure, figure.digits).value, pretty_unit(figure.unit)),
                          figure.note});
     if (lines.empty()) return;
     Rows table = words_table("Rigid against elastic: key figures", {"figure", "elastic machine", "beside it"}, lines);

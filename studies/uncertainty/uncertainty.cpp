@@ -43,9 +43,7 @@ class UncertaintyWork {
     }
     for (std::size_t k = 0; k < figures_.size(); ++k)
       if (std::isfinite(value_in(nominal, k))) numbers_.push_back(k);
-    for (const std::size_t k : numbers_)
-      study_.figures.push_back(
-          {.figure = figures_[k], .value = value_in(nominal, k), .numerical = error_in(nominal, k)});
+    for (const std::size_t k : numbers_) study_.figures.push_back({figure_in(nominal, k), figures_[k]});
     gradients();
     say_what_is_noise();
     samples();
@@ -146,7 +144,7 @@ class UncertaintyWork {
     ToleranceShare share{.parameter = p, .step = step};
     share.gradient = (value_in(above, k) - value_in(below, k)) / over;
     share.deviation = std::abs(share.gradient) * u;
-    const auto e_above = error_in(above, k), e_below = error_in(below, k);
+    const auto e_above = figure_in(above, k).error, e_below = figure_in(below, k).error;
     if (e_above && e_below) share.noise = (*e_above + *e_below) / over * u;
     return share;
   }
@@ -227,7 +225,7 @@ class UncertaintyWork {
       for (FigureUncertainty& f : study_.figures)
         for (const TrialChange& c : trial.changes)
           if (c.change.figure == f.figure.name && !c.gone && c.change.told())
-            f.biases.push_back({trial.effect.words, c.change.without - c.change.full, c.error_on});
+            f.biases.push_back({{c.change.without - c.change.full, c.error_on}, trial.effect.words});
     }
     for (const NotTried& n : trials.not_tried)
       study_.notes.push_back(fmt::format("{}: not tried ({})", n.words, n.because));

@@ -39,16 +39,14 @@ struct ToleranceShare {
   double without = 0;  // remaining u if this parameter had no tolerance
 };
 
-struct Bias {
+// A shift, signed: with the effect − without.
+struct Bias : Estimate {
   std::string effect;
-  double shift = 0;  // signed: with the effect − without
-  std::optional<double> error = {};
 };
 
-struct FigureUncertainty {
+// With the measured error at the given values.
+struct FigureUncertainty : Estimate {
   SweptFigure figure;
-  double value = 0;                           // at the given values
-  std::optional<double> numerical = {};       // measured error there
   double by_gradients = 0;                    // standard uncertainty u
   std::optional<double> noise_floor = {};     // of u, √Σ noise²: smaller values may be numerical errors alone
   double by_samples = 0, mean = 0;            // standard deviation and mean of the samples

@@ -31,7 +31,7 @@ Rows figure_table(const UncertaintyStudy& s) {
     });
   };
   quantity("value", "as given", &F::value, 6);
-  quantity("numerical", "numerical error", &F::numerical, 1);
+  quantity("numerical", "numerical error", &F::error, 1);
   quantity("by_gradients", "deviation by gradients", &F::by_gradients, 3);
   quantity("noise_floor", "noise floor", &F::noise_floor, 1);
   quantity("by_samples", "by samples", &F::by_samples, 3);
@@ -89,7 +89,7 @@ Rows bias_table(const UncertaintyStudy& s) {
       .column("figure", "figure", &BiasRow::figure)
       .column("effect", "effect", [](const BiasRow& r) { return r.bias.effect; })
       .column(
-          "shift", "shift", [](const BiasRow& r) { return r.bias.shift; },
+          "shift", "shift", [](const BiasRow& r) { return r.bias.value; },
           [](double v) { return fmt::format("{:+.4g}", v); })
       .column("error", "numerical error", [](const BiasRow& r) { return r.bias.error; }, {.digits = 1})
       .column("unit", "unit", &BiasRow::unit, as_unit);
@@ -137,7 +137,7 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
       plot.series.push_back({.name = name, .role = role, .x = {at++}, .y = {height}});
       plot.x.names.push_back(name);
     };
-    bar("numerical error", Role::reference, percent * f.numerical.value_or(0));
+    bar("numerical error", Role::reference, percent * f.error.value_or(0));
     bar("all tolerances, one deviation", Role::elastic, percent * f.deviation());
     for (std::size_t k = 0; k < f.shares.size() && k < 4; ++k)
       bar("tolerance of " + s.parameters[f.shares[k].parameter].given().path, Role::sky,
@@ -145,7 +145,7 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
     for (const FigureUncertainty& other : s.figures)
       if (&other != &f && alike(f, other))
         plot.note += (plot.note.empty() ? "The same within 1 %: " : ", ") + other.figure.name;
-    for (const Bias& b : f.biases) bar("bias, off: " + b.effect, Role::vermillion, percent * b.shift);
+    for (const Bias& b : f.biases) bar("bias, off: " + b.effect, Role::vermillion, percent * b.value);
     plots.push_back(std::move(plot));
   }
   return plots;
@@ -164,9 +164,9 @@ Findings findings_of(const UncertaintyStudy& s) {
   for (const FigureUncertainty& figure : s.figures)
     if (figure.by_gradients > 0 && f.figures.size() < 4) {
       const std::string& unit = figure.figure.unit;
-      f.figures.push_back({figure.figure.name, told(s, unit, figure.value), unit == "rad/s" ? s.speed_unit.name : unit,
-                           told(s, unit, 2 * figure.deviation()), "two deviations of the tolerances", 0,
-                           figure.figure.name});
+      const Estimate value{told(s, unit, figure.value), told(s, unit, 2 * figure.deviation())};
+      f.figures.push_back({value, figure.figure.name, unit == "rad/s" ? s.speed_unit.name : unit,
+                           "two deviations of the tolerances", 0, figure.figure.name});
     }
   const Chapter limits = f.chapter("Limits"), figures = f.chapter("Figures"),
                 shares = f.chapter("Which tolerance matters"), biases = f.chapter("Known biases"),

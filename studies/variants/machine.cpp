@@ -60,8 +60,7 @@ OptionsOf<MachineAsked> machine_options() {
 
 MachineQuestion question_of(const Inquiry& inquiry, const MachineAsked& asked) {
   const SweepStudy of = study_named(asked.of);
-  if (asked.delta && of != SweepStudy::size)
-    throw std::invalid_argument(inquiry.dashes ? "--delta: belongs to --of size" : "delta: belongs to of = \"size\"");
+  if (asked.delta && of != SweepStudy::size) throw std::invalid_argument("--delta: belongs to --of size");
   return {.text = inquiry.text,
           .file = inquiry.file,
           .settings = inquiry.settings,
@@ -214,7 +213,7 @@ MachineAnswer answer_of_size(const MachineQuestion& q, const Scene& scene) {
   if (!sizing.complete) return {RowState::failed, sizing.diagnosis, {}};
   MachineAnswer answer;
   for (const KeyFigure& f : findings_of(sizing).figures)
-    if (!f.means.empty() && f.means != "delta_reached") answer.figures.push_back({{f.value, f.error}, f.means, f.unit});
+    if (!f.means.empty() && f.means != "delta_reached") answer.figures.push_back({f, f.means, f.unit});
   return answer;
 }
 
@@ -321,8 +320,7 @@ Evaluator machine_evaluator(MachineQuestion question, const VariedScene& scene,
     row.state = answer.state;
     row.diagnosis = std::move(answer.diagnosis);
     for (const Figure& f : answer.figures)
-      if (const auto found = numbers.find(f.name); found != numbers.end())
-        row.figures.push_back({found->second, f.value, f.error});
+      if (const auto found = numbers.find(f.name); found != numbers.end()) row.figures.push_back({f, found->second});
     std::sort(row.figures.begin(), row.figures.end(),
               [](const RowFigure& a, const RowFigure& b) { return a.figure < b.figure; });
     return true;

@@ -15,10 +15,8 @@ struct SweptFigure {
   std::string name, unit;
 };
 
-struct RowFigure {
+struct RowFigure : Estimate {
   std::size_t figure = 0;  // its index
-  double value = 0;
-  std::optional<double> error = {};
 };
 
 enum class RowState { done, unconfirmed, failed };
@@ -41,10 +39,9 @@ using Evaluator = std::function<bool(SweepRow& row)>;
 // The figure in a row; NaN without an error if the row has none.
 inline Estimate figure_in(const SweepRow& row, std::size_t figure) {
   for (const RowFigure& f : row.figures)
-    if (f.figure == figure) return {f.value, f.error};
+    if (f.figure == figure) return f;
   return {std::numeric_limits<double>::quiet_NaN()};
 }
 inline double value_in(const SweepRow& row, std::size_t figure) { return figure_in(row, figure).value; }
-inline std::optional<double> error_in(const SweepRow& row, std::size_t figure) { return figure_in(row, figure).error; }
 
 }  // namespace kurbel

@@ -13,7 +13,7 @@ struct ForcesAsked : ForcesOptions {
 StudyOutput forces_in_joints(const Inquiry& inquiry, ForcesAsked asked) {
   asked.rigid_behind = true;
   asked.watch = inquiry.watch;
-  if (const std::optional<Paper> paper = asked.sheet.sheet(inquiry))
+  if (const std::optional<Paper> paper = asked.sheet.sheet())
     return output_of(sheet_of(inquiry.scene, asked, *paper, inquiry.author));
   return output_of(find_forces(inquiry.scene, asked));
 }

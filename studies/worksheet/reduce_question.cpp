@@ -13,11 +13,9 @@ struct ReduceAsked : ReduceOptions {
 };
 
 StudyOutput reduced(const Inquiry& inquiry, ReduceAsked asked) {
-  const std::optional<Paper> paper = asked.sheet.sheet(inquiry);
+  const std::optional<Paper> paper = asked.sheet.sheet();
   if (!paper && (asked.request.delta || !asked.request.flywheel.empty()))
-    throw std::invalid_argument(
-        inquiry.dashes ? "--delta and --flywheel are of the sheet's flywheel; add --sheet, or ask kurbel size"
-                       : "delta and flywheel belong to the worksheet's flywheel; use --sheet as well, or kurbel size");
+    throw std::invalid_argument("--delta and --flywheel are of the sheet's flywheel; add --sheet, or ask kurbel size");
   if (!paper) return output_of(reduce(inquiry.scene, asked));
   asked.request.paper = *paper;
   asked.request.author = inquiry.author;

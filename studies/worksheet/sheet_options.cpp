@@ -7,11 +7,9 @@
 
 namespace kurbel {
 
-std::optional<Paper> SheetAsked::sheet(const Inquiry& inquiry) const {
+std::optional<Paper> SheetAsked::sheet() const {
   if (wanted) return paper_named(paper.empty() ? "A4" : paper);
-  if (!paper.empty())
-    throw std::invalid_argument(
-        fmt::format("{0}paper {1}: is that of the sheet; add {0}sheet", inquiry.dashes ? "--" : "", paper));
+  if (!paper.empty()) throw std::invalid_argument(fmt::format("--paper {}: is that of the sheet; add --sheet", paper));
   return {};
 }
 

@@ -14,7 +14,7 @@ struct SheetAsked {
   std::string paper;  // "A4", "A3"; empty: A4
 
   // Throws std::invalid_argument for an unknown paper, and for a paper without a sheet.
-  std::optional<Paper> sheet(const Inquiry& inquiry) const;
+  std::optional<Paper> sheet() const;
 };
 
 const OptionsOf<SheetAsked>& sheet_options();

@@ -46,7 +46,7 @@ class Folder {
 
 TEST(SizeCommand, WritesAReportWithEveryFormulaAndEndsWithZero) {
   const Folder folder;
-  const Said said = kurbel("size " + press + " --delta 0.08 --sheet '240 mm'" + folder.option());
+  const Said said = kurbel("size " + press + " --delta 0.08 --diagram '240 mm'" + folder.option());
   EXPECT_EQ(said.code, 0) << said.text;
   EXPECT_NE(said.text.find("μ_φ"), std::string::npos);
   std::ifstream in(folder / "summary.json");
@@ -85,7 +85,7 @@ TEST(SizeCommand, BadInputEndsWithTwoInWords) {
 
 TEST(SizeCommand, FractionsAndTurnsPerMinuteAreTakenAsReportsPrintThem) {
   const auto sized = [](const std::string& arguments) {
-    const Said said = kurbel("size " + press + " --no-simulation --json --no-files " + arguments);
+    const Said said = kurbel("size " + press + " --no-run --json --no-files " + arguments);
     EXPECT_EQ(said.code, 0) << said.text;
     const auto json = nlohmann::json::parse(said.text);
     return json["flywheel"]["inertia"].get<double>();
@@ -96,8 +96,7 @@ TEST(SizeCommand, FractionsAndTurnsPerMinuteAreTakenAsReportsPrintThem) {
 }
 
 TEST(SizeCommand, CustomaryDeltaAndDiscWithoutSimulation) {
-  const Said said =
-      kurbel("size " + press + " --machine press --form disc --material steel --no-simulation --no-files");
+  const Said said = kurbel("size " + press + " --machine press --form disc --material steel --no-run --no-files");
   EXPECT_EQ(said.code, 0) << said.text;
   EXPECT_NE(said.text.find("0.1 … 0.15"), std::string::npos) << said.text;
   EXPECT_NE(said.text.find("solid disc"), std::string::npos);

@@ -87,7 +87,7 @@ TEST(Facade, TheLaterSettingOfAPathHolds) {
 TEST(Facade, AColumnOutlivesItsRun) {
   TimeSeries torque, time;
   {
-    const kurbel::Run run = kurbel::run(Machine::from_text(two_masses), {.errors = false, .plots = false});
+    const kurbel::Run run = kurbel::run(Machine::from_text(two_masses), {.no_error = true, .page = false});
     torque = run.trajectory()["torque.coupling"], time = run.trajectory().time();
   }
   ASSERT_GT(torque.size(), 900u);
@@ -105,12 +105,13 @@ TEST(Facade, ARecordIsLaidOverRunAndCycle) {
   const Machine machine = Machine::from_text(two_masses);
   const std::string map = "T1=torque.coupling";
   const kurbel::Run run =
-      kurbel::run(machine, {.errors = false, .measured = file, .map = {map}, .shift = "-10 ms", .offset = {"T1=fit"}});
+      kurbel::run(machine, {.no_error = true, .measured = file, .map = {map}, .shift = "-10 ms", .offset = {"T1=fit"}});
   EXPECT_NEAR(run.figures()["measured_offset.torque.coupling"].value, 3, 0.02);
   // What is left: the record's four digits and straight lines between the run's rows.
   EXPECT_LT(run.figures()["residual_rms.torque.coupling"].value, 0.05);
   // What the options lack or the file has wrongly is told before anything runs.
-  EXPECT_NE(message_of([&] { kurbel::run(machine, {.measured = file}); }).find("--map"), std::string::npos);
+  EXPECT_NE(message_of([&] { kurbel::run(machine, {.measured = file}); }).find("channel: map \"T1="),
+            std::string::npos);
   try {
     kurbel::run(machine, {.measured = file, .map = {"T2=torque.coupling"}});
     FAIL() << "was read";
@@ -126,7 +127,7 @@ TEST(Facade, ARunGoesOnFromAState) {
   const Machine machine = Machine::from_text(two_masses);
   Motion motion(machine);
   motion.go_to(0.1);
-  const kurbel::Run run = kurbel::run(machine, {.errors = false, .plots = false, .from_state = motion.state().text()});
+  const kurbel::Run run = kurbel::run(machine, {.no_error = true, .page = false, .from_state = motion.state().text()});
   const TimeSeries time = run.trajectory().time(), torque = run.trajectory()["torque.coupling"];
   EXPECT_EQ(time[0], 0.1);
   EXPECT_NEAR(time[time.size() - 1], 0.3, 1e-12);
@@ -146,7 +147,7 @@ TEST(Facade, FiguresOfAStudyHaveTheirModel) {
   EXPECT_NEAR(peaks.at("elastic"), 2 * 50 * 1.5 / 1.7, 1e-3);
   // Trials are made unless they are not wanted, as by the command.
   const Machine damped = Machine::from_text(two_masses).with({{"effects.elasticity", "false"}});
-  EXPECT_NE(kurbel::run(damped, {.errors = false, .trials = true}).study().text().find("elasticity"),
+  EXPECT_NE(kurbel::run(damped, {.no_error = true, .no_trials = false}).study().text().find("elasticity"),
             std::string::npos);
 }
 
@@ -162,11 +163,38 @@ TEST(Facade, TwoMachinesFigureByFigure) {
   const auto frequency = [](const Machine& m) { return answer(m, "modes").figures["natural_frequency.1"].value; };
   EXPECT_NEAR(frequency(stiff) / frequency(soft), 2, 1e-9);
   EXPECT_NEAR(frequency(soft), std::sqrt(4000 * (1 / 0.2 + 1 / 1.5)) / (2 * std::acos(-1.0)), 1e-6);
+  // The same by its name: a machine and other values of it.
+  EXPECT_EQ(study.json(),
+            kurbel::study("diff", soft, {{"other_set", "coupling.stiffness=16 kN*m/rad"}, {"of", "modes"}}).json());
   EXPECT_NE(message_of([&] { diff(soft, stiff, {{"off", "run"}}); }).find("diff has no option"), std::string::npos);
   EXPECT_NE(message_of([&] {
               modes(soft, {{"effects", "none"}, {"effects", "elasticity"}});
             }).find("effects is given 2 times; give one"),
             std::string::npos);
+}
+
+// Callers have no command line: an option has its name, and only command lines and quotations have dashes.
+TEST(Facade, MessagesNameOptionsAsCallersDo) {
+  const Machine machine = Machine::from_text(two_masses);
+  const auto said = [&](const std::string& name, const Options& options) {
+    return message_of([&] { study(name, machine, options); });
+  };
+  EXPECT_EQ(said("steady", {{"mid_speed", "3 m"}}).substr(0, 16), "mid_speed \"3 m\":");
+  EXPECT_EQ(said("size", {}).find("--"), std::string::npos) << said("size", {});
+  EXPECT_NE(said("size", {}).find("Give delta, e.g. delta 0.05"), std::string::npos) << said("size", {});
+  EXPECT_EQ(said("size", {{"delta", "0.1"}, {"machine", "press"}}), "delta and machine both given; keep one");
+  EXPECT_EQ(said("reduce", {{"to", "--to --here"}}).substr(0, 17), "to \"--to --here\":");
+  EXPECT_EQ(message_of([] { rows_of({{"a=1..2"}, "grid:0"}); }).substr(0, 16), "design \"grid:0\":");
+  EXPECT_EQ(message_of([] { rows_in("nowhere.db"); }),
+            "nowhere.db: no such file; kurbel sweep SCENE … --into nowhere.db makes one");
+  try {
+    machine.with({{"fan.inertia", "1 m"}});
+    FAIL() << "was read";
+  } catch (const BadScene& bad) {
+    ASSERT_EQ(bad.faults().size(), 1u);
+    EXPECT_EQ(bad.faults()[0].file, "set \"fan.inertia=1 m\"");
+    EXPECT_EQ(std::string(bad.what()).find("--set"), std::string::npos) << bad.what();
+  }
 }
 
 TEST(Facade, AMachineIsExportedForOtherTools) {
@@ -198,7 +226,7 @@ TEST(Facade, AThousandLoadsRunsAndFreesLeakNothing) {
   const auto cycle = [] {
     const Machine machine =
         Machine::from_text(two_masses, "two.toml", {{"run.until", "20 ms"}, {"run.samples", "100"}});
-    const kurbel::Run run = kurbel::run(machine, {.errors = false, .plots = false});
+    const kurbel::Run run = kurbel::run(machine, {.no_error = true, .page = false});
     EXPECT_GE(run.trajectory().rows(), 100u);  // and rows at peaks
     EXPECT_FALSE(run.study().json().empty());
     Motion motion(machine);
@@ -264,7 +292,7 @@ TEST(Facade, WhatAStudyDoesNotAskForIsRefusedWithWhatItHas) {
             std::string::npos);
   EXPECT_NE(message_of([&] { study("stedy", machine); }).find("did you mean \"steady\""), std::string::npos);
   EXPECT_NE(message_of([&] {
-              kurbel::run(machine, {.errors = false}).figures()["peak_torque.couplin"];
+              kurbel::run(machine, {.no_error = true}).figures()["peak_torque.couplin"];
             }).find("did you mean \"peak_torque.coupling\""),
             std::string::npos);
   EXPECT_NE(message_of([&] {
@@ -308,6 +336,7 @@ TEST(Facade, AStudyHasTheOptionsOfItsCommand) {
       EXPECT_EQ(command.erase(name), 1u) << study << " --" << name;
     }
     const std::vector<std::string> there = option_names(study);
+    if (study == "diff") command.insert("other");  // by its place
     EXPECT_EQ(std::set<std::string>(there.begin(), there.end()), command) << study;
   }
 }

@@ -42,7 +42,7 @@ class Cluster(unittest.TestCase):
             from distributed import Client, LocalCluster
         except ImportError:
             self.skipTest("no distributed (python3-distributed)")
-        asked = dict(design="grid:60", figures=["peak_torque.main_coupling", "delta"], errors=False, until=0.2)
+        asked = dict(design="grid:60", figures=["peak_torque.main_coupling", "delta"], no_error=True, until=0.2)
         vary = ["main_coupling.stiffness=500..1500 kN*m/rad"]
         with tempfile.TemporaryDirectory() as folder, \
              LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,

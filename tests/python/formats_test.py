@@ -61,7 +61,7 @@ def is_number(text):
 class Formats(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.run_of_press = kurbel.run(PRESS, until=1.0, errors=False)
+        cls.run_of_press = kurbel.run(PRESS, until=1.0, no_error=True)
         cls.folder = tempfile.TemporaryDirectory()
         cls.place = os.path.join(cls.folder.name, "out")
         cls.run_of_press.write(cls.place, formats="csv,mat,xlsx")
@@ -111,7 +111,7 @@ class Formats(unittest.TestCase):
 
     def test_every_studys_tables_are_the_same_in_each_format(self):
         asked = {"compare": dict(no_error=True, no_trials=True, until="0.3 s"), "modes": dict(spot_checks=0, count=3),
-                 "forces": dict(no_run=True), "reduce": {}, "size": dict(delta=0.05, no_simulation=True),
+                 "forces": dict(no_run=True), "reduce": {}, "size": dict(delta=0.05, no_run=True),
                  "steady": dict(no_start=True)}
         for name, options in asked.items():
             place = os.path.join(self.folder.name, name)

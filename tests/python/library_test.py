@@ -41,22 +41,22 @@ class Runs(unittest.TestCase):
         self.assertLess(numpy.abs(run.trajectory["torque.coupling"] - expected).max(), 1e-4 * STEP)
 
     def test_settings_are_those_of_the_command(self):
-        run = kurbel.run(TWO_MASSES, set={"motor.torque": "25 N*m"}, errors=False)
+        run = kurbel.run(TWO_MASSES, set={"motor.torque": "25 N*m"}, no_error=True)
         self.assertAlmostEqual(run.figures["peak_torque.coupling"].value, STEP / 2, delta=1e-4 * STEP)
         self.assertIsNone(run.figures["peak_torque.coupling"].error)
 
     def test_text_dict_and_file_are_one_machine(self):
         text = kurbel.machine(TWO_MASSES).text
-        figures = kurbel.run(TWO_MASSES, errors=False).figures["peak_torque.coupling"]
-        self.assertEqual(kurbel.run(text, errors=False).figures["peak_torque.coupling"].value, figures.value)
+        figures = kurbel.run(TWO_MASSES, no_error=True).figures["peak_torque.coupling"]
+        self.assertEqual(kurbel.run(text, no_error=True).figures["peak_torque.coupling"].value, figures.value)
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "two.toml")
             with open(file, "w") as out:
                 out.write(text)
-            self.assertEqual(kurbel.run(file, errors=False).figures["peak_torque.coupling"].value, figures.value)
+            self.assertEqual(kurbel.run(file, no_error=True).figures["peak_torque.coupling"].value, figures.value)
 
     def test_effects_are_names_by_commas_or_a_list(self):
-        peaks = [kurbel.run(TWO_MASSES, effects=effects, errors=False).figures["peak_torque.coupling"].value
+        peaks = [kurbel.run(TWO_MASSES, effects=effects, no_error=True).figures["peak_torque.coupling"].value
                  for effects in ("elasticity:coupling", ["elasticity:coupling"], "none", ["none"])]
         self.assertEqual(peaks[0], peaks[1])
         self.assertEqual(peaks[2], peaks[3])
@@ -66,7 +66,7 @@ class Runs(unittest.TestCase):
         self.assertEqual(modes[0], modes[1])
 
     def test_what_is_handed_out_says_what_it_is(self):
-        run = kurbel.run(TWO_MASSES, errors=False)
+        run = kurbel.run(TWO_MASSES, no_error=True)
         motion = kurbel.motion(TWO_MASSES)
         for thing, said in ((run.figures["peak_torque.coupling"], r"<Figure peak_torque.coupling = 88\.23\d+ N\*m>"),
                             (kurbel.machine(TWO_MASSES), "<Machine dict: rotor, coupling, fan, motor>"),
@@ -75,7 +75,7 @@ class Runs(unittest.TestCase):
             self.assertRegex(repr(thing), said)
 
     def test_the_page_and_the_summary_are_whole(self):
-        run = kurbel.run(TWO_MASSES, errors=False)
+        run = kurbel.run(TWO_MASSES, no_error=True)
         self.assertIn("</html>", run.html)
         self.assertEqual(run.summary["conclusion"], run.conclusion)
         self.assertIn("srcdoc=", run._repr_html_())
@@ -84,19 +84,19 @@ class Runs(unittest.TestCase):
 
 class Memory(unittest.TestCase):
     def test_columns_share_the_runs_memory_and_outlive_it(self):
-        run = kurbel.run(TWO_MASSES, errors=False)
+        run = kurbel.run(TWO_MASSES, no_error=True)
         torque, again = run.trajectory["torque.coupling"], run.trajectory["torque.coupling"]
         self.assertTrue(numpy.shares_memory(torque, again))
         self.assertFalse(torque.flags.writeable)
         before = torque.copy()
         del run, again
         gc.collect()
-        other = [kurbel.run(TWO_MASSES, errors=False) for _ in range(3)]
+        other = [kurbel.run(TWO_MASSES, no_error=True) for _ in range(3)]
         self.assertTrue((torque == before).all())
         del other
 
     def test_csv_and_numpy_are_the_same_numbers(self):
-        run = kurbel.run(TWO_MASSES, errors=False)
+        run = kurbel.run(TWO_MASSES, no_error=True)
         rows = run.tables["trajectory.csv"].splitlines()
         column = [name.split(" ")[0] for name in rows[0].split(",")].index("torque.coupling")
         csv = {row.split(",")[0]: float(row.split(",")[column]) for row in rows[1:]}  # rows of peaks among them
@@ -112,7 +112,7 @@ class Memory(unittest.TestCase):
             import pandas  # noqa: F401
         except ImportError:
             self.skipTest("no pandas")
-        run = kurbel.run(TWO_MASSES, errors=False)
+        run = kurbel.run(TWO_MASSES, no_error=True)
         frame = run.trajectory.to_pandas()
         self.assertEqual(frame.attrs["units"]["torque.coupling"], "N*m")
         self.assertTrue(numpy.shares_memory(frame["torque.coupling"].to_numpy(), run.trajectory["torque.coupling"]))
@@ -124,10 +124,10 @@ class Memory(unittest.TestCase):
                 return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
         scene = dict(TWO_MASSES, run={"until": "0.02 s", "samples": 100})
         for _ in range(200):
-            kurbel.run(scene, errors=False, plots=False).trajectory["torque.coupling"]
+            kurbel.run(scene, no_error=True, page=False).trajectory["torque.coupling"]
         before = resident()
         for _ in range(1000):
-            kurbel.run(scene, errors=False, plots=False).trajectory["torque.coupling"]
+            kurbel.run(scene, no_error=True, page=False).trajectory["torque.coupling"]
         self.assertLess(resident() - before, 2)  # MB
 
 
@@ -142,7 +142,7 @@ class Faults(unittest.TestCase):
         self.assertIn("inertia", text)
 
     def test_names_that_are_none_are_refused_with_those_that_are(self):
-        run = kurbel.run(TWO_MASSES, errors=False)
+        run = kurbel.run(TWO_MASSES, no_error=True)
         with self.assertRaisesRegex(KeyError, "torque.coupling"):
             run.trajectory["torque.couplin"]
         with self.assertRaisesRegex(KeyError, "peak_torque.coupling"):
@@ -166,7 +166,7 @@ class Faults(unittest.TestCase):
             kurbel.machine(SCENES)
 
     def test_a_run_that_breaks_off_says_why_and_raises_nothing(self):
-        run = kurbel.run(PRESS, set={"run.budget": "10 ms"}, until=1e4, errors=False)
+        run = kurbel.run(PRESS, set={"run.budget": "10 ms"}, until=1e4, no_error=True)
         self.assertFalse(run.complete)
         self.assertIn("budget", run.diagnosis)
 
@@ -274,14 +274,14 @@ class Studies(unittest.TestCase):
             self.assertTrue(os.path.exists(os.path.join(folder, "out", "sheet.html")))
 
     def test_a_record_is_laid_over_run_and_cycle(self):
-        run = kurbel.run(PRESS, until=1.0, errors=False, plots=False)
+        run = kurbel.run(PRESS, until=1.0, no_error=True, page=False)
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "test.csv")
             with open(file, "w") as out:
                 out.write("time [s],T1 [kN*m]\n")
                 for t, torque in zip(run.trajectory.time, run.trajectory["torque.main_coupling"]):
                     out.write(f"{float(t)!r},{torque / 1000 + 0.5!r}\n")
-            over = kurbel.run(PRESS, until=1.0, errors=False, measured=file, map={"T1": "torque.main_coupling"},
+            over = kurbel.run(PRESS, until=1.0, no_error=True, measured=file, map={"T1": "torque.main_coupling"},
                               offset="fit")
             self.assertAlmostEqual(over.figures["measured_offset.torque.main_coupling"].value, 500, delta=1e-6)
             self.assertLess(over.figures["residual_rms.torque.main_coupling"].value, 1e-6)
@@ -295,7 +295,7 @@ class Motions(unittest.TestCase):
     def test_a_run_goes_on_from_a_state(self):
         motion = kurbel.motion(TWO_MASSES)
         motion.go_to(0.1)
-        run = kurbel.run(TWO_MASSES, state=motion.state, errors=False, plots=False)
+        run = kurbel.run(TWO_MASSES, from_state=motion.state, no_error=True, page=False)
         self.assertEqual(run.trajectory.time[0], 0.1)
         w = math.sqrt(4000 * (1 / 0.2 + 1 / 1.5))
         expected = STEP / 2 * (1 - numpy.cos(w * run.trajectory.time))
@@ -329,17 +329,17 @@ class Sweeps(unittest.TestCase):
 
     def test_here_and_in_processes_the_rows_are_the_same(self):
         from concurrent.futures import ProcessPoolExecutor
-        here = kurbel.sweep(TWO_MASSES, self.vary, design="grid:3x2", figures=["peak_torque"], errors=False)
+        here = kurbel.sweep(TWO_MASSES, self.vary, design="grid:3x2", figures=["peak_torque"], no_error=True)
         self.check(here)
         with ProcessPoolExecutor(2) as pool:
-            there = kurbel.sweep(TWO_MASSES, self.vary, design="grid:3x2", figures=["peak_torque"], errors=False,
+            there = kurbel.sweep(TWO_MASSES, self.vary, design="grid:3x2", figures=["peak_torque"], no_error=True,
                                  executor=pool)
         self.assertEqual(here.figures, there.figures)
 
     def test_whatever_maps_or_submits_computes_the_same_rows(self):
         from concurrent.futures import ThreadPoolExecutor
         from multiprocessing.pool import ThreadPool
-        asked = dict(design="grid:3x2", figures="peak_torque", errors=False)
+        asked = dict(design="grid:3x2", figures="peak_torque", no_error=True)
         here = kurbel.sweep(TWO_MASSES, self.vary, **asked)
         with ThreadPoolExecutor(2) as threads, ThreadPool(2) as pool:
             for executor in (threads, pool):
@@ -359,7 +359,7 @@ class Sweeps(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "another sweep|differs"):
                 kurbel.sweep(TWO_MASSES, self.vary, design="grid:2x2", figures=["peak_torque"], into=file)
             with self.assertRaisesRegex(TypeError, "errors"):
-                kurbel.sweep(TWO_MASSES, self.vary, into=file, errors=False)
+                kurbel.sweep(TWO_MASSES, self.vary, into=file, no_error=True)
 
     def test_rows_of_other_questions(self):
         rows = kurbel.sweep(TWO_MASSES, self.vary[:1], design="grid:3", of="modes", figures="natural_frequency")

@@ -102,7 +102,7 @@ def holds(value, hint):
 
 
 def samples():
-    run = kurbel.run(PRESS, errors=False, plots=False, until=1.0)
+    run = kurbel.run(PRESS, no_error=True, page=False, until=1.0)
     motion = kurbel.motion(PRESS)
     try:
         kurbel.machine("title = 3\n")
@@ -110,7 +110,7 @@ def samples():
         fault = error
     return [run, run.trajectory, run.events[0], run.figures["peak_torque.main_coupling"], motion, motion.state, fault,
             kurbel.machine(PRESS), kurbel.modes(PRESS),
-            kurbel.sweep(PRESS, "main_coupling.stiffness=900 kN*m/rad", design="grid:1", errors=False, until=0.1)]
+            kurbel.sweep(PRESS, "main_coupling.stiffness=900 kN*m/rad", design="grid:1", no_error=True, until=0.1)]
 
 
 class Stub(unittest.TestCase):

@@ -38,7 +38,7 @@ class Threads(unittest.TestCase):
         worker.start()
         try:
             with self.assertRaises(KeyboardInterrupt):
-                run = kurbel.run(PRESS, set=ENDLESS, until=1e5, errors=False, plots=False)
+                run = kurbel.run(PRESS, set=ENDLESS, until=1e5, no_error=True, page=False)
                 over.set()
                 self.fail(f"nobody interrupted it: {run.diagnosis}")
         finally:
@@ -56,9 +56,9 @@ class Threads(unittest.TestCase):
         self.assertEqual(self.ends_a_run(count), 1_000_000)
 
     def test_two_runs_overlap(self):
-        beside = self.ends_a_run(lambda: kurbel.run(PRESS, until=0.5, errors=False, plots=False))
+        beside = self.ends_a_run(lambda: kurbel.run(PRESS, until=0.5, no_error=True, page=False))
         self.assertTrue(beside.complete)
-        alone = kurbel.run(PRESS, until=0.5, errors=False, plots=False)
+        alone = kurbel.run(PRESS, until=0.5, no_error=True, page=False)
         for name, figure in alone.figures.items():
             self.assertEqual(beside.figures[name].value, figure.value, name)
 
@@ -82,7 +82,7 @@ class CtrlC(unittest.TestCase):
 
     def test_ends_a_run(self):
         self.assertEqual(self.ended("threading.Thread(target=watch).start()\n"
-                                    "try:\n  print(kurbel.run(press, until=1e5, errors=False).diagnosis)\n"
+                                    "try:\n  print(kurbel.run(press, until=1e5, no_error=True).diagnosis)\n"
                                     "except KeyboardInterrupt:\n  print('ended')\n"), "ended\n")
 
     def test_ends_a_motion_where_it_stood(self):

@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Accuracy, ErrorFalls, testing::ValuesIn(example_scenes(
 // tests/cases/reference.toml, R1 and E1: twelve digits by other means.
 TEST(Accuracy, ReferencesAgreeWithPublishedDigitsAndStateAnHonestAgreement) {
   AccuracyOptions options = coarse();
-  options.figure = "final_angle.crank";
+  options.figures = {"final_angle.crank"};
   const AccuracyStudy crank = measure_accuracy(test::scene_file("scenes/free_slider_crank.toml"), options);
   const double turned = 294.719373652657;
   EXPECT_NEAR(crank.levels[0].value[0], turned, 1e-11 * turned);
@@ -93,7 +93,7 @@ TEST(Accuracy, ReferencesAgreeWithPublishedDigitsAndStateAnHonestAgreement) {
     }
   EXPECT_TRUE(seen);
 
-  options.figure = "peak_spring_torque.c1";
+  options.figures = {"peak_spring_torque.c1"};
   const AccuracyStudy chain = measure_accuracy(test::scene_file("scenes/six_inertia_chain.toml"), options);
   EXPECT_NEAR(std::abs(chain.levels[chain.fullest].value[0]), 290.808843395416, 1e-10 * 290.8);
 }
@@ -217,7 +217,7 @@ run = { until = "1 s" }
   }));
   EXPECT_THROW(
       {
-        options.figure = "peak_torque.nothing";
+        options.figures = {"peak_torque.nothing"};
         measure_accuracy(scene, options);
       },
       std::invalid_argument);

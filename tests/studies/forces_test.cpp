@@ -284,9 +284,6 @@ TEST(ForcesStudy, PressCarriesItsNominalForceThroughTheSliderPin) {
 
 TEST(ForcesStudy, SenselessRequestsAreRefused) {
   ForcesOptions options;
-  options.positions = 3;
-  EXPECT_THROW(forces_of(slider_alone, options), std::invalid_argument);
-  options.positions = 12;
   options.mechanism = "pump";
   EXPECT_THROW(forces_of(slider_alone, options), std::invalid_argument);
   EXPECT_THROW(forces_of("line = [\"wheel\"]\n[wheel]\nkind = \"flywheel\"\ninertia = \"1 kg*m2\"\n"),

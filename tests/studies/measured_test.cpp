@@ -108,10 +108,10 @@ TEST_F(Measured, ShiftOffsetAndNoiseAreFoundAgain) {
   const Overlay o = lay_over(m, r);
   const Alignment& a = o.models.at(0).alignment;
   const double shift_sigma = 0.05 / std::sqrt(slopes), offset_sigma = 0.05 / std::sqrt(n);
-  EXPECT_NEAR(a.shift, -0.0375, 3 * shift_sigma);
-  EXPECT_NEAR(*a.shift_error, 2 * shift_sigma, 0.2 * shift_sigma);
-  EXPECT_NEAR(a.signals[0].offset, 2, 3 * offset_sigma);
-  EXPECT_NEAR(*a.signals[0].offset_error, 2 * offset_sigma, 0.2 * offset_sigma);
+  EXPECT_NEAR(a.shift.value, -0.0375, 3 * shift_sigma);
+  EXPECT_NEAR(*a.shift.error, 2 * shift_sigma, 0.2 * shift_sigma);
+  EXPECT_NEAR(a.signals[0].offset.value, 2, 3 * offset_sigma);
+  EXPECT_NEAR(*a.signals[0].offset.error, 2 * offset_sigma, 0.2 * offset_sigma);
   EXPECT_NEAR(a.signals[0].rms, 0.05, 0.05 * 4 / std::sqrt(2 * n));
   EXPECT_NEAR(a.signals[0].mean, 0, 1e-12);
   EXPECT_LT(shift_sigma, 1e-4) << "or the test proves nothing";
@@ -120,7 +120,7 @@ TEST_F(Measured, ShiftOffsetAndNoiseAreFoundAgain) {
   const Overlay given = lay_over(
       read_measurement({file(text), {"T1=torque.shaft"}, "-37.5 ms", {"T1=2 N*m"}}, channels_of_run(*r.model)), r);
   EXPECT_NEAR(given.models.at(0).alignment.signals[0].rms, a.signals[0].rms, 1e-3);
-  EXPECT_FALSE(given.models[0].alignment.shift_error);
+  EXPECT_FALSE(given.models[0].alignment.shift.error);
   // And neither: the offset stays, as mean and in the largest residual.
   const Overlay none =
       lay_over(read_measurement({file(text), {"T1=torque.shaft"}, "-37.5 ms", {}}, channels_of_run(*r.model)), r);
@@ -139,13 +139,13 @@ TEST(Alignment, OfWhatRepeatsTheSmallestShiftIsTaken) {
   }
   const auto a = align(m, {Signal(t, s)});
   ASSERT_TRUE(a);
-  EXPECT_NEAR(a->shift, 0.2, 1e-6);
+  EXPECT_NEAR(a->shift.value, 0.2, 1e-6);
   EXPECT_LT(a->signals[0].rms, 1e-5);
   // Over one period, repeated: the same shift, the record as long as it is, all of it compared.
   const std::vector<double> one(t.begin(), t.begin() + 1001), cycle(s.begin(), s.begin() + 1001);
   const auto folded = align(m, {Signal(one, cycle, 1.0)});
   ASSERT_TRUE(folded);
-  EXPECT_NEAR(folded->shift, 0.2, 1e-6);
+  EXPECT_NEAR(folded->shift.value, 0.2, 1e-6);
   EXPECT_EQ(folded->signals[0].time.size(), 2000u);
   // Without a shift: r = sin(x + φ) − sin x, rms √2 |sin(φ/2)|… of a difference of two sines, 2 sin(φ/2) cos(…).
   m.shift = {};
@@ -180,7 +180,7 @@ TEST_F(Measured, ASteadyCycleTakesTheTimeModuloItsPeriod) {
       read_measurement({file(text), {"T=torque.main_coupling"}, "fit", {}}, channels_of_cycle(*c.model));
   const Overlay o = lay_over(m, study);
   ASSERT_EQ(o.models.size(), 1u);
-  EXPECT_NEAR(o.models[0].alignment.shift, -0.2 * period, 1e-5 * period);
+  EXPECT_NEAR(o.models[0].alignment.shift.value, -0.2 * period, 1e-5 * period);
   EXPECT_LT(*o.models[0].alignment.signals[0].relative, 1e-5);
   EXPECT_EQ(o.models[0].alignment.signals[0].time.size(), 900u);
   EXPECT_TRUE(study.cycles.front().find("residual_rms.torque.main_coupling"));

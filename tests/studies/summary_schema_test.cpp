@@ -179,7 +179,7 @@ TEST(SummarySchema, HoldsForSweepsAndTolerances) {
   for (std::size_t i = 0; i < 20; ++i)
     rows.push_back({.row = i,
                     .parameters = {1.0 + 0.05 * static_cast<double>(i)},
-                    .figures = {{0, 3.0 * static_cast<double>(i)}}});
+                    .figures = {{{3.0 * static_cast<double>(i)}, 0}}});
   rows[3].state = RowState::failed, rows[3].diagnosis = "it stops";
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("kurbel_schema_" + std::to_string(getpid()) + ".db");

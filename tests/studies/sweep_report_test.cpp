@@ -23,7 +23,7 @@ SweepStudyResult study_of_a_cube(const std::vector<std::string>& limits) {
   std::vector<SweepRow> rows;
   for (std::size_t i = 0; i < 8; ++i) {
     const auto a = static_cast<double>(i / 4), b = static_cast<double>(i / 2 % 2), c = static_cast<double>(i % 2);
-    rows.push_back({.row = i, .parameters = {a, b, c}, .figures = {{0, 10 * a + 4 * b + c, 2.0}}});
+    rows.push_back({.row = i, .parameters = {a, b, c}, .figures = {{{10 * a + 4 * b + c, 2.0}, 0}}});
   }
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("kurbel_cube_" + std::to_string(getpid()) + ".db");
@@ -84,7 +84,7 @@ TEST(SweepIndices, OfACompleteTableAreThoseOfItsSums) {
   std::vector<SweepRow> rows;
   for (std::size_t i = 0; i < 12; ++i) {
     const double a = static_cast<double>(i % 4), b = std::vector{1.0, 3.0, 8.0}[i / 4];
-    rows.push_back({.row = i, .parameters = {a, b}, .figures = {{0, 7 * a + a * b, 0.0}}});
+    rows.push_back({.row = i, .parameters = {a, b}, .figures = {{{7 * a + a * b, 0.0}, 0}}});
   }
   const FigureInfluence found = influence_on(0, identity, rows, false);
   ASSERT_EQ(found.ranked.size(), 2u);

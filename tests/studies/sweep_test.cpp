@@ -149,7 +149,7 @@ SweepStudyResult swept(const Design& design, const File& file,
   SweepStore store(file.path(), identity_of(design, {{"y", ""}}));
   const SweepJob job{.design = &design, .jobs = jobs, .evaluator = [&] {
                        return [&](SweepRow& row) {
-                         row.figures = {{0, f(row.parameters)}};
+                         row.figures = {{{f(row.parameters)}, 0}};
                          return true;
                        };
                      }};
@@ -232,7 +232,7 @@ TEST(SweepPictures, FiguresThatMoveTogetherAreDrawnOnce) {
   const SweepJob job{.design = &design, .jobs = 1, .evaluator = [&] {
                        return [&](SweepRow& row) {
                          const double y = 3 * row.parameters[0] + row.parameters[1];
-                         row.figures = {{0, y}, {1, y * 1.001}, {2, 2 * y}};
+                         row.figures = {{{y}, 0}, {{y * 1.001}, 1}, {{2 * y}, 2}};
                          return true;
                        };
                      }};
@@ -399,7 +399,7 @@ TEST(SweepMachine, FiguresAndLimitsAreChecked) {
   EXPECT_NEAR(limit.value, 2 * std::numbers::pi, 1e-12);
   EXPECT_THROW(parse_limit("max_speed.rotor <= 60 N*m", known), std::invalid_argument);
   EXPECT_THROW(parse_limit("max_speed.rotor", known), std::invalid_argument);
-  SweepRow row{.figures = {{limit.figure, limit.value + 0.01, 0.02}}};
+  SweepRow row{.figures = {{{limit.value + 0.01, 0.02}, limit.figure}}};
   EXPECT_EQ(side_of(limit, row), Side::undecided);
   row.figures[0].error = 0.001;
   EXPECT_EQ(side_of(limit, row), Side::beyond);
