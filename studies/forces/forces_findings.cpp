@@ -422,7 +422,7 @@ Findings findings_of(const Forces& f) {
   say_shaking(to, shaking, f);
   say_links(to, links, front);
   to.tell("links", links_list(front));
-  to.note(notes, f.notes);
+  for (const auto* lines : {&f.about, &f.notes}) to.note(notes, *lines);
   to.show_scene(f.scene_file, f.scene_text);
   return to;
 }

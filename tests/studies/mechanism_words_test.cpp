@@ -37,7 +37,7 @@ std::string swing(double angle) { return fmt::format("swing {:.6g}°", angle * 1
 
 void expect_words(const std::string& mechanism, const std::vector<std::string>& words) {
   const Scene scene = scene_of(mechanism);
-  std::vector<std::string> said[] = {reduce(scene, {}).notes, find_forces(scene, {}).notes};
+  std::vector<std::string> said[] = {reduce(scene, {}).notes, find_forces(scene, {}).about};
   for (const std::vector<std::string>& notes : said) {
     std::vector<std::string> of_it;
     for (const std::string& note : notes)
