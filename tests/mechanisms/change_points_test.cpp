@@ -156,9 +156,9 @@ TEST(WholeTurns, OfAnOutputThatGoesRoundAreInItsPosition) {
     return test::run(test::scene_from(
         fmt::format("line = [\"wheel\", \"bars\"]\nwheel = {{ kind = \"flywheel\", inertia = \"5 kg*m2\" }}\n[bars]\n"
                     "kind = \"four-bar\"\ncrank = \"{} m\"\ncoupler = \"{} m\"\nrocker = \"{} m\"\nground = \"{} m\"\n"
-                    "rocker_inertia = \"0.1 kg*m2\"\ncrossed = {}\nphase = \"20 deg\"\n[run]\n"
+                    "rocker_inertia = \"0.1 kg*m2\"\nbranch = \"{}\"\nphase = \"20 deg\"\n[run]\n"
                     "start = {{ speed = \"{} rpm\" }}\nuntil = \"10.4 s\"\n",
-                    d.crank, d.coupler, d.rocker, d.ground, d.crossed, speed)));
+                    d.crank, d.coupler, d.rocker, d.ground, d.crossed ? "crossed" : "open", speed)));
   };
   for (const double speed : {60.0, -60.0}) {
     const Result run = bars(four_bar(0.1, 0.3, 0.1, 0.3), speed);

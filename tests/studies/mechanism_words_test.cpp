@@ -20,7 +20,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Scene scene_of(const std::string& mechanism) {
-  return test::scene_from("line = [\"m\"]\n[m]\n" + mechanism + "\n[run]\nstart = { speed = \"60 rpm\" }\n");
+  return test::scene_from("line = [\"m\"]\n[m]\ncrank_inertia = \"0.5 kg*m2\"\n" + mechanism +
+                          "\n[run]\nstart = { speed = \"60 rpm\" }\n");
 }
 
 // With these dead centres.
@@ -97,7 +98,7 @@ TEST(MechanismWords, OfAShaper) {
       "kind = \"quick-return\"\nradius = \"100 mm\"\npivot_distance = \"200 mm\"\nlever = \"400 mm\"\n"
       "link = \"300 mm\"\nguide_height = \"400 mm\"\nram_mass = \"60 kg\"",
       3,
-      {"m: linkage of class II: crank drives RPR (block, lever), RRP (link, ram); degrees of freedom 3·5 − 2·7 = 1",
+      {"m: linkage of class II: crank drives RPR (lever, block), RRP (link, ram); degrees of freedom 3·5 − 2·7 = 1",
        travel(stroke(2 * lever * r / d), -gamma, pi + gamma)});
 }
 
@@ -129,7 +130,7 @@ TEST(MechanismWords, OfEqualStrokesAndOfChangePoints) {
   expect_words(
       "kind = \"four-bar\"\ncrank = \"100 mm\"\ncoupler = \"300 mm\"\nrocker = \"100 mm\"\nground = \"300 mm\"\n"
       "rocker_inertia = \"0.05 kg*m2\"",
-      1, {"m: its output makes 1 times as many turns as it"});
+      1, {"m: its output makes 1 times as many turns as its driving link"});
 }
 
 }  // namespace
