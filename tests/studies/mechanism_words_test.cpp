@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -40,7 +41,8 @@ std::string swing(double angle) { return fmt::format("swing {:.6g}°", angle * 1
 // That both commands say these, of so many in all.
 void expect_words(const std::string& mechanism, std::ptrdiff_t count, const std::vector<std::string>& words) {
   const Scene scene = scene_of(mechanism);
-  for (const std::vector<std::string>& said : {reduce(scene, {}).notes, find_forces(scene, {}).about}) {
+  for (const std::string& json : {output_of(reduce(scene, {})).json(), output_of(find_forces(scene, {})).json()}) {
+    const auto said = nlohmann::json::parse(json).at("notes").get<std::vector<std::string>>();
     EXPECT_EQ(std::count_if(said.begin(), said.end(), [](const std::string& s) { return s.starts_with("m: "); }),
               count);
     for (const std::string& line : words)
