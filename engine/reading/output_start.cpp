@@ -54,9 +54,10 @@ class Output {
 
  private:
   double told(const Channel& channel, double phi) const {
-    const std::vector<double> angle(model_->angles.size(), phi), speed(model_->shafts.size(), 1.0);
+    const std::vector<double> angle(model_->angles.size(), phi), node_angle(model_->network.nodes.size(), phi),
+        speed(model_->shafts.size(), 1.0);
     Snapshot s{};
-    s.now.angle = angle.data(), s.now.speed = speed.data();
+    s.now.angle = angle.data(), s.now.speed = speed.data(), s.node_angle = node_angle.data();
     return channel.value(s);
   }
   std::shared_ptr<const Model> model_;

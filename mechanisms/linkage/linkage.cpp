@@ -203,12 +203,6 @@ std::string locks_of(const LinkageData& data) { return data.linkage->locks_in_wo
 int turns_of(const LinkageData& data) { return data.linkage->turns(); }
 double drawn_at(const LinkageData& data) { return static_cast<double>(data.linkage->drawn_at()); }
 
-std::vector<std::string> words_about(const LinkageData& data) {
-  std::vector<std::string> words = {data.linkage->structure_in_words()};
-  for (std::string& angle : data.linkage->transmission_in_words()) words.push_back(std::move(angle));
-  return words;
-}
-
 std::string undetermined_reactions(const LinkageData& data) {
   for (const AssurGroup& group : data.linkage->structure().groups)
     if (group.superfluous > 0)

@@ -111,7 +111,6 @@ std::optional<CrankArc> arc_of(const LinkageData& data);
 std::string locks_of(const LinkageData& data);
 int turns_of(const LinkageData& data);
 double drawn_at(const LinkageData& data);  // φ of the sketch [rad]
-std::vector<std::string> words_about(const LinkageData& data);
 // The reason why reactions are undetermined; empty: they are determined.
 std::string undetermined_reactions(const LinkageData& data);
 

@@ -13,7 +13,6 @@
 //     std::string locks_of(const D&);                           what happens at their ends, in words
 //     int turns_of(const D&);                                   of the crank until the links come back without change points
 //     double drawn_at(const D&);                                φ of a position in which its lengths are exact
-//     std::vector<std::string> words_about(const D&);           its structure, its transmission angles
 //     std::string undetermined_reactions(const D&);             why reactions are undetermined; empty: they are not
 // and, if its joints are unknown or its output is not on one of its bodies, instead of the general Simbody model
 //     std::unique_ptr<MechanismBodies> own_bodies(const D&);
@@ -62,7 +61,6 @@ class MechanismData {
     if constexpr (requires { locks_of(*d); }) held.locks = locks_of(*d);
     if constexpr (requires { turns_of(*d); }) held.turns = turns_of(*d);
     if constexpr (requires { drawn_at(*d); }) held.drawn_at = drawn_at(*d);
-    if constexpr (requires { words_about(*d); }) held.about = words_about(*d);
     if constexpr (requires { undetermined_reactions(*d); }) held.undetermined = undetermined_reactions(*d);
     held_ = std::make_shared<const Held>(std::move(held));
   }
@@ -84,7 +82,6 @@ class MechanismData {
   double gravity() const { return held_->gravity; }
   const std::optional<CrankArc>& arc() const { return held_->arc; }  // empty: the crank turns
   const std::string& locks() const { return held_->locks; }          // empty: the text of the named mechanisms
-  const std::vector<std::string>& about() const { return held_->about; }
   const std::string& undetermined() const { return held_->undetermined; }
 
   bool joints_are_known() const { return !held_->own_bodies; }
@@ -108,7 +105,6 @@ class MechanismData {
     std::string locks, undetermined;
     int turns = 1;
     std::optional<double> drawn_at;
-    std::vector<std::string> about;
   };
 
   std::shared_ptr<const void> data_;

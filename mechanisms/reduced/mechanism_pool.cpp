@@ -322,7 +322,11 @@ void MechanismPool::add_channels(std::vector<Channel>& channels) const {
       channels.push_back({Name::make(quantity, m.name), rocks ? rocking : sliding, std::move(value)});
     };
     if (const auto* t = m.data.as<LinkageTravelData>(); !t || t->travel.of != LinkageTravel::Of::path)
-      put(quantities::position, "m", "rad", [here](const Snapshot& s) { return here(s).output_position().value; });
+      put(quantities::position, "m", "rad", [this, i, here](const Snapshot& s) {
+        const Placed& p = placed_[i];
+        const double turns = s.node_angle[p.mechanism.node] - s.now.angle[p.at.angle];  // [rad]
+        return here(s).output_position().value + p.mechanism.travel.winding * turns;
+      });
     put(quantities::velocity, "m/s", "rad/s",
         [=](const Snapshot& s) { return here(s).output_position().slope * omega(s); });
     put(quantities::acceleration, "m/s2", "rad/s2", [=](const Snapshot& s) {

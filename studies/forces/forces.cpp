@@ -128,7 +128,7 @@ class Study {
     if (const std::string why = data_.undetermined(); !why.empty())
       throw std::invalid_argument(fmt::format("{}: {}; ask run, steady or reduce", asked.name, why));
     for (const std::string& line : mechanism_words(machine_.model()))
-      if (line.starts_with(asked.name + ": ")) out_.notes.push_back(line);
+      if (line.starts_with(asked.name + ": ")) out_.about.push_back(line);
     statics_.emplace(data_, out_.joints, out_.friction, !effects_.gravity);
     loads_.add_edges(statics_->turnings());
     solve_first();

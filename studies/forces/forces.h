@@ -189,6 +189,7 @@ struct Forces {
   std::optional<Balancing> balancing;  // of a slider-crank, at the speed of the first problem
   UnboundedReactions unbounded;
   std::vector<std::string> outside_data;  // extrapolation of tables; it has no error
+  std::vector<std::string> about;         // its structure, its output's travel
   std::vector<std::string> notes;
   bool complete = true;
   std::string diagnosis;

@@ -422,7 +422,9 @@ Findings findings_of(const Forces& f) {
   say_shaking(to, shaking, f);
   say_links(to, links, front);
   to.tell("links", links_list(front));
-  to.note(notes, f.notes);
+  std::vector<std::string> remarks = f.about;
+  remarks.insert(remarks.end(), f.notes.begin(), f.notes.end());
+  to.note(notes, remarks);
   to.show_scene(f.scene_file, f.scene_text);
   return to;
 }

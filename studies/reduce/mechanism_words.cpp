@@ -1,4 +1,5 @@
-// mechanism_words.cpp — figures of the output's travel over the driving link's angle.
+// mechanism_words.cpp — structure, transmission angles and the output's travel over the crank's angle, for every kind of
+// mechanism from its bodies and joints.
 #include "studies/reduce/mechanism_words.h"
 
 #include <fmt/format.h>
@@ -13,10 +14,9 @@
 namespace kurbel {
 namespace {
 
-// For a rotating driving link and an output that reverses twice in a cycle.
-std::string time_ratio(const Mechanism& m) {
-  const std::vector<double>& ends = m.travel.reversals;
-  if (ends.size() != 2 || m.arc()) return {};
+// For an output that reverses twice in a cycle.
+std::string time_ratio(const Mechanism& m, const std::vector<double>& ends) {
+  if (ends.size() != 2) return {};
   const double one = ends[1] - ends[0], other = m.cycle() - one, slow = std::max(one, other),
                quick = std::min(one, other);
   return fmt::format("; one stroke takes {:.5g}°, the other {:.5g}°: time ratio {:.4g}", slow / degree, quick / degree,
@@ -25,14 +25,61 @@ std::string time_ratio(const Mechanism& m) {
 
 std::string travel(const Mechanism& m) {
   if (m.arc()) return "its " + words_of_arc(m);
-  if (m.travel.winding != 0) return fmt::format("its output makes {:g} times as many turns as it", m.travel.winding);
-  const char* unit = m.rocks() ? "deg" : "m";
+  if (m.travel.winding != 0)
+    return fmt::format("its output makes {:g} times as many turns as its driving link", m.travel.winding);
+  if (m.stroke() == 0) return "its output stands still";
+  std::vector<double> ends = m.travel.reversals;
+  for (double& phi : ends)
+    if (m.cycle() - phi < 1e-9) phi = 0;
+  std::sort(ends.begin(), ends.end());
   std::string centres;
-  for (const double phi : m.travel.reversals)
-    centres += fmt::format("{}{:.5g}°", centres.empty() ? "" : ", ", phi / degree);
+  for (const double phi : ends) centres += fmt::format("{}{:.5g}°", centres.empty() ? "" : ", ", phi / degree);
   return fmt::format("{} {}, dead centres at φ = {}{}", m.rocks() ? "swing" : "stroke",
-                     m.rocks() ? fmt::format("{:.6g}°", m.stroke() / degree) : with_unit(m.stroke(), unit, 6), centres,
-                     time_ratio(m));
+                     m.rocks() ? fmt::format("{:.6g}°", m.stroke() / degree) : with_unit(m.stroke(), "m", 6), centres,
+                     time_ratio(m, ends));
+}
+
+// A mechanism as a sketch: its pins at one angle are the points.
+LinkageSketch sketch_of(const MechanismData& data) {
+  constexpr double somewhere = 0.7;  // off dead centres and change points
+  const PlanarLinkage at = data.linkage(data.arc() ? data.arc()->middle : somewhere);
+  LinkageSketch s;
+  for (const PlanarLinkage::Body& body : at.bodies) s.links.push_back({.name = body.name, .points = {}});
+  const auto points_of = [&](int body) -> std::vector<int>& {
+    return body == LinkageSketch::frame ? s.frame_points : s.links[static_cast<std::size_t>(body)].points;
+  };
+  const auto stands_at = [&](int point, const PlanarLinkage::Joint& joint) {
+    const LinkageSketch::Point& p = s.points[static_cast<std::size_t>(point)];
+    return p.x == static_cast<double>(joint.at.x.value()) && p.y == static_cast<double>(joint.at.y.value());
+  };
+  for (const PlanarLinkage::Joint& joint : at.joints) {
+    if (joint.slides) continue;
+    int point = 0;  // several links may be on one pin
+    const int count = static_cast<int>(s.points.size());
+    while (point < count && !(stands_at(point, joint) && (s.has(joint.from, point) || s.has(joint.on, point)))) ++point;
+    if (point == count)
+      s.points.push_back(
+          {joint.name, static_cast<double>(joint.at.x.value()), static_cast<double>(joint.at.y.value())});
+    for (const int body : {joint.from, joint.on})
+      if (!s.has(body, point)) points_of(body).push_back(point);
+  }
+  for (const PlanarLinkage::Joint& joint : at.joints) {
+    if (!joint.slides) continue;
+    const bool by_first = joint.from != LinkageSketch::frame && !points_of(joint.from).empty() &&
+                          stands_at(points_of(joint.from).front(), joint);
+    s.slides.push_back({by_first ? joint.from : joint.on, by_first ? joint.on : joint.from,
+                        static_cast<double>(std::atan2(joint.along.sin.value(), joint.along.cos.value()))});
+  }
+  s.output = {static_cast<int>(s.links.size()) - 1, s.links.back().points.front(), 0};
+  return s;
+}
+
+// Null: its joints are unknown, or its links pass change points, beside which a sketch leaves the branch open.
+std::shared_ptr<const Linkage> linkage_in(const MechanismData& data) {
+  if (const auto* drawn = data.as<LinkageData>()) return drawn->linkage;
+  if (!data.joints_are_known()) return nullptr;
+  auto linkage = std::make_shared<const Linkage>(sketch_of(data));
+  return linkage->faults().empty() ? linkage : nullptr;
 }
 
 }  // namespace
@@ -79,9 +126,13 @@ std::vector<std::string> mechanism_words(const Model& model) {
   for (const Network::ShaftElement& e : model.network.elements) {
     const MechanismElement* const element = mechanism_of(e);
     if (!element) continue;
-    const std::vector<std::string> about = element->mechanism().data.about();
-    for (const std::string& line : about) words.push_back(element->mechanism().name + ": " + line);
-    if (!about.empty()) words.push_back(element->mechanism().name + ": " + travel(element->mechanism()));
+    const Mechanism& m = element->mechanism();
+    const auto add = [&](const std::string& line) { words.push_back(m.name + ": " + line); };
+    if (const auto linkage = linkage_in(m.data)) {
+      add(linkage->structure_in_words());
+      for (const std::string& angle : linkage->transmission_in_words()) add(angle);
+    }
+    add(travel(m));
   }
   return words;
 }

@@ -1,4 +1,4 @@
-// mechanism_words.h — structure of a linkage and motion of its output and points: stroke, dead centres, time ratio.
+// mechanism_words.h — structure of a mechanism and motion of its output and points: stroke, dead centres, time ratio.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace kurbel {
 // For every degree of their cycles.
 std::vector<PointPath> point_paths(const Model& model);
 
-// For mechanisms described link by link; each line with the mechanism's name.
+// Of every mechanism: class and groups, least transmission angles, travel; each line with the mechanism's name.
 std::vector<std::string> mechanism_words(const Model& model);
 
 }  // namespace kurbel

@@ -109,7 +109,11 @@ Driven driven_mechanism(const Model& m) {
       for (const int n : body) inertia += m.network.nodes[at(n)].inertia;
       const bool alone = inertia == 0 &&
                          std::none_of(m.network.elements.begin(), m.network.elements.end(),
-                                      [&](const auto& e) { return &e != driven.element && holds(e.node); }) &&
+                                      [&](const auto& e) {
+                                        const auto* const one = dynamic_cast<const MechanismElement*>(e.element.get());
+                                        const bool within = one && one->mechanism().is_force();  // the linkage
+                                        return &e != driven.element && !within && holds(e.node);
+                                      }) &&
                          std::none_of(m.network.relations.begin(), m.network.relations.end(), [&](const auto& r) {
                            return holds(r.node[0]) || holds(r.node[1]) || (r.node[2] >= 0 && holds(r.node[2]));
                          });

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <sstream>
 #include <thread>
@@ -291,6 +292,36 @@ TEST(Inputs, ATorqueTurnsAWheelAsItsClosedFormSays) {
                   1 / (3 + inertia), 1e-13);
       EXPECT_NEAR(slave.directional(unpacked->derivatives.back(), unpacked->states.back()), -0.5 / (3 + inertia),
                   1e-12);
+    }
+  }
+}
+
+// A parallelogram's rocker turns as its crank does, whole turns included.
+TEST(Outputs, AnOutputThatGoesRoundCountsItsTurns) {
+  const Folder folder;
+  const std::string file = written(folder, R"(
+title = "Parallelogram"
+line = ["wheel", "bars"]
+wheel = { kind = "flywheel", inertia = "3 kg*m2" }
+[bars]
+kind = "four-bar"
+crank = "100 mm"
+coupler = "300 mm"
+rocker = "100 mm"
+ground = "300 mm"
+rocker_inertia = "0.1 kg*m2"
+[run]
+start = { speed = "60 rpm" }
+until = "11 s"
+)");
+  for (const int fmi : {2, 3}) {
+    const auto unpacked = exported(file, fmi);
+    const Library library(unpacked->library());
+    Slave slave(*unpacked, library, Kind::co_simulation);
+    slave.initialise(0);
+    for (double t = 0; t < 10;) {
+      t = slave.step(t, 0.7);
+      EXPECT_NEAR(slave["position.bars"], 2 * std::numbers::pi * t, 1e-9);
     }
   }
 }

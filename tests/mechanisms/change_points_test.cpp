@@ -1,5 +1,6 @@
 // change_points_test.cpp — links that pass through one line, and outputs that go round, against loops followed by
 // Newton's method with a predictor, in long double.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "mechanisms/reduced/newton_euler.h"
 #include "tests/mechanisms/slider_crank_geometry.h"
+#include "tests/published/published.h"
 
 namespace kurbel::change_points_test {
 namespace {
@@ -146,6 +148,39 @@ TEST(ChangePoint, AntiparallelogramTurnsItsRockerAgainstItsCrank) {
   expect_followed(d, 1, 1);
   d.crossed = true;
   expect_followed(d, 1, 1);
+}
+
+// Over ten turns, to both sides, with a phase: after eight a run takes whole turns out of its angle.
+TEST(WholeTurns, OfAnOutputThatGoesRoundAreInItsPosition) {
+  const auto bars = [](const FourBarData& d, double speed) {
+    return test::run(test::scene_from(
+        fmt::format("line = [\"wheel\", \"bars\"]\nwheel = {{ kind = \"flywheel\", inertia = \"5 kg*m2\" }}\n[bars]\n"
+                    "kind = \"four-bar\"\ncrank = \"{} m\"\ncoupler = \"{} m\"\nrocker = \"{} m\"\nground = \"{} m\"\n"
+                    "rocker_inertia = \"0.1 kg*m2\"\nbranch = \"{}\"\nphase = \"20 deg\"\n[run]\n"
+                    "start = {{ speed = \"{} rpm\" }}\nuntil = \"10.4 s\"\n",
+                    d.crank, d.coupler, d.rocker, d.ground, d.crossed ? "crossed" : "open", speed)));
+  };
+  for (const double speed : {60.0, -60.0}) {
+    const Result run = bars(four_bar(0.1, 0.3, 0.1, 0.3), speed);
+    const std::vector<double> angle = test::series(run, "angle.bars"), position = test::series(run, "position.bars");
+    ASSERT_GT(std::fabs(angle.back()), 18 * pi);
+    for (std::size_t i = 0; i < angle.size(); ++i) EXPECT_NEAR(position[i], angle[i] + pi / 9, 1e-11) << angle[i];
+  }
+  FourBarData against = four_bar(0.1, 0.3, 0.1, 0.3);
+  against.crossed = true;
+  for (const FourBarData& d : {four_bar(0.14, 0.16, 0.15, 0.05), against, four_bar(0.1, 0.25, 0.25, 0.1)}) {
+    const Result run = bars(d, 60);
+    const std::vector<double> angle = test::series(run, "angle.bars"), position = test::series(run, "position.bars");
+    ASSERT_GT(angle.back(), 18 * pi);
+    const double coupler = std::atan2(d.rocker * std::sin(position[0]) - d.crank * std::sin(pi / 9),
+                                      d.ground + d.rocker * std::cos(position[0]) - d.crank * std::cos(pi / 9));
+    FollowedFourBar loop(d, coupler, position[0], pi / 9);
+    for (std::size_t i = 1; i < angle.size(); ++i) {
+      loop.go_to(angle[i] + pi / 9);
+      if (std::fabs(loop.sine()) < 0.05L) continue;
+      EXPECT_NEAR(position[i], static_cast<double>(loop.psi()), 1e-10) << angle[i];
+    }
+  }
 }
 
 // B mirrors O in the line A D; or coupler and rocker lie on crank and ground for good.

@@ -182,5 +182,15 @@ TEST(Agreement, SizedMachineHasTheFluctuationThatIsTold) {
     expect_agreement(name, size_alone);
 }
 
+// With a spring, a force within and friction in its pins; forces by the coupling's torque on its crank.
+TEST(Agreement, StudiesSpeakOfALinkageByItsSketch) {
+  expect_agreement("linkage_small", steady_alone);
+  expect_agreement("linkage_small", reduce_alone);
+  const Row row = compare_forces(scene_named("linkage_small"));
+  const Compared* torque = row.cell(Topic::crank_torque);
+  ASSERT_NE(torque, nullptr) << row.orbit;
+  EXPECT_EQ(torque->verdict, Verdict::agrees) << torque->figure << torque->words;
+}
+
 }  // namespace
 }  // namespace kurbel::agreement::agreement_test

@@ -118,5 +118,15 @@ TEST(OilFilm, MoreOilOrLessRoughnessMakesItFluidAndNoneDry) {
                           [](const std::string& n) { return n.find("was not assessed") != std::string::npos; }));
 }
 
+// The shaft and the crank pin turn, the slider's pin rocks.
+TEST(OilFilm, CompressorsPinsAreToldByWhatIsInTheirScene) {
+  const Forces f = find_forces(test::scene_file("scenes/compressor.toml"), {});
+  ASSERT_EQ(f.films.size(), 3u);
+  EXPECT_EQ(f.films[0].words(), "fluid");
+  EXPECT_EQ(f.films[1].words(), "fluid");
+  EXPECT_EQ(f.films[2].words(), "boundary, mixed, fluid");
+  EXPECT_NEAR(f.films[2].speed, 0, 1e-3);
+}
+
 }  // namespace
 }  // namespace kurbel::oil_film_test
