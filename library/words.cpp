@@ -12,6 +12,7 @@
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
 #include "studies/dictionary/dictionary.h"
+#include "studies/dictionary/page_words.h"
 #include "studies/report/theory.h"
 #include "studies/scenes/kinds.h"
 #include "studies/scenes/schema.h"
@@ -39,7 +40,7 @@ std::string sentences_on(const Definition& d, const std::string& asked) {
   };
   line("is", std::string(d.is));
   line("formula", std::string(d.formula));
-  line("unit", d.unit.empty() ? "a plain number" : pretty_unit(d.unit));
+  if (d.words != word_of_pages) line("unit", d.unit.empty() ? "a plain number" : pretty_unit(d.unit));
   line("is not", std::string(d.is_not));
   line("given by", d.verbs.empty() ? "no command" : std::string(d.verbs));
   line("more", place_of(d));

@@ -10,6 +10,7 @@
 
 #include "engine/scene/units.h"
 #include "studies/dictionary/own_entries.h"
+#include "studies/dictionary/page_words.h"
 #include "studies/dictionary/run_entries.h"
 #include "studies/dictionary/study_entries.h"
 #include "studies/dictionary/symbols.h"
@@ -94,6 +95,30 @@ const Definition* find_label(std::string_view asked) {
   return asked.starts_with("largest ") && asked.find(" on ") != std::string_view::npos ? find("reaction") : nullptr;
 }
 
+// What stands on pages beside figures and symbols: of all names that fit the longest.
+const Definition* find_page_word(std::string_view asked, bool starred) {
+  struct Named {
+    std::string_view name;
+    Definition meaning;
+  };
+  static const std::vector<Named> words = [] {
+    std::vector<Named> list;
+    for (const entries::PageWord& w : entries::of_pages)
+      for (std::size_t at = 0; at < w.names.size();) {
+        const std::size_t end = std::min(w.names.find("; ", at), w.names.size());
+        const std::string_view name = w.names.substr(at, end - at);
+        list.push_back({name, {.name = name, .words = word_of_pages, .verbs = w.verbs, .is = w.is}});
+        at = end + 2;
+      }
+    return list;
+  }();
+  const Named* found = nullptr;
+  for (const Named& w : words)
+    if (has_star(w.meaning) == starred && (!found || w.name.size() > found->name.size()) && fits(w.name, asked))
+      found = &w;
+  return found ? &found->meaning : nullptr;
+}
+
 }  // namespace
 
 const std::vector<Definition>& dictionary() {
@@ -147,19 +172,22 @@ const Definition* definition_of(const Name& name) {
 
 const Definition* meant_by(std::string_view asked) {
   if (const Definition* named = definition_of(asked)) return named;
+  if (const Definition* word = find_page_word(asked, false)) return word;
   if (const Definition* symbol = find_symbol(asked)) return symbol;
   if (const Definition* label = find_label(asked)) return label;
   const std::string name = as_name(asked);
   if (const Definition* named = definition_of(name)) return named;
   for (const Definition& d : dictionary())
     if (as_name(d.words) == name) return &d;
+  if (const Definition* word = find_page_word(asked, true)) return word;
   // "speed fluctuation", "δ": the begin of the words, or the symbol at their end.
+  const bool symbol = !name.empty() && static_cast<unsigned char>(name[0]) >= 0x80;
   for (const Definition& d : dictionary()) {
     const std::string words = as_name(d.words);
-    if (!name.empty() && (words.starts_with(name + "_") || words.ends_with("_" + name))) return &d;
+    if (!name.empty() && (words.starts_with(name + "_") || (symbol && words.ends_with("_" + name)))) return &d;
   }
-  // "peak torque, main_coupling"; "thermal use of motor": with its owner.
-  for (const std::string_view owned : {", ", " of "})
+  // "peak torque, main_coupling"; "thermal use of motor": with its owner; "steps [s]": with a unit or in words.
+  for (const std::string_view owned : {" [", " (", ": ", " = ", ", ", " of "})
     if (const std::size_t end = asked.find(owned); end != std::string_view::npos) return meant_by(asked.substr(0, end));
   return nullptr;
 }
