@@ -18,15 +18,15 @@
 namespace kurbel {
 namespace {
 
-// "bending_1" matches "bending_*"; the star ends at a point, after which the owner follows.
-bool fits(std::string_view pattern, std::string_view name) {
+// "bending_1" matches "bending_*"; in names the star ends at a point, after which the owner follows.
+bool fits(std::string_view pattern, std::string_view name, char star_ends_at = '.') {
   const std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return pattern == name;
   if (!name.starts_with(pattern.substr(0, star))) return false;
   const std::string_view behind = pattern.substr(star + 1);
   for (std::size_t at = star; at <= name.size(); ++at) {
-    if (fits(behind, name.substr(at))) return true;
-    if (at < name.size() && name[at] == '.') break;
+    if (fits(behind, name.substr(at), star_ends_at)) return true;
+    if (at < name.size() && name[at] == star_ends_at) break;
   }
   return false;
 }
@@ -114,7 +114,7 @@ const Definition* find_page_word(std::string_view asked, bool starred) {
   }();
   const Named* found = nullptr;
   for (const Named& w : words)
-    if (has_star(w.meaning) == starred && (!found || w.name.size() > found->name.size()) && fits(w.name, asked))
+    if (has_star(w.meaning) == starred && (!found || w.name.size() > found->name.size()) && fits(w.name, asked, '\0'))
       found = &w;
   return found ? &found->meaning : nullptr;
 }
@@ -186,10 +186,17 @@ const Definition* meant_by(std::string_view asked) {
     const std::string words = as_name(d.words);
     if (!name.empty() && (words.starts_with(name + "_") || (symbol && words.ends_with("_" + name)))) return &d;
   }
-  // "peak torque, main_coupling"; "thermal use of motor": with its owner; "steps [s]": with a unit or in words.
+  // "peak torque, main_coupling", "thermal use of motor", "steps [1]": its begin; "press.load (useful)", "shaft: k = 2": the
+  // end; "driving torque M_d": the symbol.
   for (const std::string_view owned : {" [", " (", ": ", " = ", ", ", " of "})
-    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) return meant_by(asked.substr(0, end));
-  return nullptr;
+    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) {
+      if (const Definition* begin = meant_by(asked.substr(0, end))) return begin;
+      if (owned != " (" && owned != ": ") continue;
+      const std::string_view rest = asked.substr(end + 2);
+      if (const Definition* of_end = meant_by(rest.substr(0, rest.size() - (owned == " (")))) return of_end;
+    }
+  const std::size_t last = asked.rfind(' ');
+  return last == std::string_view::npos ? nullptr : find_symbol(asked.substr(last + 1));
 }
 
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {

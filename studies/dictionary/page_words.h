@@ -43,7 +43,7 @@ inline constexpr PageWord of_pages[] = {
     {"time; time [s]", of_all, "simulated time since the start of the run; of a processor it is in ms"},
     {"at; at [s]; at [rpm]; at [mm]", of_all,
      "where the value beside it occurs: time, angle, speed, or distance along a guide, by the unit"},
-    {"from; to; from [*]; to [*]", of_all,
+    {"from; to; from [*]; to [*]; range from", of_all,
      "ends of a range; of an event the state before and after; of a rainflow count the least and greatest torque of "
      "the class"},
     {"of; in; on; by; where; what; why", of_all,
@@ -76,7 +76,10 @@ inline constexpr PageWord of_pages[] = {
     {"—; …", of_all, "none, not known, or rows that are left out"},
     // a run
     {"elastic/rigid; ratio", "compare, report", "value of the elastic model over that of the rigid one"},
-    {"off; on; effect; effects; effects on; omitted; none", "run, compare, effects, advise",
+    {"off; on; effect; effects; effects on; omitted; none; elasticity; elasticity *; joint friction; backlash; mesh "
+     "variation; transients; torque lag; relaxation; bearing friction; gear losses; joint clearance; flexible rod; "
+     "gravity; variable inertia; load edges",
+     "run, compare, effects, advise",
      "physical effects of the model (docs/effects.md), and key figures without and with the one in this row"},
     {"kinetic energy; kinetic energy at *; stored in springs; stored in springs at *; energy balance closes to; energy "
      "drift",
@@ -95,7 +98,8 @@ inline constexpr PageWord of_pages[] = {
     {"adams; bdf; dop853; dopri5; dormand_prince_853; esdirk; esdirk3; esdirk5; fehlberg8; verner6; energy method; "
      "work",
      "run, accuracy", "integrators (engine/steppers); work: the rigid machine by its work equation over the angle"},
-    {"sequence", "run, report", "operating sequence of the scene: its steps switch clutches, brakes and drives"},
+    {"sequence; run up; steady motion; steady motion, *; middle of its vibration", "run, report, modes",
+     "parts of the motion: operating sequence of the scene: its steps switch clutches, brakes and drives"},
     {"the first; the second; difference; relative; more than the errors", "diff",
      "figures of both machines, their difference, the same over the first, and whether it exceeds both numerical "
      "errors"},
@@ -132,7 +136,8 @@ inline constexpr PageWord of_pages[] = {
      "reduction link"},
     {"* positions; position", "reduce, forces", "positions of the crank for which the table is made"},
     // forces
-    {"along *; across; across [*]; ahead of it; order * across; order * along; shaking; point of action", "forces",
+    {"along; along *; across; across [*]; ahead of it; order * across; order * along; shaking; point of action",
+     "forces",
      "components of a force along the stroke, the link or the guide, and across it; at which point of the guide it "
      "acts"},
     {"* pin; pin *; main bearing; rocker bearing; slide *; guide; * bearing: *; * pin: *; pin *: *", "forces, run",
@@ -148,7 +153,9 @@ inline constexpr PageWord of_pages[] = {
      "mass times radius of a counterweight on the crank, by the masses that it balances; as it is: of the scene"},
     {"moment; moment [*]", "forces", "of a force about the pin or the bearing that the title names"},
     // modes, report
-    {"swings", of_trains, "parts with the largest amplitudes of the mode; `against`: in opposite phase"},
+    {"mode; mode *; swings", of_trains,
+     "mode of vibration by its number, ascending; parts with the largest amplitudes of the mode; `against`: in "
+     "opposite phase"},
     {"f [Hz]; f_n; frequency; frequency [Hz]; f damped; |λ|; held at angles; periodic system, ζ; periodic system [Hz], "
      "ζ; "
      "natural frequency; first natural frequencies; first natural frequencies [Hz]",
@@ -178,10 +185,12 @@ inline constexpr PageWord of_pages[] = {
     {"τ_C, *; τ_T, *", "report", "stresses allowed for continuous running and for quick passing (IACS UR M68)"},
     {"order of the inertia; around; variation ε; half width; state", "modes",
      "parametric instability: ranges of speed 2 ω_n/order in which the varying inertia makes a mode grow"},
-    {"dissipated; case; set; misfires; cylinder * misfires; beside it; file; distribution", of_trains,
+    {"dissipated; case; cases; set; in frequency; in time; machine; scene; operating speeds; misfires; cylinder * "
+     "misfires; beside it; file; distribution",
+     of_trains,
      "power in a coupling's damping; cases of failure and what they change; sources and tolerances of the data"},
     // gears
-    {"1; 2; wheel 1; wheel 2; without shift, x = 0; of the wheels; of the mesh; symbol", "gears",
+    {"1; 2; B; C; wheel 1; wheel 2; without shift, x = 0; of the wheels; of the mesh; symbol", "gears",
      "data of wheel 1, of wheel 2, or of both in mesh"},
     {"g [mm]; place on the path of contact g; v_g/ω₁", "gears",
      "distance from the pitch point along the path of contact, and sliding there"},
@@ -204,12 +213,15 @@ inline constexpr PageWord of_pages[] = {
     // effects, advise, accuracy
     {"greatest change; greatest change of *; change; change when omitted; change of *; from zero", of_models,
      "of the key figures when this effect alone is switched, relative to the value beside it"},
-    {"advice; screens; held out; within; outside; full model; chosen: *; greatest deviation *; deviation", "advise",
+    {"advice; screens; held out; loads *; speeds *; within; outside; full model; chosen: *; greatest deviation *; "
+     "deviation",
+     "advise",
      "whether an effect is needed, by which criteria; figures and operating points kept for a check; within the "
      "tolerance"},
     {"time ×; time with *; time [ms]; time of *; processor time; spread", "effects, advise, accuracy, compare",
      "processor time of one integration; ×: over that with the effect on; spread: of repetitions"},
-    {"model; reference by; agreement of motion; model error; error of *; total error; largest error *; front; Pareto "
+    {"model; reference by; agreement of motion; model error; error; error of *; total error; largest error *; front; "
+     "Pareto "
      "front; "
      "numbers as coarse as the model; multibody",
      "accuracy",

@@ -136,7 +136,10 @@ Findings findings_of(const EffectStudy& s) {
   for (const LeftOut& l : s.left_out)
     if (l.failed.empty() && !l.changes.empty() && f.figures.size() < 4)
       f.figures.push_back({"without " + words_of(l), 100 * l.changes.front().relative, "%",
-                           100 * l.changes.front().error, "off in " + l.changes.front().figure, 3, "change_without"});
+                           100 * l.changes.front().error,
+                           (l.changes.front().from_nothing ? "of the rated value, from zero: " : "change of ") +
+                               l.changes.front().figure,
+                           3, "change_without"});
   const Chapter ranked = f.chapter("Effects, ranked"), full = f.chapter("The full model");
   f.say(ranked, Sentences{.lines = {full_model(s)}, .page = false, .apart = true});
   f.draw(ranked, [&s] { return plane(s); });

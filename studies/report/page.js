@@ -479,6 +479,10 @@
     make('summary', '', title, details);
     return details;
   }
+  // Long names break behind their dots and underscores.
+  function write(text, place, breaks) {
+    text.split(/(?<=[._])/).forEach((piece, k) => { if (k && breaks && !/\s/.test(text)) make('wbr', '', null, place); place.append(piece); });
+  }
   function addTable(table, card) {
     const scroll = make('div', 'scroll', null, fold(card, table.title, table.folded));
     const element = make('table', '', null, scroll);
@@ -486,8 +490,6 @@
     // Sentences are read from the left, wherever they stand.
     const inWords = table.columns.map((_, i) => i < table.textColumns || table.rows.some(row => row[i].length > 30));
     const kind = column => inWords[column] ? 'text' : '';
-    // Long names break behind their dots and underscores.
-    const write = (text, place, breaks) => text.split(/(?<=[._])/).forEach((piece, k) => { if (k && breaks && !/\s/.test(text)) make('wbr', '', null, place); place.append(piece); });
     table.columns.forEach((text, i) => write(text, make('th', kind(i), '', head), true));
     const body = make('tbody', '', null, element), printed = table.rows.length > 100 ? 60 : Infinity;
     if (table.rows.length > printed) make('p', 'note on-paper', `The first ${printed} of ${table.rows.length} rows; the page has all.`, card);
@@ -1240,6 +1242,8 @@
   }
   make('h1', '', report.title, root);
   if (report.subtitle) make('p', 'subtitle', report.subtitle, root);
+  // A number and its unit stay on one line.
+  report.conclusion = report.conclusion.map(sentence => sentence.replace(/(\d) (?=[%°a-zA-Zµ·²³\/]{1,9}(?:[\s,.;:)]|$))/g, '$1\u00a0'));
   if (report.conclusion.length) {
     const several = report.conclusion.length > 2;  // a list; else a paragraph
     const box = make(several ? 'ul' : 'p', 'conclusion' + (report.complete ? '' : ' incomplete'), several ? null : report.conclusion.join(' '), root);
@@ -1249,7 +1253,7 @@
   for (const figure of report.figures) {
     const box = make('div', 'figure', null, row);
     const name = make('div', 'name', null, box);
-    (figure.means ? meaningOf(figure.means, name) : name).append(figure.name);
+    write(figure.name, figure.means ? meaningOf(figure.means, name) : name, true);
     const value = make('div', 'value', figure.value + ' ', box);
     make('span', 'unit', figure.unit, value);
     if (figure.error || figure.known) make('div', 'error', [figure.known, figure.error, figure.unit].filter(Boolean).join(' '), box);
