@@ -497,7 +497,7 @@
       const line = make('tr', r < printed ? '' : 'off-paper', null, body);
       row.forEach((text, i) => {
         const tone = table.tones ? table.tones[r][i] : '';
-        const cell = make('td', [kind(i), text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
+        const cell = make('td', [kind(i), /^[-±+−]? ?\d[^ ]*( %)?$/.test(text) && 'number', text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
         const place = i === 0 && table.means && table.means[r] ? meaningOf(table.means[r], cell) : cell;
         write(text, place, kind(i));
       });
@@ -1300,13 +1300,13 @@
       opened = null;
     }
     root.classList.toggle('printing', on);
-    // A table that is wider than the paper gets smaller words, then words that break.
+    // A table that is wider than the paper gets smaller words, then words that break, then upright headings; numbers break last.
     for (const scroll of document.querySelectorAll('.scroll')) {
       const table = scroll.firstChild, wide = () => on && table.offsetWidth > scroll.clientWidth + 1;
-      for (const breaks of [false, true]) {
+      for (const [breaks, least] of [['', 6], ['breaks', 5], ['breaks heads', 5], ['breaks heads numbers', 4.5]]) {
         table.style.fontSize = '';
-        table.classList.toggle('breaks', breaks && wide());
-        for (let size = 7.5; wide() && size > (breaks ? 4.5 : 6); size -= 0.25) table.style.fontSize = size + 'pt';
+        table.className = breaks;
+        for (let size = 7.5; wide() && size > least; size -= 0.25) table.style.fontSize = size + 'pt';
         if (!wide()) break;
       }
     }

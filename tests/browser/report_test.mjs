@@ -122,21 +122,25 @@ try {
       window.printed = {
         folded: document.querySelectorAll('details:not([open]):not(.licence)').length,
         wide: [...document.querySelectorAll('.scroll table')].filter(t => t.getBoundingClientRect().right > right + 1).map(t => t.closest('.card').textContent.slice(0, 60)),
+        broken: [...document.querySelectorAll('td.number')].filter(cell => {
+          const range = document.createRange();
+          range.selectNodeContents(cell);
+          return new Set([...range.getClientRects()].map(box => Math.round(box.top))).size > 1;
+        }).map(cell => cell.textContent),
         cut: [...document.querySelectorAll('.plot svg.main-svg')].filter(svg => svg.getBoundingClientRect().right > right + 1 || svg.getBoundingClientRect().height > svg.closest('.plot').clientHeight + 1).length,
       };
     }));
     const folded = await page.$$eval('details:not([open])', list => list.length);
     const pdf = await page.pdf({preferCSSPageSize: true});
     assert.ok(pdf.length > 20000 && pdf.subarray(0, 5).toString() === '%PDF-', 'prints to PDF');
-    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, cut: 0, wide: []});
+    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, broken: [], cut: 0, wide: []});
     let sheets = 0;
     if (canReadPages()) {
       const folder = mkdtempSync(path.join(tmpdir(), 'kurbel_pages_')), file = path.join(folder, 'report.pdf');
       writeFileSync(file, pdf);
       const pages = pagesOf(file);
       rmSync(folder, {recursive: true});
-      // Only the document of a drive train is made for paper throughout, and printed from a window that is not narrow.
-      checkPages(pages, sheet && width > 1000);
+      checkPages(pages, width > 1000);  // filled where the window is not narrow
       if (sheet) checkSheet(readFileSync(sheet, 'utf8'), pages);
       sheets = pages.length;
       // A train's report: scope, verdict and what was not assessed are its first page.
