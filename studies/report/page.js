@@ -488,7 +488,7 @@
     const element = make('table', '', null, scroll);
     const head = make('tr', '', null, make('thead', '', null, element));
     // Sentences are read from the left, wherever they stand.
-    const inWords = table.columns.map((_, i) => i < table.textColumns || table.rows.some(row => row[i].length > 30));
+    const inWords = table.columns.map((_, i) => i < table.textColumns || table.rows.some(row => row[i].length > 30 || /\p{L}{3,} \p{L}{3,}/u.test(row[i])));
     const kind = column => inWords[column] ? 'text' : '';
     table.columns.forEach((text, i) => write(text, make('th', kind(i), '', head), true));
     const body = make('tbody', '', null, element), printed = table.rows.length > 100 ? 60 : Infinity;
