@@ -29,10 +29,11 @@ std::string text_of(const fs::path& file) {
 // The data of the page that a command writes.
 Json page_of(const std::string& command) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("kurbel_names_{}", getpid());
-  const std::string line = fmt::format("cd {} && {} {} --out {} > /dev/null 2>&1", KURBEL_SOURCE_DIR, KURBEL_EXECUTABLE,
-                                       command, folder.string());
+  fs::create_directories(folder);
+  const std::string line = fmt::format("cd {0} && NAMES={3} && {1} {2} --out {3}/page > /dev/null 2>&1",
+                                       KURBEL_SOURCE_DIR, KURBEL_EXECUTABLE, command, folder.string());
   EXPECT_EQ(std::system(line.c_str()), 0) << command;
-  const std::string html = text_of(folder / "report.html");
+  const std::string html = text_of(folder / "page/report.html");
   fs::remove_all(folder);
   const std::string mark = "<script type=\"application/json\" id=\"data\">";
   const std::size_t begin = html.find(mark);
@@ -50,7 +51,7 @@ bool is_of_scene(const std::string& name, const std::string& scene) {
 
 struct Told {
   std::size_t names = 0;
-  std::set<std::string> unknown;
+  std::set<std::string> unknown, in_radians;
 };
 
 void collect(const std::string& command, Told& told) {
@@ -66,7 +67,14 @@ void collect(const std::string& command, Told& told) {
   };
   for (const Json& section : page.value("sections", Json::array()))
     for (const Json& card : section["cards"]) {
-      for (const Json& heading : card.value("columns", Json::array())) meet(heading);
+      for (const std::string heading : card.value("columns", Json::array())) {
+        meet(heading);
+        if (heading.ends_with(" [rad/s]") && !heading.starts_with("ω"))
+          told.in_radians.insert(command + ": " + heading);
+      }
+      for (const Json& row : card.value("rows", Json::array()))
+        for (const Json& cell : row)
+          if (cell == "rad/s") told.in_radians.insert(command + ": " + row[0].get<std::string>());
       for (const Json& row : card.value("rows", Json::array()))
         if (row[0].get<std::string>().size() < 60) meet(row[0]);  // longer ones are sentences
       if (card["kind"] != "plot") continue;
@@ -99,6 +107,8 @@ TEST(ExplainedNames, OfTablesAndPlotsOfAllCommands) {
         "uncertainty docs/tasks/fan_drive.toml --of modes --figures natural_frequency.1 --limit 'natural_frequency.1 "
         "<= "
         "22.5 Hz' --no-trials",
+        "sweep scenes/crank_press.toml --vary 'main_coupling.stiffness=500..1500 kN*m/rad' --vary "
+        "'flywheel.inertia=200,400 kg*m2' --design grid:3x2 --set 'run.until=1 s' --into $NAMES/sweep.db",
         "fit docs/tasks/fit_set.toml --measured docs/tasks/fit_set_1500.csv --map 'c*=speed.engine' --orders "
         "0.5,1.5,2.5 "
         "--hold 'mean speed by load.torque' --free 'rotor.inertia=0.05..0.8 kg*m2'",
@@ -106,6 +116,7 @@ TEST(ExplainedNames, OfTablesAndPlotsOfAllCommands) {
     collect(command, told);
   EXPECT_GT(told.names, 700u);
   for (const std::string& name : told.unknown) ADD_FAILURE() << name << " is not explained";
+  for (const std::string& place : told.in_radians) ADD_FAILURE() << place << " is not in the scene's unit of speed";
 }
 
 // A part of a definition's words is not what is asked for.
