@@ -73,7 +73,7 @@ inline constexpr PageWord of_pages[] = {
      "contact"},
     {"key; unknown", "uncertainty, diff, fit, sweep",
      "COMPONENT.KEY of the scene; `kurbel keys KIND` says what it means"},
-    {"—; …", of_all, "none, not known, or rows that are left out"},
+    {"—; …", of_all, "none, not known, or omitted rows"},
     // a run
     {"elastic/rigid; ratio", "compare, report", "value of the elastic model over that of the rigid one"},
     {"off; on; effect; effects; effects on; omitted; none; elasticity; elasticity *; joint friction; backlash; mesh "
@@ -94,7 +94,7 @@ inline constexpr PageWord of_pages[] = {
      "counts of a run: its state variables, its steps, how often its equations and their derivatives were evaluated, "
      "its events; nonzeros of the Jacobian and switching functions of the model"},
     {"method; accuracy measured; requested accuracy; tolerance; tolerance * %", "run, compare, accuracy, advise",
-     "integrator, and relative error per step or of the figures that it was asked for"},
+     "integrator, and relative error per step or of the figures that was requested"},
     {"adams; bdf; dop853; dopri5; dormand_prince_853; esdirk; esdirk3; esdirk5; fehlberg8; verner6; energy method; "
      "work",
      "run, accuracy", "integrators (engine/steppers); work: the rigid machine by its work equation over the angle"},
@@ -153,7 +153,7 @@ inline constexpr PageWord of_pages[] = {
      "mass times radius of a counterweight on the crank, by the masses that it balances; as it is: of the scene"},
     {"moment; moment [*]", "forces", "of a force about the pin or the bearing that the title names"},
     // modes, report
-    {"mode; mode *; swings", of_trains,
+    {"mode; mode *; shape", of_trains,
      "mode of vibration by its number, ascending; parts with the largest amplitudes of the mode; `against`: in "
      "opposite phase"},
     {"f [Hz]; f_n; frequency; frequency [Hz]; f damped; |λ|; held at angles; periodic system, ζ; periodic system [Hz], "
@@ -237,7 +237,7 @@ inline constexpr PageWord of_pages[] = {
      "value were exact; "
      "noise: part that numerical errors explain; step: of the gradient, in deviations of the value"},
     {"hold; beyond; within their error; without the figure; probability from", "uncertainty, sweep",
-     "samples that keep the limit, exceed it, cannot be told by their numerical error, or lack the figure; 95 % "
+     "samples that keep the limit, exceed it, are undecided within their numerical error, or lack the figure; 95 % "
      "interval"},
     {"record; channel; fitted; left; measured − fitted; standard error; correlation; go together; of the range; over "
      "the scatter; "
