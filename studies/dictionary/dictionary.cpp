@@ -195,6 +195,8 @@ const Definition* meant_by(std::string_view asked) {
       const std::string_view rest = asked.substr(end + 2);
       if (const Definition* of_end = meant_by(rest.substr(0, rest.size() - (owned == " (")))) return of_end;
     }
+  if (constexpr std::string_view greatest = "greatest "; asked.starts_with(greatest))
+    return meant_by(asked.substr(greatest.size()));
   const std::size_t last = asked.rfind(' ');
   return last == std::string_view::npos ? nullptr : find_symbol(asked.substr(last + 1));
 }

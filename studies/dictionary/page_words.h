@@ -207,7 +207,8 @@ inline constexpr PageWord of_pages[] = {
      "angles and contact ratios of the mesh (theory 6)"},
     {"backlash *; mesh stiffness *; stiffness of a pair *; torsional mesh stiffness *", "gears",
      "backlash along the circle, the normal or as an angle; stiffness of the teeth in contact (theory 6.13)"},
-    {"along the reference circle; from the wheel's axis; rack*; its datum line; flank of *; sliding speed over *",
+    {"along the reference circle; specific sliding ζ; from the wheel's axis; rack*; its datum line; flank of *; "
+     "sliding speed over *",
      "gears",
      "how the rack cuts the flank, drawn position by position; sliding of the flanks along the path of contact"},
     // effects, advise, accuracy
@@ -228,7 +229,12 @@ inline constexpr PageWord of_pages[] = {
      "errors against a reference by two other methods, of the motion and of each figure; total: with that of the "
      "model; "
      "front: nothing is both faster and more accurate"},
-    // uncertainty, fit
+    // sweep, uncertainty, fit
+    {"parameter; variants; row; rows; greatest; mean along the parameter; largest error; computed alone", "sweep",
+     "a varied key; rows are its variants; over them the range of a figure and its largest numerical error; the "
+     "command that computes one alone"},
+    {"first order; total; share of the variance", "sweep",
+     "Sobol's indices: share of a figure's variance that the parameter causes alone, and with its interactions"},
     {"deviation by gradients; by samples; deviation without it; samples; 95 % from; noise floor; numerical noise; "
      "step; "
      "of its value; where it comes from; all tolerances, *; tolerance of *",

@@ -128,7 +128,8 @@ TEST(ExplainedNames, NoWordOfAnotherFigureStandsForThem) {
     EXPECT_EQ(known->words, word_of_pages) << word << " is " << known->name;
   }
   EXPECT_EQ(meant_by("driving torque M_d [N·m]")->name, "M_d");
-  EXPECT_EQ(meant_by("engine.load (driving)")->name, "driving");
+  EXPECT_EQ(meant_by("engine.load (driving)")->is, meant_by("driving")->is);
+  EXPECT_EQ(meant_by("greatest peak_torque.coupling")->name, "peak_torque");
   EXPECT_FALSE(meant_by("xyzzy"));
 }
 
