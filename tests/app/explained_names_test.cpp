@@ -41,12 +41,15 @@ Json page_of(const std::string& command) {
   return Json::parse(html.substr(begin + mark.size(), html.find("</script>", begin) - begin - mark.size()));
 }
 
-// Names that the page takes from the scene: its components and what they own, keys, and words of its author; and numbers.
+// Names that the page takes from the scene: components and what they own, keys, cases, its file; and numbers.
 bool is_of_scene(const std::string& name, const std::string& scene) {
-  static const std::regex number("^[-−+]?[0-9.]+(e[-+]?[0-9]+)?( [±+−] .*| kg·m² ?.*)?$");
+  static const std::regex number("^[-+]?[0-9.]+(e[-+]?[0-9]+)?( (±|\\+|−|-) .*| kg·m².*)?$");
   if (std::regex_match(name, number)) return true;
-  const std::string owner = name.substr(0, name.find_first_of(".:"));
-  return scene.find(name) != std::string::npos || (owner != name && scene.find(owner) != std::string::npos);
+  const auto stands = [&](const std::string& word) {
+    return scene.find('"' + word + '"') != std::string::npos || scene.find("\n[" + word + "]") != std::string::npos ||
+           scene.find("\n" + word + " ") != std::string::npos;
+  };
+  return stands(name) || stands(name.substr(0, name.find_first_of(".:")));
 }
 
 struct Told {
@@ -59,7 +62,8 @@ void collect(const std::string& command, Told& told) {
   std::string scene;
   static const std::regex file("[^ ]+\\.(toml|csv)");
   for (std::sregex_iterator i(command.begin(), command.end(), file), end; i != end; ++i)
-    scene += text_of(fs::path(KURBEL_SOURCE_DIR) / i->str()) + i->str();
+    scene += fmt::format("\n{}\n\"{}\" \"{}\"", text_of(fs::path(KURBEL_SOURCE_DIR) / i->str()), i->str(),
+                         fs::path(i->str()).stem().string());
   const auto meet = [&](const std::string& name) {
     if (name.empty() || is_of_scene(name, scene)) return;
     ++told.names;
