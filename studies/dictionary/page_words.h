@@ -214,7 +214,7 @@ inline constexpr PageWord of_pages[] = {
     // effects, advise, accuracy
     {"greatest change; greatest change of *; change; change when omitted; change of *; from zero", of_models,
      "of the key figures when this effect alone is switched, relative to the value beside it"},
-    {"advice; screens; held out; loads *; speeds *; within; outside; full model; chosen: *; greatest deviation *; "
+    {"advice; criteria; check; loads *; speeds *; within; outside; full model; chosen: *; greatest deviation *; "
      "deviation",
      "advise",
      "whether an effect is needed, by which criteria; figures and operating points kept for a check; within the "
@@ -224,7 +224,7 @@ inline constexpr PageWord of_pages[] = {
     {"model; reference by; agreement of motion; model error; error; error of *; total error; largest error *; front; "
      "Pareto "
      "front; "
-     "numbers as coarse as the model; multibody",
+     "numerical error as large as the model's; multibody",
      "accuracy",
      "errors against a reference by two other methods, of the motion and of each figure; total: with that of the "
      "model; "
