@@ -111,8 +111,8 @@ inline constexpr PageWord of_pages[] = {
     {"mean torque over a cycle; drive M_d; loads M_c; stable", "steady",
      "of drive and loads over the speed; they meet at operating speeds, stable where the drive's falls below the "
      "loads'"},
-    {"mid speed; mid speed [rpm]; ratio to the link; fastest; time to * of the steady speed", "steady, size",
-     "½ (ω_max + ω_min) of each shaft and its ratio to the reduction link; a start of the rigid machine"},
+    {"ratio to the link; fastest; time to * of the steady speed", "steady, size",
+     "of each shaft over the reduction link; a start of the rigid machine"},
     // size
     {"by theory 3.1; against exact; flywheel sized by; cycles; punch-press form; motor's slope counted; neglecting "
      "I_em; "
@@ -158,7 +158,7 @@ inline constexpr PageWord of_pages[] = {
      "opposite phase"},
     {"f [Hz]; f_n; frequency; frequency [Hz]; f damped; |λ|; held at angles; periodic system, ζ; periodic system [Hz], "
      "ζ; "
-     "natural frequency; first natural frequencies; first natural frequencies [Hz]",
+     "first natural frequencies; first natural frequencies [Hz]",
      of_trains,
      "frequencies of a mode: undamped; damped; magnitude of the eigenvalue; range with the mechanism held at its "
      "angles; "
@@ -219,7 +219,7 @@ inline constexpr PageWord of_pages[] = {
      "advise",
      "whether an effect is needed, by which criteria; figures and operating points kept for a check; within the "
      "tolerance"},
-    {"time ×; time with *; time [ms]; time of *; processor time; spread", "effects, advise, accuracy, compare",
+    {"time ×; time with *; time [ms]; time of *; spread", "effects, advise, accuracy, compare",
      "processor time of one integration; ×: over that with the effect on; spread: of repetitions"},
     {"model; reference by; agreement of motion; model error; error; error of *; total error; largest error *; front; "
      "Pareto "

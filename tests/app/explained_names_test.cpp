@@ -64,6 +64,7 @@ void collect(const std::string& command, Told& told) {
   for (std::sregex_iterator i(command.begin(), command.end(), file), end; i != end; ++i)
     scene += fmt::format("\n{}\n\"{}\" \"{}\"", text_of(fs::path(KURBEL_SOURCE_DIR) / i->str()), i->str(),
                          fs::path(i->str()).stem().string());
+  const bool in_radians = scene.find("rad/s\"") != std::string::npos;  // the scene's own unit
   const auto meet = [&](const std::string& name) {
     if (name.empty() || is_of_scene(name, scene)) return;
     ++told.names;
@@ -73,12 +74,12 @@ void collect(const std::string& command, Told& told) {
     for (const Json& card : section["cards"]) {
       for (const std::string heading : card.value("columns", Json::array())) {
         meet(heading);
-        if (heading.ends_with(" [rad/s]") && !heading.starts_with("ω"))
+        if (!in_radians && heading.ends_with(" [rad/s]") && !heading.starts_with("ω"))
           told.in_radians.insert(command + ": " + heading);
       }
       for (const Json& row : card.value("rows", Json::array()))
         for (const Json& cell : row)
-          if (cell == "rad/s") told.in_radians.insert(command + ": " + row[0].get<std::string>());
+          if (!in_radians && cell == "rad/s") told.in_radians.insert(command + ": " + row[0].get<std::string>());
       for (const Json& row : card.value("rows", Json::array()))
         if (row[0].get<std::string>().size() < 60) meet(row[0]);  // longer ones are sentences
       if (card["kind"] != "plot") continue;
