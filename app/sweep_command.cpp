@@ -142,6 +142,7 @@ int sweep(const SweepArguments& given) {
     complain(fmt::format("kurbel: {} of {} rows were there already, {} computed\n", end.there, end.rows, end.computed));
   SweepStudyResult study = study_of(store, a.limits);
   study.wanted = end.rows;
+  study.speed_unit = scene.speed_unit;
   study.interrupted = interrupted();
   if (!a.xlsx.empty()) write_xlsx(study, a.xlsx);
   return present(output_of(study), given.study);

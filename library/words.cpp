@@ -12,6 +12,7 @@
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
 #include "studies/dictionary/dictionary.h"
+#include "studies/dictionary/page_words.h"
 #include "studies/report/theory.h"
 #include "studies/scenes/kinds.h"
 #include "studies/scenes/schema.h"
@@ -28,7 +29,7 @@ std::string place_of(const Definition& d) {
 }
 
 std::string sentences_on(const Definition& d, const std::string& asked) {
-  std::string text = fmt::format("{} — {}\n", d.form(), d.words);
+  std::string text = fmt::format("{} — {}\n", d.words == word_of_pages ? asked : d.form(), d.words);
   for (const auto& [prefix, whole] : {std::pair{"cycle_peak_", "one steady cycle"}, std::pair{"peak_", "a whole run"}})
     if (asked.starts_with(prefix) && !d.name.starts_with(prefix)) {
       text += fmt::format("  {} is its greatest magnitude in {}, with its sign\n", asked, whole);
@@ -39,7 +40,7 @@ std::string sentences_on(const Definition& d, const std::string& asked) {
   };
   line("is", std::string(d.is));
   line("formula", std::string(d.formula));
-  line("unit", d.unit.empty() ? "a plain number" : pretty_unit(d.unit));
+  if (d.words != word_of_pages) line("unit", d.unit.empty() ? "a plain number" : pretty_unit(d.unit));
   line("is not", std::string(d.is_not));
   line("given by", d.verbs.empty() ? "no command" : std::string(d.verbs));
   line("more", place_of(d));

@@ -88,6 +88,7 @@ struct Omission {
 
 struct AccuracyStudy {
   std::string title, scene_file, scene_text;
+  SpeedUnit speed_unit = {};  // for people
   std::vector<FollowedFigure> figures;
   std::size_t key = 0;             // of the figures
   std::vector<ModelLevel> levels;  // the series up to `fullest`, the reference of the others; then own solvers

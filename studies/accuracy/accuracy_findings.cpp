@@ -162,17 +162,19 @@ Rows level_table(const AccuracyStudy& study) {
                         {"model_error", m.model_error[i]}};
         });
       });
-  for (std::size_t i = 0; i < study.figures.size(); ++i)
+  for (std::size_t i = 0; i < study.figures.size(); ++i) {
+    const std::string& si = study.figures[i].unit;
+    const auto cells = [&study, &si, i](L m) {
+      return figure_cells({m.value[i], m.floor[i] * std::abs(m.value[i])}, si, study.speed_unit);
+    };
+    const std::string unit = si == "rad/s" ? study.speed_unit.name : pretty_unit(si);
     table
-        .only_for_people(
-            study.figures[i].name +
-                (study.figures[i].unit.empty() ? "" : fmt::format(" [{}]", pretty_unit(study.figures[i].unit))),
-            [i](L m) {
-              return std::isnan(m.value[i]) ? "—" : figure_text({m.value[i], m.floor[i] * std::abs(m.value[i])}).value;
-            })
+        .only_for_people(study.figures[i].name + (unit.empty() ? "" : fmt::format(" [{}]", unit)),
+                         [i, &cells](L m) { return std::isnan(m.value[i]) ? "—" : cells(m).value; })
         .only_for_people("model error", [i](L m) {
           return std::isnan(m.model_error[i]) ? "—" : fmt::format("{:.2g} %", 100 * m.model_error[i]);
         });
+  }
   return table;
 }
 
@@ -189,9 +191,12 @@ Rows omission_table(const AccuracyStudy& study) {
 void add_key_figures(Findings& f, const AccuracyStudy& study) {
   const ModelLevel& full = study.levels[study.fullest];
   for (std::size_t i = 0; i < std::min<std::size_t>(study.figures.size(), 3); ++i) {
-    const auto& [name, unit] = study.figures[i];
-    const Estimate value{full.value[i], full.floor[i] * std::abs(full.value[i])};
-    f.figures.push_back({value, fmt::format("{}, {}", name, full.name), unit, "", 0, name});
+    const FollowedFigure& figure = study.figures[i];
+    const bool speed = figure.unit == "rad/s";
+    const double value = speed ? study.speed_unit.of(full.value[i]) : full.value[i];
+    f.figures.push_back({Estimate{value, full.floor[i] * std::abs(value)},
+                         fmt::format("{}, {}", figure.name, full.name), speed ? study.speed_unit.name : figure.unit, "",
+                         0, figure.name});
   }
   const auto fastest =
       std::min_element(study.settings.begin(), study.settings.end(),

@@ -152,7 +152,7 @@ class Judge {
     std::string text = fmt::format("The {} is {} off the {} in {} whatever its tolerance", model_called(m.name),
                                    percent(off), model_called(full().name), key());
     if (enough)
-      text += fmt::format("; more than {} at {:.0e} ({}) is wasted on it", enough->method, enough->tolerance,
+      text += fmt::format("; {} at {:.0e} ({}) is accurate enough for it", enough->method, enough->tolerance,
                           duration(enough->seconds));
     return text;
   }

@@ -120,7 +120,7 @@ Plot error_plane(const AccuracyStudy& study) {
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
-  plot.series.push_back({.name = "numbers as coarse as the model",
+  plot.series.push_back({.name = "numerical error as large as the model's",
                          .role = Role::reference,
                          .x = {low, high},
                          .y = {low, high},
@@ -135,9 +135,10 @@ Plot error_plane(const AccuracyStudy& study) {
 Plot total_cost(const AccuracyStudy& study) {
   const std::size_t k = study.key;
   const auto error = [&](const MeasuredSetting& s) { return s.total_error[k]; };
-  Plot plot{.title = fmt::format("What is bought per time, model and numbers together: {}", study.figures[k].name),
-            .x = {"total error", "relative", true},
-            .y = {"processor time", "ms", true}};
+  Plot plot{
+      .title = fmt::format("Total error and processor time, model and numbers together: {}", study.figures[k].name),
+      .x = {"total error", "relative", true},
+      .y = {"processor time", "ms", true}};
   for (std::size_t level = 0; level < study.levels.size(); ++level) {
     Series series{.name = study.levels[level].name, .role = level_role(level, study.fullest), .line = false};
     for (const MeasuredSetting& s : study.settings) {

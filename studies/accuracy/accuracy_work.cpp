@@ -14,6 +14,7 @@ AccuracyWork::AccuracyWork(const Scene& of, const AccuracyOptions& asked)
   scene.run.method = "auto";
   study.title = of.heading();
   study.scene_file = of.file;
+  study.speed_unit = of.speed_unit;
   study.scene_text = of.text;
 }
 

@@ -25,7 +25,7 @@ Rows effect_table(const Advice& a) {
       .only_for_programs("effect", [&](std::size_t k) { return a.units[k].name; })
       .only_for_programs("on", [&](std::size_t k) { return static_cast<bool>(a.tried[a.chosen].on[k]); })
       .column("why", "advice", [&](std::size_t k) { return a.kept_because[k]; })
-      .only_for_people("screens",
+      .only_for_people("criteria",
                        [&](std::size_t k) {
                          std::string screens;
                          for (const Screen& s : a.screens[k]) screens += (screens.empty() ? "" : "; ") + s.verdict;
@@ -61,7 +61,7 @@ Rows tried_table(const Advice& a) {
 
 Rows held_out_table(const Advice& a) {
   return table_of("held_out", "Figures and operating points that took no part in the choice", a.held_out)
-      .column("what", "held out", &HeldOut::what)
+      .column("what", "check", &HeldOut::what)
       .only_for_programs("deviation", &HeldOut::deviation)
       .only_for_programs("error", &HeldOut::error)
       .only_for_people("deviation", [](const HeldOut& h) { return h.refused.empty() ? percent(h.deviation) : "—"; })
@@ -89,7 +89,7 @@ Record tried_record(const Advice& a, const TriedSet& t) {
 }
 
 Plot plane(const Advice& a) {
-  Plot plot{.title = "Error bought against time saved: every set that was run",
+  Plot plot{.title = "Error and processor time of every set that was run",
             .x = {"processor time of a run", "ms", true},
             .y = {"greatest deviation from the full model", "%", true}};
   const auto add = [&](const std::string& name, Role role, auto belongs) {

@@ -56,10 +56,12 @@ std::string with_point_moved(std::string_view number, int places) {
   std::string digits;
   int before = 0, exponent = 0;  // digits before the point
   bool point = false;
-  for (std::size_t i = 0; i < number.size() && exponent == 0; ++i) {
-    if (number[i] == 'e')
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == 'e') {
       exponent = std::atoi(std::string(number.substr(i + 1)).c_str());
-    else if (number[i] == '.')
+      break;
+    }
+    if (number[i] == '.')
       point = true;
     else
       digits += number[i], before += point ? 0 : 1;

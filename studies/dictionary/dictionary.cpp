@@ -10,6 +10,7 @@
 
 #include "engine/scene/units.h"
 #include "studies/dictionary/own_entries.h"
+#include "studies/dictionary/page_words.h"
 #include "studies/dictionary/run_entries.h"
 #include "studies/dictionary/study_entries.h"
 #include "studies/dictionary/symbols.h"
@@ -17,15 +18,15 @@
 namespace kurbel {
 namespace {
 
-// "bending_1" matches "bending_*"; the star ends at a point, after which the owner follows.
-bool fits(std::string_view pattern, std::string_view name) {
+// "bending_1" matches "bending_*"; in names the star ends at a point, after which the owner follows.
+bool fits(std::string_view pattern, std::string_view name, char star_ends_at = '.') {
   const std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return pattern == name;
   if (!name.starts_with(pattern.substr(0, star))) return false;
   const std::string_view behind = pattern.substr(star + 1);
   for (std::size_t at = star; at <= name.size(); ++at) {
-    if (fits(behind, name.substr(at))) return true;
-    if (at < name.size() && name[at] == '.') break;
+    if (fits(behind, name.substr(at), star_ends_at)) return true;
+    if (at < name.size() && name[at] == star_ends_at) break;
   }
   return false;
 }
@@ -94,6 +95,30 @@ const Definition* find_label(std::string_view asked) {
   return asked.starts_with("largest ") && asked.find(" on ") != std::string_view::npos ? find("reaction") : nullptr;
 }
 
+// What stands on pages beside figures and symbols: of all names that fit the longest.
+const Definition* find_page_word(std::string_view asked, bool starred) {
+  struct Named {
+    std::string_view name;
+    Definition meaning;
+  };
+  static const std::vector<Named> words = [] {
+    std::vector<Named> list;
+    for (const entries::PageWord& w : entries::of_pages)
+      for (std::size_t at = 0; at < w.names.size();) {
+        const std::size_t end = std::min(w.names.find("; ", at), w.names.size());
+        const std::string_view name = w.names.substr(at, end - at);
+        list.push_back({name, {.name = name, .words = word_of_pages, .verbs = w.verbs, .is = w.is}});
+        at = end + 2;
+      }
+    return list;
+  }();
+  const Named* found = nullptr;
+  for (const Named& w : words)
+    if (has_star(w.meaning) == starred && (!found || w.name.size() > found->name.size()) && fits(w.name, asked, '\0'))
+      found = &w;
+  return found ? &found->meaning : nullptr;
+}
+
 }  // namespace
 
 const std::vector<Definition>& dictionary() {
@@ -147,21 +172,33 @@ const Definition* definition_of(const Name& name) {
 
 const Definition* meant_by(std::string_view asked) {
   if (const Definition* named = definition_of(asked)) return named;
+  if (const Definition* word = find_page_word(asked, false)) return word;
   if (const Definition* symbol = find_symbol(asked)) return symbol;
   if (const Definition* label = find_label(asked)) return label;
   const std::string name = as_name(asked);
   if (const Definition* named = definition_of(name)) return named;
   for (const Definition& d : dictionary())
     if (as_name(d.words) == name) return &d;
+  if (const Definition* word = find_page_word(asked, true)) return word;
   // "speed fluctuation", "δ": the begin of the words, or the symbol at their end.
+  const bool symbol = !name.empty() && static_cast<unsigned char>(name[0]) >= 0x80;
   for (const Definition& d : dictionary()) {
     const std::string words = as_name(d.words);
-    if (!name.empty() && (words.starts_with(name + "_") || words.ends_with("_" + name))) return &d;
+    if (!name.empty() && (words.starts_with(name + "_") || (symbol && words.ends_with("_" + name)))) return &d;
   }
-  // "peak torque, main_coupling"; "thermal use of motor": with its owner.
-  for (const std::string_view owned : {", ", " of "})
-    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) return meant_by(asked.substr(0, end));
-  return nullptr;
+  // "peak torque, main_coupling", "thermal use of motor", "steps [1]": its begin; "press.load (useful)", "shaft: k = 2": the
+  // end; "driving torque M_d": the symbol.
+  for (const std::string_view owned : {" [", " (", ": ", " = ", ", ", " of "})
+    if (const std::size_t end = asked.find(owned); end != std::string_view::npos) {
+      if (const Definition* begin = meant_by(asked.substr(0, end))) return begin;
+      if (owned != " (" && owned != ": ") continue;
+      const std::string_view rest = asked.substr(end + 2);
+      if (const Definition* of_end = meant_by(rest.substr(0, rest.size() - (owned == " (")))) return of_end;
+    }
+  if (constexpr std::string_view greatest = "greatest "; asked.starts_with(greatest))
+    return meant_by(asked.substr(greatest.size()));
+  const std::size_t last = asked.rfind(' ');
+  return last == std::string_view::npos ? nullptr : find_symbol(asked.substr(last + 1));
 }
 
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {

@@ -167,7 +167,7 @@ inline constexpr Label labels[] = {
     {"flywheel that meets δ", "", "flywheel_that_meets"},
     {"flywheel with the ", "slope", "flywheel_with_slope"},
     {"δ at the ", "", "delta_reached"},
-    {"left of a deviation after a cycle", "", "largest_multiplier"},
+    {"deviation that remains after a cycle", "", "largest_multiplier"},
 };
 
 }  // namespace kurbel::entries

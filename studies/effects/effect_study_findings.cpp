@@ -136,8 +136,9 @@ Findings findings_of(const EffectStudy& s) {
   for (const LeftOut& l : s.left_out)
     if (l.failed.empty() && !l.changes.empty() && f.figures.size() < 4) {
       const FigureChange& most = l.changes.front();
-      const Estimate change{100 * most.relative, 100 * most.error};
-      f.figures.push_back({change, "without " + words_of(l), "%", "off in " + most.figure, 3, "change_without"});
+      f.figures.push_back({Estimate{100 * most.relative, 100 * most.error}, "without " + words_of(l), "%",
+                           (most.from_nothing ? "of the rated value, from zero: " : "change of ") + most.figure, 3,
+                           "change_without"});
     }
   const Chapter ranked = f.chapter("Effects, ranked"), full = f.chapter("The full model");
   f.say(ranked, Sentences{.lines = {full_model(s)}, .page = false, .apart = true});

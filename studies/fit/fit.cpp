@@ -140,9 +140,9 @@ class FitWork {
     state_.interval = boost::math::quantile(StudentsT(of_cycles ? cycles_ - 1 : freedom), 0.975);
     study_.errors_from =
         !by_scatter && reduced < below_machine_error
-            ? "the machine's own error ([run] accuracy): what is left is smaller"
-        : !by_scatter            ? "what is left between record and machine, as noise of its own correlation length"
-        : study_.chi_squared > 1 ? fmt::format("the scatter of cycles, times {:.3g}: so much larger is what is left",
+            ? "the machine's own error ([run] accuracy): the residual is smaller"
+        : !by_scatter            ? "the residual, as noise of its own correlation length"
+        : study_.chi_squared > 1 ? fmt::format("the scatter of cycles, times {:.3g}, as the residual is larger by that factor",
                                                std::sqrt(study_.chi_squared))
                                  : "the scatter of cycles";
     constexpr double contradictory = 2;
@@ -325,7 +325,7 @@ class FitWork {
     }
     double worst = 0;
     for (const ChannelResidual& r : study_.residuals) worst = std::max(worst, r.range_part.value_or(0));
-    study_.conclusion += fmt::format("; what is left is {:.2g} % of the measured range at most", 100 * worst);
+    study_.conclusion += fmt::format("; the residual is {:.2g} % of the measured range at most", 100 * worst);
     if (study_.chi_squared > 0)
       study_.conclusion += study_.chi_squared > 2 ? fmt::format(
                                                         ", {:.2g} times what the scatter of cycles explains: the "
@@ -337,7 +337,7 @@ class FitWork {
     for (const ChannelResidual& r : study_.residuals) longest = std::max(longest, r.correlation_length);
     if (longest > 3)
       study_.notes.push_back(
-          fmt::format("what is left goes together over some {:.0f} points: it is no noise; an effect is "
+          fmt::format("the residual is correlated over some {:.0f} points: it is no noise; an effect is "
                       "missing, or the record errs. Errors allow for that length",
                       longest));
     if (!study_.confounded.empty()) study_.conclusion += "; " + study_.confounded.front();

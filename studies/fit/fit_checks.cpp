@@ -99,7 +99,7 @@ void try_off_effects(FitProblem& problem, const FitState& state, FitStudy& study
     return (a.failed.empty() ? a.reduction : -HUGE_VAL) > (b.failed.empty() ? b.reduction : -HUGE_VAL);
   });
   if (study.effects.empty())
-    study.notes.push_back("no effect is off that the scenes have data for: none was tried for what is left");
+    study.notes.push_back("no effect is off that the scenes have data for: none was tried to explain the residual");
   constexpr double worth_saying = 0.05;
   if (!study.effects.empty() && study.effects.front().failed.empty() && study.effects.front().reduction > worth_saying)
     study.notes.push_back(fmt::format("{}, which is off, would take {:.2g} % off the sum of squares that is left",

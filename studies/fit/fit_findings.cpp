@@ -55,7 +55,7 @@ Rows correlation_table(const FitStudy& s) {
 
 Rows residual_table(const FitStudy& s) {
   using R = ChannelResidual;
-  return table_of("residuals", "What is left", s.residuals)
+  return table_of("residuals", "Residuals", s.residuals)
       .text_in(3)
       .column("record", "record", &R::record)
       .column("channel", "channel", &R::channel)
@@ -196,7 +196,7 @@ std::vector<Plot> overlays(const FitStudy& s, const std::vector<Curve95>& curves
     }
     plots.push_back(std::move(over));
     if (predicted) continue;
-    Plot left = frame(s, c, fmt::format("What is left of {} of {}", c.channel, c.record));
+    Plot left = frame(s, c, fmt::format("Residual of {} of {}", c.channel, c.record));
     std::vector<double> difference;
     for (std::size_t i = 0; i < c.shown.size(); ++i) difference.push_back(c.measured[i] - c.shown[i]);
     left.series = {line_of(s, c, "measured − fitted", Role::vermillion, difference)};
@@ -244,7 +244,7 @@ Findings findings_of(const FitStudy& s) {
   for (const FittedUnknown& u : s.unknowns)
     if (f.figures.size() < 4)
       f.figures.push_back({u, u.unknown.name, u.unknown.range.unit, u.remark.empty() ? "standard error" : u.remark});
-  const Chapter values = f.chapter("Values"), left = f.chapter("What is left"), checks = f.chapter("Checks"),
+  const Chapter values = f.chapter("Values"), left = f.chapter("Residuals"), checks = f.chapter("Checks"),
                 predictions = f.chapter("Predictions");
   f.say(values, value_table(s));
   if (!s.unknowns.empty())

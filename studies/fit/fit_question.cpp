@@ -215,7 +215,7 @@ Question fit_question() {
        .does =
            "values of the scene by least squares from measured records, of `steady` over the angle, `run` over time, "
            "or "
-           "`modes`: errors, correlations, what the data cannot separate, what is left and whether an effect that is "
+           "`modes`: errors, correlations, what the data cannot separate, residuals and whether an effect that is "
            "off would explain it; `--predict full.toml` another record with its interval; `--write fitted.toml`"},
       options(), fitted);
 }

@@ -126,7 +126,7 @@ Plot overlay_plot(const Overlay& o, std::size_t k) {
 Plot residual_plot(const Overlay& o, std::size_t k) {
   const MeasuredSignal& s = o.measurement.signals[k];
   const Residuals& last = o.models.back().alignment.signals[k];
-  Plot plot{.title = fmt::format("What is left of {}: at most {} at {}", s.channel,
+  Plot plot{.title = fmt::format("Residual of {}: at most {} at {}", s.channel,
                                  told_shortly(std::abs(last.largest), s.unit, o.speed), told_shortly(last.at, "s")),
             .x = time_axis(o),
             .y = {"measured − simulated", ""}};

@@ -109,7 +109,7 @@ std::optional<Series> ray(const ModesStudy& m, const ExcitationLine& line, doubl
   const double meets_edge = line.order > 0 ? (2 * std::numbers::pi * top - line.fixed) / line.order : HUGE_VAL;
   if (at(from) >= top) return {};  // of a converter's line, too, that comes down from above
   to = std::min(to, meets_edge);
-  Series s{.name = fmt::format("{} · {}", line.order, line.label), .text_at_end = line.label};
+  Series s{.name = fmt::format("{:.4g} · {}", line.order, line.label), .text_at_end = line.label};
   const bool is_ray = line.kind == ExcitationLine::Kind::order;
   s.role = is_ray ? Role::rigid : Role::reference, s.dashed = !is_ray;
   s.add(m.speed_unit.of(from), at(from));

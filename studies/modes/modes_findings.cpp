@@ -76,7 +76,7 @@ Rows mode_table(const ModesStudy& m) {
   auto table = table_of("modes", "Natural frequencies, damping, energies", m.modes);
   table.always().text_in(1, 0).people_see_first(natural_modes(m));
   table.column("number", "mode", &Mode::number)
-      .column("name", "swings", [&](const Mode& mode) { return name_of(m, mode); })
+      .column("name", "shape", [&](const Mode& mode) { return name_of(m, mode); })
       .only_for_programs("omega", &Mode::omega)
       .column(
           "frequency", "f [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(6))
@@ -137,7 +137,7 @@ Rows internal_table(const ModesStudy& m) {
       .headed("modes of windings, controllers and other internal states, which are no natural frequencies of the drive")
       .text_in(4, 0)
       .only_for_people("mode", &Mode::number)
-      .only_for_people("swings", [&](const Mode& mode) { return name_of(m, mode); })
+      .only_for_people("shape", [&](const Mode& mode) { return name_of(m, mode); })
       .only_for_people("nature", [&](const Mode& mode) { return nature_of(m, mode); })
       .only_for_people("energy", [&](const Mode& mode) { return energy_text(m, mode); })
       .only_for_people("f damped [Hz]", damped_text)

@@ -479,15 +479,17 @@
     make('summary', '', title, details);
     return details;
   }
+  // Long names break behind their dots and underscores.
+  function write(text, place, breaks) {
+    text.split(/(?<=[._])/).forEach((piece, k) => { if (k && breaks && !/\s/.test(text)) make('wbr', '', null, place); place.append(piece); });
+  }
   function addTable(table, card) {
     const scroll = make('div', 'scroll', null, fold(card, table.title, table.folded));
     const element = make('table', '', null, scroll);
     const head = make('tr', '', null, make('thead', '', null, element));
     // Sentences are read from the left, wherever they stand.
-    const inWords = table.columns.map((_, i) => i < table.textColumns || table.rows.some(row => row[i].length > 30));
+    const inWords = table.columns.map((_, i) => i < table.textColumns || table.rows.some(row => row[i].length > 30 || /\p{L}{3,} \p{L}{3,}/u.test(row[i])));
     const kind = column => inWords[column] ? 'text' : '';
-    // Long names break behind their dots and underscores.
-    const write = (text, place, breaks) => text.split(/(?<=[._])/).forEach((piece, k) => { if (k && breaks && !/\s/.test(text)) make('wbr', '', null, place); place.append(piece); });
     table.columns.forEach((text, i) => write(text, make('th', kind(i), '', head), true));
     const body = make('tbody', '', null, element), printed = table.rows.length > 100 ? 60 : Infinity;
     if (table.rows.length > printed) make('p', 'note on-paper', `The first ${printed} of ${table.rows.length} rows; the page has all.`, card);
@@ -495,7 +497,7 @@
       const line = make('tr', r < printed ? '' : 'off-paper', null, body);
       row.forEach((text, i) => {
         const tone = table.tones ? table.tones[r][i] : '';
-        const cell = make('td', [kind(i), text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
+        const cell = make('td', [kind(i), /^[-±+−]? ?\d[^ ]*( %)?$/.test(text) && 'number', text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
         const place = i === 0 && table.means && table.means[r] ? meaningOf(table.means[r], cell) : cell;
         write(text, place, kind(i));
       });
@@ -1240,6 +1242,8 @@
   }
   make('h1', '', report.title, root);
   if (report.subtitle) make('p', 'subtitle', report.subtitle, root);
+  // A number and its unit stay on one line.
+  report.conclusion = report.conclusion.map(sentence => sentence.replace(/(\d) (?=[%°a-zA-Zµ·²³\/]{1,9}(?:[\s,.;:)]|$))/g, '$1\u00a0'));
   if (report.conclusion.length) {
     const several = report.conclusion.length > 2;  // a list; else a paragraph
     const box = make(several ? 'ul' : 'p', 'conclusion' + (report.complete ? '' : ' incomplete'), several ? null : report.conclusion.join(' '), root);
@@ -1249,7 +1253,7 @@
   for (const figure of report.figures) {
     const box = make('div', 'figure', null, row);
     const name = make('div', 'name', null, box);
-    (figure.means ? meaningOf(figure.means, name) : name).append(figure.name);
+    write(figure.name, figure.means ? meaningOf(figure.means, name) : name, true);
     const value = make('div', 'value', figure.value + ' ', box);
     make('span', 'unit', figure.unit, value);
     if (figure.error || figure.known) make('div', 'error', [figure.known, figure.error, figure.unit].filter(Boolean).join(' '), box);
@@ -1296,13 +1300,13 @@
       opened = null;
     }
     root.classList.toggle('printing', on);
-    // A table that is wider than the paper gets smaller words, then words that break.
+    // A table that is wider than the paper gets smaller words, then words that break, then upright headings; numbers break last.
     for (const scroll of document.querySelectorAll('.scroll')) {
       const table = scroll.firstChild, wide = () => on && table.offsetWidth > scroll.clientWidth + 1;
-      for (const breaks of [false, true]) {
+      for (const [breaks, least] of [['', 6], ['breaks', 5], ['breaks heads', 5], ['breaks heads numbers', 4.5]]) {
         table.style.fontSize = '';
-        table.classList.toggle('breaks', breaks && wide());
-        for (let size = 7.5; wide() && size > (breaks ? 4.5 : 6); size -= 0.25) table.style.fontSize = size + 'pt';
+        table.className = breaks;
+        for (let size = 7.5; wide() && size > least; size -= 0.25) table.style.fontSize = size + 'pt';
         if (!wide()) break;
       }
     }

@@ -78,8 +78,9 @@ Rows statistics_table(const Results& results) {
   });
   table.row("energy balance closes to", [](const Result& r) {
     return !has_works(r)                   ? std::string("—")
-           : nothing_turned_over(r.energy) ? std::string("no energy turned over")
-                                           : fmt::format("{:.1e}", r.energy.relative);
+           : nothing_turned_over(r.energy) ? std::string("no energy converted")
+           : r.energy.relative > 0         ? fmt::format("{:.1e}", r.energy.relative)
+                                           : std::string("0");
   });
   return table.rows();
 }

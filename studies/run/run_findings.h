@@ -29,7 +29,7 @@ bool nothing_turned_over(const EnergyBalance& energy);
 bool is_told(const Figure& figure, const Result& result);
 // False for a run that broke off before its works were computed.
 bool has_works(const Result& result);
-// Result of the energy balance: "energy balance closed to 1e-9 of the energy turned over"; without work and change of
+// Result of the energy balance: "energy balance closed to 1e-9 of the energy converted"; without work and change of
 // energy a sentence that nothing is proved.
 std::string told(const EnergyBalance& energy);
 

@@ -122,7 +122,7 @@ Plot energy_plot(const Result& r) {
   if (r.energy.checks == 0 || nothing_turned_over(r.energy)) return plot;
   plot.note =
       fmt::format("Kinetic and spring energy less all work since the start stays the same{}.",
-                  r.energy.relative > 0 ? fmt::format(" to {:.1e} of the energy turned over", r.energy.relative) : "");
+                  r.energy.relative > 0 ? fmt::format(" to {:.1e} of the energy converted", r.energy.relative) : "");
   return plot;
 }
 

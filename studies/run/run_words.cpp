@@ -44,11 +44,12 @@ bool has_works(const Result& r) {
 
 std::string told(const EnergyBalance& e) {
   if (!nothing_turned_over(e))
-    return fmt::format("energy balance closed to {:.1e} of the energy turned over", e.relative);
+    return e.relative > 0 ? fmt::format("energy balance closed to {:.1e} of the energy converted", e.relative)
+                          : std::string("energy balance closed exactly");
   return e.kinetic_end > 0
-             ? fmt::format("no work is done and the kinetic energy stays {}: no balance of energy to prove anything by",
+             ? fmt::format("no work is done and the kinetic energy stays {}: there is no energy balance to check",
                            with_unit(e.kinetic_end, "J", 5))
-             : std::string("nothing moves and no work is done: no balance of energy to prove anything by");
+             : std::string("nothing moves and no work is done: there is no energy balance to check");
 }
 
 std::string in_words(const Figure& f) {

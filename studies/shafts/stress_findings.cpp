@@ -74,7 +74,7 @@ Rows peak_table(const ShaftStresses& s, const char* key, const char* title, cons
       .column("misfires", "misfires", &StressPeak::misfires,
               [](const std::string& m) { return m.empty() ? std::string("none") : m; })
       .column("order", "of", &StressPeak::order,
-              [](double order) { return order > 0 ? fmt::format("order {:g}", order) : std::string("all orders"); })
+              [](double order) { return order > 0 ? fmt::format("order {:.4g}", order) : std::string("all orders"); })
       .column("stress", "largest amplitude [MPa]", &StressPeak::stress, stress)
       .column("speed", fmt::format("at [{}]", unit.name), &StressPeak::speed, speed)
       .column("allowed", "allowed there [MPa]", &StressPeak::allowed, stress)
@@ -126,7 +126,7 @@ Plot stress_plot(const ShaftStresses& s, std::size_t j, const std::vector<Stress
   for (const StressPeak& p : peaks) {
     if (p.joint != j || p.order == 0 || drawn == orders_drawn) continue;
     const auto r = static_cast<std::size_t>(std::lround(p.order / s.normal.fundamental));
-    plot.series.push_back(curve_of(s, s.normal, fmt::format("order {:g}", p.order), roles[drawn++],
+    plot.series.push_back(curve_of(s, s.normal, fmt::format("order {:.4g}", p.order), roles[drawn++],
                                    [&](const SpeedResponse& at) { return order_stress(joint, at.orders[j][r]); }));
   }
   draw_limits(s, j, plot);

@@ -336,7 +336,7 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
     if (const Figure* delta = c.find("delta." + s.link)) f.key("speed fluctuation δ, " + c.label, *delta, delta->name);
     if (!c.point.multipliers.empty())
       f.key(
-          "left of a deviation after a cycle, " + c.label,
+          "deviation that remains after a cycle, " + c.label,
           {c.point.largest(), c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front())},
           "largest_multiplier", c.stability, 4);
   }

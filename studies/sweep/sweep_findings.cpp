@@ -91,16 +91,24 @@ std::vector<Spread> spreads_of(const SweepStudyResult& s) {
 }
 
 Rows figure_table(const SweepStudyResult& s) {
-  return table_of("figures", "Figures over all variants", spreads_of(s))
-      .column("figure", "figure", [](const Spread& f) { return f.figure.name; })
-      .column("least", "least", &Spread::least)
-      .column("mean", "mean", &Spread::mean)
-      .column("greatest", "greatest", &Spread::greatest)
-      .column("deviation", "deviation", &Spread::deviation, {.digits = 3})
-      .column("largest_error", "largest error", &Spread::error, {.digits = 1})
+  auto table = table_of("figures", "Figures over all variants", spreads_of(s));
+  table.column("figure", "figure", [](const Spread& f) { return f.figure.name; });
+  // Speeds in the scene's unit for people.
+  const auto add = [&](const char* key, const char* heading, const auto& get, int digits) {
+    table.only_for_programs(key, get).only_for_people(heading, [&s, &get, digits](const Spread& f) {
+      const std::optional<double> value = std::invoke(get, f);
+      return value ? read_as(s.told(*value, f.figure.unit), {.digits = digits}) : std::string(ReadAs{}.otherwise);
+    });
+  };
+  add("least", "least", &Spread::least, digits_in_tables);
+  add("mean", "mean", &Spread::mean, digits_in_tables);
+  add("greatest", "greatest", &Spread::greatest, digits_in_tables);
+  add("deviation", "deviation", &Spread::deviation, 3);
+  add("largest_error", "largest error", &Spread::error, 1);
+  return table
       .column(
           "unit", "unit", [](const Spread& f) { return f.figure.unit; },
-          [](const std::string& unit) { return pretty_unit(unit); })
+          [&s](const std::string& unit) { return s.told(unit); })
       .column("rows", "rows", &Spread::rows);
 }
 
@@ -135,9 +143,13 @@ std::vector<Worst> worst_of(const SweepStudyResult& s) {
 Rows worst_table(const SweepStudyResult& s) {
   return table_of("worst", s.limits.empty() ? "Where each figure is greatest" : "The worst machines", worst_of(s))
       .column("figure", "figure", &Worst::figure)
-      .column("value", "value", &Worst::value)
-      .column("error", "numerical error", &Worst::error, {.digits = 1})
-      .column("unit", "unit", &Worst::unit, [](const std::string& unit) { return pretty_unit(unit); })
+      .only_for_programs("value", &Worst::value)
+      .only_for_people("value", [&s](const Worst& w) { return read_as(s.told(w.value, w.unit)); })
+      .only_for_programs("error", &Worst::error)
+      .only_for_people(
+          "numerical error",
+          [&s](const Worst& w) { return w.error ? read_as(s.told(*w.error, w.unit), {.digits = 1}) : "—"; })
+      .column("unit", "unit", &Worst::unit, [&s](const std::string& unit) { return s.told(unit); })
       .column("row", "row", [](const Worst& w) { return w.row->row; })
       .column("line", "computed alone", [&s](const Worst& w) { return line_of(s.identity, *w.row); });
 }
@@ -317,8 +329,12 @@ Findings findings_of(const SweepStudyResult& s) {
   f.claim(share_claims(s.tally.limits, s.tally.failed, s.tally.rows));
   for (const Spread& spread : spreads_of(s))
     if (f.figures.size() < 4)
-      f.figures.push_back(
-          {{spread.greatest}, "greatest " + spread.figure.name, spread.figure.unit, "", 5, spread.figure.name});
+      f.figures.push_back({{s.told(spread.greatest, spread.figure.unit)},
+                           "greatest " + spread.figure.name,
+                           spread.figure.unit == "rad/s" ? s.speed_unit.name : spread.figure.unit,
+                           "",
+                           5,
+                           spread.figure.name});
   const Chapter limits = f.chapter(s.limits.empty() ? "Over two parameters" : "Limits"),
                 influence = f.chapter("What moves the figures"), curves = f.chapter("Response"),
                 worst = f.chapter("Machines"), all = f.chapter("The sweep");

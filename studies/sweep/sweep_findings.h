@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/speed_unit.h"
+#include "engine/scene/units.h"
 #include "studies/findings/output.h"
 #include "studies/sweep/influence.h"
 #include "studies/sweep/limit.h"
@@ -49,7 +51,12 @@ struct SweepStudyResult {
   std::vector<FigureInfluence> influences;  // of each figure
   std::string into;                         // file
   bool interrupted = false;
-  std::size_t wanted = 0;  // rows of this shard
+  std::size_t wanted = 0;     // rows of this shard
+  SpeedUnit speed_unit = {};  // for people
+
+  // In the scene's unit if it is a speed.
+  double told(double value, const std::string& unit) const { return unit == "rad/s" ? speed_unit.of(value) : value; }
+  std::string told(const std::string& unit) const { return unit == "rad/s" ? speed_unit.name : pretty_unit(unit); }
 
   bool holds_all() const { return rows.size() == tally.rows; }
   // Rows from `from` to below `to`, whether they are held or not.

@@ -61,7 +61,7 @@ std::vector<Variable> variables_of(const SweepStudyResult& s) {
         {.name = f.name, .unit = "", .value = [at = figures[k]](const SweepRow& r) { return value_in(r, at); }});
     find_ends(list.back(), s.rows);
     Variable& v = list.back();
-    const ReadableUnit unit = readable_unit(std::max(std::abs(v.least), std::abs(v.greatest)), f.unit);
+    const ReadableUnit unit = readable_unit(std::max(std::abs(v.least), std::abs(v.greatest)), f.unit, s.speed_unit);
     v.unit = after_number(unit.unit), v.factor = unit.factor;
   }
   return list;

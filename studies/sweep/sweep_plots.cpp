@@ -92,7 +92,7 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
     if (const double v = value_in(*r, figure); std::isfinite(v))
       points.emplace_back(r, r->parameters[parameter]), largest = std::max(largest, std::abs(v));
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  const ReadableUnit unit = readable_unit(largest, f.unit);
+  const ReadableUnit unit = readable_unit(largest, f.unit, s.speed_unit);
   Plot plot{.title = fmt::format("{} over {}", f.name, p.path), .x = axis_of(p), .y = {f.name, unit.unit}};
   if (s.identity.parameters.size() == 1)
     add_curve(plot, points, figure, unit.factor);
@@ -145,7 +145,7 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
   double largest = 0;
   for (const SweepRow& r : s.rows)
     if (const double v = value_in(r, figure); std::isfinite(v)) largest = std::max(largest, std::abs(v));
-  const ReadableUnit unit = readable_unit(largest, f.unit);
+  const ReadableUnit unit = readable_unit(largest, f.unit, s.speed_unit);
   const auto add = [&](std::string name, Role role, const auto& belongs) {
     Series series{.name = std::move(name), .role = role, .points = true, .line = false};
     for (const SweepRow* r : shown(s))

@@ -46,3 +46,12 @@ export function checkPages(pages, filled) {
     assert.ok(full >= 1 / 3, `page ${i + 1} of ${pages.length} is ${Math.round(100 * full)} % full`);
   });
 }
+
+// Worksheets: a frame 5 mm within the paper's edge.
+export function checkFrames(pages) {
+  pages.forEach(({width, height, words}, i) => {
+    assert.ok(words.length > 0, `page ${i + 1} is empty`);
+    for (const w of words)
+      assert.ok(w.xMin >= 5 * mm && w.xMax <= width - 5 * mm && w.yMin >= 5 * mm && w.yMax <= height - 5 * mm, `page ${i + 1}: "${w.word}" is beyond the frame`);
+  });
+}

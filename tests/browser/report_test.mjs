@@ -1,6 +1,7 @@
 // report_test.mjs — a report in Chromium: no errors, no requests, every plot drawn, the machine moves, it prints.
 // Wide and light, and narrow and dark; of all but the first report one of the two in turn; both where KURBEL_THOROUGH is set.
 // usage: node report_test.mjs report.html … (or report.html=sheet.md: its questions are answered on the pages that it says)
+// sheet.html is a worksheet: each of its drawings fills a page, words lie within the frame.
 // (playwright-core is looked for beside this file and in KURBEL_BROWSER_MODULES)
 // Ends with 77, "skipped", where there is no browser.
 import assert from 'node:assert/strict';
@@ -9,7 +10,7 @@ import {tmpdir} from 'node:os';
 import {createRequire} from 'node:module';
 import path from 'node:path';
 import {fileURLToPath, pathToFileURL} from 'node:url';
-import {canReadPages, checkPages, checkSheet, pagesOf} from './pages.mjs';
+import {canReadPages, checkFrames, checkPages, checkSheet, pagesOf} from './pages.mjs';
 
 function skip(reason) {
   console.log(`SKIPPED: ${reason}; scripts/install-browser installs it`);
@@ -23,11 +24,19 @@ for (const folder of [process.env.KURBEL_BROWSER_MODULES, path.dirname(fileURLTo
 }
 if (!chromium) skip('no playwright-core here');
 
+function printed(pdf) {
+  const folder = mkdtempSync(path.join(tmpdir(), 'kurbel_pages_')), file = path.join(folder, 'report.pdf');
+  writeFileSync(file, pdf);
+  const pages = pagesOf(file);
+  rmSync(folder, {recursive: true});
+  return pages;
+}
+
 const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync']});
 try {
   const ways = [[1400, 'light'], [500, 'dark']];
-  for (const [number, [report, sheet]] of process.argv.slice(2).map(name => name.split('=').map(part => path.resolve(part))).entries())
+  for (const [number, [report, sheet]] of process.argv.slice(2).filter(name => !name.endsWith('sheet.html')).map(name => name.split('=').map(part => path.resolve(part))).entries())
   for (const [width, colorScheme] of process.env.KURBEL_THOROUGH || number === 0 ? ways : [ways[sheet ? 0 : number % 2]]) {  // sheets: as printed from a wide window
     const page = await browser.newPage({viewport: {width, height: 900}, colorScheme});
     const complaints = [], requests = [];
@@ -47,7 +56,7 @@ try {
     assert.ok(plots.length > 0, 'there are plots');
     for (const plot of plots) {
       assert.ok(plot.lines > 0, `"${plot.title}" is empty`);
-      assert.equal(plot.axes, 2, `"${plot.title}" lacks an axis title`);
+      if (!plot.title.endsWith('in pairs')) assert.equal(plot.axes, 2, `"${plot.title}" lacks an axis title`);
     }
 
     // Nothing sticks out sideways.
@@ -122,21 +131,22 @@ try {
       window.printed = {
         folded: document.querySelectorAll('details:not([open]):not(.licence)').length,
         wide: [...document.querySelectorAll('.scroll table')].filter(t => t.getBoundingClientRect().right > right + 1).map(t => t.closest('.card').textContent.slice(0, 60)),
+        broken: [...document.querySelectorAll('td.number')].filter(cell => {
+          const range = document.createRange();
+          range.selectNodeContents(cell);
+          return new Set([...range.getClientRects()].map(box => Math.round(box.top))).size > 1;
+        }).map(cell => cell.textContent),
         cut: [...document.querySelectorAll('.plot svg.main-svg')].filter(svg => svg.getBoundingClientRect().right > right + 1 || svg.getBoundingClientRect().height > svg.closest('.plot').clientHeight + 1).length,
       };
     }));
     const folded = await page.$$eval('details:not([open])', list => list.length);
     const pdf = await page.pdf({preferCSSPageSize: true});
     assert.ok(pdf.length > 20000 && pdf.subarray(0, 5).toString() === '%PDF-', 'prints to PDF');
-    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, cut: 0, wide: []});
+    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, broken: [], cut: 0, wide: []});
     let sheets = 0;
     if (canReadPages()) {
-      const folder = mkdtempSync(path.join(tmpdir(), 'kurbel_pages_')), file = path.join(folder, 'report.pdf');
-      writeFileSync(file, pdf);
-      const pages = pagesOf(file);
-      rmSync(folder, {recursive: true});
-      // Only the document of a drive train is made for paper throughout, and printed from a window that is not narrow.
-      checkPages(pages, sheet && width > 1000);
+      const pages = printed(pdf);
+      checkPages(pages, width > 1000);  // filled where the window is not narrow
       if (sheet) checkSheet(readFileSync(sheet, 'utf8'), pages);
       sheets = pages.length;
       // A train's report: scope, verdict and what was not assessed are its first page.
@@ -152,6 +162,18 @@ try {
     assert.deepEqual(requests.slice(1), [], 'nothing but the page itself is asked for');
     await page.close();
     console.log(`${path.basename(path.dirname(report))}, ${width} px, ${colorScheme}: ${plots.length} plots drawn, ${moves ? 'machine moves, ' : ''}${pdf.length} bytes of PDF${sheets ? `, ${sheets} pages` : ''}`);
+  }
+  for (const report of process.argv.slice(2).filter(name => name.endsWith('sheet.html'))) {
+    const page = await browser.newPage({viewport: {width: 1400, height: 900}});
+    await page.goto(pathToFileURL(path.resolve(report)).href);
+    const drawings = (await page.$$('main > svg')).length, pdf = await page.pdf({preferCSSPageSize: true});
+    await page.close();
+    assert.ok(drawings > 0, 'there are drawings');
+    if (!canReadPages()) continue;
+    const pages = printed(pdf);
+    assert.equal(pages.length, drawings, 'a drawing fills a page');
+    checkFrames(pages);
+    console.log(`${path.basename(path.dirname(report))}: worksheet of ${pages.length} pages`);
   }
 } finally {
   await browser.close();

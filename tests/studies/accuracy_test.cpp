@@ -134,7 +134,7 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
   EXPECT_EQ(json["settings"].size(), study.settings.size());
   EXPECT_EQ(json["models"].size(), study.levels.size());
   const std::string page = html_of(output.report());
-  EXPECT_NE(page.find("What is bought per time"), std::string::npos);
+  EXPECT_NE(page.find("Total error and processor time"), std::string::npos);
   EXPECT_NE(page.find("verner6 at 1e-08"), std::string::npos);
 }
 

@@ -33,6 +33,7 @@ TEST(Headline, RoundsToFourDigitsAndDropsErrorsThatNobodySees) {
 TEST(Headline, NumbersAreReadWithThePrefixOfTheirUnit) {
   EXPECT_EQ(readable("1.155e+05 N·m, 35471600 N·m/rad, 1.3e+02 %, -0.0 J"),
             "115.5 kN·m, 35.4716 MN·m/rad, 130 %, 0.0 J");
+  EXPECT_EQ(readable("0.0e+00 of it, 1.5e+00 s, 20e+00 %"), "0 of it, 1.5 s, 20 %");
   EXPECT_EQ(readable("630000.000 ± 0.001 N"), "630.000000 ± 0.000001 kN");
   EXPECT_EQ(readable("-11390 W (-0)"), "-11.39 kW (0)");
   EXPECT_EQ(readable("J1 = 3.45e+04 kg·m², 1.5e-05 s, 2.5e+11 Pa"), "J1 = 34500 kg·m², 1.5e-05 s, 250 GPa");

@@ -341,7 +341,7 @@ TEST_F(Fit, PredictsARecordWithItsIntervalAndWritesTheScene) {
   for (const ReportSection& section : page.sections)
     for (const Card& card : section.cards)
       if (const Plot* const plot = std::get_if<Plot>(&card)) titles += plot->title + "\n";
-  for (const char* shown : {"measured and fitted", "What is left of", "correlation", "predicted"})
+  for (const char* shown : {"measured and fitted", "Residual of", "correlation", "predicted"})
     EXPECT_NE(titles.find(shown), std::string::npos) << titles;
 }
 
