@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/scene/units.h"
-#include "studies/forces/forces.h"
+#include "studies/forces/forces_findings.h"
 #include "studies/reduce/reduce.h"
 #include "tests/support/scenes.h"
 
