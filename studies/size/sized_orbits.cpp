@@ -21,7 +21,6 @@ namespace kurbel {
 namespace {
 
 constexpr int most_orbits = 8;
-constexpr double met = 1e-5;          // of the demanded δ
 constexpr double least_error = 1e-9;  // that sampling leaves in δ, over itself
 const Kind& flywheel_kind() {
   for (const Kind& kind : all_kinds())
@@ -117,6 +116,7 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
     if (!orbit.repeats()) return r;
     const OrbitCycle cycle = orbit_cycle(orbit, {motor});
     fill(r, cycle, model->node_ratio[kurbel::at(motor)]);
+    r.multiplier = orbit.point.largest();
     r.notes = static_curve_notes(*orbit.map, orbit.point);
     for (std::string& sentence : substitutes(*model)) r.notes.push_back(std::move(sentence));
     for (std::string& sentence : outside_data(*orbit.map, orbit.point)) r.notes.push_back(std::move(sentence));
@@ -140,8 +140,8 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
   return r;
 }
 
-SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first, double others,
-                                          const Effects& effects) const {
+SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first, double others, const Effects& effects,
+                                          double met) const {
   Meeting m;
   m.least = first.crank.value, m.least_at = first.flywheel;
   constexpr double flattest = -0.05, furthest = 1.5;
@@ -183,7 +183,11 @@ SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first,
       break;
     }
     (v > 0 ? too_light : heavy_enough) = u;
-    if (flywheel == 0 && v < 0) break;  // none at all is still enough
+    m.none_needed = flywheel == 0 && v < 0;
+    if (m.none_needed) {
+      m.orbit = std::move(last);
+      break;
+    }
   }
   return m;
 }
