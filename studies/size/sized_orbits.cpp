@@ -21,6 +21,7 @@ namespace kurbel {
 namespace {
 
 constexpr int most_orbits = 8;
+constexpr double near_enough = 1e-5;  // of the demanded δ
 constexpr double least_error = 1e-9;  // that sampling leaves in δ, over itself
 const Kind& flywheel_kind() {
   for (const Kind& kind : all_kinds())
@@ -174,20 +175,18 @@ SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first,
     if (next != u) slope = std::min((now - v) / (next - u), flattest);
     u = next, v = now, last = std::move(r);
     if (last.crank.value < m.least) m.least = last.crank.value, m.least_at = last.flywheel;
-    if (std::abs(last.crank.value / delta - 1) <= met) {
-      m.orbit = at(last.flywheel, effects, last.start_speed, true);
-      ++m.orbits;
-      m.error = (last.flywheel + others) *
-                (std::abs(m.orbit->crank.value / delta - 1) + m.orbit->crank.error.value_or(0) / delta) / -slope;
-      if (!m.orbit->found) m.orbit.reset();
-      break;
-    }
-    (v > 0 ? too_light : heavy_enough) = u;
     m.none_needed = flywheel == 0 && v < 0;
-    if (m.none_needed) {
-      m.orbit = std::move(last);
-      break;
-    }
+    if (std::abs(last.crank.value / delta - 1) <= met || m.none_needed) break;
+    (v > 0 ? too_light : heavy_enough) = u;
+  }
+  if (m.none_needed) {
+    m.orbit = std::move(last);
+  } else if (m.orbits > 0 && std::abs(last.crank.value / delta - 1) <= std::max(met, near_enough)) {
+    m.orbit = at(last.flywheel, effects, last.start_speed, true);
+    ++m.orbits;
+    m.error = (last.flywheel + others) *
+              (std::abs(m.orbit->crank.value / delta - 1) + m.orbit->crank.error.value_or(0) / delta) / -slope;
+    if (!m.orbit->found) m.orbit.reset();
   }
   return m;
 }

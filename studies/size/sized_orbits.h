@@ -64,7 +64,7 @@ class SizedOrbits {
     int orbits = 0;                   // computed
     std::string unknown;              // why the motion is unknown for one of the inertias tried; else empty
   };
-  // Secant method in ln δ and ln I to `met` of δ, at most eight steady motions. `others`: inertia that turns with the
+  // Secant method in ln δ and ln I to `met` of δ, or in the end to 1e-5, at most eight steady motions. `others`: inertia that turns with the
   // flywheel, on its shaft [kg·m²].
   Meeting meeting(double delta, const SizedOrbit& first, double others, const Effects& effects, double met) const;
 
