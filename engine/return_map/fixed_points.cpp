@@ -159,6 +159,12 @@ SteadyTwin looser_twin(const ReturnMap& map, const SteadyPoint& point, double to
   if (point.to_come.size() > 0 || point.grazed || point.neutral()) return twin;
   other = find_steady(*twin.map, point.z, looser_residual * tolerance);
   if (!other.found) return twin;
+  // The search may end where it begins; the fixed point of the looser map is by the residual over 1 − μ away.
+  if (other.derivative.size() > 0 && !other.neutral()) {
+    const ReturnMap::Image image = twin.map->image(other.z, false);
+    const Eigen::MatrixXd system = other.derivative - Eigen::MatrixXd::Identity(other.z.size(), other.z.size());
+    if (image.end == ReturnMap::End::returned) other.z -= Lu(system).solve(image.z - other.z);
+  }
   const double apart = point.z.size() > 0 ? (other.z - point.z).cwiseAbs().maxCoeff() : 0;
   if (apart <= same_motion && std::abs(other.time - point.time) <= same_motion * point.time) return twin;
   other.found = false;

@@ -65,7 +65,8 @@ class Newton {
   }
 
   void iterate() {
-    while (norm_ > enough_ && out_.rounds < most_rounds && out_.derivatives < most_derivatives) {
+    while ((norm_ > enough_ || correction(residual_).cwiseAbs().maxCoeff() > enough_) && out_.rounds < most_rounds &&
+           out_.derivatives < most_derivatives) {
       const Progress progress = advance(-correction(residual_));
       if (progress == Progress::ended) return;
       if (progress == Progress::floor) break;

@@ -46,23 +46,4 @@ struct OperatingSpeed {
 // speed is steady); nothing limits the speed; WeakDrive: the drive is too weak, with the deficit.
 OperatingSpeed operating_speed(RigidMachine& machine);
 
-// Steady motion with torques of angle and speed: the periodic solution of dT/dφ = M(φ, ω), T = ½ I ω² (theory 11.5),
-// with additional inertia on the link. Newton's method on the return map; spectral accuracy within each piece.
-struct SteadyRigidCycle {
-  bool found = false;
-  bool stalls = false;  // the machine stalls from any speed: there is certainly no cycle
-  std::string why;      // why none was found
-  Piecewise speed;      // ω(φ) [rad/s]
-  Piecewise drive;      // M_d along it [N·m]
-  Extreme fastest, slowest;
-  double multiplier = 0;  // of a disturbance of T over a cycle (Floquet); below 1: stable
-  double time = 0;        // of a cycle [s]
-  double mid_speed() const { return 0.5 * (fastest.value + slowest.value); }
-  double delta() const { return (fastest.value - slowest.value) / mid_speed(); }
-};
-// `more_inertia` is added to the constant inertia [kg·m²]; it may be negative as long as the sum is positive. `cycle`
-// gives the breaks, `near` the starting value of the speed. A machine that stalls or has no steady cycle is no error:
-// see `why`.
-SteadyRigidCycle steady_rigid_cycle(RigidMachine& machine, const MachineCycle& cycle, double more_inertia, double near);
-
 }  // namespace kurbel

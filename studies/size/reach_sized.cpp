@@ -13,6 +13,8 @@
 namespace kurbel {
 namespace {
 
+constexpr const char* by_work = "Wittenbauer";
+
 class Reach {
  public:
   Reach(Sizing& sizing, const Scene& scene, const SizeOptions& options, std::optional<double> start_speed)
@@ -25,13 +27,8 @@ class Reach {
 
   void run() {
     if (!s_.needed) return look_without();
-    if (s_.basis == SizeBasis::regime)
-      return reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, nullptr);
-    if (!s_.operating) return reach_family();
-    if (!s_.with_motor || !s_.with_motor->found) return;
-    reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, &*s_.with_motor);
-    if (s_.soft && s_.soft->flywheel > 0 && s_.soft_cycle && s_.soft_cycle->found)
-      reach(SizedBy::slope, s_.soft->name, s_.soft->flywheel, &*s_.soft_cycle);
+    if (s_.basis == SizeBasis::classical && !s_.operating) return reach_family();
+    reach();
   }
 
  private:
@@ -67,56 +64,92 @@ class Reach {
       return;
     }
     const SpeedCycle cycle(s_.diagram, s_.cycle.mechanism, s_.exact.inertia, s_.mid_speed);
-    SteadyRigidCycle family;
-    family.found = true;
-    family.speed = Piecewise::of(
-        s_.cycle.drive.breaks(), [&](double phi) { return cycle.speed(phi); }, 1e-11);
-    family.fastest = cycle.fastest(), family.slowest = cycle.slowest();
-    reach(SizedBy::constant_drive, "Wittenbauer", s_.methods.front().flywheel, &family);
+    DeltaReached exact;
+    exact.sized_by = by_work, exact.flywheel = s_.methods.front().flywheel;
+    exact.crank.value = exact.motor.value = cycle.delta();
+    exact.mid_speed = 0.5 * (cycle.fastest().value + cycle.slowest().value);
+    for (int k = 0; k <= curve_points; ++k) {
+      exact.phi.push_back(s_.cycle.drive.length() * k / curve_points);
+      exact.speed.push_back(cycle.speed(exact.phi.back()));
+    }
+    s_.reached.push_back(std::move(exact));
+    start_speed_ = cycle.speed(0);
+    reach();
   }
 
-  // By the work equation with torques as functions of speed, if there is such a cycle; then by the steady motions.
-  void reach(SizedBy by, const std::string& sized_by, double flywheel, const SteadyRigidCycle* cycle) {
-    if (cycle) {
-      DeltaReached exact;
-      exact.by = by, exact.sized_by = sized_by, exact.flywheel = flywheel;
-      exact.crank.value = exact.motor.value = cycle->delta();
-      exact.mid_speed = cycle->mid_speed();
-      for (int k = 0; k <= 720; ++k) {
-        exact.phi.push_back(cycle->speed.length() * k / 720);
-        exact.speed.push_back(cycle->speed.value(exact.phi.back()));
-      }
-      s_.reached.push_back(std::move(exact));
-      start_speed_ = cycle->speed.value(0);
-    }
+  // By the steady motions of the machine, first rigid.
+  void reach() {
     Effects elastic = scene_.effects;
     if (!is_elastic(*compile_at(scene_, elastic, options_.at))) elastic.all_elastic = true;
     const auto elastic_model = compile_at(scene_, elastic, options_.at);
-    ask(SizedModel::rigid, by, sized_by, flywheel, rigid_twin(*elastic_model));
-    if (is_elastic(*elastic_model)) ask(SizedModel::elastic, by, sized_by, flywheel, elastic);
+    const Effects rigid = rigid_twin(*elastic_model);
+    const double flywheel = s_.methods.front().flywheel;
+    const SizedOrbit with_motor = ask(SizedModel::rigid, SizedBy::constant_drive, by_work, flywheel, rigid);
+    if (s_.operating && with_motor.stops) return;
+    if (s_.operating && with_motor.found) start_speed_ = with_motor.start_speed;
+    if (is_elastic(*elastic_model)) ask(SizedModel::elastic, SizedBy::constant_drive, by_work, flywheel, elastic);
+    if (!s_.operating || !with_motor.found) return;
+    const SizedOrbits::Meeting soft = count_slope(with_motor, rigid);
+    if (!soft.orbit || soft.none_needed) return;
+    take(*soft.orbit, SizedModel::rigid, SizedBy::slope, s_.soft->name);
+    if (is_elastic(*elastic_model)) ask(SizedModel::elastic, SizedBy::slope, s_.soft->name, s_.soft->flywheel, elastic);
   }
 
-  void ask(SizedModel as, SizedBy by, const std::string& sized_by, double flywheel, const Effects& effects) {
+  SizedOrbit ask(SizedModel as, SizedBy by, const std::string& sized_by, double flywheel, const Effects& effects) {
     const std::string name = name_of(as);
     options_.simulation.watch.at(name + ", " + sized_by, 0);
-    const SizedOrbit orbit = orbits_.at(flywheel, effects, start_speed_, options_.simulation.measure_error);
-    if (!orbit.found) {
-      if (s_.operating || (s_.basis == SizeBasis::regime && !s_.held)) {
-        s_.complete = false;
-        s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, orbit.why);
-      } else {
-        s_.notes.push_back(fmt::format("{} ({}): {}", name, sized_by, orbit.why));
-      }
-      return;
+    SizedOrbit orbit = orbits_.at(flywheel, effects, start_speed_, options_.simulation.measure_error);
+    if (orbit.found) {
+      take(orbit, as, by, sized_by);
+      meet_if_missed(as, by, orbit, effects);
+    } else if ((s_.operating && !(orbit.stops && as == SizedModel::rigid)) ||
+               (s_.basis == SizeBasis::regime && !s_.held)) {
+      s_.complete = false;
+      s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, orbit.why);
+    } else {
+      s_.notes.push_back(fmt::format("{} ({}): {}", name, sized_by, orbit.why));
     }
+    return orbit;
+  }
+  void take(const SizedOrbit& orbit, SizedModel as, SizedBy by, const std::string& sized_by) {
     s_.reached.push_back({orbit, as, by, sized_by});
     note(orbit, as);
+  }
+  void meet_if_missed(SizedModel as, SizedBy by, const SizedOrbit& orbit, const Effects& effects) {
     const bool last = as == SizedModel::elastic || !is_elastic(*compile_at(scene_, scene_.effects, options_.at));
     const double off = orbit.crank.value / s_.delta - 1;
     constexpr double missed = 0.01, far_smoother = -0.5;
     const bool heavier = off > missed;
     const bool lighter = s_.basis == SizeBasis::regime && off < -missed && off > far_smoother;
     if (by == SizedBy::constant_drive && last && !s_.meeting && (heavier || lighter)) meet(as, orbit, effects);
+  }
+
+  // The flywheel with which the rigid machine has the demanded δ, as its torques depend on the speed.
+  SizedOrbits::Meeting count_slope(const SizedOrbit& with_motor, const Effects& rigid) {
+    constexpr double met = 1e-9;
+    s_.with_motor = with_motor;
+    SizedOrbits::Meeting found = orbits_.meeting(s_.delta, with_motor, others_, rigid, met);
+    if (found.orbit) {
+      s_.soft = method(slope_of_what(s_).substr(4) + " counted", found);
+      s_.soft_speed = found.orbit->mid_speed;
+      start_speed_ = found.orbit->start_speed;
+    } else {
+      s_.soft_why = found.unknown.empty()
+                        ? "no inertia tried gives the demanded δ with the torques as they are over the speed"
+                        : "the inertia that gives the demanded δ with the torques as they are over the speed is not "
+                          "assessed: " +
+                              found.unknown;
+    }
+    return found;
+  }
+  SizeMethod method(const std::string& name, const SizedOrbits::Meeting& found) const {
+    const double on_shaft = found.orbit->flywheel + others_;
+    return {name,
+            on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
+            found.orbit->flywheel,
+            flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
+            found.orbit->crank.value,
+            found.error};
   }
   // A note found with several flywheels is given once.
   void note(const SizedOrbit& orbit, SizedModel as) {
@@ -132,9 +165,10 @@ class Reach {
 
   // The flywheel with which the actual machine has the demanded δ.
   void meet(SizedModel as, const SizedOrbit& first, const Effects& effects) {
-    const SizedOrbits::Meeting found = orbits_.meeting(s_.delta, first, others_, effects);
+    constexpr double met = 1e-5;
+    const SizedOrbits::Meeting found = orbits_.meeting(s_.delta, first, others_, effects, met);
     const char* which = as == SizedModel::elastic ? "elastic" : "rigid";
-    if (!found.orbit && first.crank.value <= s_.delta) return;  // it is smooth enough as it is
+    if ((!found.orbit || found.none_needed) && first.crank.value <= s_.delta) return;  // smooth enough as it is
     if (!found.orbit) {
       s_.meeting_words = fmt::format(
           "no flywheel was found with which the {} machine has δ = {:g}: the least of {} steady motions is {:.5g}, "
@@ -145,13 +179,7 @@ class Reach {
         s_.meeting_words += "; the search failed, which does not say that there is none: " + found.unknown;
       return;
     }
-    const double on_shaft = found.orbit->flywheel + others_;
-    s_.meeting = SizeMethod{fmt::format("steady motion, {}", which),
-                            on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
-                            found.orbit->flywheel,
-                            flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
-                            found.orbit->crank.value,
-                            found.error};
+    s_.meeting = method(fmt::format("steady motion, {}", which), found);
     s_.meeting_words =
         fmt::format("a flywheel of {:.6g} kg·m² meets δ = {:g} with {} ({}{})", found.orbit->flywheel, s_.delta,
                     effects.describe() == scene_.effects.describe() ? "the scene's effects" : "all of its elasticity",

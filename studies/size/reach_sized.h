@@ -9,8 +9,8 @@
 
 namespace kurbel {
 
-// Fills `reached` of a sizing, and `meeting` if the flywheel by the work equation misses the demanded δ. A machine
-// without a sequence starts at this speed of the link at its angle 0 [rad/s], if given.
+// Fills `reached` of a sizing, `soft` if some torque depends on the speed, and `meeting` if the flywheel by the work
+// equation misses the demanded δ. A machine without a sequence starts at this speed of the link [rad/s], if given.
 void reach_sized(Sizing& sizing, const Scene& scene, const SizeOptions& options, std::optional<double> start_speed);
 
 // Notes on parts that the work equation cannot represent (`beyond` elasticity), and their contribution to δ.

@@ -9,7 +9,6 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/numerics/roots.h"
 #include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
@@ -58,9 +57,8 @@ class Sizer {
       s_.notes.push_back(
           "sizing looks at steady motion; whether the machine starts from rest is what kurbel run shows");
     apply_methods();
-    if (s_.basis == SizeBasis::classical) count_motor();
     find_punch();
-    if (options_.simulate) reach_sized(s_, scene_, options_, start_speed_);
+    if (options_.simulate) reach_sized(s_, scene_, options_, s_.operating ? s_.operating->speed : start_speed_);
     find_dimensions();
     say_what_is_left_out(s_, beyond_);
     return std::move(s_);
@@ -329,52 +327,6 @@ class Sizer {
                             square(s_.flywheel_ratio);
     }
     s_.fluctuation_error = error(fluctuation, looser.fluctuation(), work) + by_tables;
-  }
-
-  SteadyRigidCycle steady(double drive_inertia) {
-    return steady_rigid_cycle(*machine_, s_.cycle, drive_inertia - machine_->constant_inertia(), s_.operating->speed);
-  }
-
-  static std::string not_assessed(const std::string& why) {
-    return "the inertia that gives the demanded δ with the torques as they are over the speed is not assessed: " + why;
-  }
-  // δ falls as the inertia grows; a machine that stalls counts as δ = 2.
-  void count_motor() {
-    if (!s_.operating || !s_.needed) return;
-    const double exact = s_.methods.front().drive_inertia;
-    s_.with_motor = steady(exact);
-    if (!s_.with_motor->found)
-      s_.notes.push_back("with its torques as they are no steady cycle of the sized machine was found: " +
-                         s_.with_motor->why);
-    else if (s_.with_motor->multiplier > 1)
-      s_.notes.push_back(
-          fmt::format("with its torques as they are the sized machine's cycle is unstable: a disturbance of its energy "
-                      "grows to {:.3g} of itself within a cycle, and the machine leaves it",
-                      s_.with_motor->multiplier));
-    std::string unknown;
-    const auto excess = [&](double log_inertia) {
-      const SteadyRigidCycle c = steady(std::exp(log_inertia));
-      if (!c.found && !c.stalls) unknown = c.why;
-      return (c.found ? c.delta() : 2.0) - s_.delta;
-    };
-    double high = std::log(exact), low = high, at_high = excess(high), at_low = at_high;
-    for (int i = 0; i < 20 && at_high > 0; ++i) low = high, at_low = at_high, at_high = excess(high += 0.5);
-    for (int i = 0; i < 14 && at_low <= 0; ++i) high = low, at_high = at_low, at_low = excess(low -= 0.5);
-    if (!unknown.empty() || at_low <= 0 || at_high > 0) {
-      s_.soft_why = !unknown.empty() ? not_assessed(unknown)
-                    : at_high > 0
-                        ? "no inertia tried gives the demanded δ with the torques as they are over the speed"
-                        : "with the torques as they are over the speed δ holds down to a thousandth of the inertia";
-      return;
-    }
-    const double root = find_root(excess, low, at_low, high, at_high, 1e-12 * s_.delta);
-    if (!unknown.empty()) return void(s_.soft_why = not_assessed(unknown));
-    s_.soft = method(slope_of_what(s_).substr(4) + " counted", std::exp(root));
-    s_.soft_cycle = steady(std::exp(root));
-    s_.soft->delta = s_.soft_cycle->found ? std::optional(s_.soft_cycle->delta()) : std::nullopt;
-    // δ is the difference of two speeds with the sampling error of the cycle, and I₀ is proportional to 1/δ.
-    const double by_speeds = 2 * cycle_sampling / s_.delta * s_.soft->drive_inertia / square(s_.flywheel_ratio);
-    if (const auto& error = s_.methods.front().error) s_.soft->error = *error + by_speeds;
   }
 
   // A tool that works during less than half of the cycle.

@@ -94,10 +94,10 @@ struct Sizing {
   // With the motor's slope.
   std::string motor;  // first driving component; empty: none
   std::optional<OperatingSpeed> operating;
-  std::optional<SteadyRigidCycle> with_motor;  // of Wittenbauer's flywheel
-  std::optional<SizeMethod> soft;              // inertia whose steady cycle with the actual motor has this δ
-  std::optional<SteadyRigidCycle> soft_cycle;
-  std::string soft_why;  // reason if there is none
+  std::optional<SizedOrbit> with_motor;  // rigid, with Wittenbauer's flywheel
+  std::optional<SizeMethod> soft;        // inertia whose steady motion, rigid, has this δ
+  double soft_speed = 0;                 // its mid speed [rad/s]; 0: no flywheel is needed
+  std::string soft_why;                  // reason if there is none
 
   // The inertia whose steady motion has the demanded δ, if the flywheel by the work equation misses it.
   std::optional<SizeMethod> meeting;

@@ -49,8 +49,8 @@ std::string conclusion_of(const Sizing& s) {
   if (s.soft) {
     const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
     text += s.soft->flywheel > 0
-                ? fmt::format("; with {} considered {:.6g} kg·m² suffice ({:.3g} % {})", slope_of_what(s),
-                              s.soft->flywheel, std::abs(less), less >= 0 ? "less" : "more")
+                ? fmt::format("; with {} considered {:.6g} kg·m² {} ({:.3g} % {})", slope_of_what(s), s.soft->flywheel,
+                              less >= 0 ? "suffice" : "are needed", std::abs(less), less >= 0 ? "less" : "more")
                 : fmt::format("; with {} considered none is needed", slope_of_what(s));
   }
   if (!s.meeting_words.empty()) text += "; " + s.meeting_words;

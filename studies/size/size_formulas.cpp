@@ -103,24 +103,23 @@ Formulas dimension_formulas(const FlywheelDimensions& d) {
 
 Formulas motor_formulas(const Sizing& s) {
   Formulas list;
-  if (s.with_motor && s.with_motor->found)
+  if (s.with_motor)
     list.add(s.operating->drive_slope < 0 ? "The drive gives way: its torque rises as the speed falls"
                                           : "The drive does not give way: what holds the speed is the load",
-             "d(½ I ω²)/dφ = M_d(ω) − M_c(φ, ω),   ω(Φ) = ω(0)",
-             "δ = ({:.6g} − {:.6g})/{:.6g} = {:.6g} instead of {:g}", s.with_motor->fastest.value,
-             s.with_motor->slowest.value, s.with_motor->mid_speed(), s.with_motor->delta(), s.delta)
-        .note(fmt::format("Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance of the energy "
-                          "{} to {:.3g} of itself within a cycle.",
-                          s.operating->slope, s.with_motor->multiplier < 1 ? "shrinks" : "grows",
-                          s.with_motor->multiplier));
+             "d(½ I ω²)/dφ = M_d − M_c,   ω(Φ) = ω(0)", "δ = {:.6g} instead of {:g}, at a mid speed of {:.6g} rad/s",
+             s.with_motor->crank.value, s.delta, s.with_motor->mid_speed)
+        .note(
+            fmt::format("Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance shrinks to {:.3g} "
+                        "of itself within a cycle.",
+                        s.operating->slope, s.with_motor->multiplier));
   if (s.soft)
     list.add("Inertia that gives δ with these torques", "δ(I₀) = δ",
              "I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope", s.soft->drive_inertia,
              s.soft->flywheel, std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
              s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more")
-        .note(s.soft_cycle && s.soft_cycle->found ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.",
-                                                                s.speed_unit.text(s.soft_cycle->mid_speed()))
-                                                  : "");
+        .note(s.soft_speed != 0
+                  ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.", s.speed_unit.text(s.soft_speed))
+                  : "");
   return list;
 }
 

@@ -21,7 +21,7 @@ namespace kurbel {
 namespace {
 
 constexpr int most_orbits = 8;
-constexpr double met = 1e-5;          // of the demanded δ
+constexpr double near_enough = 1e-5;  // of the demanded δ
 constexpr double least_error = 1e-9;  // that sampling leaves in δ, over itself
 const Kind& flywheel_kind() {
   for (const Kind& kind : all_kinds())
@@ -117,6 +117,7 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
     if (!orbit.repeats()) return r;
     const OrbitCycle cycle = orbit_cycle(orbit, {motor});
     fill(r, cycle, model->node_ratio[kurbel::at(motor)]);
+    r.multiplier = orbit.point.largest();
     r.notes = static_curve_notes(*orbit.map, orbit.point);
     for (std::string& sentence : substitutes(*model)) r.notes.push_back(std::move(sentence));
     for (std::string& sentence : outside_data(*orbit.map, orbit.point)) r.notes.push_back(std::move(sentence));
@@ -140,8 +141,8 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
   return r;
 }
 
-SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first, double others,
-                                          const Effects& effects) const {
+SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first, double others, const Effects& effects,
+                                          double met) const {
   Meeting m;
   m.least = first.crank.value, m.least_at = first.flywheel;
   constexpr double flattest = -0.05, furthest = 1.5;
@@ -174,16 +175,18 @@ SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first,
     if (next != u) slope = std::min((now - v) / (next - u), flattest);
     u = next, v = now, last = std::move(r);
     if (last.crank.value < m.least) m.least = last.crank.value, m.least_at = last.flywheel;
-    if (std::abs(last.crank.value / delta - 1) <= met) {
-      m.orbit = at(last.flywheel, effects, last.start_speed, true);
-      ++m.orbits;
-      m.error = (last.flywheel + others) *
-                (std::abs(m.orbit->crank.value / delta - 1) + m.orbit->crank.error.value_or(0) / delta) / -slope;
-      if (!m.orbit->found) m.orbit.reset();
-      break;
-    }
+    m.none_needed = flywheel == 0 && v < 0;
+    if (std::abs(last.crank.value / delta - 1) <= met || m.none_needed) break;
     (v > 0 ? too_light : heavy_enough) = u;
-    if (flywheel == 0 && v < 0) break;  // none at all is still enough
+  }
+  if (m.none_needed) {
+    m.orbit = std::move(last);
+  } else if (m.orbits > 0 && std::abs(last.crank.value / delta - 1) <= std::max(met, near_enough)) {
+    m.orbit = at(last.flywheel, effects, last.start_speed, true);
+    ++m.orbits;
+    m.error = (last.flywheel + others) *
+              (std::abs(m.orbit->crank.value / delta - 1) + m.orbit->crank.error.value_or(0) / delta) / -slope;
+    if (!m.orbit->found) m.orbit.reset();
   }
   return m;
 }

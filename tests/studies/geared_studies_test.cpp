@@ -184,23 +184,6 @@ press = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", slider_mass 
   EXPECT_NEAR(s.dimensions->energy, 0.5 * s.methods[0].flywheel * fastest * fastest, 1e-6 * s.dimensions->energy);
 }
 
-// A round of the steady cycle takes ∮dφ/ω.
-TEST(SteadyRigidCycle, TakesTheTimeOfItsSpeed) {
-  RigidMachine machine(test::scene_from(R"(
-line = ["motor", "pump"]
-motor = { kind = "dc shunt motor", stall_torque = "300 N*m", no_load_speed = "12 rad/s", inertia = "3 kg*m2" }
-pump = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", slider_mass = "60 kg", load = { kind = "opposing", force = "300 N" } }
-)"));
-  const SteadyRigidCycle cycle = steady_rigid_cycle(machine, machine_cycle(machine, 11), 0, 11);
-  ASSERT_TRUE(cycle.found) << cycle.why;
-  constexpr int n = 4000;
-  double time = 0;
-  for (int k = 0; k < n; ++k) time += 2 * pi / n / cycle.speed.value(2 * pi * (k + 0.5) / n);
-  EXPECT_NEAR(cycle.time, time, 1e-5 * time);
-  // The work of the load: 4 r F a turn; the motor's mean torque over time is that of the mean speed over time.
-  EXPECT_NEAR(cycle.drive.total(), 120, 1e-7);
-}
-
 // --- screens ---
 
 const Screen* screen_of(const std::vector<Screen>& screens, const std::string& name) {

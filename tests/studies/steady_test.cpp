@@ -55,6 +55,28 @@ std::string induction_against(double load) {  // breakdown torque 3 · 4000/95 =
 
 // --- the steady cycle's figures ---
 
+// A residual of the return map is 1 − μ of the distance to its fixed point: here a thousandth, and the motor's no-load speed,
+// which scales it, a hundred times the machine's own.
+TEST(Steady, WhatSettlesSlowlyIsFoundWithinItsErrorFromAnyStart) {
+  const std::string text = R"(
+line  = ["motor", "wheel", "press"]
+motor = { kind = "dc shunt motor", stall_torque = "86.7436692696 N*m", no_load_speed = "867.436692696 rad/s", inertia = "2.5 kg*m2" }
+wheel = { kind = "flywheel", inertia = "72.7 kg*m2" }
+press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", slider_mass = "80 kg", load = { kind = "press", nominal_force = "60 kN", nominal_travel = "10 mm", rise = "2 mm" } }
+)";
+  std::vector<Figure> speeds;
+  for (const char* start : {"8 rad/s", "7 rad/s", "7.9 rad/s", "8.1 rad/s"}) {
+    const Scene scene = scene_from(text + "run = { start = { speed = \"" + start + "\" } }\n");
+    const SteadyStudy study = steady(scene, {Effects{}}, {.start_search = false});
+    ASSERT_TRUE(study.complete) << study.diagnosis;
+    const Figure* speed = study.cycles[0].find("mid_speed.press");
+    ASSERT_TRUE(speed && speed->error);
+    EXPECT_LT(*speed->error, 1e-6 * speed->value);
+    for (const Figure& other : speeds) EXPECT_NEAR(speed->value, other.value, *speed->error + *other.error) << start;
+    speeds.push_back(*speed);
+  }
+}
+
 TEST(Steady, PressTurnsAsTheLastCycleOfALongRun) {
   const Scene scene = scene_file("scenes/crank_press.toml");
   const SteadyStudy study = steady(scene, {Effects{}, scene.effects}, {.start_search = false});
