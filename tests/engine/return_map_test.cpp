@@ -265,8 +265,10 @@ TEST(ReturnMap, DerivativeHoldsThroughStandstill) {
       "load = { kind = \"load\", torque = \"5 N*m\", damping = \"0.2 N*m*s/rad\", inertia = \"0.1 kg*m2\" }\n"
       "effects = { elasticity = true }\n");
   ReturnMap map(model, {});
-  const SteadyPoint p = steady_of(map, 5);
-  ASSERT_TRUE(p.found);
+  SteadyPoint p = find_steady(map, map.approach(5).z, 1e-11);
+  EXPECT_FALSE(p.found) << "the load sticks there at first, and in its steady motion slips";
+  for (int k = 0; k < 8 && !p.found; ++k) p = find_steady(map, map.approach_from(map.section().state()).z, 1e-11);
+  ASSERT_TRUE(p.found) << p.why;
   Equations equations(model, false);
   RunOptions run{
       .tolerance = 1e-10, .method = "auto", .until = 1 / 0.7, .budget = 10, .interrupted = nullptr, .progress = {}};
