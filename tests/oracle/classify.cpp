@@ -2,6 +2,7 @@
 #include "tests/oracle/classify.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -97,20 +98,21 @@ class MotionJudge {
       if (turns_at(*m)) return m->t;
     return 0;
   }
-  // From its last reversal but one to the last one, wherever it turned in between; 0: it never turned back.
+  // From its last reversal but one to the last one, where the time between the two before is that within a factor of two: a
+  // vibration; else 0.
   double half_swing() const {
-    double last = HUGE_VAL, at = 0;
+    std::array<double, 3> reversal{};
+    std::size_t count = 0;
     int sense = 0;
-    for (auto m = p_.rbegin(); m != p_.rend(); ++m) {
+    double at = 0;
+    for (auto m = p_.rbegin(); m != p_.rend() && count < reversal.size(); ++m) {
       if (!turns_at(*m)) continue;
       const int now = m->speed > 0 ? 1 : -1;
-      if (sense != 0 && now != sense) {
-        if (last < HUGE_VAL) return last - at;
-        last = at;
-      }
+      if (sense != 0 && now != sense) reversal[count++] = at;
       sense = now, at = m->t;
     }
-    return 0;
+    const double last = reversal[0] - reversal[1], before = reversal[1] - reversal[2];
+    return count == reversal.size() && last < 2 * before && before < 2 * last ? last : 0;
   }
   // |speed| at the end; of one that vibrates the greatest one of its last half swing, or of the last 2 % of the time.
   double fastest_late() const {

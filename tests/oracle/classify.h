@@ -6,7 +6,8 @@
 //   begins      "at rest": the link does not turn at the first point; else "turning"
 //   moves       the link turns at any point
 //   end         "rests":      it does not turn at the end, and is held there or has not turned for the last 2 % of the time,
-//                             nor for as long as its last two reversals lie apart: a swing stands at its turns
+//                             nor for as long as the last two reversals of a vibration lie apart, which stands at its
+//                             turns (the time between the two before is that within a factor of two)
 //               "vibrates":   in the last quarter of the time it turns in both senses, twice at least, and the angle that it
 //                             gained is less than a quarter of the way it went
 //               "forwards", "backwards": else, by the sense of the last 2 % of the time
