@@ -358,7 +358,7 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(kurbel.rows_in(file).vary, self.vary)
             with self.assertRaisesRegex(ValueError, "another sweep|differs"):
                 kurbel.sweep(TWO_MASSES, self.vary, design="grid:2x2", figures=["peak_torque"], into=file)
-            with self.assertRaisesRegex(TypeError, "errors"):
+            with self.assertRaisesRegex(TypeError, "no_error"):
                 kurbel.sweep(TWO_MASSES, self.vary, into=file, no_error=True)
 
     def test_rows_of_other_questions(self):
