@@ -141,10 +141,11 @@ class FitWork {
     study_.errors_from =
         !by_scatter && reduced < below_machine_error
             ? "the machine's own error ([run] accuracy): the residual is smaller"
-        : !by_scatter            ? "the residual, as noise of its own correlation length"
-        : study_.chi_squared > 1 ? fmt::format("the scatter of cycles, times {:.3g}, as the residual is larger by that factor",
-                                               std::sqrt(study_.chi_squared))
-                                 : "the scatter of cycles";
+        : !by_scatter ? "the residual, as noise of its own correlation length"
+        : study_.chi_squared > 1
+            ? fmt::format("the scatter of cycles, times {:.3g}, as the residual is larger by that factor",
+                          std::sqrt(study_.chi_squared))
+            : "the scatter of cycles";
     constexpr double contradictory = 2;
     if (problem_.records().size() > 1 && reduced > contradictory)
       study_.notes.push_back(

@@ -184,6 +184,7 @@ TEST(Facade, MessagesNameOptionsAsCallersDo) {
   EXPECT_NE(said("size", {}).find("Give delta, e.g. delta 0.05"), std::string::npos) << said("size", {});
   EXPECT_EQ(said("size", {{"delta", "0.1"}, {"machine", "press"}}), "delta and machine both given; keep one");
   EXPECT_EQ(said("reduce", {{"to", "--to --here"}}).substr(0, 17), "to \"--to --here\":");
+  EXPECT_EQ(said("reduce", {{"positions", "0"}}), "positions \"0\": must be 1 … 100000");
   EXPECT_EQ(message_of([] { rows_of({{"a=1..2"}, "grid:0"}); }).substr(0, 16), "design \"grid:0\":");
   EXPECT_EQ(message_of([] { rows_in("nowhere.db"); }),
             "nowhere.db: no such file; kurbel sweep SCENE … --into nowhere.db makes one");

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -214,6 +216,17 @@ bool is_sketched(const std::string& key) {
   return key.size() == 1 && std::isupper(static_cast<unsigned char>(key[0])) != 0;
 }
 
+// A number of a bearing's oil film, which kurbel forces reads; `idle`: FILE:LINE: KEY = ….
+bool is_of_a_film(const std::string& idle, const std::string& key) {
+  static const std::set<std::string> keys = {"roughness", "bore_roughness", "viscosity", "film_length", "clearance"};
+  if (!keys.contains(key)) return false;
+  const std::size_t colon = idle.find(':');
+  std::ifstream file(test::source_path(idle.substr(0, colon)));
+  std::string line;
+  for (int n = std::stoi(idle.substr(colon + 1)); n > 0; --n) std::getline(file, line);
+  return line.find("film_length") != std::string::npos;
+}
+
 std::vector<std::string> scenes() {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(test::source_path("scenes")))
@@ -229,7 +242,7 @@ TEST(NoKeyVanishes, numbers_of_the_scenes_have_an_effect) {
     for (const std::string& idle : idle_numbers(file, test::thorough() ? 0 : first % step, step)) {
       const std::size_t begin = idle.find(": ", idle.find(".toml")) + 2;
       const std::string key = idle.substr(begin, idle.find(' ', begin) - begin);
-      EXPECT_TRUE(read_elsewhere().contains(key) || is_sketched(key)) << idle;
+      EXPECT_TRUE(read_elsewhere().contains(key) || is_sketched(key) || is_of_a_film(idle, key)) << idle;
     }
     first += 5;
   }
