@@ -253,9 +253,10 @@ class MotionJudge {
     return stands / (to - from);
   }
   void add_steadiness(json& j) const {
-    const double from = settled_from(Windows::of_sources);
-    j["switched_last"] = settled_from(Windows::all), j["drive_switched_last"] = settled_from(Windows::none);
-    const std::vector<Lap> list = laps(from);
+    double from = settled_from(Windows::all);
+    j["switched_last"] = from, j["drive_switched_last"] = settled_from(Windows::none);
+    std::vector<Lap> list = laps(from);
+    if (list.size() < 3) from = settled_from(Windows::of_sources), list = laps(from);
     j["laps"] = list.size();
     std::string word = "unclear";
     std::size_t period = 0;
