@@ -158,10 +158,9 @@ class Search {
   }
   // The machine comes to rest by an event, or approaches the rest; as in the periods of a run.
   std::string at_rest() {
-    const auto [hundredth, thousandth, last] = last_motion_.times();
-    if (last == 0) return with_holders("the machine stands from its start on");
-    const int shaft = m_.shaft_of_node[at(m_.reduction_node)];
-    if (const Event* rest = rest_of(events_, hundredth, thousandth, m_.node_label(m_.shafts[at(shaft)].reference)))
+    const auto [hundredth, thousandth, motion] = last_motion_.times();
+    if (motion == 0) return with_holders("the machine stands from its start on");
+    if (const Event* rest = rest_of(events_, {hundredth, thousandth, motion}, m_))
       return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t));
     return with_holders(
         fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from {:.4g} s on", link(),

@@ -58,20 +58,41 @@ class BandHistory {
   std::vector<Stretch> low_, high_;  // increasing minima, decreasing maxima
 };
 
+// When the reduction link's speed was last above 1 %, 0.1 % and a billionth of its usual one [s].
+struct LastSpeeds {
+  double hundredth = 0, thousandth = 0, motion = 0;
+};
+
 // Rest: the speed stays below 0.1 % of the usual one for good; or, where dry friction ends the motion, the event with which
-// it holds. That event is the first hold after the speed was last above 1 % (`hundredth` [s]); the speed is below 0.1 % for
-// good by then (`thousandth`). A constant deceleration takes a ninth of the time between these two for the rest of the way.
-// With α = a + b ω it takes at most ln 2/ln(11/2) of that time where friction is the greater part at 0.1 %, b ω ≤ a; else
-// the machine was slow before it was stopped. A hold before `thousandth` ends a swing, and no motion.
-// Null: the machine rests when it is slow. `link`: name of its shaft's own events; losses of any gear may hold it, too.
-inline const Event* rest_of(const EventLog& events, double hundredth, double thousandth, const std::string& link) {
-  constexpr double longest = 0.4066, rounding = 1e-12;  // ln 2/ln 5.5
+// it holds. That event is the first hold of the link after its speed was last above 1 %; the speed is below 0.1 % for good
+// by then. A constant deceleration takes a ninth of the time between these two for the rest of the way. With α = a + b ω it
+// takes at most ln 2/ln(11/2) of that time where friction is the greater part at 0.1 %, b ω ≤ a; else the machine was slow
+// before it was stopped. A hold before the last 0.1 % ends a swing, and no motion.
+// Null: the machine rests when it is slow. The link is held by its own shaft's contact, by losses of a gear of two shafts on
+// it, or by a hold elsewhere that ends its motion: from a billionth to zero takes 11e-6/9 of the time between 1 % and 0.1 %
+// at most.
+inline const Event* rest_of(const EventLog& events, const LastSpeeds& last, const Model& m) {
+  constexpr double longest = 0.4066, rounding = 1e-12, at_once = 1.3e-6;  // ln 2/ln 5.5, 11e-6/9
+  const int shaft = m.shaft_of_node[static_cast<std::size_t>(m.reduction_node)];
+  const double slowing = last.thousandth - last.hundredth;
+  const auto on_link = [&](const Event& e) {
+    if (e.kind == EventKind::rest)
+      return e.component == m.node_label(m.shafts[static_cast<std::size_t>(shaft)].reference);
+    return std::any_of(m.network.relations.begin(), m.network.relations.end(), [&](const Network::Relation& r) {
+      return r.component == e.component && r.members() == 2 && std::any_of(r.node.begin(), r.node.end(), [&](int node) {
+               return node >= 0 && m.shaft_of_node[static_cast<std::size_t>(node)] == shaft;
+             });
+    });
+  };
+  const auto ends_motion = [&](double t) {
+    return std::abs(t - last.motion) <= at_once * slowing + rounding * last.motion;
+  };
   const auto rest = std::find_if(events.begin(), events.end(), [&](const Event& e) {
-    return e.t >= (1 - rounding) * hundredth &&
-           (e.kind == EventKind::held || (e.kind == EventKind::rest && e.component == link));
+    return (e.kind == EventKind::held || e.kind == EventKind::rest) && e.t >= (1 - rounding) * last.hundredth &&
+           (on_link(e) || ends_motion(e.t));
   });
-  const double latest = thousandth + longest * (thousandth - hundredth) + rounding * thousandth;
-  return rest != events.end() && rest->t >= (1 - rounding) * thousandth && rest->t <= latest ? &*rest : nullptr;
+  const double latest = last.thousandth + longest * slowing + rounding * last.thousandth;
+  return rest != events.end() && rest->t >= (1 - rounding) * last.thousandth && rest->t <= latest ? &*rest : nullptr;
 }
 
 // Observes the reduction link: its speed while something drives and after that, and its angle at equal intervals.

@@ -31,8 +31,7 @@ std::string words_of(const CrankCycle& cycle) {
   for (const double phi : cycle.change_points())
     text += fmt::format("{}{:.6g}°", text.empty() ? "; passes change points at " : ", ", phi * 180 / std::numbers::pi);
   if (cycle.turns() > 1) text += "; its links come back after two turns of the crank";
-  if (cycle.winding() != 0)
-    text += fmt::format("; its output makes {:g} times as many turns as the crank", cycle.winding());
+  if (cycle.winding() != 0) text += fmt::format("; turns of its output per turn of the crank: {:g}", cycle.winding());
   return text;
 }
 

@@ -8,7 +8,7 @@
 namespace kurbel {
 namespace {
 
-StudyOutput accuracy_bought(const Inquiry& inquiry, AccuracyOptions asked) {
+StudyOutput accuracy_by_time(const Inquiry& inquiry, AccuracyOptions asked) {
   asked.watch = inquiry.watch;
   std::sort(asked.tolerances.begin(), asked.tolerances.end(), std::greater<>());
   AccuracyStudy study = measure_accuracy(inquiry.scene, asked);
@@ -25,7 +25,7 @@ OptionsOf<AccuracyOptions> options() {
       .add({.name = "within",
             .doc = "the cheapest setting with at most this error, e.g. 0.1%",
             .example = "0.1 %",
-            .what = "a part > 0 and below 1",
+            .what = "a part, 1e-12 … 1",
             .domain = {.low = 1e-12, .high = 1}},
            &Asked::within)
       .add({.name = "budget",
@@ -77,7 +77,7 @@ Question accuracy_question() {
                "two independent methods, work–precision diagrams, Pareto front, conclusion in words; "
                "`--within 0.1%` and `--budget 50ms` answer the inverse questions; `kurbel run scene.toml "
                "--setting FILE` takes the cheapest setting of its summary that was exact enough"},
-      options(), accuracy_bought);
+      options(), accuracy_by_time);
 }
 
 }  // namespace kurbel

@@ -38,7 +38,7 @@ Question advise_question() {
           .add({.name = "within",
                 .doc = "deviation allowed from the fullest model (default: 1 %)",
                 .example = "1 %",
-                .what = "a part > 0 and below 1",
+                .what = "a part, 1e-12 … 1",
                 .domain = {.low = 1e-12, .high = 1}},
                &AdviseOptions::within)
           .add({.name = "figures",

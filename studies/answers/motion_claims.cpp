@@ -29,11 +29,14 @@ constexpr double nearly = 0.2;            // of the largest speed so far: below 
 
 class Judge {
  public:
-  Judge(Equations& equations, const RunOutcome& outcome, const LinkRecorder& recorder)
+  Judge(Equations& equations, const RunOutcome& outcome, const LinkRecorder& recorder, const Watch& watch,
+        double budget)
       : equations_(equations),
         m_(equations.model()),
         outcome_(outcome),
         recorder_(recorder),
+        watch_(watch),
+        budget_(budget),
         shaft_(at(m_.shaft_of_node[at(m_.reduction_node)])),
         now_(equations.snapshot(outcome.t, outcome.state)) {}
 
@@ -205,30 +208,35 @@ class Judge {
 
   // Tried: the run goes on to eight times its time. Its mean speeds over the time as long again, twice and four times as
   // long grow by less from one to the next: slower than the logarithm of time, for what dampers take is not in the balance
-  // of the rigid machine.
-  bool settles_later() const {
+  // of the rigid machine. A trial that ends before knows nothing: by the budget that the run left, or by its evaluations.
+  bool settles_later() const try {
     constexpr std::int64_t most = 10;  // times the evaluations of the run itself
     Equations equations(equations_.shared_model(), false);
     State state{outcome_.t, outcome_.state, equations_.modes()};
     state.y.resize(equations.state_count());
     std::array<double, 3> mean{};
+    double budget = budget_ - outcome_.statistics.cpu_seconds;
     for (double& speed : mean) {
+      if (!(budget > 0)) return false;
       equations.bind(state.modes);
       const double begin = equations.angle_with_turns(at(m_.reduction_angle), state.y);
       RunOptions run{.tolerance = 1e-6,
                      .method = "auto",
                      .until = 2 * state.t,
-                     .budget = m_.scene.run.budget,
+                     .budget = budget,
                      .most_flow_calls = most * outcome_.statistics.stepper.flow_calls,
-                     .interrupted = nullptr,
+                     .interrupted = watch_.interrupted,
                      .progress = {}};
       run.from = {state.t, state.y};
       const RunOutcome on = integrate(equations, run, {});
       if (!on.complete) return false;
+      budget -= on.statistics.cpu_seconds;
       speed = std::abs(equations.angle_with_turns(at(m_.reduction_angle), on.state) - begin) / (on.t - state.t);
       state = {on.t, on.state, equations.modes()};
     }
-    return mean[2] - mean[1] < mean[1] - mean[0];
+    return !keeps_gaining(mean);
+  } catch (const std::exception&) {  // nothing is known of later
+    return false;
   }
 
   // Held from the start although something drives, and not by an applied brake.
@@ -341,6 +349,8 @@ class Judge {
   const Model& m_;
   const RunOutcome& outcome_;
   const LinkRecorder& recorder_;
+  const Watch& watch_;
+  double budget_;
   std::size_t shaft_;
   const Snapshot& now_;
 };
@@ -373,10 +383,10 @@ Claims start_claims(const std::shared_ptr<const Model>& model) {
 }
 
 Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips,
-                     const LinkRecorder& link) {
+                     const LinkRecorder& link, const Watch& watch, double budget) {
   Claims claims;
   if (outcome.state.empty()) return claims;
-  const Judge judge(equations, outcome, link);
+  const Judge judge(equations, outcome, link, watch, budget);
   Claims contacts = contact_claims(equations, outcome, result, slips);
   std::optional<Claim> halts = judge.stalls(contacts);
   if (!outcome.complete) return halts ? Claims{std::move(*halts)} : claims;

@@ -1,9 +1,12 @@
 // motion_claims.h — does the machine do its work at all? Claims from the motion of a run and its final state.
 #pragma once
 
+#include <array>
+
 #include "studies/answers/link_recorder.h"
 #include "studies/answers/slip_recorder.h"
 #include "studies/findings/result.h"
+#include "studies/findings/watch.h"
 
 namespace kurbel {
 
@@ -13,8 +16,13 @@ Claims start_claims(const std::shared_ptr<const Model>& model);
 
 // Faults of the motion, what holds the link, what slips (contact_claims.h); for an incomplete run only that it
 // stalls. `equations`: in the modes at the run's end; `result` contains its periods, figures, and the errors of its
-// final state.
+// final state. `watch` ends trials; `budget`: of the run and its trials [s of processor time].
 Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips,
-                     const LinkRecorder& link);
+                     const LinkRecorder& link, const Watch& watch, double budget);
+
+// Of mean speeds over doubling times: each is higher than the one before it, and by no less.
+inline bool keeps_gaining(const std::array<double, 3>& mean) {
+  return mean[2] > mean[1] && mean[2] - mean[1] >= mean[1] - mean[0];
+}
 
 }  // namespace kurbel

@@ -49,14 +49,16 @@ constexpr std::array kinds = {
               "\"motor\" does not come up to speed: it stays at 320 rpm, below the 1280 rpm of its breakdown torque; "
               "its loads take all its torque there",
               "run, compare"},
-    ClaimKind{runs_away, runs, fault, above,
-              "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
-              "higher speed (up to a hundred times) do loads and drag hold what drives; tried by going on to eight "
-              "times the time, it still gains from each doubling of the time to the next",
-              "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
-              "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
-              "changes by +6.5 % a sixteenth of the time, and that does not shrink",
-              "run, compare"},
+    ClaimKind{
+        runs_away, runs, fault, above,
+        "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
+        "higher speed (up to a hundred times) do loads and drag hold what drives; a trial that goes on to eight "
+        "times the time sees it gain by no less from each doubling to the next, or ends before: by the budget, by ten "
+        "times the run's evaluations in one doubling, or by a fault",
+        "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
+        "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
+        "changes by +6.5 % a sixteenth of the time, and that does not shrink",
+        "run, compare"},
     ClaimKind{
         does_not_get_round, runs, fault, above,
         "no whole cycle, at the end a fifth of the largest speed at most, and something drives; no brake that was "

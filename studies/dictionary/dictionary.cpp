@@ -198,7 +198,9 @@ const Definition* meant_by(std::string_view asked) {
   if (constexpr std::string_view greatest = "greatest "; asked.starts_with(greatest))
     return meant_by(asked.substr(greatest.size()));
   const std::size_t last = asked.rfind(' ');
-  return last == std::string_view::npos ? nullptr : find_symbol(asked.substr(last + 1));
+  if (last == std::string_view::npos) return nullptr;
+  const bool number = asked.find_first_not_of("0123456789", last + 1) == std::string_view::npos;  // "mode 3"
+  return number ? meant_by(asked.substr(0, last)) : find_symbol(asked.substr(last + 1));
 }
 
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {

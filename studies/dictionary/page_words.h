@@ -1,7 +1,7 @@
 // page_words.h — what stands on pages beside figures and symbols: headings of tables, rows, axes and legends.
 //
 // Names of one meaning share a row, separated by "; "; a star stands for any part. Units are left out where two
-// quantities do not share a heading. The longest name that fits is taken.
+// quantities do not share a heading, and so are numbers at the end ("mode 3"). The longest name that fits is taken.
 #pragma once
 
 #include "studies/dictionary/entries.h"
@@ -43,10 +43,10 @@ inline constexpr PageWord of_pages[] = {
     {"time; time [s]", of_all, "simulated time since the start of the run; of a processor it is in ms"},
     {"at; at [s]; at [rpm]; at [mm]", of_all,
      "where the value beside it occurs: time, angle, speed, or distance along a guide, by the unit"},
-    {"from; to; from [*]; to [*]; range from", of_all,
+    {"from; to; range from", of_all,
      "ends of a range; of an event the state before and after; of a rainflow count the least and greatest torque of "
      "the class"},
-    {"of; in; on; by; where; what; why", of_all,
+    {"of; in; by; where; what; why", of_all,
      "the component, figure, file or reason to which the rest of the row refers"},
     {"mean; mean [*]; mean, linear", of_all, "mean over the cycle, or over the samples"},
     {"RMS; RMS [*]; root mean square", of_all, "root of the mean square of the quantity in this table"},
@@ -153,7 +153,7 @@ inline constexpr PageWord of_pages[] = {
      "mass times radius of a counterweight on the crank, by the masses that it balances; as it is: of the scene"},
     {"moment; moment [*]", "forces", "of a force about the pin or the bearing that the title names"},
     // modes, report
-    {"mode; mode *; shape", of_trains,
+    {"mode; shape", of_trains,
      "mode of vibration by its number, ascending; parts with the largest amplitudes of the mode; `against`: in "
      "opposite phase"},
     {"f [Hz]; f_n; frequency; frequency [Hz]; f damped; |λ|; held at angles; periodic system, ζ; periodic system [Hz], "
@@ -190,7 +190,7 @@ inline constexpr PageWord of_pages[] = {
      of_trains,
      "power in a coupling's damping; cases of failure and what they change; sources and tolerances of the data"},
     // gears
-    {"1; 2; B; C; wheel 1; wheel 2; without shift, x = 0; of the wheels; of the mesh; symbol", "gears",
+    {"B; C; wheel 1; wheel 2; without shift, x = 0; of the wheels; of the mesh; symbol", "gears",
      "data of wheel 1, of wheel 2, or of both in mesh"},
     {"g [mm]; place on the path of contact g; v_g/ω₁", "gears",
      "distance from the pitch point along the path of contact, and sliding there"},
@@ -245,13 +245,15 @@ inline constexpr PageWord of_pages[] = {
     {"hold; beyond; within their error; without the figure; probability from", "uncertainty, sweep",
      "samples that keep the limit, exceed it, are undecided within their numerical error, or lack the figure; 95 % "
      "interval"},
-    {"record; channel; fitted; left; measured − fitted; standard error; correlation; go together; of the range; over "
+    {"record; channel; fitted; left; measured − fitted; standard error; correlation; correlation length; of the range; "
+     "over "
      "the scatter; "
      "scatter of the mean",
      "fit",
-     "fitted values beside the measured ones, and what is left: over the measured range and over the standard error of "
+     "fitted values beside the measured ones, and their residuals: over the measured range and over the standard error "
+     "of "
      "the "
-     "mean; values whose residuals are correlated go together"},
+     "mean; correlation length: as many values count as one"},
 };
 
 }  // namespace kurbel::entries

@@ -8,11 +8,12 @@ namespace kurbel::entries {
 inline constexpr Definition of_one_study[] = {
     // steady
     {"largest_multiplier", "largest Floquet multiplier", "", "", "11.4", "steady",
-     "magnitude of the greatest eigenvalue of the return map's derivative: what is left of a disturbance after one "
+     "magnitude of the greatest eigenvalue of the return map's derivative: the factor by which a disturbance shrinks "
+     "in one "
      "period, for every part of it at most",
      "max |μ|; stable below 1; halves in ln 2/(−ln |μ|) periods", "a damping ratio"},
     {"residual_rms", "root mean square of measured − simulated", "", "CHANNEL", "", "run, steady",
-     "what is left between a test's record and the simulation, after shift and offset, over the points that both have; "
+     "of the residuals of a test's record against the simulation, after shift and offset, over the points of both; "
      "in the channel's unit",
      "√(Σ r²/n), r_i = m_i − o − s(t_i + Δ)", "the simulation's numerical error"},
     {"residual_largest", "largest measured − simulated", "", "CHANNEL", "", "run, steady",

@@ -1,4 +1,4 @@
-// fit.cpp — from start to values with errors; what is left.
+// fit.cpp — from start to values with errors; residuals.
 #include "studies/fit/fit.h"
 
 #include <fmt/format.h>
@@ -133,7 +133,7 @@ class FitWork {
     state_.determined = determined_by(j, state_.best.on_bound, floor(), all);
     const double freedom = std::max(independent - static_cast<double>(problem_.size()), 1.0);
     const double reduced = state_.best.cost() / freedom;
-    constexpr double below_machine_error = 0.5;  // of weights by what is left it is 1
+    constexpr double below_machine_error = 0.5;  // of weights by the residuals it is 1
     study_.chi_squared = by_scatter ? reduced * widened * widened : 0;
     state_.covariance = state_.determined.covariance * std::max(1.0, reduced);
     const bool of_cycles = by_scatter && study_.chi_squared <= 1 && cycles_ > 1;

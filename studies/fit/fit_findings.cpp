@@ -1,4 +1,4 @@
-// fit_findings.cpp — values with errors, what is left, predictions, each said once.
+// fit_findings.cpp — values with errors, residuals, predictions, each said once.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ Rows residual_table(const FitStudy& s) {
       .column("part", "of the range [%]", &R::range_part, {.factor = 100, .digits = 3})
       .only_for_programs("scatter", &R::scatter)
       .column("times", "over the scatter", [](const R& r) { return r.times(); }, {.digits = 3})
-      .column("together", "go together", &R::correlation_length, {.digits = 2})
+      .column("together", "correlation length", &R::correlation_length, {.digits = 2})
       .column("correlation", "correlation", &R::alike, {.digits = 3})
       .only_for_programs("peak", &R::peak)
       .only_for_programs("peak_fitted", &R::peak_fitted)
@@ -205,7 +205,7 @@ std::vector<Plot> overlays(const FitStudy& s, const std::vector<Curve95>& curves
   return plots;
 }
 
-// Ellipses Δχ² = 2.30 and 5.99 of the pairs that go together most.
+// Ellipses Δχ² = 2.30 and 5.99 of the most correlated pairs.
 std::vector<Plot> contours(const FitStudy& s) {
   std::vector<Plot> plots;
   constexpr std::size_t most = 4;

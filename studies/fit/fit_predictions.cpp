@@ -10,7 +10,7 @@
 namespace kurbel {
 namespace {
 
-// RMS of a − b, or of what is left of it about its mean.
+// RMS of a − b, or of its deviation from its mean.
 double rms_between(const std::vector<double>& a, const std::vector<double>& b, bool about_mean = false) {
   double sum = 0, squares = 0;
   const auto n = static_cast<double>(a.size());

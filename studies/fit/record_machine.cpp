@@ -51,7 +51,7 @@ Eigen::Map<const Eigen::VectorXd> mapped(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-// Values that go together: 1 + 2 Σ ρ_k up to the first that is not positive.
+// Correlation length of values: 1 + 2 Σ ρ_k up to the first that is not positive.
 double correlation_length(const Eigen::VectorXd& r) {
   const Eigen::Index n = r.size();
   const double power = r.squaredNorm();

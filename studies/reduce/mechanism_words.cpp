@@ -25,6 +25,7 @@ std::string time_ratio(const Mechanism& m, const std::vector<double>& ends) {
 
 std::string travel(const Mechanism& m) {
   if (m.arc()) return "its " + words_of_arc(m);
+  if (m.travel.winding == 1) return "its output turns as often as its driving link";
   if (m.travel.winding != 0)
     return fmt::format("its output makes {:g} times as many turns as its driving link", m.travel.winding);
   if (m.stroke() == 0) return "its output stands still";

@@ -170,12 +170,13 @@ void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime&
 // Standstill of the link, if it lasts; without dry friction a machine only approaches it.
 void find_standstill(const Model& model, const BandHistory& speed, const RunOutcome& outcome, double tolerance,
                      Periods& periods) {
-  const int shaft = model.shaft_of_node[static_cast<std::size_t>(model.reduction_node)];
-  const std::string name = model.node_label(model.shafts[static_cast<std::size_t>(shaft)].reference);
   const double level = at_rest * model.speed_scale, begin = *periods.run_down_begin;
-  const std::optional<double> entry = speed.last_outside(-level, level),
-                              before = speed.last_outside(-10 * level, 10 * level);
-  if (const Event* rest = rest_of(outcome.events, before.value_or(begin), entry.value_or(begin), name)) {
+  const auto last_above = [&](double speed_level) { return speed.last_outside(-speed_level, speed_level); };
+  const std::optional<double> entry = last_above(level);
+  if (const Event* rest = rest_of(
+          outcome.events,
+          {last_above(10 * level).value_or(begin), entry.value_or(begin), last_above(1e-6 * level).value_or(begin)},
+          model)) {
     periods.standstill = rest->t;
     return;
   }

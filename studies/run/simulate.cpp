@@ -387,7 +387,8 @@ class Simulation {
     run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
-    result_.claims = motion_claims(equations_, run.outcome, result_, *run.slips, *run.link);
+    result_.claims =
+        motion_claims(equations_, run.outcome, result_, *run.slips, *run.link, options_.watch, settings_.budget);
     tell_outside_data(*run.ranges, result_);
     note_regularised(run.outcome.regularised);
     for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects})

@@ -194,15 +194,21 @@ class MotionJudge {
         last.state == Stretch::State::slips && last.command_end > 0 && last.torque > 1e-3 * m_.torque_scale;
     slips_under_torque_ = slips_under_torque_ || (slips && std::abs(last.sense) > turns * c.usual_speed);
   }
-  // The last change of a command, of whether anything drives, and of any `windows`; sequences that repeat have no last one.
-  double settled_from(bool windows) const {
+  enum class Windows { none, of_sources, all };
+  bool switches(const Moment& a, const Moment& b, Windows windows) const {
+    bool changes = a.driven != b.driven;
+    for (std::size_t k = 0; k < a.told.size(); ++k) changes = changes || std::abs(a.told[k] - b.told[k]) > 1e-12;
+    for (std::size_t e = 0; windows != Windows::none && e < a.on.size(); ++e)
+      changes = changes || (a.on[e] != b.on[e] &&
+                            (windows == Windows::all || m_.network.elements[e].element->account == Account::driving));
+    return changes;
+  }
+  // The last change of a command, of whether anything drives, and of these windows; sequences that repeat have no last one.
+  double settled_from(Windows windows) const {
     if (m_.scene.sequence.repeat) return 0;
-    double from = 0;
-    for (std::size_t k = 1; k < p_.size(); ++k)
-      if (p_[k].driven != p_[k - 1].driven || std::abs(p_[k].told - p_[k - 1].told) > 1e-12 ||
-          (windows && p_[k].windows != p_[k - 1].windows))
-        from = p_[k].t;
-    return from;
+    for (std::size_t k = p_.size() - 1; k > 0; --k)
+      if (switches(p_[k - 1], p_[k], windows)) return p_[k].t;
+    return 0;
   }
   struct Lap {
     double begin = 0, end = 0, mean = 0, least = 0, greatest = 0;
@@ -247,9 +253,10 @@ class MotionJudge {
     return stands / (to - from);
   }
   void add_steadiness(json& j) const {
-    const double from = settled_from(true);
-    j["switched_last"] = from, j["drive_switched_last"] = settled_from(false);
-    const std::vector<Lap> list = laps(from);
+    double from = settled_from(Windows::all);
+    j["switched_last"] = from, j["drive_switched_last"] = settled_from(Windows::none);
+    std::vector<Lap> list = laps(from);
+    if (list.size() < 3) from = settled_from(Windows::of_sources), list = laps(from);
     j["laps"] = list.size();
     std::string word = "unclear";
     std::size_t period = 0;

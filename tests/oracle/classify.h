@@ -26,7 +26,8 @@
 //               behind the foremost point in the sense of the drive, or of the start
 //   no_round    a machine with a cycle has not turned by one cycle, moved, and rests or vibrates at the end, driven
 //   rounds      whole cycles of the link's angle, whichever way
-//   steady      of the time since the last command, window of time or start:
+//   steady      of the time since the last command, window of time or start; where that has no three cycles, since the last
+//               command, window of a source or start:
 //               "yes"  cycles repeat: the mean speeds of the last p cycles and of the p before them differ by less than 0.1 %,
 //                      extremes by less than 0.5 % of the mean speed, p = 1 … 6, and the mean speed of the last eighth differs
 //                      by less than 1 % from that of the eighth before it; with a cycle: of the whole periods in an eighth

@@ -177,9 +177,8 @@ class Sampler final : public Observer {
       }
     }
     for (std::size_t k = 0; k < m_.commands.size(); ++k)
-      moment.told += static_cast<double>(k + 1) * equations.modes().command[k].at(t, m_.scene.sequence);
-    for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
-      if (equations.modes().active[e]) moment.windows += static_cast<double>(e + 1);
+      moment.told.push_back(equations.modes().command[k].at(t, m_.scene.sequence));
+    moment.on = equations.modes().active;
     moment.driven = sources_.drive(equations.modes().active);
     moment.held = equations.at_standstill(shaft);
     seen_.moments.push_back(moment);

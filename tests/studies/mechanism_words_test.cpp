@@ -132,7 +132,7 @@ TEST(MechanismWords, OfEqualStrokesAndOfChangePoints) {
   expect_words(
       "kind = \"four-bar\"\ncrank = \"100 mm\"\ncoupler = \"300 mm\"\nrocker = \"100 mm\"\nground = \"300 mm\"\n"
       "rocker_inertia = \"0.05 kg*m2\"",
-      1, {"m: its output makes 1 times as many turns as its driving link"});
+      1, {"m: its output turns as often as its driving link"});
 }
 
 }  // namespace

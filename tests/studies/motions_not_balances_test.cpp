@@ -351,6 +351,25 @@ run = {{ until = "80 s", method = "auto" }}
     EXPECT_NEAR(*run.periods.standstill, rest, 1e-6) << friction;
   }
 }
+// The gear's bearings hold it before the rotor, J = 2.01 kg·m², is slow, shortly before that, and between then and its rest.
+TEST(SwitchedOff, RestsWhenItsOwnShaftIsHeld) {
+  for (const double bearing : {6.0, 4.0, 3.742}) {
+    const Scene scene = scene_from(fmt::format(R"(line = ["motor", "gear", "clutch", "rotor", "press"]
+motor = {{ kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", inertia = "1 kg*m2", stop = "30 s" }}
+gear = {{ kind = "gearbox", stages = [{{ teeth = [20, 20] }}], bearing_torque = "{} N*m", efficiency = 0.9 }}
+clutch = {{ kind = "clutch", torque = "500 N*m" }}
+rotor = {{ kind = "load", torque = "0.15 N*m", damping = "1 N*m*s/rad", inertia = "2 kg*m2" }}
+press = {{ kind = "slider-crank", radius = "1 mm", rod = "4 mm", slider_mass = "0.1 kg", crank_inertia = "0.01 kg*m2" }}
+sequence = {{ steps = [{{ at = "0 s", set = "clutch" }}, {{ at = "30 s", set = "clutch", to = 0 }}] }}
+run = {{ until = "80 s" }}
+)",
+                                               bearing));
+    const double speed = (90 - bearing - 0.15) / 1.9, rest = 30 + 2.01 * std::log((speed + 0.15) / 0.15);
+    EXPECT_NEAR(test::run(scene, false).periods.standstill.value_or(0), rest, 1e-5) << bearing;
+    const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
+    EXPECT_TRUE(has(study.conclusion, fmt::format("comes to rest at {:.4g} s", rest))) << study.conclusion;
+  }
+}
 
 // A vibration about zero is a steady motion: |φ| = M/√((k − Jω²)² + (cω)²), of which the speed is ω times as much.
 TEST(SwingsAboutZero, AreASteadyMotion) {

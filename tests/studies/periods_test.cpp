@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 
+#include "studies/answers/motion_claims.h"
 #include "studies/answers/run_claims.h"
 #include "tests/support/scenes.h"
 
@@ -289,9 +292,8 @@ until = "3.06579 s"
 
 // What drives is held by what the coupling's damper takes, which no balance of the rigid machine has in it: the crank's uneven
 // inertia shakes it. At 1.7 times its speed the machine still gains by no less from turn to turn; it settles at three times.
-TEST(Periods, WhatADamperSettlesDoesNotRunAway) {
-  const auto claims = [](double until) {
-    return run_claims(run(fmt::format(R"(
+Scene held_by_its_damper(double until) {
+  return test::scene_from(fmt::format(R"(
 line = ["motor", "crank", "coupling", "wheel"]
 motor = {{ kind = "torque source", torque = "4 N*m", inertia = "0.01 kg*m2" }}
 coupling = {{ kind = "coupling", stiffness = "4000 N*m/rad", damping = "3 N*m*s/rad" }}
@@ -305,14 +307,37 @@ rod = "0.4 m"
 slider_mass = "10 kg"
 crank_inertia = "0.03 kg*m2"
 )",
-                                      until),
-                          false));
+                                      until));
+}
+bool says(const Claims& all, Predicate what) {
+  return std::any_of(all.begin(), all.end(), [&](const Claim& c) { return c.predicate == what; });
+}
+TEST(Periods, WhatADamperSettlesDoesNotRunAway) {
+  EXPECT_FALSE(says(run_claims(run(held_by_its_damper(4), false)), Predicate::runs_away));
+  EXPECT_TRUE(says(run_claims(run(held_by_its_damper(64), false)), Predicate::runs_steadily));
+}
+TEST(RunsAway, WhatGainsByNoLess) {
+  EXPECT_TRUE(keeps_gaining({10, 20, 30}) && keeps_gaining({10, 20, 40}));
+  for (const std::array<double, 3>& mean : {std::array{10.0, 20.0, 29.0}, {100, 50, 40}, {100, 90, 70}, {20, 10, 10}})
+    EXPECT_FALSE(keeps_gaining(mean)) << mean[0] << ' ' << mean[1] << ' ' << mean[2];
+}
+// Interrupted, or without a budget, the trial that would deny it ends.
+TEST(RunsAway, ItsTrialIsEndedByWhatEndsTheRun) {
+  const Scene scene = held_by_its_damper(4);
+  const Result r = run(scene, false);
+  const auto model = compile(scene, scene.effects);
+  Equations equations(model, false);
+  SlipRecorder slips(*model);
+  LinkRecorder link(*model, 4);
+  const RunOutcome outcome =
+      integrate(equations, {.tolerance = 1e-7, .method = "auto", .until = 4, .progress = {}}, {&slips, &link});
+  const std::atomic<bool> stop = true;
+  const auto runs_away = [&](const Watch& watch, double budget) {
+    return says(motion_claims(equations, outcome, r, slips, link, watch, budget), Predicate::runs_away);
   };
-  const auto says = [](const Claims& all, Predicate what) {
-    return std::any_of(all.begin(), all.end(), [&](const Claim& c) { return c.predicate == what; });
-  };
-  EXPECT_FALSE(says(claims(4), Predicate::runs_away));
-  EXPECT_TRUE(says(claims(64), Predicate::runs_steadily));
+  EXPECT_FALSE(runs_away({}, 300));
+  EXPECT_TRUE(runs_away({.interrupted = &stop}, 300));
+  EXPECT_TRUE(runs_away({}, outcome.statistics.cpu_seconds));
 }
 
 // Along a law over time, from 40 s to 140 s: ω = 100 − (t − 40)/2 with a lag of 2 s. What counts is the time since its end.
