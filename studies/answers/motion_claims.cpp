@@ -26,6 +26,8 @@ constexpr double turns_back_from = 1e-2;  // of the usual speed
 constexpr double disagree = 0.1;          // of the usual speed: shafts that a spring joins start apart
 constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
+constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is told
+constexpr double gains = 1.3;             // times its speed: one that few cycles tell of grows
 
 class Judge {
  public:
@@ -175,12 +177,15 @@ class Judge {
   std::optional<Claim> runs_away(const Result& r) const {
     const Periods& p = r.periods;
     const double limit = far_away * m_.speed_scale;
-    if (is_commanded() || p.steady || p.run_down_begin || !p.without_limit) return {};
-    if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed() || settles_later()) return {};
-    return claimed(Predicate::runs_away,
-                   fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data, and {}", link(),
-                               m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
-                   link(), of_speed(r, std::abs(speed()), limit));
+    const bool too_few = !p.without_limit && !p.remaining;  // cycles to judge by
+    if (is_commanded() || p.steady || p.run_down_begin || !(p.without_limit || too_few)) return {};
+    if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed() || settles_later(too_few ? gains : 0)) return {};
+    return claimed(
+        Predicate::runs_away,
+        fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data, and {}", link(),
+                    m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale,
+                    too_few ? "it goes on to gain, as much from each doubling of the time to the next" : p.verdict),
+        link(), of_speed(r, std::abs(speed()), limit));
   }
   // Over a cycle of the rigid machine at constant speed: whether loads and drag balance the drive at some higher speed.
   bool settles_at_a_higher_speed() const try {
@@ -205,8 +210,8 @@ class Judge {
 
   // Tried: the run goes on to eight times its time. Its mean speeds over the time as long again, twice and four times as
   // long grow by less from one to the next: slower than the logarithm of time, for what dampers take is not in the balance
-  // of the rigid machine.
-  bool settles_later() const {
+  // of the rigid machine. So does what does not come to `least` times the speed at the end.
+  bool settles_later(double least) const {
     constexpr std::int64_t most = 10;  // times the evaluations of the run itself
     Equations equations(equations_.shared_model(), false);
     State state{outcome_.t, outcome_.state, equations_.modes()};
@@ -228,7 +233,7 @@ class Judge {
       speed = std::abs(equations.angle_with_turns(at(m_.reduction_angle), on.state) - begin) / (on.t - state.t);
       state = {on.t, on.state, equations.modes()};
     }
-    return mean[2] - mean[1] < mean[1] - mean[0];
+    return mean[2] - mean[1] < mean[1] - mean[0] || mean[2] < least * std::abs(this->speed());
   }
 
   // Held from the start although something drives, and not by an applied brake.
@@ -259,6 +264,18 @@ class Judge {
       claim = claimed(Predicate::does_not_move, fmt::format("\"{}\" does not move", link()), link());
     if (claim) claim->in_conclusion = !moved;
     return claim;
+  }
+
+  // By an applied brake on its own shaft, while the link behind it still moves.
+  std::optional<Claim> motor_held() const {
+    const MotorTorque* motor = standing_motor();
+    const std::string* brake = brake_that_holds();
+    if (!motor || !brake || rests() || !(std::abs(torque_of(*motor)) > pushes * motor->rated_torque)) return {};
+    if (m_.shaft_of_node[at(motor->node)] != m_.shaft_of_node[at(m_.network.ports.at(*brake).in)]) return {};
+    return claimed(Predicate::held_by,
+                   fmt::format("\"{}\" is held by \"{}\" against the {:.4g} N·m that it gives", motor->component,
+                               *brake, std::abs(torque_of(*motor))),
+                   motor->component, {.value = std::abs(torque_of(*motor)), .unit = "N*m"});
   }
 
   // Less than one turn, and nearly at rest, although something drives; a brake put on meanwhile is meant to stop it.
@@ -391,7 +408,8 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
   } else {
     for (std::optional<Claim> claim :
          std::array{judge.backwards(result), judge.runs_away(result), judge.hangs(result.periods),
-                    judge.never_gets_round(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
+                    judge.never_gets_round(result, fastest), judge.held(fastest), judge.motor_held(),
+                    judge.starts(result, fastest)})
       add(claims, std::move(claim));
     if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); }))
       if (std::optional<Claim> claim = judge.vibrates(result.periods); claim || (claim = judge.swings()))

@@ -88,7 +88,7 @@ class RunWords {
   // ", held by "brake" against the 147 N·m that act": for a link at rest with a torque on it.
   std::string held() const {
     for (const Claim& c : r_.claims)
-      if (c.predicate == Predicate::held_by && c.text.find(" against ") != std::string::npos)
+      if (c.predicate == Predicate::held_by && c.of == link() && c.text.find(" against ") != std::string::npos)
         return ", " + c.text.substr(c.text.find(" is held by ") + 4);
     return {};
   }
