@@ -21,7 +21,6 @@ namespace {
 
 constexpr double stands = 1e-3;           // of the usual speed: below it a shaft stands
 constexpr double drives = 1e-6;           // of the usual torque: above it something drives
-constexpr double far_away = 1.5;          // times the usual speed: nothing in the scene tells of such a one
 constexpr double turns_back_from = 1e-2;  // of the usual speed
 constexpr double disagree = 0.1;          // of the usual speed: shafts that a spring joins start apart
 constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
@@ -184,7 +183,8 @@ class Judge {
         Predicate::runs_away,
         fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data, and {}", link(),
                     m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale,
-                    too_few ? "it goes on to gain, as much from each doubling of the time to the next" : p.verdict),
+                    too_few ? "it goes on to gain, no less from each doubling of the time than from the one before"
+                            : p.verdict),
         link(), of_speed(r, std::abs(speed()), limit));
   }
   // Over a cycle of the rigid machine at constant speed: whether loads and drag balance the drive at some higher speed.
@@ -272,10 +272,10 @@ class Judge {
     const std::string* brake = brake_that_holds();
     if (!motor || !brake || rests() || !(std::abs(torque_of(*motor)) > pushes * motor->rated_torque)) return {};
     if (m_.shaft_of_node[at(motor->node)] != m_.shaft_of_node[at(m_.network.ports.at(*brake).in)]) return {};
-    return claimed(Predicate::held_by,
-                   fmt::format("\"{}\" is held by \"{}\" against the {:.4g} N·m that it gives", motor->component,
-                               *brake, std::abs(torque_of(*motor))),
-                   motor->component, {.value = std::abs(torque_of(*motor)), .unit = "N*m"});
+    return claimed_aside(Predicate::held_by,
+                         fmt::format("\"{}\" is held by \"{}\" against the {:.4g} N·m that it gives", motor->component,
+                                     *brake, std::abs(torque_of(*motor))),
+                         motor->component, {.value = std::abs(torque_of(*motor)), .unit = "N*m"});
   }
 
   // Less than one turn, and nearly at rest, although something drives; a brake put on meanwhile is meant to stop it.
@@ -408,12 +408,14 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
   } else {
     for (std::optional<Claim> claim :
          std::array{judge.backwards(result), judge.runs_away(result), judge.hangs(result.periods),
-                    judge.never_gets_round(result, fastest), judge.held(fastest), judge.motor_held(),
-                    judge.starts(result, fastest)})
+                    judge.never_gets_round(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
       add(claims, std::move(claim));
-    if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); }))
-      if (std::optional<Claim> claim = judge.vibrates(result.periods); claim || (claim = judge.swings()))
-        add(claims, std::move(claim));
+    if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); })) {
+      std::optional<Claim> vibrates = judge.vibrates(result.periods), held = judge.motor_held();
+      if (held) held->in_conclusion = vibrates.has_value();  // else it is said with the link's speed
+      add(claims, vibrates ? std::move(vibrates) : judge.swings());
+      add(claims, std::move(held));
+    }
   }
   for (Claim& claim : contacts) claims.push_back(std::move(claim));
   return claims;

@@ -206,7 +206,7 @@ class Judge:
         if r.says("runs away") and (not grows or fades):
             self.contradiction("runs away, but settles", f"{end:.4g} rad/s at the end, {last:.4g} after {l['until'] / m['until']:.0f} times the time")
         if grows and not fades and last > 2 * end and last > 3 * self.usual and end > 1.5 * self.usual and not r.says("runs away") and not r.says("turns back") and not self.truth["sequence"] and \
-                not (r.says("not steady") or m["falls"]):
+                not (r.says("not steady") or "times the speed of its data" in r.conclusion or m["falls"]):
             self.omission("runs away", f"{end:.4g} rad/s at the end, {last:.4g} after {l['until'] / m['until']:.0f} times the time, usual {self.usual:.4g}; said: {r.sentences[0]}")
 
     def round(self):
