@@ -54,11 +54,11 @@ class Judge {
         torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
     return torque;
   }
-  // A motor under torque whose shaft stands.
-  const MotorTorque* standing_motor() const {
+  // A motor under torque whose shaft is slower than this part of its rated speed: stands.
+  const MotorTorque* standing_motor(double slower = stands) const {
     for (const MotorTorque& motor : m_.motors)
       if (!motor.prescribed && std::abs(torque_of(motor)) > drives * motor.rated_torque &&
-          std::abs(speed_of(motor)) < stands * std::abs(motor.rated_speed))
+          std::abs(speed_of(motor)) < slower * std::abs(motor.rated_speed))
         return &motor;
     return nullptr;
   }
@@ -266,15 +266,18 @@ class Judge {
     return claim;
   }
 
-  // By an applied brake on its own shaft, while the link behind it still moves.
+  // While the link still moves: by an applied brake on its own shaft, or, where the link only trembles, by what stands.
   std::optional<Claim> motor_held() const {
-    const MotorTorque* motor = standing_motor();
+    const bool trembles = recorder_.swings() && recorder_.speed_of_swing() < turns_back_from * m_.speed_scale;
+    const MotorTorque* motor = standing_motor(trembles ? turns_back_from : stands);
+    if (!motor || rests() || !(std::abs(torque_of(*motor)) > pushes * motor->rated_torque)) return {};
     const std::string* brake = brake_that_holds();
-    if (!motor || !brake || rests() || !(std::abs(torque_of(*motor)) > pushes * motor->rated_torque)) return {};
-    if (m_.shaft_of_node[at(motor->node)] != m_.shaft_of_node[at(m_.network.ports.at(*brake).in)]) return {};
+    const bool own = brake && m_.shaft_of_node[at(motor->node)] == m_.shaft_of_node[at(m_.network.ports.at(*brake).in)];
+    const std::string holders = own || trembles ? what_holds() : std::string();
+    if (holders.empty()) return {};
     return claimed_aside(Predicate::held_by,
-                         fmt::format("\"{}\" is held by \"{}\" against the {:.4g} N·m that it gives", motor->component,
-                                     *brake, std::abs(torque_of(*motor))),
+                         fmt::format("\"{}\" is held by {} against the {:.4g} N·m that it gives", motor->component,
+                                     holders, std::abs(torque_of(*motor))),
                          motor->component, {.value = std::abs(torque_of(*motor)), .unit = "N*m"});
   }
 

@@ -38,7 +38,7 @@ class RunWords {
                      fmt::format("\"{}\" goes through its operating sequence{}{}", link(),
                                  end.empty() ? "" : " and ends " + end, held()),
                      link(), at_end);
-    if (p_.remaining || p_.without_limit)
+    if ((p_.remaining || p_.without_limit) && (p_.run_down_begin || swing().empty()))
       return claimed(
           Predicate::not_steady_yet,
           fmt::format(
@@ -97,7 +97,7 @@ class RunWords {
   std::string held() const {
     for (const Claim& c : r_.claims)
       if (c.predicate == Predicate::held_by && c.text.find(" against ") != std::string::npos)
-        return c.of == link() ? ", " + c.text.substr(c.text.find(" is held by ") + 4) : "; " + c.text;
+        return c.of == link() ? ", " + c.text.substr(c.text.find("held by ")) : "; " + c.text;
     return {};
   }
   // A motion that began forwards, or at rest, may be backwards.

@@ -329,11 +329,11 @@ class Judge:
         for name, wrong in (("does not move", m["moves"]), ("starts", m["begins"] != "at rest" or not m["moves"]),
                             ("at rest", m["end"] != "rests" and abs(m["speed_at_end"]) > 0.02 * self.usual),
                             ("strokes", not ((m.get("stands_within") or 0) > 0 or (m.get("least_speed") or 0) <= 0)),
-                            ("held by", m["end"] != "rests")):
+                            ("held by", m["end"] not in ("rests", "vibrates"))):
             if r.says(name, self.truth["link"] if name == "held by" else None) and wrong:
                 self.contradiction(f"claim \"{name}\" is false", f"{m['end']} at the end, moves: {m['moves']}, begins {m['begins']}")
         for motor in self.truth["motors"]:
-            if r.says("held by", motor["component"]) and motor["component"] != self.truth["link"] and not motor["stands"]:
+            if r.says("held by", motor["component"]) and motor["component"] != self.truth["link"] and abs(motor["speed"]) > 0.01 * motor["rated_speed"]:
                 self.contradiction("claim \"held by\" is false", f"\"{motor['component']}\" turns at {motor['speed']:.4g} rad/s")
         for name, holds in (("engages", lambda c: c["engages"] > 0 or c["slips"] > 0), ("open", lambda c: c["open"] > 0),
                             ("overruns", lambda c: c["kind"] == "one-way clutch" and c["slips"] > 0)):

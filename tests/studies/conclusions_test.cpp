@@ -223,6 +223,31 @@ TEST(Conclusion, AMotorThatABrakeHoldsUnderTorqueIsSaidBesideAVibration) {
   EXPECT_NE(all.find("vibrat"), std::string::npos) << all;
 }
 
+// 10 N·m against a load of 30 behind a coupling of 100 N·m/rad: the motor swings about 0.1 rad, and comes to rest at 0.1 rad; near
+// that it is no run-up that its mean speed tells of, but a motor that its load holds.
+TEST(Conclusion, AMotorThatItsLoadHoldsBehindASpringIsSaidWhileItTrembles) {
+  const auto said = [](const std::string& until) {
+    const Result r = test::run(R"(
+    line = ["motor", "coupling", "load"]
+    motor = { kind = "dc shunt motor", stall_torque = "10 N*m", no_load_speed = "40 rad/s", inertia = "0.05 kg*m2" }
+    coupling = { kind = "coupling", stiffness = "100 N*m/rad", damping_ratio = 0.1 }
+    load = { kind = "load", torque = "30 N*m", inertia = "0.1 kg*m2" }
+    run = { start = "rest", until = ")" +
+                               until + R"( s" }
+    effects = { elasticity = true }
+  )");
+    std::string all;
+    for (const std::string& sentence : concluded(findings_of(r).claims)) all += sentence + " ";
+    return all;
+  };
+  for (const char* until : {"0.8", "0.82", "0.85"}) {
+    const std::string all = said(until);
+    EXPECT_EQ(all.find("steady motion"), std::string::npos) << until << ": " << all;
+    EXPECT_NE(all.find("10 N·m that"), std::string::npos) << until << ": " << all;
+  }
+  EXPECT_NE(said("3").find("\"motor\" stalls at "), std::string::npos) << said("3");
+}
+
 // Motor M = 60 (1 − ω/40), clutch 12 N·m, drum at 12/1.25 = 9.6 rad/s: it can only slip, by 32 − 9.6 rad/s.
 TEST(Conclusion, AClosedClutchThatSlipsToTheEndIsSaid) {
   const Result r = test::run(test::scene_file("tests/agreement/clutch_slips_always.toml"), false);
