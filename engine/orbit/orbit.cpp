@@ -191,11 +191,12 @@ class Search {
       changes_most_ = section.name(equations_, static_cast<std::size_t>(most));
       angle_changes_most_ = section.is_angle(static_cast<std::size_t>(most));
     }
-    if (settled_rounds_ < next_trial_ || out_.still_changes > near_enough) return;
+    const bool repeats = out_.still_changes <= enough_by_run, repeats_anew = repeats && !repeated_;
+    if ((settled_rounds_ < next_trial_ && !repeats_anew) || out_.still_changes > near_enough) return;
     next_trial_ = 2 * settled_rounds_;
-    const double came_near = out_.still_changes;
+    repeated_ = repeats;
     polish();
-    if (!done_ && !found_unstable_ && came_near <= enough_by_run) rest_on_run(new_map());
+    if (!done_ && !found_unstable_ && repeats) rest_on_run(new_map());
   }
 
   std::shared_ptr<ReturnMap> new_map() const { return std::make_shared<ReturnMap>(shared_, map_options(options_)); }
@@ -420,6 +421,7 @@ class Search {
   Orbit out_;
   bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
   bool slow_ = false;                                       // a period has changed little
+  bool repeated_ = false;                                   // the run did, at the last trial
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
   int settled_rounds_ = 0, next_trial_ = 1;
   LastSwing swings_;

@@ -21,11 +21,12 @@ namespace {
 
 constexpr double stands = 1e-3;           // of the usual speed: below it a shaft stands
 constexpr double drives = 1e-6;           // of the usual torque: above it something drives
-constexpr double far_away = 1.5;          // times the usual speed: nothing in the scene tells of such a one
 constexpr double turns_back_from = 1e-2;  // of the usual speed
 constexpr double disagree = 0.1;          // of the usual speed: shafts that a spring joins start apart
 constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
+constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is told
+constexpr double gains = 1.3;             // times its speed: one that few cycles tell of grows
 
 class Judge {
  public:
@@ -56,11 +57,11 @@ class Judge {
         torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
     return torque;
   }
-  // A motor under torque whose shaft stands.
-  const MotorTorque* standing_motor() const {
+  // A motor under torque whose shaft is slower than this part of its rated speed: stands.
+  const MotorTorque* standing_motor(double slower = stands) const {
     for (const MotorTorque& motor : m_.motors)
       if (!motor.prescribed && std::abs(torque_of(motor)) > drives * motor.rated_torque &&
-          std::abs(speed_of(motor)) < stands * std::abs(motor.rated_speed))
+          std::abs(speed_of(motor)) < slower * std::abs(motor.rated_speed))
         return &motor;
     return nullptr;
   }
@@ -178,12 +179,16 @@ class Judge {
   std::optional<Claim> runs_away(const Result& r) const {
     const Periods& p = r.periods;
     const double limit = far_away * m_.speed_scale;
-    if (is_commanded() || p.steady || p.run_down_begin || !p.without_limit) return {};
-    if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed() || settles_later()) return {};
-    return claimed(Predicate::runs_away,
-                   fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data, and {}", link(),
-                               m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale, p.verdict),
-                   link(), of_speed(r, std::abs(speed()), limit));
+    const bool too_few = !p.without_limit && !p.remaining;  // cycles to judge by
+    if (is_commanded() || p.steady || p.run_down_begin || !(p.without_limit || too_few)) return {};
+    if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed() || settles_later(too_few ? gains : 0)) return {};
+    return claimed(
+        Predicate::runs_away,
+        fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data, and {}", link(),
+                    m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale,
+                    too_few ? "it goes on to gain, no less from each doubling of the time than from the one before"
+                            : p.verdict),
+        link(), of_speed(r, std::abs(speed()), limit));
   }
   // Over a cycle of the rigid machine at constant speed: whether loads and drag balance the drive at some higher speed.
   bool settles_at_a_higher_speed() const try {
@@ -208,8 +213,9 @@ class Judge {
 
   // Tried: the run goes on to eight times its time. Its mean speeds over the time as long again, twice and four times as
   // long grow by less from one to the next: slower than the logarithm of time, for what dampers take is not in the balance
-  // of the rigid machine. A trial that ends before knows nothing: by the budget that the run left, or by its evaluations.
-  bool settles_later() const try {
+  // of the rigid machine. So does what does not come to `least` times the speed at the end. A trial that ends before knows
+  // nothing: by the budget that the run left, or by its evaluations; with `least` nothing is claimed then.
+  bool settles_later(double least) const try {
     constexpr std::int64_t most = 10;  // times the evaluations of the run itself
     Equations equations(equations_.shared_model(), false);
     State state{outcome_.t, outcome_.state, equations_.modes()};
@@ -217,7 +223,7 @@ class Judge {
     std::array<double, 3> mean{};
     double budget = budget_ - outcome_.statistics.cpu_seconds;
     for (double& speed : mean) {
-      if (!(budget > 0)) return false;
+      if (!(budget > 0)) return least > 0;
       equations.bind(state.modes);
       const double begin = equations.angle_with_turns(at(m_.reduction_angle), state.y);
       RunOptions run{.tolerance = 1e-6,
@@ -229,14 +235,14 @@ class Judge {
                      .progress = {}};
       run.from = {state.t, state.y};
       const RunOutcome on = integrate(equations, run, {});
-      if (!on.complete) return false;
+      if (!on.complete) return least > 0;
       budget -= on.statistics.cpu_seconds;
       speed = std::abs(equations.angle_with_turns(at(m_.reduction_angle), on.state) - begin) / (on.t - state.t);
       state = {on.t, on.state, equations.modes()};
     }
-    return !keeps_gaining(mean);
+    return !keeps_gaining(mean) || mean[2] < least * std::abs(this->speed());
   } catch (const std::exception&) {  // nothing is known of later
-    return false;
+    return least > 0;
   }
 
   // Held from the start although something drives, and not by an applied brake.
@@ -267,6 +273,21 @@ class Judge {
       claim = claimed(Predicate::does_not_move, fmt::format("\"{}\" does not move", link()), link());
     if (claim) claim->in_conclusion = !moved;
     return claim;
+  }
+
+  // While the link still moves: by an applied brake on its own shaft, or, where the link only trembles, by what stands.
+  std::optional<Claim> motor_held() const {
+    const bool trembles = recorder_.swings() && recorder_.speed_of_swing() < turns_back_from * m_.speed_scale;
+    const MotorTorque* motor = standing_motor(trembles ? turns_back_from : stands);
+    if (!motor || rests() || !(std::abs(torque_of(*motor)) > pushes * motor->rated_torque)) return {};
+    const std::string* brake = brake_that_holds();
+    const bool own = brake && m_.shaft_of_node[at(motor->node)] == m_.shaft_of_node[at(m_.network.ports.at(*brake).in)];
+    const std::string holders = own || trembles ? what_holds() : std::string();
+    if (holders.empty()) return {};
+    return claimed_aside(Predicate::held_by,
+                         fmt::format("\"{}\" is held by {} against the {:.4g} N·m that it gives", motor->component,
+                                     holders, std::abs(torque_of(*motor))),
+                         motor->component, {.value = std::abs(torque_of(*motor)), .unit = "N*m"});
   }
 
   // Less than one turn, and nearly at rest, although something drives; a brake put on meanwhile is meant to stop it.
@@ -403,9 +424,12 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
          std::array{judge.backwards(result), judge.runs_away(result), judge.hangs(result.periods),
                     judge.never_gets_round(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
       add(claims, std::move(claim));
-    if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); }))
-      if (std::optional<Claim> claim = judge.vibrates(result.periods); claim || (claim = judge.swings()))
-        add(claims, std::move(claim));
+    if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); })) {
+      std::optional<Claim> vibrates = judge.vibrates(result.periods), held = judge.motor_held();
+      if (held) held->in_conclusion = vibrates.has_value();  // else it is said with the link's speed
+      add(claims, vibrates ? std::move(vibrates) : judge.swings());
+      add(claims, std::move(held));
+    }
   }
   for (Claim& claim : contacts) claims.push_back(std::move(claim));
   return claims;

@@ -10,6 +10,8 @@
 
 namespace kurbel {
 
+inline constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene tells of such a one
+
 // Springs between shafts of which only one has a start speed in the scene, while that of the other differs by more
 // than a tenth of the usual speed.
 Claims start_claims(const std::shared_ptr<const Model>& model);

@@ -9,6 +9,7 @@
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
+#include "studies/answers/motion_claims.h"
 #include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 
@@ -37,7 +38,7 @@ class RunWords {
                      fmt::format("\"{}\" goes through its operating sequence{}{}", link(),
                                  end.empty() ? "" : " and ends " + end, held()),
                      link(), at_end);
-    if (p_.remaining || p_.without_limit)
+    if ((p_.remaining || p_.without_limit) && (p_.run_down_begin || swing().empty()))
       return claimed(
           Predicate::not_steady_yet,
           fmt::format(
@@ -46,14 +47,21 @@ class RunWords {
               p_.verdict, p_.standstill ? fmt::format("; it rests at {}{}", seconds(*p_.standstill), held()) : ""),
           link(), {.at = p_.run_down_begin.value_or(r_.until), .value = p_.remaining, .unit = "rad/s"});
     if (end.empty()) return {};
-    return claimed(rests ? Predicate::at_rest : Predicate::moves,
-                   fmt::format("\"{}\" is {} after {}{}", link(), end, seconds(r_.until), held()), link(), at_end);
+    return claimed(
+        rests ? Predicate::at_rest : Predicate::moves,
+        fmt::format("\"{}\" is {} after {}{}{}", link(), end, seconds(r_.until), beyond(last->value), held()), link(),
+        at_end);
   }
 
  private:
   // Residual vibration in shafts that are held.
   bool all_but_rests(const Figure& last) const {
     return r_.model && std::abs(last.value) < 0.01 * r_.model->speed_scale;
+  }
+  // Nothing in the scene tells of such a speed, and the cycles are too few to tell whether it goes on.
+  std::string beyond(double speed) const {
+    const double times = r_.model ? std::abs(speed) / r_.model->speed_scale : 0;
+    return times > far_away ? fmt::format(", {:.3g} times the speed of its data", times) : "";
   }
   // The link stops or reverses in every cycle: such a motion repeats but has no steady speed.
   bool stands_within_the_cycle() const {
@@ -85,11 +93,11 @@ class RunWords {
         return "vibrating" + c.text.substr(at);
     return {};
   }
-  // ", held by "brake" against the 147 N·m that act": for a link at rest with a torque on it.
+  // ", held by "brake" against the 147 N·m that act": for a link at rest with a torque on it; a motor's is another sentence.
   std::string held() const {
     for (const Claim& c : r_.claims)
       if (c.predicate == Predicate::held_by && c.text.find(" against ") != std::string::npos)
-        return ", " + c.text.substr(c.text.find(" is held by ") + 4);
+        return c.of == link() ? ", " + c.text.substr(c.text.find("held by ")) : "; " + c.text;
     return {};
   }
   // A motion that began forwards, or at rest, may be backwards.

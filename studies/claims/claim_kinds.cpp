@@ -54,7 +54,9 @@ constexpr std::array kinds = {
         "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
         "higher speed (up to a hundred times) do loads and drag hold what drives; a trial that goes on to eight "
         "times the time sees it gain by no less from each doubling to the next, or ends before: by the budget, by ten "
-        "times the run's evaluations in one doubling, or by a fault",
+        "times the run's evaluations in one doubling, or by a fault; of fewer than three cycles by a whole trial "
+        "alone, "
+        "where it comes to 1.3 times the speed",
         "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
         "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
         "changes by +6.5 % a sixteenth of the time, and that does not shrink",
@@ -118,15 +120,18 @@ constexpr std::array kinds = {
               "at: end of the run; value: what remains of the mid speed [rad/s]",
               "\"motor\" has not come to a steady motion by 8 s: the mean speed is only within 0.852 % of its limit",
               "run, compare"},
-    ClaimKind{moves, runs, note, anything, "the run is too short for any other claim",
+    ClaimKind{moves, runs, note, anything,
+              "the run is too short for any other claim; beyond 1.5 times the usual speed that is said",
               "at: end of the run; value: speed at the end [rad/s]", "\"crank\" is at 149.7 rad/s after 0.1 s",
               "run, compare"},
     ClaimKind{starts, runs, note, anything, "the link stands at the start and moves later on, driven",
               "at: end of the run-up, where there is one", "\"motor\" starts from rest", "run, compare"},
-    ClaimKind{held_by, runs, note, anything,
-              "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
-              "brought to rest by it",
-              "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
+    ClaimKind{
+        held_by, runs, note, anything,
+        "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
+        "brought to rest by it; while the link moves, a motor that gives a tenth of its rated torque is held by a "
+        "brake on its own shaft, or, where the link vibrates below 1 % of its usual speed, by what stands",
+        "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
     ClaimKind{sticks_and_slips, runs, note, above,
               "while the link turns, another shaft comes to rest and moves on in the same sense, three times at least",
               "at: of its first rest; value: how often; limit: 2",

@@ -133,6 +133,54 @@ TEST(Orbit, StepsThatWaitForTheMotionAreCarriedOut) {
 }
 
 // One that repeats sets the period: J ω̇ = 60 (c(t) − ω/40) − 15 with c = 1 + 0.1 sin(2π t/T), by its mean and phasor.
+// A motor that is off is brought to the speed of a flywheel by the drag of its freewheel: the motion repeats from the cycle on
+// in which it arrives, between two trials of Newton's method (at powers of two), and before the last cycle allowed.
+TEST(Orbit, WhatRepeatsBetweenTwoTrialsIsFound) {
+  const Scene scene = scene_from(R"(
+line = ["motor", "freewheel", "flywheel", "press"]
+[motor]
+kind = "induction motor"
+rated_power = "30528 W"
+rated_speed = "113.21 rad/s"
+synchronous_speed = "117.47 rad/s"
+breakdown_ratio = 2.56
+inertia = "0.28697 kg*m2"
+starting_ratio = 1.33
+stop = "2.0583 s"
+[freewheel]
+kind = "one-way clutch"
+drag = "0.42934 N*m"
+[flywheel]
+kind = "flywheel"
+inertia = "1.1473 kg*m2"
+[press]
+kind = "slider-crank"
+radius = "0.064083 m"
+rod = "0.29004 m"
+crank_inertia = "0.6696 kg*m2"
+slider_mass = "10.271 kg"
+gravity = "9.81 m/s2"
+stroke_angle = "90 deg"
+load = { kind = "table", force = { over = "angle", unit = ["deg", "N"], period = "360 deg", points = [[0, 0], [180, 0], [200, 4737.5], [330, 4737.5], [360, 0]] } }
+[second]
+kind = "induction motor"
+rated_power = "54598 W"
+rated_speed = "202.47 rad/s"
+synchronous_speed = "217.33 rad/s"
+breakdown_ratio = 1.88
+inertia = "0.28697 kg*m2"
+starting = "star-delta"
+switch_time = "0.20902 s"
+start = "0.029508 s"
+on = "flywheel"
+)");
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_TRUE(orbit.stable);
+  EXPECT_NEAR(speed_of(scene, orbit, "motor"), speed_of(scene, orbit, "flywheel"),
+              0.01 * speed_of(scene, orbit, "flywheel"));
+}
+
 TEST(Orbit, LawThatRepeatsSetsThePeriod) {
   const Orbit orbit = orbit_of(std::string("line = [\"motor\", \"load\"]\n") + dc_motor +
                                "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\" }\n"

@@ -81,6 +81,15 @@ class MotionJudge {
     return mean_speed(until_ - at_end * until_, until_) < 0 ? "backwards" : "forwards";
   }
   double mean_speed(double from, double to) const { return (path_.angle(to) - path_.angle(from)) / (to - from); }
+  // Of the last tenth of the time; with a cycle, where the link still goes through it, of the whole ones that hold that.
+  double mean_speed_of_last_tenth() const {
+    const std::vector<Lap> list = m_.cycle > 0 ? laps(0) : std::vector<Lap>();
+    if (list.empty() || until_ - list.back().end > 2 * (list.back().end - list.back().begin))
+      return mean_speed(0.9 * until_, until_);
+    const auto first =
+        std::find_if(list.rbegin(), list.rend() - 1, [&](const Lap& l) { return l.begin <= 0.9 * until_; });
+    return mean_speed(first->begin, list.back().end);
+  }
 
  private:
   bool turns_at(const Moment& m) const { return std::abs(m.speed) > turns * usual_; }
@@ -408,7 +417,7 @@ json classify(const Observed& seen, const Observed* later) {
     const MotionJudge judge(*later, later->moments);
     json l = judge.all();
     const double t = later->moments.back().t;
-    l["complete"] = later->outcome.complete, l["mean_speed_of_last_tenth"] = judge.mean_speed(0.9 * t, t);
+    l["complete"] = later->outcome.complete, l["mean_speed_of_last_tenth"] = judge.mean_speed_of_last_tenth();
     l["fastest_shaft"] = later->fastest_shaft, l["mean_speed_before"] = judge.mean_speed(0.45 * t, 0.5 * t);
     j["later"] = l;
   }
@@ -418,7 +427,8 @@ json classify(const Observed& seen, const Observed* later) {
   for (const MotorSeen& motor : seen.motors)
     j["motors"].push_back({{"component", motor.component},
                            {"kind", m.network.kind_of(motor.component)},
-                           {"late_rms_torque", std::sqrt(motor.late_squares / (0.25 * seen.moments.back().t))},
+                           {"late_rms_torque", std::sqrt(std::min(motor.late_squares[0], motor.late_squares[1]) /
+                                                         (0.125 * seen.moments.back().t))},
                            {"rated_torque", motor.rated_torque},
                            {"rated_speed", motor.rated_speed},
                            {"torque", motor.torque},

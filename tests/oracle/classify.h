@@ -37,11 +37,13 @@
 //               latest: wider by 1.1 %, 0.9 % (a swing that just touches the edge may belong to either side)
 //   driven_part the same, of the time up to which any source is on, where none is at the end
 //   stands_within    share of the time of the last p cycles in which the link does not turn
-//   later       the same machine run on to several times the time: its speed in the mean of the last tenth, what it does at the end
+//   later       the same machine run on to several times the time: its speed in the mean of the last tenth (of whole cycles, as
+//               many as it takes), what it does at the end
 //   fastest_shaft    at the end, of any shaft over its usual speed
 //   two_periods a torque depends on time and something on the link's angle: nothing need ever come again
 //   contacts    lets_go: slips at a command of 1 that has not changed since it held; engages: slips otherwise while it is told
 //               more than 0; open: told 0;  a slip counts from 1e-3 of the usual speed, or 1e-2 rad in all; lets_go_at_all: without that
+//   motors      late_rms_torque: the smaller one of the last two eighths of the time: a motor may run up while the link is steady
 //   limits      of ratings that the scene states: greatest value sampled over the limit
 #pragma once
 

@@ -139,7 +139,7 @@ class Sampler final : public Observer {
     for (std::size_t i = 0; i < m_.motors.size(); ++i) {
       const double torque = m_.motors[i].torque(s);
       seen_.motors[i].squares += weights[k] * length * torque * torque;
-      if (t > 0.75 * until_) seen_.motors[i].late_squares += weights[k] * length * torque * torque;
+      if (t > 0.75 * until_) seen_.motors[i].late_squares[t > 0.875 * until_] += weights[k] * length * torque * torque;
       seen_.motors[i].greatest = std::max(seen_.motors[i].greatest, std::abs(torque));
     }
   }

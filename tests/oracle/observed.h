@@ -53,7 +53,7 @@ struct MotorSeen {
   double torque = 0, speed = 0;  // at the end
   double command = 1;            // at the end; 0 also outside of its window
   double squares = 0;            // ∫ M² dt [N²·m²·s]
-  double late_squares = 0;       // of it in the last quarter of the time
+  double late_squares[2] = {};   // of it in the last eighth of the time but one, in the last
   double greatest = 0;           // |M| [N·m]
 };
 

@@ -171,6 +171,26 @@ TEST(Conclusion, AMachineWithoutALimitRunsAway) {
   EXPECT_NE(first_sentence(r).find("runs away"), std::string::npos) << first_sentence(r);
 }
 
+// M = 10 N·m on 1 kg·m² from 10 rad/s: 26 rad/s after 1.6 s, and 28.8 rad: two whole cycles of 4π tell of no limit, what
+// comes then does. With a drag of 0.1 N·m·s/rad 100 − 90 e^(−0.1 t) rad/s, 23.31 after 1.6 s, and no runaway.
+TEST(Conclusion, AMachineThatRunsAwayWithinTwoCyclesIsSaid) {
+  const auto said = [](const std::string& drag) {
+    return first_sentence(test::run(R"(
+    line = ["engine", "wheel"]
+    engine = { kind = "engine", inertia = "0.5 kg*m2", firing_order = [1], torque = { over = "angle", unit = ["deg", "N*m"], points = [[0, 10], [360, 10], [720, 10]] } }
+    wheel = { kind = "inertia", inertia = "0.5 kg*m2" }
+    drag = { kind = "bearing drag", on = "wheel", damping = ")" +
+                                        drag +
+                                        R"( N*m*s/rad" }
+    run = { until = "1.6 s", start = { speed = "10 rad/s" } }
+  )",
+                                    false));
+  };
+  EXPECT_TRUE(said("0").starts_with("\"engine\" runs away: 26 rad/s at the end, 2.6 times the speed of its data"))
+      << said("0");
+  EXPECT_EQ(said("0.1"), "\"engine\" is at 23.31 rad/s after 1.6 s, 2.33 times the speed of its data.");
+}
+
 // J ω̇ = 60 (1 − ω/40) − 80 N·m on 2 kg·m²: ω = −40/3 (1 − e^(−0.75 t)) rad/s, −12.67 rad/s after 4 s.
 TEST(Conclusion, AMachineThatItsLoadTurnsBackIsSaid) {
   const Result r = test::run(R"(
@@ -184,6 +204,48 @@ TEST(Conclusion, AMachineThatItsLoadTurnsBackIsSaid) {
   EXPECT_EQ(first_sentence(r),
             "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the "
             "79 N·m that drive it forwards.");
+}
+
+// A brake stops the motor at once; what is behind the coupling swings on, at √(50/0.5) = 10 rad/s.
+TEST(Conclusion, AMotorThatABrakeHoldsUnderTorqueIsSaidBesideAVibration) {
+  const Result r = test::run(R"(
+    line = ["motor", "brake", "coupling", "machine"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "0.1 kg*m2" }
+    brake = { kind = "brake", torque = "200 N*m", start = "0.5 s" }
+    coupling = { kind = "coupling", stiffness = "50 N*m/rad", damping_ratio = 0.05 }
+    machine = { kind = "slider-crank", radius = "50 mm", rod = "300 mm", crank_inertia = "0.5 kg*m2", slider_mass = "1 kg" }
+    run = { start = "rest", until = "6 s" }
+    effects = { elasticity = true }
+  )");
+  std::string all;
+  for (const std::string& sentence : concluded(findings_of(r).claims)) all += sentence + " ";
+  EXPECT_NE(all.find("\"motor\" is held by \"brake\" against the 60 N·m that it gives"), std::string::npos) << all;
+  EXPECT_NE(all.find("vibrat"), std::string::npos) << all;
+}
+
+// 10 N·m against a load of 30 behind a coupling of 100 N·m/rad: the motor swings about 0.1 rad, and comes to rest at 0.1 rad; near
+// that it is no run-up that its mean speed tells of, but a motor that its load holds.
+TEST(Conclusion, AMotorThatItsLoadHoldsBehindASpringIsSaidWhileItTrembles) {
+  const auto said = [](const std::string& until) {
+    const Result r = test::run(R"(
+    line = ["motor", "coupling", "load"]
+    motor = { kind = "dc shunt motor", stall_torque = "10 N*m", no_load_speed = "40 rad/s", inertia = "0.05 kg*m2" }
+    coupling = { kind = "coupling", stiffness = "100 N*m/rad", damping_ratio = 0.1 }
+    load = { kind = "load", torque = "30 N*m", inertia = "0.1 kg*m2" }
+    run = { start = "rest", until = ")" +
+                               until + R"( s" }
+    effects = { elasticity = true }
+  )");
+    std::string all;
+    for (const std::string& sentence : concluded(findings_of(r).claims)) all += sentence + " ";
+    return all;
+  };
+  for (const char* until : {"0.8", "0.82", "0.85"}) {
+    const std::string all = said(until);
+    EXPECT_EQ(all.find("steady motion"), std::string::npos) << until << ": " << all;
+    EXPECT_NE(all.find("10 N·m that"), std::string::npos) << until << ": " << all;
+  }
+  EXPECT_NE(said("3").find("\"motor\" stalls at "), std::string::npos) << said("3");
 }
 
 // Motor M = 60 (1 − ω/40), clutch 12 N·m, drum at 12/1.25 = 9.6 rad/s: it can only slip, by 32 − 9.6 rad/s.
