@@ -136,7 +136,7 @@ void Findings::show_scene(const std::string& file, const std::string& text) {
   show(chapter("Scene"), Text{.title = file, .body = text, .verbatim = true, .folded = true});
 }
 
-// "629.3 kN", "85.5 MPa": the form for forces and stresses.
+// "629.3 kN", "85.5 MPa", "570 kN·m/rad"; speeds are in the scene's unit already.
 void in_readable_unit(KeyFigure& figure) {
   constexpr double large = 1e4;
   if (!(std::abs(figure.value) >= large)) return;
@@ -162,7 +162,7 @@ Report page_of(const Findings& f) {
   for (KeyFigure& figure : page.figures) {
     figure.means = definition_id(figure.means);
     figure.note = headline(figure.note);
-    if (figure.unit == "N" || figure.unit == "Pa") in_readable_unit(figure);
+    if (figure.unit != "rad/s") in_readable_unit(figure);
   }
   page.meanings = meanings_of(page);
   return page;
