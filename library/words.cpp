@@ -65,7 +65,12 @@ void refuse_unless_one_of(const char* what, const std::string& name, const std::
 
 std::string explained(const std::string& figure) {
   const Definition* const found = meant_by(figure);
-  if (!found) refuse(figure);
+  if (!found) {
+    // A fit's or sweep's unknown is a key of the scene: "rotor.inertia".
+    const std::string keys = meanings_of_key(figure.substr(figure.rfind('.') + 1));
+    if (keys.empty()) refuse(figure);
+    return fmt::format("{} — key of a scene; all keys of a kind: kurbel keys KIND\n{}", figure, keys);
+  }
   return sentences_on(*found, figure);
 }
 

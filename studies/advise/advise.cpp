@@ -188,31 +188,32 @@ class Adviser {
     }
     if (!changed) return;
     const TriedSet& safer = try_set(on);
-    const bool stays = safer.within;
-    if (stays) a_.chosen = static_cast<std::size_t>(&safer - a_.tried.data());
-    if (!stays) kept_by_screens_.clear();
+    const bool keeps = safer.within;
+    if (keeps) a_.chosen = static_cast<std::size_t>(&safer - a_.tried.data());
+    if (!keeps) kept_by_screens_.clear();
     for (const std::string& doubt : doubts)
-      a_.warnings.push_back(doubt + (stays ? ": it stays" : "; the set with it was run and is not within: it goes"));
+      a_.warnings.push_back(
+          doubt + (keeps ? ": it is kept" : "; the set with it was run and is outside the tolerance: it is omitted"));
   }
   std::string reason(std::size_t k) const {
     const TriedSet& chosen = a_.tried[a_.chosen];
     EffectSet other = chosen.on;
     other[k] = !other[k];
     const TriedSet* const found = known(other);
-    if (!all_[k]) return "does not go with the others: judged in their place";
-    if (!chosen.on[k]) return "goes: the set without it was run and stays within";
+    if (!all_[k]) return "cannot be combined with the others: judged instead of them";
+    if (!chosen.on[k]) return "omit: the set without it was run and is within the tolerance";
     if (std::count(kept_by_screens_.begin(), kept_by_screens_.end(), k))
-      return "stays: the screens expect it to matter, and no run settles that it does not";
+      return "keep: the screens expect it to matter, and no run shows clearly that it does not";
     if (!found) {  // the greedy search left it on after running everything but it
       const TriedSet* const alone = known(without(all_, k));
-      if (!alone) return "stays: no set without it was run";
-      return !alone->refused.empty() ? "stays: the full model does not run without it"
-                                     : fmt::format("stays: the full model without it is {:.3g} % off in {}",
+      if (!alone) return "keep: no set without it was run";
+      return !alone->refused.empty() ? "keep: the full model does not run without it"
+                                     : fmt::format("keep: the full model without it is {:.3g} % off in {}",
                                                    100 * alone->deviation, alone->figure);
     }
-    if (!found->refused.empty()) return "stays: the machine does not run without it";
-    return found->within ? "stays: omitting it saves no time"
-                         : fmt::format("stays: without it {} is {:.3g} % off", found->figure, 100 * found->deviation);
+    if (!found->refused.empty()) return "keep: the machine does not run without it";
+    return found->within ? "keep: omitting it saves no time"
+                         : fmt::format("keep: without it {} is {:.3g} % off", found->figure, 100 * found->deviation);
   }
 
   // The recommended set is run once more: it must stay within, and the scatter of processor times is measured.
@@ -280,7 +281,7 @@ class Adviser {
       if (!h.within)
         a_.warnings.push_back(
             h.refused.empty()
-                ? fmt::format("with {} the deviation is {:.2g} ± {:.1g} % (in {}): the advice does not carry so far",
+                ? fmt::format("with {} the deviation is {:.2g} ± {:.1g} % (in {}): the advice does not hold there",
                               h.what, 100 * h.deviation, 100 * h.error, h.figure)
                 : fmt::format("with {} a model did not run: {}", h.what, h.refused));
   }

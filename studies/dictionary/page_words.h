@@ -230,7 +230,7 @@ inline constexpr PageWord of_pages[] = {
      "model; "
      "front: nothing is both faster and more accurate"},
     // sweep, uncertainty, fit
-    {"parameter; variants; row; rows; greatest; mean along the parameter; largest error; computed alone", "sweep",
+    {"parameter; variants; row; rows; greatest; mean along the parameter; computed alone", "sweep",
      "a varied key; rows are its variants; over them the range of a figure and its largest numerical error; the "
      "command that computes one alone"},
     {"first order; total; share of the variance", "sweep",

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <regex>
 #include <set>
 
 #include "engine/scene/units.h"
@@ -51,14 +52,29 @@ bool shows_nothing(const Card& card) {
   return plot && !plot->map &&
          std::all_of(plot->series.begin(), plot->series.end(), [](const Series& s) { return s.x.empty(); });
 }
+// Decimal numbers of a note have four digits at most; whole ones (counts, numbers of standards) are unchanged.
+std::string readable_note(const std::string& note) {
+  static const std::regex decimal("[0-9]+[.][0-9]+(e[+-]?[0-9]+)?");
+  std::string text;
+  auto rest = note.begin();
+  for (std::sregex_iterator number(note.begin(), note.end(), decimal), none; number != none; ++number) {
+    const std::string digits = number->str();
+    text.append(rest, (*number)[0].first);
+    text += significant_digits(digits) > headline_digits ? headline_number(std::stod(digits)) : digits;
+    rest = (*number)[0].second;
+  }
+  return readable(text.append(rest, note.end()));
+}
 // Converts numbers in texts of a plot to readable form.
 void make_readable(Plot& plot) {
-  for (std::string* text : {&plot.title, &plot.note}) *text = readable(*text);
+  plot.title = readable(plot.title);
+  plot.note = readable_note(plot.note);
   for (Series& series : plot.series) series.name = readable(series.name);
   for (Band& band : plot.bands) band.text = readable(band.text);
 }
 void make_readable(FormulaCard& formula) {
-  for (std::string* text : {&formula.title, &formula.numbers, &formula.note}) *text = readable(*text);
+  for (std::string* text : {&formula.title, &formula.numbers}) *text = readable(*text);
+  formula.note = readable_note(formula.note);
 }
 template <class Other>
 void make_readable(Other&) {}
@@ -136,7 +152,7 @@ void Findings::show_scene(const std::string& file, const std::string& text) {
   show(chapter("Scene"), Text{.title = file, .body = text, .verbatim = true, .folded = true});
 }
 
-// "629.3 kN", "85.5 MPa": the form for forces and stresses.
+// "629.3 kN", "85.5 MPa", "570 kN·m/rad"; speeds are in the scene's unit already.
 void in_readable_unit(KeyFigure& figure) {
   constexpr double large = 1e4;
   if (!(std::abs(figure.value) >= large)) return;
@@ -162,7 +178,7 @@ Report page_of(const Findings& f) {
   for (KeyFigure& figure : page.figures) {
     figure.means = definition_id(figure.means);
     figure.note = headline(figure.note);
-    if (figure.unit == "N" || figure.unit == "Pa") in_readable_unit(figure);
+    if (figure.unit != "rad/s") in_readable_unit(figure);
   }
   page.meanings = meanings_of(page);
   return page;

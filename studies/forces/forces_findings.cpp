@@ -286,7 +286,7 @@ void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
     to.show(in, Formulas()
                     .add(fmt::format("Efficiency of the cycle, {} motion", c.label), "η = A_useful / (A_in − ΔT)",
                          "η = {:.6g} J / {:.6g} J = {:.6g}", c.useful.value, c.spent, c.efficiency->value)
-                    .note(fmt::format("{}. Harmful work {:.5g} J, kinetic energy gained {:.5g} J.", efficiency_text(c),
+                    .note(fmt::format("{}. Harmful work {:.4g} J, kinetic energy gained {:.4g} J.", efficiency_text(c),
                                       c.harmful.value, or_zero(c.kinetic_change.value, 1e3 * c.spent))));
   else
     to.show(in, Text{.title = fmt::format("No efficiency of the cycle, {} motion", c.label),

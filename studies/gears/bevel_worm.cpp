@@ -85,7 +85,7 @@ Findings findings_of(const BevelPair& b) {
       .symbols = "tan δ₁ = sin Σ/(u + cos Σ),   δ₂ = Σ − δ₁",
       .numbers = fmt::format("δ₁ = atan({:.6g}/({:.6g} + {:.6g})) = {:.5f}°,   δ₂ = {:.5f}°", std::sin(b.shaft_angle),
                              b.ratio(), std::cos(b.shaft_angle), b.cone_angle(0) / degree, b.cone_angle(1) / degree)};
-  Rows table = words_table("Bevel pair", {"of the wheels", "symbol", "1", "2", "±", "unit"}, lines);
+  Rows table = words_table("Bevel pair", {"of the wheels", "symbol", "1", "2", "numerical error", "unit"}, lines);
   table.text_columns = table.text_columns_on_terminal = 2;
   Findings f = made(
       fmt::format("Bevel pair {}/{} at {:g}°: pitch cones {:.4f}° and {:.4f}°, R_e = {:.4f} mm; its teeth are "

@@ -75,7 +75,7 @@ class MeasuredQuantities {
         things_(things),
         error_(std::move(error)),
         records_(things.size()) {
-    headings_.insert(headings_.end() - 1, "±");
+    headings_.insert(headings_.end() - 1, "numerical error");
   }
   template <class Of, class Read = ReadAs>
   MeasuredQuantities& quantity(const std::string& key, std::string name, std::string symbol, std::string unit, Of get,

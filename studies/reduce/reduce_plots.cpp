@@ -33,7 +33,7 @@ Plot harmonics_plot(const Spectrum& s, const std::string& link) {
             .x = {fmt::format("order (per turn of {})", link), ""},
             .y = {"amplitude", pretty_unit(s.unit)},
             .series = {{.name = s.name, .role = Role::elastic}},
-            .note = fmt::format("Without the mean of {:.6g} {}; these orders hold {:.6g} % of the mean square.",
+            .note = fmt::format("Without the mean of {:.4g} {}; these orders hold {:.4g} % of the mean square.",
                                 s.harmonics.front().amplitude.value, pretty_unit(s.unit), 100 * s.captured),
             .bars = true};
   for (std::size_t n = 1; n < s.harmonics.size(); ++n)
@@ -101,7 +101,7 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
   inertia.series = {over_angle(r, n.inertia + "_em", Role::elastic, mechanism),
                     at_positions(r, Role::vermillion, mechanism)};
   if (!r.to_output)
-    inertia.note = fmt::format("The drive adds a constant {:.6g} kg·m².", r.constant_inertia);
+    inertia.note = fmt::format("The drive adds a constant {:.4g} kg·m².", r.constant_inertia);
   else if (r.turns_back)
     inertia.note = "Near the dead centres it grows without bound and is omitted.";
   Plot slope{

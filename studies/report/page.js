@@ -559,6 +559,7 @@
     const head = make('header', '', null, card);
     make('h3', '', m.title, head);
     const stage = make('div', 'stage', null, card);
+    layDown(m, front);
     const shaftLine = drawShaftLine(m, front, stage);
     const drawings = m.linkages.length > 1 ? make('div', 'linkages', null, stage) : stage;
     const mechanisms = m.linkages.map((g, k) => drawLinkage(m, g, k, front, ghosts, drawings));
@@ -658,8 +659,9 @@
       stage.style.setProperty('--sides', [line.svg, linkages[0]].map((svg, k) => `minmax(${k ? 200 : 0}px, ${ratio(svg).toFixed(3)}fr)`).join(' '));
     }
     // Several mechanisms share the room in columns of at least 200 pixels.
-    const columns = Math.max(1, Math.min(linkages.length, Math.floor((room + 16) / 216))), most = linkages.length > 1 ? 300 : 460;
+    const columns = Math.max(1, Math.min(linkages.length, Math.floor((room + 16) / 216))), most = linkages.length > 1 || linkages.some(svg => ratio(svg) > 2) ? 300 : 460;
     for (const svg of linkages) {
+      svg.style.setProperty('--tall', `${beside ? 460 : most}px`);
       const {width, height} = svg.viewBox.baseVal, scale = beside ? high / height : Math.min(room / columns / width, most / height);
       svg.style.setProperty('--words', `${Math.min(13 / scale, 22).toFixed(1)}px`);
     }
@@ -996,32 +998,43 @@
     };
   }
 
-  // The mechanism to scale: joints by table over the crank's angle, links as lines between them.
-  function drawLinkage(m, g, which, front, ghosts, stage) {
-    const own = front.force[which] || [];
-    const c = Math.cos(g.direction), s = Math.sin(g.direction), jointAt = jointsOf(g);
+  // What is seen of a mechanism, in its axes: along its stroke and across, and the measures of its parts.
+  function fieldOf(g, forced) {
     const least = lists => Math.min(...lists.map(list => Math.min(...list))), most = lists => Math.max(...lists.map(list => Math.max(...list)));
     const size = Math.max(most(g.x) - least(g.x), most(g.y) - least(g.y)), body = 0.13 * size, room = 0.3 * size;
     const slider = g.links.find(link => link.shape === 'slider'), end = g.output, guided = slider ? slider.joints[0] : end;
     // What the load acts on slides, else it rocks about a bearing.
     const carried = g.links.find(link => (link.shape === 'slider' || link.shape === 'point') && link.joints[0] === end);
-    const forced = own.length > 0;
-    // Corners of what is seen, in the mechanism's axes.
     const far = most(g.x) + (carried ? body + (forced ? 0.55 * room : 0) : 0.4 * body), aside = (g.load === 'press' ? 1.25 : 0.75) * body;
     const way = slider ? [g.y[guided][0] - aside, g.y[guided][0] + aside] : [];
-    const low = Math.min(least(g.y) - 0.3 * body, ...way), high = Math.max(most(g.y) + 0.3 * body, ...way);
-    const corners = [least(g.x) - 0.5 * body, far].flatMap(u => [low, high].map(v => [u * c - v * s, -(u * s + v * c)]));
+    const across = [Math.min(least(g.y) - 0.3 * body, ...way), Math.max(most(g.y) + 0.3 * body, ...way)];
+    return {size, body, room, slider, end, guided, carried, along: [least(g.x) - 0.5 * body, far], across};
+  }
+  // One tall and narrow mechanism is laid down, its stroke to the right, and says so.
+  function layDown(m, front) {
+    const [g] = m.linkages, span = ([from, to]) => to - from;
+    if (m.linkages.length !== 1 || Math.abs(Math.sin(g.direction)) < 0.99) return;
+    const {along, across} = fieldOf(g, (front.force[0] || []).length > 0);
+    if (span(along) > 2.5 * span(across)) Object.assign(g, {direction: 0, turned: true});
+  }
+
+  // The mechanism to scale: joints by table over the crank's angle, links as lines between them.
+  function drawLinkage(m, g, which, front, ghosts, stage) {
+    const own = front.force[which] || [];
+    const c = Math.cos(g.direction), s = Math.sin(g.direction), jointAt = jointsOf(g);
+    const {size, body, room, slider, end, guided, carried, along, across} = fieldOf(g, own.length > 0);
+    const corners = along.flatMap(u => across.map(v => [u * c - v * s, -(u * s + v * c)]));
     const xs = corners.map(p => p[0]), ys = corners.map(p => p[1]);
     const w = Math.max(...xs) - Math.min(...xs), h = Math.max(...ys) - Math.min(...ys);
     const scale = 380 / Math.max(w, h), padding = 18;
     const bends = front.bend && front.bend[which] || [], bent = bends.length > 0;
     const firstShift = 2 * m.linkages.slice(0, which).reduce((sum, l) => sum + l.gaps.length, 0);
-    const top = g.gaps.length ? 104 : bent ? 54 : 36;  // above all, the scale bar and the gaps
+    const top = g.gaps.length ? 104 : bent ? 54 : g.turned ? 48 : 36;  // above all, the scale bar and the gaps
     const W = Math.max(w * scale + 2 * padding, 130, 150 * g.gaps.length), H = h * scale + padding + top;
     const X = (u, v) => (u * c - v * s - (Math.max(...xs) + Math.min(...xs)) / 2) * scale + W / 2;
     const Y = (u, v) => (-(u * s + v * c) - Math.min(...ys)) * scale + top;
     const svg = draw('svg', {viewBox: `0 0 ${W} ${H}`, role: 'img'}, stage);
-    draw('title', {}, svg, `${g.name} to scale`);
+    draw('title', {}, svg, `${g.name} to scale${g.turned ? ', turned by 90°' : ''}`);
     const at2 = (u, v) => `${X(u, v).toFixed(2)},${Y(u, v).toFixed(2)}`;
     // Guide, or the walls of a cylinder with its head, or a press with its table; fixed bearings, and a scale bar.
     if (slider) drawAround();
@@ -1045,7 +1058,7 @@
     const round = Math.pow(10, Math.floor(Math.log10(70 / scale))), bar = round * (70 / scale / round >= 5 ? 5 : 70 / scale / round >= 2 ? 2 : 1);
     draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, svg);
     draw('text', {x: 10, y: 19, dy: '.85em', class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
-    if (g.name) draw('text', {x: 10, y: 19, dy: '2em', class: 'soft'}, svg, g.name);
+    if (g.name) draw('text', {x: 10, y: 19, dy: '2em', class: 'soft'}, svg, g.name + (g.turned ? ', turned by 90°' : ''));
 
     if (bent) draw('text', {x: 10, y: 19, dy: g.name ? '3.15em' : '2em', class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
     // A journal in its bearing for each gap, which is drawn as wide as a third of the bearing.
@@ -1117,7 +1130,8 @@
       text.textContent = withPrefix(force, carried ? 'N' : 'N·m');
       if (carried) {
         // A push towards the crank ends at the slider's face, a pull begins there.
-        const [x, y] = points[end], face = x + (guided === end && slider ? body * 0.58 : 0), length = room * Math.abs(force) / largest, from = force < 0 ? face + length : face, to = force < 0 ? face : face + length;
+        const [x, y] = points[end], face = x + (guided === end && slider ? body * 0.58 : 0), point = 9 / scale;
+        const length = (0.6 * room - point) * Math.abs(force) / largest, from = force < 0 ? face + point + length : face, to = force < 0 ? face + point : face + length;
         place(arrow, {d: `M${at2(from, y)} L${at2(to, y)}`});
         drawArrowHead(arrow, head, X(to, y), Y(to, y), g.direction + (force < 0 ? Math.PI : 0), 9);
       } else {

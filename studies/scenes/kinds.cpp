@@ -170,6 +170,29 @@ std::string keys_of(const std::string& name) {
   return text;
 }
 
+std::string meanings_of_key(const std::string& name) {
+  std::vector<std::pair<std::string, std::string>> meanings;  // and the kinds that have it
+  const auto take = [&](const std::string& kind, const std::vector<Key>& keys) {
+    for (const Key& key : keys) {
+      if (key.name != name) continue;
+      const std::string domain = domain_of(key);
+      const std::string means = fmt::format("  {:<11}{}\n  {:<11}{}{}\n", "is", key.doc, "unit", type_of(key),
+                                            domain.empty() ? "" : "; domain: " + domain);
+      const auto same = std::find_if(meanings.begin(), meanings.end(), [&](const auto& m) { return m.first == means; });
+      if (same == meanings.end())
+        meanings.emplace_back(means, kind);
+      else if ((", " + same->second + ",").find(", " + kind + ",") == std::string::npos)
+        same->second += ", " + kind;
+    }
+  };
+  for (const Kind* kind : kinds_with_nested()) take(kind->name, kind->keys);
+  take("run", run_keys());
+  take("operation", operation_keys());
+  std::string text;
+  for (const auto& [means, kinds] : meanings) text += fmt::format("{}  {:<11}{}\n", means, "key of", kinds);
+  return text;
+}
+
 namespace {
 
 // Sections point into the list of kinds at reading, so that earlier lists are kept.

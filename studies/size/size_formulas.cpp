@@ -24,7 +24,7 @@ Formulas cycle_formulas(const Sizing& s) {
            d.work, cycle, d.mean_torque());
   list.add("Greatest fluctuation of energy (theory 3.4)", "ΔA_max = max ΔT − min ΔT",
            "ΔA_max = {:.6g} J − ({:.6g} J) = {:.6g} J", d.most.value, d.least.value, d.fluctuation())
-      .note(fmt::format("At φ = {:.6g}° and {:.6g}°.", d.most.x * in_degrees, d.least.x * in_degrees));
+      .note(fmt::format("At φ = {:.4g}° and {:.4g}°.", d.most.x * in_degrees, d.least.x * in_degrees));
   const double fastest = s.mid_speed * (1 + s.delta / 2), slowest = s.mid_speed * (1 - s.delta / 2);
   list.add("Limits of the speed (theory 2.6)", "ω_max, ω_min = ω_mid (1 ± δ/2)",
            "{:.6g} rad/s · (1 ± {:g}/2) = {:.6g} and {:.6g} rad/s", s.mid_speed, s.delta, fastest, slowest);
@@ -109,12 +109,12 @@ Formulas motor_formulas(const Sizing& s) {
              "d(½ I ω²)/dφ = M_d − M_c,   ω(Φ) = ω(0)", "δ = {:.6g} instead of {:g}, at a mid speed of {:.6g} rad/s",
              s.with_motor->crank.value, s.delta, s.with_motor->mid_speed)
         .note(
-            fmt::format("Slope of the torques at the operating speed {:.5g} N·m·s/rad; a disturbance shrinks to {:.3g} "
+            fmt::format("Slope of the torques at the operating speed {:.4g} N·m·s/rad; a disturbance shrinks to {:.3g} "
                         "of itself within a cycle.",
                         s.operating->slope, s.with_motor->multiplier));
   if (s.soft)
     list.add("Inertia that gives δ with these torques", "δ(I₀) = δ",
-             "I₀ = {:.7g} kg·m², flywheel {:.7g} kg·m², {:.4g} % {} than without their slope", s.soft->drive_inertia,
+             "I₀ = {:.6g} kg·m², flywheel {:.6g} kg·m², {:.4g} % {} than without their slope", s.soft->drive_inertia,
              s.soft->flywheel, std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
              s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more")
         .note(s.soft_speed != 0

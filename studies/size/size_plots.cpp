@@ -9,6 +9,7 @@
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
+#include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
 
 namespace kurbel {
@@ -59,7 +60,7 @@ std::vector<Plot> cycle_diagrams(const Sizing& s) {
        .y = {"M", torque.unit},
        .series = {curve("M_c", Role::orange, d.load_torque, torque.factor),
                   curve("M_d", Role::green, d.drive_torque, torque.factor)},
-       .note = fmt::format("Mean torque {:.6g} N·m at {}.", d.mean_torque(), s.speed_unit.text(s.mid_speed, 5))});
+       .note = fmt::format("Mean torque {:.4g} N·m at {}.", d.mean_torque(), s.speed_unit.text(s.mid_speed, 4))});
   plots.push_back({.title = "Work of resistance and of the drive: equal at the end of the cycle",
                    .x = angle,
                    .y = {"A", energy.unit},
@@ -72,7 +73,7 @@ std::vector<Plot> cycle_diagrams(const Sizing& s) {
                          marks_at("extremes, where M_d = M_c", Role::vermillion,
                                   {d.most.x * in_degrees, d.least.x * in_degrees},
                                   {d.most.value * excess.factor, d.least.value * excess.factor})},
-              .note = fmt::format("Greatest fluctuation {}.", with_unit(d.fluctuation(), "J"))};
+              .note = fmt::format("Greatest fluctuation {}.", told_shortly(d.fluctuation(), "J"))};
   plots.push_back(std::move(change));
   plots.push_back({.title = "Reduced inertia of the executive mechanism",
                    .x = angle,

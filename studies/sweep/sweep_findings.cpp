@@ -104,7 +104,7 @@ Rows figure_table(const SweepStudyResult& s) {
   add("mean", "mean", &Spread::mean, digits_in_tables);
   add("greatest", "greatest", &Spread::greatest, digits_in_tables);
   add("deviation", "deviation", &Spread::deviation, 3);
-  add("largest_error", "largest error", &Spread::error, 1);
+  add("largest_error", "numerical error", &Spread::error, 1);
   return table
       .column(
           "unit", "unit", [](const Spread& f) { return f.figure.unit; },

@@ -50,6 +50,17 @@ TEST(Explain, APeakOfAnElementsOwnIsToldToBeOne) {
   EXPECT_TRUE(said.has("greatest magnitude in a whole run")) << said.text;
 }
 
+TEST(Explain, AKeyOfASceneIsExplainedByTheKeysOfItsKinds) {
+  const Said said = explain("rotor.inertia");
+  EXPECT_EQ(said.code, 0) << said.text;
+  EXPECT_TRUE(said.has("rotor.inertia — key of a scene")) << said.text;
+  EXPECT_TRUE(said.has("kg·m²; domain: ≥ 0")) << said.text;
+  EXPECT_TRUE(said.has("rotor inertia")) << said.text;
+  EXPECT_TRUE(said.has("key of     induction motor, ")) << said.text;
+  EXPECT_TRUE(explain("run.until").has("key of     run"));
+  EXPECT_EQ(explain("rotor.inertai").code, 2);
+}
+
 TEST(Explain, WhatIsUnknownIsRefusedWithNamesThatAreLikeIt) {
   const Said said = explain("torqe");
   EXPECT_EQ(said.code, 2);

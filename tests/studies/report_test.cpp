@@ -298,6 +298,30 @@ TEST(Report, LeavesOutPlotsOfNothing) {
   EXPECT_EQ(page_of(f).sections.at(0).cards.size(), 1u);
 }
 
+// A sentence has four digits at most; counts and numbers of standards are whole.
+TEST(Report, NotesOfPlotsHaveFourDigits) {
+  Findings f{.title = "Notes"};
+  f.draw(f.chapter("Plots"), [] {
+    return std::vector<Plot>{{.title = "p",
+                              .x = {"x"},
+                              .y = {"y"},
+                              .series = {{.name = "s", .x = {1, 2}, .y = {1, 2}}},
+                              .note = "99.9067 % of 12345 rows (ISO 21771), 1582.48 J, 15052.53 N·m/rad, 0.25 s"}};
+  });
+  EXPECT_EQ(std::get<Plot>(page_of(f).sections.at(0).cards.at(0)).note,
+            "99.91 % of 12345 rows (ISO 21771), 1582 J, 15.05 kN·m/rad, 0.25 s");
+}
+
+// A tile has a unit prefix from 1e4 on, whatever its unit.
+TEST(Report, TilesTakeUnitPrefixes) {
+  Findings f{.title = "Tiles"};
+  f.figures = {{Estimate{570000, 50000}, "stiffness", "N*m/rad"}, {Estimate{9000, 0.0}, "torque", "N*m"}};
+  const Report page = page_of(f);
+  EXPECT_EQ(page.figures.at(0).unit, "kN·m/rad");
+  EXPECT_DOUBLE_EQ(page.figures.at(0).value, 570);
+  EXPECT_EQ(page.figures.at(1).unit, "N*m");
+}
+
 // The first screen rounds as the conclusion does; what is known stands below.
 TEST(Report, TilesRoundAndTellWhatIsKnown) {
   const TileText peak = tile_text({8874.28314, 0.0021}), drop = tile_text({0.104382, 0.0112}),
