@@ -85,14 +85,21 @@ class Reach {
     const Effects rigid = rigid_twin(*elastic_model);
     const double flywheel = s_.methods.front().flywheel;
     const SizedOrbit with_motor = ask(SizedModel::rigid, SizedBy::constant_drive, by_work, flywheel, rigid);
-    if (s_.operating && with_motor.stops) return;
+    const bool elastic_too = is_elastic(*elastic_model);
+    s_.stalls = s_.operating && with_motor.stops;
     if (s_.operating && with_motor.found) start_speed_ = with_motor.start_speed;
-    if (is_elastic(*elastic_model)) ask(SizedModel::elastic, SizedBy::constant_drive, by_work, flywheel, elastic);
-    if (!s_.operating || !with_motor.found) return;
-    const SizedOrbits::Meeting soft = count_slope(with_motor, rigid);
-    if (!soft.orbit || soft.none_needed) return;
-    take(*soft.orbit, SizedModel::rigid, SizedBy::slope, s_.soft->name);
-    if (is_elastic(*elastic_model)) ask(SizedModel::elastic, SizedBy::slope, s_.soft->name, s_.soft->flywheel, elastic);
+    if (elastic_too && !s_.stalls) ask(SizedModel::elastic, SizedBy::constant_drive, by_work, flywheel, elastic);
+    if (!s_.operating || !(with_motor.found || s_.stalls)) return;
+    count_slope(with_motor, rigid);
+    if (!s_.soft) {
+      if (s_.stalls) s_.complete = false, s_.diagnosis = s_.soft_why;
+      return;
+    }
+    if (!s_.meeting || s_.meeting->name != s_.soft->name)
+      take(*as_rigid_->orbit, SizedModel::rigid, SizedBy::slope, s_.soft->name);
+    if (s_.soft->none_needed) return;
+    if (elastic_too) ask(SizedModel::elastic, SizedBy::slope, s_.soft->name, s_.soft->flywheel, elastic);
+    if (s_.stalls && !s_.meeting) adopt(SizedModel::rigid, *as_rigid_, rigid, s_.soft->name);
   }
 
   SizedOrbit ask(SizedModel as, SizedBy by, const std::string& sized_by, double flywheel, const Effects& effects) {
@@ -121,16 +128,16 @@ class Reach {
     constexpr double missed = 0.01, far_smoother = -0.5;
     const bool heavier = off > missed;
     const bool lighter = s_.basis == SizeBasis::regime && off < -missed && off > far_smoother;
-    if (by == SizedBy::constant_drive && last && !s_.meeting && (heavier || lighter)) meet(as, orbit, effects);
+    if ((by == SizedBy::constant_drive || s_.stalls) && last && !s_.meeting && (heavier || lighter))
+      meet(as, orbit, effects);
   }
 
   // The flywheel with which the rigid machine has the demanded δ, as its torques depend on the speed.
-  SizedOrbits::Meeting count_slope(const SizedOrbit& with_motor, const Effects& rigid) {
-    constexpr double met = 1e-9;
-    s_.with_motor = with_motor;
-    SizedOrbits::Meeting found = orbits_.meeting(s_.delta, with_motor, others_, rigid, met);
+  void count_slope(const SizedOrbit& with_motor, const Effects& rigid) {
+    if (with_motor.found) s_.with_motor = with_motor;
+    const SizedOrbits::Meeting& found = as_rigid(with_motor, rigid);
     if (found.orbit) {
-      s_.soft = method(slope_of_what(s_).substr(4) + " counted", found);
+      s_.soft = method(by_slope(), found);
       s_.soft_speed = found.orbit->mid_speed;
       start_speed_ = found.orbit->start_speed;
     } else {
@@ -140,7 +147,13 @@ class Reach {
                           "assessed: " +
                               found.unknown;
     }
-    return found;
+  }
+  std::string by_slope() const { return slope_of_what(s_).substr(4) + " counted"; }
+  // Searched for once: for a rigid machine it is also the flywheel that meets the demand.
+  const SizedOrbits::Meeting& as_rigid(const SizedOrbit& first, const Effects& rigid) {
+    constexpr double met = 1e-9;
+    if (!as_rigid_) as_rigid_ = orbits_.meeting(s_.delta, first, others_, rigid, met);
+    return *as_rigid_;
   }
   SizeMethod method(const std::string& name, const SizedOrbits::Meeting& found) const {
     const double on_shaft = found.orbit->flywheel + others_;
@@ -149,15 +162,16 @@ class Reach {
             found.orbit->flywheel,
             flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
             found.orbit->crank.value,
-            found.error};
+            found.error,
+            found.none_needed};
   }
-  // A note found with several flywheels is given once.
+  // A note found with several flywheels and models is given once.
   void note(const SizedOrbit& orbit, SizedModel as) {
     for (const std::string& what : orbit.notes) {
-      if (std::count(s_.notes.begin(), s_.notes.end(), what)) continue;
       const std::string which = fmt::format("{}: ", name_of(as));
       if (std::none_of(s_.notes.begin(), s_.notes.end(), [&](const std::string& n) {
-            return n.starts_with(which + "the drive ") && what.starts_with("the drive ");
+            return n == what || n.ends_with(": " + what) ||
+                   (n.starts_with(which + "the drive ") && what.starts_with("the drive "));
           }))
         s_.notes.push_back(which + what);
     }
@@ -166,7 +180,9 @@ class Reach {
   // The flywheel with which the actual machine has the demanded δ.
   void meet(SizedModel as, const SizedOrbit& first, const Effects& effects) {
     constexpr double met = 1e-5;
-    const SizedOrbits::Meeting found = orbits_.meeting(s_.delta, first, others_, effects, met);
+    const bool as_with_slope = s_.operating && as == SizedModel::rigid;
+    const SizedOrbits::Meeting found =
+        as_with_slope ? as_rigid(first, effects) : orbits_.meeting(s_.delta, first, others_, effects, met);
     const char* which = as == SizedModel::elastic ? "elastic" : "rigid";
     if ((!found.orbit || found.none_needed) && first.crank.value <= s_.delta) return;  // smooth enough as it is
     if (!found.orbit) {
@@ -179,12 +195,18 @@ class Reach {
         s_.meeting_words += "; the search failed, which does not say that there is none: " + found.unknown;
       return;
     }
-    s_.meeting = method(fmt::format("steady motion, {}", which), found);
+    adopt(as, found, effects, as_with_slope ? by_slope() : fmt::format("steady motion, {}", which));
+    s_.reached.push_back({*found.orbit, as, as_with_slope ? SizedBy::slope : SizedBy::regime, s_.meeting->name});
+  }
+  void adopt(SizedModel as, const SizedOrbits::Meeting& found, const Effects& effects, const std::string& name) {
+    s_.meeting = method(name, found);
     s_.meeting_words =
         fmt::format("a flywheel of {:.6g} kg·m² meets δ = {:g} with {} ({}{})", found.orbit->flywheel, s_.delta,
-                    effects.describe() == scene_.effects.describe() ? "the scene's effects" : "all of its elasticity",
-                    which, effects.describe() == "none" ? std::string() : ": " + effects.describe());
-    s_.reached.push_back({*found.orbit, as, SizedBy::regime, s_.meeting->name});
+                    effects.describe() == scene_.effects.describe() ? "the scene's effects"
+                    : as == SizedModel::elastic                     ? "all of its elasticity"
+                                                                    : "none of its elasticity",
+                    as == SizedModel::elastic ? "elastic" : "rigid",
+                    effects.describe() == "none" ? std::string() : ": " + effects.describe());
   }
 
   Sizing& s_;
@@ -193,6 +215,7 @@ class Reach {
   double others_;  // what turns with the flywheel, on its shaft [kg·m²]
   std::optional<double> start_speed_;
   SizedOrbits orbits_;
+  std::optional<SizedOrbits::Meeting> as_rigid_;
 };
 
 }  // namespace

@@ -43,6 +43,7 @@ struct SizeMethod {
   // Resulting δ at constant driving torque, exact, or in the steady motion; empty: the machine would stop.
   std::optional<double> delta;
   std::optional<double> error = {};  // of the flywheel [kg·m²]
+  bool none_needed = false;          // δ is smaller than demanded without any flywheel
 };
 
 // Model of the machine with the sized flywheel.
@@ -94,9 +95,10 @@ struct Sizing {
   // With the motor's slope.
   std::string motor;  // first driving component; empty: none
   std::optional<OperatingSpeed> operating;
-  std::optional<SizedOrbit> with_motor;  // rigid, with Wittenbauer's flywheel
-  std::optional<SizeMethod> soft;        // inertia whose steady motion, rigid, has this δ
-  double soft_speed = 0;                 // its mid speed [rad/s]; 0: no flywheel is needed
+  std::optional<SizedOrbit> with_motor;  // rigid, with Wittenbauer's flywheel; empty: no motion was found
+  bool stalls = false;                   // with that flywheel it comes to rest
+  std::optional<SizeMethod> soft;        // inertia whose steady motion, rigid, has this δ, or none is needed
+  double soft_speed = 0;                 // its mid speed [rad/s]
   std::string soft_why;                  // reason if there is none
 
   // The inertia whose steady motion has the demanded δ, if the flywheel by the work equation misses it.

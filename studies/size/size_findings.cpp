@@ -46,12 +46,13 @@ std::string conclusion_of(const Sizing& s) {
                                               s.flywheel, s.delta, basis_of(s));
   text +=
       fmt::format(", at a mid speed of {} of {} ({})", s.speed_unit.text(s.mid_speed, 4), s.link, s.mid_speed_source);
+  if (s.stalls) text += "; with the torques as they are over the speed the machine stalls with it";
   if (s.soft) {
     const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
-    text += s.soft->flywheel > 0
-                ? fmt::format("; with {} considered {:.6g} kg·m² {} ({:.3g} % {})", slope_of_what(s), s.soft->flywheel,
-                              less >= 0 ? "suffice" : "are needed", std::abs(less), less >= 0 ? "less" : "more")
-                : fmt::format("; with {} considered none is needed", slope_of_what(s));
+    text += s.soft->none_needed
+                ? fmt::format("; with {} considered none is needed", slope_of_what(s))
+                : fmt::format("; with {} considered {:.6g} kg·m² {} ({:.3g} % {})", slope_of_what(s), s.soft->flywheel,
+                              less >= 0 ? "suffice" : "are needed", std::abs(less), less >= 0 ? "less" : "more");
   }
   if (!s.meeting_words.empty()) text += "; " + s.meeting_words;
   return text;
@@ -88,7 +89,7 @@ void say_titled(Findings& f, Chapter in, Rows rows) {
 Rows methods_table(const Sizing& s) {
   std::vector<SizeMethod> all = s.methods;
   if (s.soft) all.push_back(*s.soft);
-  if (s.meeting) all.push_back(*s.meeting);
+  if (s.meeting && !(s.soft && s.soft->name == s.meeting->name)) all.push_back(*s.meeting);
   return table_of("methods", "Flywheel by each method", std::move(all))
       .column("method", "method", &SizeMethod::name)
       .column("drive_inertia", "I_drive on link [kg·m²]", &SizeMethod::drive_inertia, {.digits = 6})

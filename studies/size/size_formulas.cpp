@@ -108,18 +108,20 @@ Formulas motor_formulas(const Sizing& s) {
                                           : "The drive does not give way: what holds the speed is the load",
              "d(½ I ω²)/dφ = M_d − M_c,   ω(Φ) = ω(0)", "δ = {:.6g} instead of {:g}, at a mid speed of {:.6g} rad/s",
              s.with_motor->crank.value, s.delta, s.with_motor->mid_speed)
-        .note(
-            fmt::format("Slope of the torques at the operating speed {:.4g} N·m·s/rad; a disturbance shrinks to {:.3g} "
-                        "of itself within a cycle.",
-                        s.operating->slope, s.with_motor->multiplier));
-  if (s.soft)
+        .note(fmt::format(
+            "Slope of the torques at the operating speed {:.4g} N·m·s/rad{}.", s.operating->slope,
+            s.with_motor->multiplier
+                ? fmt::format("; a disturbance shrinks to {:.3g} of itself within a cycle", *s.with_motor->multiplier)
+                : ""));
+  if (s.soft && s.soft->none_needed)
+    list.add("Without a flywheel, with these torques", "δ(I₀) < δ", "δ = {:.6g} at I₀ = {:.6g} kg·m²: none is needed",
+             *s.soft->delta, s.soft->drive_inertia);
+  else if (s.soft)
     list.add("Inertia that gives δ with these torques", "δ(I₀) = δ",
              "I₀ = {:.6g} kg·m², flywheel {:.6g} kg·m², {:.4g} % {} than without their slope", s.soft->drive_inertia,
              s.soft->flywheel, std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
              s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more")
-        .note(s.soft_speed != 0
-                  ? fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.", s.speed_unit.text(s.soft_speed))
-                  : "");
+        .note(fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.", s.speed_unit.text(s.soft_speed)));
   return list;
 }
 

@@ -60,7 +60,9 @@ OptionsOf<SizeOptions> options() {
             .what = "a length > 0",
             .domain = positive},
            &Asked::diagram_length)
-      .add({.name = "no_run", .doc = "do not compute the steady motion of the sized machine"}, &Asked::simulate, false);
+      .add({.name = "no_run",
+            .doc = "do not compute the steady motion of the sized machine, and no flywheel with the motor's slope"},
+           &Asked::simulate, false);
 }
 
 }  // namespace

@@ -98,6 +98,7 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
   }
   SizedOrbit r;
   r.flywheel = flywheel;
+  r.start_speed = start_speed;
   try {
     const auto model = compile_at(sized, effects, parts_.moment);
     const int motor = parts_.motor.empty() ? model->reduction_node : model->network.ports.at(parts_.motor).out;
@@ -117,7 +118,7 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
     if (!orbit.repeats()) return r;
     const OrbitCycle cycle = orbit_cycle(orbit, {motor});
     fill(r, cycle, model->node_ratio[kurbel::at(motor)]);
-    r.multiplier = orbit.point.largest();
+    if (!orbit.point.multipliers.empty()) r.multiplier = orbit.point.largest();
     r.notes = static_curve_notes(*orbit.map, orbit.point);
     for (std::string& sentence : substitutes(*model)) r.notes.push_back(std::move(sentence));
     for (std::string& sentence : outside_data(*orbit.map, orbit.point)) r.notes.push_back(std::move(sentence));
@@ -144,16 +145,27 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
 SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first, double others, const Effects& effects,
                                           double met) const {
   Meeting m;
-  m.least = first.crank.value, m.least_at = first.flywheel;
-  constexpr double flattest = -0.05, furthest = 1.5;
-  // u = ln I, v = ln δ/δ_demanded, which decreases as −u if the flywheel is the dominant inertia.
-  double u = std::log(std::max(first.flywheel + others, 1e-300)), v = std::log(first.crank.value / delta), slope = -1;
-  double heavy_enough = HUGE_VAL, too_light = -HUGE_VAL;
-  (v > 0 ? too_light : heavy_enough) = u;
+  constexpr double flattest = -0.05, furthest = 1.5, least_apart = 1e-5;  // of a slope's pair: nearer ones give noise
+  double heavy_enough = HUGE_VAL, too_light = -HUGE_VAL;                  // ln I
   SizedOrbit last = first;
+  const auto log_inertia = [&] { return std::log(std::max(last.flywheel + others, 1e-300)); };
+  const auto unknown = [](const SizedOrbit& r) { return fmt::format("with {:.6g} kg·m²: {}", r.flywheel, r.why); };
+  for (; last.stops && m.orbits < most_orbits; ++m.orbits) {
+    too_light = log_inertia();
+    last = at(2 * last.flywheel + others, effects, last.start_speed, false);
+  }
+  if (!last.found) {
+    if (!last.stops) m.unknown = unknown(last);
+    return m;
+  }
+  m.least = last.crank.value, m.least_at = last.flywheel;
+  // u = ln I, v = ln δ/δ_demanded, which decreases as −u if the flywheel is the dominant inertia.
+  double u = log_inertia(), v = std::log(last.crank.value / delta), slope = -1, damping = 1;
+  (v > 0 ? too_light : heavy_enough) = u;
+  const int most = m.orbits + most_orbits;
   int in_vain = 0;
-  while (m.orbits < most_orbits && in_vain < 2) {
-    double next = u + std::clamp(-v / slope, -furthest, furthest);
+  while (m.orbits < most && in_vain < 2) {
+    double next = u + std::clamp(-v / (damping * std::min(slope, flattest)), -furthest, furthest);
     if (next <= too_light || next >= heavy_enough) next = 0.5 * (too_light + heavy_enough);
     if (!std::isfinite(next)) break;
     const double flywheel = std::max(0.0, std::exp(next) - others);
@@ -161,33 +173,34 @@ SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first,
     ++m.orbits;
     if (!r.found) {
       if (r.interrupted) break;
-      if (r.stops && next < u)
+      if (r.stops && next < u) {
         too_light = std::max(too_light, next);  // it stalls: that is too little inertia
-      else
-        m.unknown = fmt::format("with {:.6g} kg·m²: {}", flywheel, r.why);
-      slope *= 2;  // nearer to what has a motion
-      ++in_vain;
+      } else {
+        m.unknown = unknown(r);
+        ++in_vain;
+      }
+      damping *= 2;  // nearer to what has a motion
       continue;
     }
     const double now = std::log(r.crank.value / delta);
     const bool heavier_in_vain = next > u && now > v - 1e-3 * (next - u);
     in_vain = heavier_in_vain ? in_vain + 1 : 0;
-    if (next != u) slope = std::min((now - v) / (next - u), flattest);
-    u = next, v = now, last = std::move(r);
+    if (std::abs(next - u) > least_apart) slope = (now - v) / (next - u);
+    u = next, v = now, damping = 1, last = std::move(r);
     if (last.crank.value < m.least) m.least = last.crank.value, m.least_at = last.flywheel;
     m.none_needed = flywheel == 0 && v < 0;
     if (std::abs(last.crank.value / delta - 1) <= met || m.none_needed) break;
     (v > 0 ? too_light : heavy_enough) = u;
   }
-  if (m.none_needed) {
-    m.orbit = std::move(last);
-  } else if (m.orbits > 0 && std::abs(last.crank.value / delta - 1) <= std::max(met, near_enough)) {
-    m.orbit = at(last.flywheel, effects, last.start_speed, true);
-    ++m.orbits;
+  if (m.orbits == 0 || !(m.none_needed || std::abs(last.crank.value / delta - 1) <= std::max(met, near_enough)))
+    return m;
+  m.orbit = at(last.flywheel, effects, last.start_speed, true);
+  ++m.orbits;
+  if (!m.orbit->found)
+    m.orbit.reset();
+  else if (!m.none_needed)
     m.error = (last.flywheel + others) *
-              (std::abs(m.orbit->crank.value / delta - 1) + m.orbit->crank.error.value_or(0) / delta) / -slope;
-    if (!m.orbit->found) m.orbit.reset();
-  }
+              (std::abs(m.orbit->crank.value / delta - 1) + m.orbit->crank.error.value_or(0) / delta) / std::abs(slope);
   return m;
 }
 

@@ -35,10 +35,10 @@ struct SizedOrbit : SizedRound {
   bool found = false;
   std::string why;  // reason, if not found
   bool interrupted = false;
-  bool stops = false;              // the machine comes to rest with it; false: its motion is unknown
-  double start_speed = 0;          // of the link at its angle 0 [rad/s]
-  double multiplier = 0;           // largest: remainder of a deviation after a period
-  std::vector<std::string> notes;  // range of validity of the model in this motion
+  bool stops = false;                 // the machine comes to rest with it; false: its motion is unknown
+  std::optional<double> start_speed;  // of the link at its angle 0 [rad/s]; not found: as given
+  std::optional<double> multiplier;   // largest: remainder of a deviation after a period; empty: found by the run only
+  std::vector<std::string> notes;     // range of validity of the model in this motion
 };
 
 class SizedOrbits {
@@ -59,13 +59,14 @@ class SizedOrbits {
   struct Meeting {
     std::optional<SizedOrbit> orbit;  // with the demanded δ; empty: none
     bool none_needed = false;         // `orbit` is without a flywheel, with a smaller δ
-    double error = 0;                 // of its flywheel [kg·m²]
+    std::optional<double> error;      // of its flywheel [kg·m²]; empty: none is needed
     double least = 0, least_at = 0;   // the smallest δ found, and its flywheel [kg·m²]
     int orbits = 0;                   // computed
     std::string unknown;              // why the motion is unknown for one of the inertias tried; else empty
   };
-  // Secant method in ln δ and ln I to `met` of δ, or in the end to 1e-5, at most eight steady motions. `others`: inertia that turns with the
-  // flywheel, on its shaft [kg·m²].
+  // Secant method in ln δ and ln I to `met` of δ, or in the end to 1e-5, at most eight steady motions. If the machine stalls
+  // in `first`, its inertia is doubled before, at most eight times. `others`: inertia that turns with the flywheel, on its
+  // shaft [kg·m²].
   Meeting meeting(double delta, const SizedOrbit& first, double others, const Effects& effects, double met) const;
 
  private:
