@@ -109,6 +109,8 @@ press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia
   EXPECT_NEAR(exact.end, c.speed.value(0), 1e-9 * exact.end);
   EXPECT_NEAR(c.fastest.value, exact.fastest, 1e-8 * exact.fastest);
   EXPECT_NEAR(c.slowest.value, exact.slowest, 1e-8 * exact.slowest);
+  const double delta = 2 * (exact.fastest - exact.slowest) / (exact.fastest + exact.slowest);
+  EXPECT_NEAR(c.delta(), delta, 1e-8 * delta);
   EXPECT_NEAR(c.time, exact.time, 1e-9 * exact.time);
 }
 
