@@ -59,7 +59,7 @@ struct RoundOfEnergy {
   double end, time = 0, fastest, slowest;
 };
 RoundOfEnergy round_of_energy(RigidMachine& machine, double speed) {
-  constexpr int steps = 2000;  // from edge to edge
+  constexpr int steps = 8000;  // from edge to edge; extremes at the steps
   RoundOfEnergy r{.end = speed, .fastest = speed, .slowest = speed};
   const std::vector<double> edges = cycle_edges(machine);
   for (std::size_t piece = 0; piece + 1 < edges.size(); ++piece) {

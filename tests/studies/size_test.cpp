@@ -11,6 +11,7 @@
 
 #include "studies/cycle/orbit_cycle.h"
 #include "studies/report/render.h"
+#include "studies/run/compare.h"
 #include "tests/published/published.h"
 #include "tests/support/steady_simulation.h"
 
@@ -55,7 +56,7 @@ const DeltaReached& reached(const Sizing& s, const std::string& model, const std
 double simulated_delta(const Scene& scene, const Sizing& s, double flywheel) {
   const Scene sized = with_flywheel(scene, s.flywheel, flywheel, s.link);
   const test::SteadySimulation run =
-      test::simulate_steady(sized, without_elasticity(scene.effects), s.soft_speed, 2 * pi, 0, {});
+      test::simulate_steady(sized, rigid_twin(*compile(sized, scene.effects)), s.soft_speed, 2 * pi, 0, {});
   EXPECT_TRUE(run.complete && run.settled) << run.diagnosis;
   return run.link_delta;
 }
