@@ -84,10 +84,13 @@ class HeldSearch {
       if (out_.last.end == ReturnMap::End::interrupted) orbit.kind = Orbit::Kind::interrupted;
       return;
     }
+    orbit.point.take(newton.x.head(n_), out_.last);
+    if (!orbit.point.found) {
+      orbit.words = orbit.point.why;
+      return;
+    }
     orbit.kind = Orbit::Kind::cycle;
     orbit.polished = true;
-    orbit.point.take(newton.x.head(n_), out_.last);
-    if (!orbit.point.found) orbit.words = orbit.point.why;
     out_.by = newton.x.tail(newton.x.size() - n_);
     orbit.map = std::make_shared<ReturnMap>(held_.machine(out_.by), options_);
     orbit.map->follow(like_);

@@ -75,7 +75,7 @@ class Search {
   // More for what changes slowly: a shaft that drag brings to the speed of another one takes its time.
   int most_rounds() const {
     constexpr int times = 4;
-    return options_.most_rounds * (slow_ ? times : 1);
+    return options_.most_rounds * (slow_ && options_.most_rounds >= OrbitOptions{}.most_rounds ? times : 1);
   }
   bool has_own_period() const { return kurbel::has_own_period(m_, period_); }
   Pace pace() { return pace_of(equations_, state_); }
@@ -186,7 +186,8 @@ class Search {
     Eigen::Index most = 0;
     out_.still_changes = change.size() > 0 ? change.cwiseAbs().maxCoeff(&most) : 0;
     constexpr double slow = 1e-3;
-    slow_ = slow_ || out_.still_changes < slow;
+    changes_.push_back(out_.still_changes);
+    slow_ = out_.still_changes < slow && 2 * out_.still_changes < changes_[changes_.size() / 2];
     if (change.size() > 0) {
       changes_most_ = section.name(equations_, static_cast<std::size_t>(most));
       angle_changes_most_ = section.is_angle(static_cast<std::size_t>(most));
@@ -420,15 +421,16 @@ class Search {
   State state_;
   Orbit out_;
   bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
-  bool slow_ = false;                                       // a period has changed little
+  bool slow_ = false;                                       // periods change little, and ever less
   bool repeated_ = false;                                   // the run did, at the last trial
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
   int settled_rounds_ = 0, next_trial_ = 1;
   LastSwing swings_;
   LastMotion last_motion_;
   std::string why_not_, changes_most_;
-  std::vector<double> speeds_;  // fastest shaft at the ends of settled periods, over its rated speed
-  std::vector<Event> events_;   // the last ones
+  std::vector<double> changes_;  // of settled periods
+  std::vector<double> speeds_;   // fastest shaft at the ends of settled periods, over its rated speed
+  std::vector<Event> events_;    // the last ones
   std::size_t events_seen_ = 0, looked_at_ = 0;
 };
 

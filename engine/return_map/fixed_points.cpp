@@ -78,6 +78,11 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
   out.end = image.end;
   if (newton.found) {
     out.take(newton.x, image);
+    if (out.neutral() || !out.derivative.allFinite()) return out;
+    // Where round-off ends the search; the residual alone is 1 − μ of it.
+    const Eigen::VectorXd left =
+        Lu(out.derivative - Eigen::MatrixXd::Identity(out.z.size(), out.z.size())).solve(out.z - image.z);
+    if (left.allFinite() && left.cwiseAbs().maxCoeff() > enough) out.to_come = left;
   } else if (image.end != ReturnMap::End::returned) {
     out.why = trial_ended(newton, image.why);
   } else {
@@ -92,7 +97,7 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
 
 void SteadyPoint::find(const ReturnMap::Image& image) {
   found = image.missed <= most_missed;
-  why = found ? "" : "what sticks at the begin of the period slips at its end";
+  why = found ? "" : "what sticks at the beginning of the period slips at its end";
 }
 
 void SteadyPoint::take(const Eigen::VectorXd& at, const ReturnMap::Image& image) {
@@ -155,8 +160,11 @@ SteadyTwin looser_twin(const ReturnMap& map, const SteadyPoint& point, double to
                        std::shared_ptr<const Model> model) {
   SteadyTwin twin{looser_map(map, tolerance, std::move(model)), point};
   SteadyPoint& other = twin.point;
-  if (point.to_come.size() > 0) other.z += point.to_come;
-  if (point.to_come.size() > 0 || point.grazed || point.neutral()) return twin;
+  const bool by_run = point.to_come.size() > 0 && point.derivative.size() == 0;
+  if (by_run || point.grazed || point.neutral()) {
+    if (point.to_come.size() > 0) other.z += point.to_come;
+    return twin;
+  }
   other = find_steady(*twin.map, point.z, looser_residual * tolerance);
   if (!other.found) return twin;
   // The search may end where it begins; the fixed point of the looser map is by the residual over 1 − μ away.
@@ -165,6 +173,8 @@ SteadyTwin looser_twin(const ReturnMap& map, const SteadyPoint& point, double to
     const Eigen::MatrixXd system = other.derivative - Eigen::MatrixXd::Identity(other.z.size(), other.z.size());
     if (image.end == ReturnMap::End::returned) other.z -= Lu(system).solve(image.z - other.z);
   }
+  for (Eigen::Index i = 0; i < point.to_come.size(); ++i)  // counted beside the difference, which it must not cancel
+    other.z[i] += std::copysign(point.to_come[i], other.z[i] - point.z[i]);
   const double apart = point.z.size() > 0 ? (other.z - point.z).cwiseAbs().maxCoeff() : 0;
   if (apart <= same_motion && std::abs(other.time - point.time) <= same_motion * point.time) return twin;
   other.found = false;

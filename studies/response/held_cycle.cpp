@@ -282,7 +282,7 @@ class CycleSearch {
     held.most_cost = most_derivatives * (map_->derivative_cost() + motions);
     find_held_orbit(held, *map_, x, orbit_options(), motion_);
     x = motion_.newton.x;
-    if (motion_.newton.found) return true;
+    if (motion_.orbit.repeats()) return true;
     const bool tells_all =
         motion_.last.end != ReturnMap::End::returned && motion_.last.end != ReturnMap::End::interrupted;
     out_.why = motion_.orbit.words + (tells_all ? "" : on_the_way());

@@ -59,7 +59,7 @@ struct RoundOfEnergy {
   double end, time = 0, fastest, slowest;
 };
 RoundOfEnergy round_of_energy(RigidMachine& machine, double speed) {
-  constexpr int steps = 2000;  // from edge to edge
+  constexpr int steps = 8000;  // from edge to edge; extremes at the steps
   RoundOfEnergy r{.end = speed, .fastest = speed, .slowest = speed};
   const std::vector<double> edges = cycle_edges(machine);
   for (std::size_t piece = 0; piece + 1 < edges.size(); ++piece) {
@@ -109,6 +109,8 @@ press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia
   EXPECT_NEAR(exact.end, c.speed.value(0), 1e-9 * exact.end);
   EXPECT_NEAR(c.fastest.value, exact.fastest, 1e-8 * exact.fastest);
   EXPECT_NEAR(c.slowest.value, exact.slowest, 1e-8 * exact.slowest);
+  const double delta = 2 * (exact.fastest - exact.slowest) / (exact.fastest + exact.slowest);
+  EXPECT_NEAR(c.delta(), delta, 1e-8 * delta);
   EXPECT_NEAR(c.time, exact.time, 1e-9 * exact.time);
 }
 
