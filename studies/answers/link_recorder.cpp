@@ -44,7 +44,13 @@ void LinkRecorder::step(StepView& view) {
   }
   const double least = least_turning * m_.speed_scale;
   const auto speed_at = [&](double t) { return view.at(t, state); };
-  const bool turns = std::abs(speed) > least;
+  const double from = speed_at(view.t_previous()), to = speed_at(view.t());
+  const bool turns = std::abs(speed) > least, reverses = from * to < 0;
+  if (reverses) {
+    reversal_ = find_root(speed_at, view.t_previous(), from, view.t(), to);
+    extreme_ = angle_in(view.at(reversal_));
+    foremost_ = std::max(foremost_, extreme_);
+  }
   double reached = std::abs(speed);  // a swing may have its greatest speeds within steps
   const bool is_late = view.t() >= late_from_;
   for (double part = 0.25; part < 1 && (is_late || !(reached > least)); part += 0.25)
@@ -54,11 +60,7 @@ void LinkRecorder::step(StepView& view) {
   if (view.t_previous() < late_from_) late_begin_ = low_ = high_ = before;
   way_ += std::abs(angle_ - before), late_fastest_ = std::max(late_fastest_, std::abs(speed));
   low_ = std::min(low_, angle_), high_ = std::max(high_, angle_);
-  if (const double from = speed_at(view.t_previous()), to = speed_at(view.t()); from * to < 0) {
-    reversal_ = find_root(speed_at, view.t_previous(), from, view.t(), to);
-    extreme_ = angle_in(view.at(reversal_));
-    low_ = std::min(low_, extreme_), high_ = std::max(high_, extreme_);
-  }
+  if (reverses) low_ = std::min(low_, extreme_), high_ = std::max(high_, extreme_);
   if (late_sense_ == -sense && turns) swing_before_ = std::exchange(swing_fastest_, 0);
   swing_fastest_ = std::max(swing_fastest_, reached);
   if (!turns) return;
