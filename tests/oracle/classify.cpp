@@ -181,8 +181,12 @@ class MotionJudge {
   bool falls() const {
     if (!(p_.back().speed < -0.01 * usual_) || p_.front().speed < -turns * usual_) return false;
     if (p_.back().drive < -acts * m_.torque_scale) return false;
-    double foremost = p_.front().angle;
-    for (const Moment& m : p_) foremost = m.drive < -acts * m_.torque_scale ? m.angle : std::max(foremost, m.angle);
+    double foremost = p_.front().angle, left = 0;  // left: at this speed by what drove it backwards
+    for (const Moment& m : p_) {
+      const bool driven_back = m.drive < -acts * m_.torque_scale;
+      if (driven_back || m.speed >= 0) left = driven_back ? std::min(m.speed, 0.0) : 0;
+      foremost = driven_back || p_.back().speed > left ? m.angle : std::max(foremost, m.angle);
+    }
     return foremost - p_.back().angle > std::numbers::pi;
   }
   bool turns_back() const {

@@ -21,7 +21,8 @@
 //   does_not_start   begins at rest, never moves, and is pushed at the end
 //   stalls      turned at 1 % of the usual speed at least, rests at the end, and is pushed there
 //   falls       at the end it turns backwards at 1 % of the usual speed at least, more than half a turn behind its foremost
-//               point since a source last drove it backwards, and began at rest or forwards
+//               point since a source last drove it backwards, or left it turning so, faster than at the
+//               end, and began at rest or forwards
 //   turns_back  at the end it turns against what drives it, at 1 % of the usual speed at least, and lies more than half a turn
 //               behind the foremost point in the sense of the drive, or of the start
 //   no_round    a machine with a cycle has not turned by one cycle, moved, and rests or vibrates at the end, driven

@@ -158,11 +158,16 @@ MORE_FALSE = {
     "runs away, but settles": answer('"press" runs away: 60 rad/s at the end.', {"speed_at_end": 60.0, "steady": "unclear"},
                                      later={"mean_speed_of_last_tenth": 160.0, "mean_speed_before": 150.0}),
     "run-up ends elsewhere": answer(periods={"run_up_end": 4.0}, truth={"run_up_latest": 3.0}),
+    "runs steadily, but does not": answer(truth={"steady": "no", "laps": 3}, later={"steady": "yes", "mean_speed": 30.2}),
+    'claim "held by" is false': answer(motors=[MOTOR], claims=[("held_by", "motor")]),
 }
 # Said as it is.
 TRUE = {
     "run-up with a swing that touches the edge": answer(periods={"run_up_end": 3.0}, truth={"run_up_latest": 3.0}),
     "steady": answer(),
+    "three laps, the last one as the longer run": answer(truth={"steady": "no", "laps": 3}, later={"steady": "yes"}),
+    "a motor held while the machine vibrates": answer('"press" vibrates to the end.', {"end": "vibrates", "steady": "no"}, steady=NOTHING, motors=[
+        {**MOTOR, "speed": 0.0, "stands": True}], claims=[("vibrates", "press"), ("held_by", "motor")]),
     "rests": answer('"press" is at rest after 10 s.', REST, periods={"standstill": 5.0}, steady=NOTHING),
     "held": answer('"press" is at rest after 10 s: "brake" holds the 8.8 N·m that act.', REST, held=HELD, steady=NOTHING),
     "does not start": answer('"press" does not start: its loads hold the 5 N·m that drive it.', {**NEVER, "does_not_start": True, "pushed_at_end": True},
