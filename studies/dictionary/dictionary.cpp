@@ -91,7 +91,9 @@ const Definition* find_symbol(std::string_view asked) {
 // What a page calls a figure.
 const Definition* find_label(std::string_view asked) {
   for (const entries::Label& l : entries::labels)
-    if (asked.starts_with(l.begin) && asked.ends_with(l.end)) return find(l.name);
+    if (asked.starts_with(l.begin) && asked.ends_with(l.end) &&
+        (!l.number || asked.find_first_of("0123456789") == l.begin.size()))
+      return find(l.name);
   return asked.starts_with("largest ") && asked.find(" on ") != std::string_view::npos ? find("reaction") : nullptr;
 }
 
@@ -198,9 +200,7 @@ const Definition* meant_by(std::string_view asked) {
   if (constexpr std::string_view greatest = "greatest "; asked.starts_with(greatest))
     return meant_by(asked.substr(greatest.size()));
   const std::size_t last = asked.rfind(' ');
-  if (last == std::string_view::npos) return nullptr;
-  const bool number = asked.find_first_not_of("0123456789", last + 1) == std::string_view::npos;  // "mode 3"
-  return number ? meant_by(asked.substr(0, last)) : find_symbol(asked.substr(last + 1));
+  return last == std::string_view::npos ? nullptr : find_symbol(asked.substr(last + 1));
 }
 
 std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {

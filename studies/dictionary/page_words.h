@@ -1,7 +1,7 @@
 // page_words.h — what stands on pages beside figures and symbols: headings of tables, rows, axes and legends.
 //
 // Names of one meaning share a row, separated by "; "; a star stands for any part. Units are left out where two
-// quantities do not share a heading, and so are numbers at the end ("mode 3"). The longest name that fits is taken.
+// quantities do not share a heading. The longest name that fits is taken.
 #pragma once
 
 #include "studies/dictionary/entries.h"

@@ -152,6 +152,7 @@ inline constexpr Definition of_symbols[] = {
 // What a page calls a figure beside its words: a beginning, an end, and the figure's name.
 struct Label {
   std::string_view begin, end, name;
+  bool number = false;  // follows the begin
 };
 inline constexpr Label labels[] = {
     {"largest reaction of ", "", "reaction"},
@@ -161,7 +162,7 @@ inline constexpr Label labels[] = {
     {"largest ", ", moment", "reaction_moment"},
     {"largest amplitude at ", "", "largest_swing"},
     {"amplitude at ", "", "spot_swing"},
-    {"mode ", "", "natural_frequency"},
+    {"mode ", "", "natural_frequency", true},
     {"without ", "", "change_without"},
     {"with ", "", "change_with"},
     {"flywheel that meets δ", "", "flywheel_that_meets"},
