@@ -187,7 +187,7 @@ class Search {
     out_.still_changes = change.size() > 0 ? change.cwiseAbs().maxCoeff(&most) : 0;
     constexpr double slow = 1e-3;
     changes_.push_back(out_.still_changes);
-    slow_ = out_.still_changes < slow && 2 * out_.still_changes < changes_[changes_.size() / 2];
+    slow_ = slow_ || out_.still_changes < slow;
     if (change.size() > 0) {
       changes_most_ = section.name(equations_, static_cast<std::size_t>(most));
       angle_changes_most_ = section.is_angle(static_cast<std::size_t>(most));
@@ -421,7 +421,7 @@ class Search {
   State state_;
   Orbit out_;
   bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
-  bool slow_ = false;                                       // periods change little, and ever less
+  bool slow_ = false;                                       // a period has changed little
   bool repeated_ = false;                                   // the run did, at the last trial
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
   int settled_rounds_ = 0, next_trial_ = 1;
