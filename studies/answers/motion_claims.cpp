@@ -214,16 +214,16 @@ class Judge {
   // Tried: the run goes on to eight times its time. Its mean speeds over the time as long again, twice and four times as
   // long grow by less from one to the next: slower than the logarithm of time, for what dampers take is not in the balance
   // of the rigid machine. So does what does not come to `least` times the speed at the end. A trial that ends before knows
-  // nothing: by the budget that the run left, or by its evaluations.
+  // nothing: by the budget that the run left, or by its evaluations. Few cycles (`least` > 0) are then no runaway.
   bool settles_later(double least) const try {
-    constexpr std::int64_t most = 10;  // times the evaluations of the run itself
+    const std::int64_t most = least > 0 ? 100 : 10;  // times the evaluations of the run; one of few cycles is short
     Equations equations(equations_.shared_model(), false);
     State state{outcome_.t, outcome_.state, equations_.modes()};
     state.y.resize(equations.state_count());
     std::array<double, 3> mean{};
     double budget = budget_ - outcome_.statistics.cpu_seconds;
     for (double& speed : mean) {
-      if (!(budget > 0)) return false;
+      if (!(budget > 0)) return least > 0;
       equations.bind(state.modes);
       const double begin = equations.angle_with_turns(at(m_.reduction_angle), state.y);
       RunOptions run{.tolerance = 1e-6,
@@ -235,14 +235,14 @@ class Judge {
                      .progress = {}};
       run.from = {state.t, state.y};
       const RunOutcome on = integrate(equations, run, {});
-      if (!on.complete) return false;
+      if (!on.complete) return least > 0;
       budget -= on.statistics.cpu_seconds;
       speed = std::abs(equations.angle_with_turns(at(m_.reduction_angle), on.state) - begin) / (on.t - state.t);
       state = {on.t, on.state, equations.modes()};
     }
     return !keeps_gaining(mean) || mean[2] < least * std::abs(this->speed());
   } catch (const std::exception&) {  // nothing is known of later
-    return false;
+    return least > 0;
   }
 
   // Held from the start although something drives, and not by an applied brake.
