@@ -186,7 +186,6 @@ class Search {
     Eigen::Index most = 0;
     out_.still_changes = change.size() > 0 ? change.cwiseAbs().maxCoeff(&most) : 0;
     constexpr double slow = 1e-3;
-    changes_.push_back(out_.still_changes);
     slow_ = slow_ || out_.still_changes < slow;
     if (change.size() > 0) {
       changes_most_ = section.name(equations_, static_cast<std::size_t>(most));
@@ -428,9 +427,8 @@ class Search {
   LastSwing swings_;
   LastMotion last_motion_;
   std::string why_not_, changes_most_;
-  std::vector<double> changes_;  // of settled periods
-  std::vector<double> speeds_;   // fastest shaft at the ends of settled periods, over its rated speed
-  std::vector<Event> events_;    // the last ones
+  std::vector<double> speeds_;  // fastest shaft at the ends of settled periods, over its rated speed
+  std::vector<Event> events_;   // the last ones
   std::size_t events_seen_ = 0, looked_at_ = 0;
 };
 

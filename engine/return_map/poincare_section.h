@@ -38,8 +38,8 @@ class PoincareSection {
   std::vector<double> place(Equations& equations, const Eigen::VectorXd& z) const;
   // z of a state after a period; angles modulo the periods of the laws that use them.
   Eigen::VectorXd read(const Modes& modes, std::span<const double> y) const;
-  // What z does not tell of that state: a contact that sticks on the section slips there. The greatest difference of speeds
-  // from the state of z, over the usual ones.
+  // Greatest difference between the speeds of the state y and those of the state that z describes, over the usual speeds.
+  // It is above rounding where a contact that sticks on the section slips in y.
   double missed(const Equations& equations, const Eigen::VectorXd& z, std::span<const double> y) const;
   const Eigen::MatrixXd& directions() const { return directions_; }    // D = ∂y/∂z, states × size
   Eigen::MatrixXd read_directions(const Eigen::MatrixXd& of_y) const;  // L · δy

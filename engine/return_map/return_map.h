@@ -55,7 +55,7 @@ class ReturnMap {
     End end = End::failed;
     std::string why;             // the reason, unless it returned
     Eigen::VectorXd z;           // P(z), scaled
-    double missed = 0;           // of the state there, by z
+    double missed = 0;           // greatest difference of speeds there from those by z, over the usual ones
     double time = 0;             // duration of the period [s]
     double link_angle = 0;       // at its end [rad]
     double turned = 0;           // rotation of the link [rad]
@@ -141,7 +141,7 @@ struct SteadyPoint {
   bool unstable() const { return largest() > 1 + multiplier_error; }
   double still_to_come() const { return to_come.size() > 0 ? to_come.cwiseAbs().maxCoeff() : 0; }
   void take(const Eigen::VectorXd& at, const ReturnMap::Image& image);
-  // Not found where the section does not tell the state to which the period comes.
+  // Takes the point as found only if z describes the state at the end of the period (`missed`).
   void find(const ReturnMap::Image& image);
 };
 

@@ -188,15 +188,14 @@ class Reach {
     if (!found.orbit) {
       s_.meeting_words = fmt::format(
           "no flywheel was found with which the {} machine has δ = {:g}: the least of {} steady motions is {:.5g}, "
-          "with "
-          "{:.6g} kg·m²",
+          "with {:.6g} kg·m²",
           which, s_.delta, found.orbits, found.least, found.least_at);
       if (!found.unknown.empty())
         s_.meeting_words += "; the search failed, which does not say that there is none: " + found.unknown;
       return;
     }
     adopt(as, found, effects, as_with_slope ? by_slope() : fmt::format("steady motion, {}", which));
-    s_.reached.push_back({*found.orbit, as, as_with_slope ? SizedBy::slope : SizedBy::regime, s_.meeting->name});
+    s_.reached.push_back({*found.orbit, as, as_with_slope ? SizedBy::slope : SizedBy::steady_motion, s_.meeting->name});
   }
   void adopt(SizedModel as, const SizedOrbits::Meeting& found, const Effects& effects, const std::string& name) {
     s_.meeting = method(name, found);

@@ -54,7 +54,7 @@ constexpr const char* name_of(SizedModel model) {
                                             : "elastic, simulated";
 }
 // Sizing method: constant driving torque, with the motor's slope, or by δ of the steady motion.
-enum class SizedBy { constant_drive, slope, regime };
+enum class SizedBy { constant_drive, slope, steady_motion };
 
 // The sized machine with its actual motor, in steady motion.
 struct DeltaReached : SizedRound {

@@ -1,4 +1,4 @@
-// regime_cycle_test.cpp — size and reduce by the steady cycle that a machine really has: closed forms, agreement with
+// orbit_cycle_test.cpp — size and reduce by the steady cycle that a machine really has: closed forms, agreement with
 // the rigid machine where nothing goes beyond it, and the demanded δ in the steady motion of the sized machine.
 #include "studies/cycle/orbit_cycle.h"
 
