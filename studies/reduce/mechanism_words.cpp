@@ -31,7 +31,7 @@ std::string travel(const Mechanism& m) {
   if (m.stroke() == 0) return "its output stands still";
   std::vector<double> ends = m.travel.reversals;
   for (double& phi : ends)
-    if (m.cycle() - phi < 1e-9) phi = 0;
+    if (std::abs(std::remainder(phi, m.cycle())) < 1e-9) phi = 0;
   std::sort(ends.begin(), ends.end());
   std::string centres;
   for (const double phi : ends) centres += fmt::format("{}{:.5g}°", centres.empty() ? "" : ", ", phi / degree);

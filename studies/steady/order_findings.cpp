@@ -89,9 +89,11 @@ std::optional<Plot> bars_of_orders(const SteadyStudy& s, const std::string& name
         if (o.order <= last) bars.add(o.order, std::abs(o.wave));
       unit = of->unit;
       const FigureCells mean = figure_cells({of->mean}, unit, c.model->scene.speed_unit);
-      plot.note +=
-          fmt::format("{}{}: mean {} {}, orders that matter contain {:.6g} % of the oscillation's mean square",
-                      plot.note.empty() ? "" : "; ", c.label, mean.value, mean.unit, 100 * of->captured(of->telling()));
+      const std::vector<Order> told = of->telling();
+      plot.note += fmt::format("{}{}: mean {} {}, ", plot.note.empty() ? "" : "; ", c.label, mean.value, mean.unit);
+      plot.note += told.empty() ? "no vibration above its error"
+                                : fmt::format("orders that matter contain {:.6g} % of the oscillation's mean square",
+                                              100 * of->captured(told));
     }
   plot.note += ".";
   return in_readable_unit(std::move(plot), unit, s.cycles.back().model->scene.speed_unit);
@@ -117,7 +119,7 @@ List orders_for_programs(const SteadyCycle& c) {
     return Record{{"name", of.channel.text},
                   {"unit", of.unit},
                   {"mean", of.mean},
-                  {"captured_of_swing", of.captured(told)},
+                  {"captured_of_swing", told.empty() ? Value() : Value(of.captured(told))},  // of rounding: nothing
                   {"orders", each(told, [](const Order& o) {
                      const std::optional<Estimate> phase = o.phase();
                      return Record{{"order", o.order},

@@ -67,6 +67,12 @@ TEST(MechanismWords, OfAnOffsetSliderCrank) {
               std::asin(e / (l + r)), pi + std::asin(e / (l - r)))});
 }
 
+// A dead centre at 4e-13° by rounding stands at 0°.
+TEST(MechanismWords, OfADeadCentreAtTheBeginning) {
+  const std::string json = output_of(find_forces(test::scene_file("scenes/unloaded_compressor.toml"), {})).json();
+  EXPECT_NE(json.find("dead centres at φ = 0°, 180°"), std::string::npos);
+}
+
 // OB = b ± a at the ends; the coupler stands worst on the rocker with the crank along the ground.
 TEST(MechanismWords, OfACrankAndRocker) {
   constexpr double a = 0.08, b = 0.25, c = 0.2, d = 0.26;

@@ -6,9 +6,11 @@
 
 #include <cmath>
 #include <complex>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "studies/dictionary/dictionary.h"
+#include "studies/findings/output.h"
 #include "studies/steady/steady.h"
 #include "studies/variants/machine.h"
 #include "tests/support/scenes.h"
@@ -91,6 +93,18 @@ TEST(Orders, AreThoseOfAShakenWheelInClosedForm) {
   // Two orders, and no others; the drive's speed is given and has none.
   for (const char* channel : {"speed.wheel", "torque.coupling"}) EXPECT_EQ(orders_of(c, channel).telling().size(), 2u);
   EXPECT_TRUE(orders_of(c, "speed.drive").telling().empty());
+}
+
+// The drive's speed is given: the part of its vibration that orders contain would be one of rounding.
+TEST(Orders, OfWhatDoesNotVibrateContainNothing) {
+  const Scene scene = scene_from(Shaken::text());
+  const auto json = nlohmann::json::parse(output_of(steady(scene, {scene.effects}, {})).json());
+  int still = 0;
+  for (const auto& of : json.at("cycles").at(0).at("orders")) {
+    EXPECT_EQ(of.at("captured_of_swing").is_null(), of.at("orders").empty()) << of.at("name");
+    still += of.at("orders").empty() ? 1 : 0;
+  }
+  EXPECT_GE(still, 1);
 }
 
 // Σ ½ a² is the mean square less the mean's; at a constant speed of the link means over angle and time are the same.
