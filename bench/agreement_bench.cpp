@@ -59,7 +59,7 @@ std::vector<std::string> scenes_named(const Half& half, const std::string& only)
 // What breaks the process says nothing: no worse answer.
 Row broken(const Half& half, const std::string& scene, const std::string& words) {
   Row row{.scene = scene, .kind = Motion::none, .orbit = words, .figures = {}, .cpu_seconds = 0};
-  row.figures.push_back({static_cast<Topic>(half.begin), words, 0, 0, 0, Verdict::silent, words});
+  row.figures.push_back({static_cast<agreement::Topic>(half.begin), words, 0, 0, 0, Verdict::silent, words});
   return row;
 }
 
@@ -106,13 +106,14 @@ Tone tone_of(const Compared* cell) {
 
 Table matrix_of(const Half& half, const std::vector<Row>& rows) {
   Table table{.title = half.title, .columns = {"scene"}, .rows = {}};
-  for (std::size_t t = half.begin; t < half.end; ++t) table.columns.emplace_back(name_of(static_cast<Topic>(t)));
+  for (std::size_t t = half.begin; t < half.end; ++t)
+    table.columns.emplace_back(name_of(static_cast<agreement::Topic>(t)));
   table.columns.emplace_back("the run");
   for (const Row& row : rows) {
     std::vector<std::string> cells = {row.scene};
     std::vector<Tone> tones = {Tone::none};
     for (std::size_t t = half.begin; t < half.end; ++t) {
-      const Compared* cell = row.cell(static_cast<Topic>(t));
+      const Compared* cell = row.cell(static_cast<agreement::Topic>(t));
       cells.push_back(mark_of(cell));
       tones.push_back(tone_of(cell));
     }
@@ -130,7 +131,7 @@ Table silent_of(const std::vector<Row>& rows) {
   table.text_columns = 3;
   for (const Row& row : rows)
     for (std::size_t t = 0; t < topic_count; ++t)
-      if (const Compared* c = row.cell(static_cast<Topic>(t)); c && c->verdict == Verdict::silent)
+      if (const Compared* c = row.cell(static_cast<agreement::Topic>(t)); c && c->verdict == Verdict::silent)
         table.rows.push_back({row.scene, name_of(c->topic), c->figure, fmt::format("{:.9g}", c->run),
                               fmt::format("{:.9g}", c->study), fmt::format("{:.1e}", c->allowed)});
   return table;
@@ -139,10 +140,11 @@ Table silent_of(const std::vector<Row>& rows) {
 // One topic stands for each verb.
 constexpr struct {
   const char* verb;
-  Topic topic;
-} verbs[] = {{"steady", Topic::mean_speed},  {"reduce", Topic::mean_torques}, {"size", Topic::sized_delta},
-             {"modes", Topic::forced_peaks}, {"forces", Topic::crank_torque}, {"forces", Topic::reactions},
-             {"advise", Topic::advice}};
+  agreement::Topic topic;
+} verbs[] = {{"steady", agreement::Topic::mean_speed},   {"reduce", agreement::Topic::mean_torques},
+             {"size", agreement::Topic::sized_delta},    {"modes", agreement::Topic::forced_peaks},
+             {"forces", agreement::Topic::crank_torque}, {"forces", agreement::Topic::reactions},
+             {"advise", agreement::Topic::advice}};
 
 // The same reason of several components counts as one: names and numbers are left out of the comparison.
 std::string reason_of(const std::string& words) {
@@ -197,8 +199,9 @@ Table counts_of(const Half& half, const std::vector<Row>& rows) {
   for (std::size_t t = half.begin; t < half.end; ++t) {
     std::array<int, 4> of{};
     for (const Row& row : rows)
-      if (const Compared* cell = row.cell(static_cast<Topic>(t))) ++of[static_cast<std::size_t>(cell->verdict)];
-    table.rows.push_back({name_of(static_cast<Topic>(t)), std::to_string(of[0]), std::to_string(of[1]),
+      if (const Compared* cell = row.cell(static_cast<agreement::Topic>(t)))
+        ++of[static_cast<std::size_t>(cell->verdict)];
+    table.rows.push_back({name_of(static_cast<agreement::Topic>(t)), std::to_string(of[0]), std::to_string(of[1]),
                           std::to_string(of[2]), std::to_string(of[3])});
   }
   return table;

@@ -138,9 +138,8 @@ Report BenchBook::report() const {
       .title = "kurbel_bench",
       .subtitle =
           "What accuracy, effects and size cost, whether the hard cases end right and stated errors cover true ones",
-      .conclusion = fmt::format("{}", fmt::join(conclusions, " "))};
-  if (!targets.empty())
-    report.conclusion += fmt::format("{}{} of {} targets met.", conclusions.empty() ? "" : " ", met, targets.size());
+      .conclusion = conclusions};
+  if (!targets.empty()) report.conclusion.push_back(fmt::format("{} of {} targets met.", met, targets.size()));
   if (!targets.empty()) report.add("Targets").cards.push_back(target_table(*this));
   for (const std::string& problem : problems_of(*this)) {
     ReportSection& section = report.add(problem);

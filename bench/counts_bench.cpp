@@ -44,8 +44,8 @@ Table counts_of_single_machines(const std::string& counter) {
   }
   const std::string source = KURBEL_SOURCE_DIR;
   for (const char* scene :
-       {"free_slider_crank", "driven_slider_crank", "six_inertia_chain", "crank_press", "piston_pump",
-        "four_bar_rocker", "stick_slip", "planetary_brake", "diesel_generator", "belt_mill"}) {
+       {"free_slider_crank", "driven_slider_crank", "six_inertia_chain", "crank_press", "piston_pump", "scotch_yoke",
+        "stick_slip", "planetary_brake", "diesel_generator", "belt_mill"}) {
     const std::string file = source + "/scenes/" + scene + ".toml";
     const auto each = [&](const char* how, double times) {
       const auto count = counted_instructions(counter, file, "-", how);

@@ -18,8 +18,7 @@ void switched(BenchBook& book) {
   Table table{.title = "The press with each effect alone, tolerance 1e-7, bare runs",
               .columns = {"effects", "coordinates", "steps", "time [ms]", "of the rigid one"},
               .rows = {}};
-  const Scene press =
-      read_scene(std::string(KURBEL_SOURCE_DIR) + "/bench/scenes/press_with_everything.toml", all_kinds());
+  const Scene press = read_scene(KURBEL_SOURCE_DIR "/bench/scenes/press_with_everything.toml", all_kinds());
   std::vector<std::string> sets = {"none"};
   for (const EffectUnit& unit : effect_units(press))
     if (unit.name != "gravity" && unit.name != "variable_inertia") sets.push_back(unit.name);
