@@ -179,16 +179,11 @@ void JointFriction::prepare(const State& s, double response, const double* value
     const std::size_t couple = *joint.couple, normal = 2 * j;
     w.of[couple] = normal, w.by[couple][0] = lever, w.by[couple][1] = 0;
     if (!fold) continue;
-    const double gain = lever / (1 - lever * w.influence[normal][couple]);
-    for (std::size_t i = 0; i < w.reactions; ++i) {
-      const double part = gain * w.influence[i][couple];
-      if (part == 0 || i == normal) continue;
-      w.base[i] += part * w.base[normal], w.answer[i] += part * w.answer[normal];
-      for (std::size_t k = 0; k < n; ++k) w.influence[i][k] += part * w.influence[normal][k];
-    }
-    const double own = 1 + gain * w.influence[normal][couple];
-    w.base[normal] *= own, w.answer[normal] *= own;
-    for (std::size_t k = 0; k < n; ++k) w.influence[normal][k] *= own;
+    // A slide keeps its bodies from turning: its couple changes the moment in it, and no other reaction.
+    const std::size_t moment = normal + 1;
+    const double part = lever * w.influence[moment][couple];
+    w.base[moment] += part * w.base[normal], w.answer[moment] += part * w.answer[normal];
+    for (std::size_t k = 0; k < n; ++k) w.influence[moment][k] += part * w.influence[normal][k];
   }
 }
 

@@ -131,13 +131,14 @@ class ContactJudge {
   // For an elastic or a rigid belt.
   void slips_at_times(const std::string& belt) {
     int count = 0;
-    double first = 0, since = 0, slipping = 0;
+    double first = 0, slipping = 0;
+    std::optional<double> since;
     for (const Event& event : outcome_.events) {
-      if (event.component != belt) continue;
-      if (event.what == "grips") slipping += event.t - since;
-      if (!event.what.starts_with("slips") || event.from == event.what) continue;
-      if (++count == 1) first = event.t;
-      since = event.t;
+      const bool slips = event.what.starts_with("slips"), ends = event.kind == EventKind::lock || event.what == "grips";
+      if (event.component != belt || !(slips || ends)) continue;
+      slipping += event.t - since.value_or(event.t);
+      since = slips ? std::optional(event.t) : std::nullopt;
+      if (slips && event.from != event.what && ++count == 1) first = event.t;
     }
     if (count == 0) return;
     add(claims_, claimed(Predicate::belt_slips,

@@ -99,6 +99,36 @@ TEST_F(MatText, FilesOfMachinesWithTheOtherOrderOfBytes) {
   EXPECT_EQ(numbers.columns, (std::vector<std::vector<double>>{{70000, -1}, {258, -2}}));
 }
 
+// Modelica's results, each variable a column of letters: a time, x in row 2, and −x as its alias with a sign.
+TEST_F(MatText, AliasesOfModelicaHaveTheirSign) {
+  fs::remove(path_);
+  mat_t* const file = of_matio<decltype(Mat_CreateVer)>("Mat_CreateVer")(path_.c_str(), nullptr, MAT_FT_MAT5);
+  ASSERT_TRUE(file);
+  const auto add = [&](const char* name, matio_classes kind, matio_types type, std::array<std::size_t, 2> extent,
+                       const void* values) {
+    matvar_t* const v = of_matio<decltype(Mat_VarCreate)>("Mat_VarCreate")(name, kind, type, 2, extent.data(),
+                                                                           const_cast<void*>(values), 0);
+    EXPECT_EQ(of_matio<decltype(Mat_VarWrite)>("Mat_VarWrite")(file, v, MAT_COMPRESSION_NONE), 0);
+    of_matio<decltype(Mat_VarFree)>("Mat_VarFree")(v);
+  };
+  std::string about;  // four rows of letters, column by column
+  for (std::size_t k = 0; k < 11; ++k)
+    for (const char* row : {"Atrajectory", "1.1        ", "           ", "binTrans   "}) about += row[k];
+  const std::int32_t info[] = {0, 1, 0, -1, 2, 2, 0, -1, 2, -2, 0, -1};
+  const double data[] = {0, 10, 1, 11, 2, 12};
+  add("Aclass", MAT_C_CHAR, MAT_T_UINT8, {4, 11}, about.data());
+  add("name", MAT_C_CHAR, MAT_T_UINT8, {4, 3}, "timex   back");
+  add("description", MAT_C_CHAR, MAT_T_UINT8, {4, 3}, "[s] [m] [m] ");
+  add("dataInfo", MAT_C_INT32, MAT_T_INT32, {4, 3}, info);
+  add("data_2", MAT_C_DOUBLE, MAT_T_DOUBLE, {2, 3}, data);
+  of_matio<decltype(Mat_Close)>("Mat_Close")(file);
+  const TableFile table(path_);
+  EXPECT_EQ(table.names(), (std::vector<std::string>{"time", "x", "back"}));
+  Messages messages("test");
+  EXPECT_EQ(table.numbers({1, 2, 3}, messages).columns,
+            (std::vector<std::vector<double>>{{0, 1, 2}, {10, 11, 12}, {-10, -11, -12}}));
+}
+
 // Names and units of what the program writes, and the same numbers.
 TEST_F(MatText, WhatTheProgramWritesIsReadBack) {
   DataTable table;

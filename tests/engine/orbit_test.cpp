@@ -4,12 +4,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
+#include "engine/orbit/follow_period.h"
 #include "engine/orbit/held_speeds.h"
 #include "engine/orbit/link_speeds.h"
+#include "engine/orbit/moment.h"
+#include "engine/orbit/sequence_ahead.h"
+#include "engine/orbit/settling.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test::orbit_test {
@@ -419,6 +425,88 @@ TEST(Orbit, ASequenceThatWaitsForTheMotionHasItsShortestPeriod) {
     if (e.kind == EventKind::command) grips.push_back(e.t);
   ASSERT_GT(grips.size(), 100U);
   EXPECT_NEAR(twisted.point.time, grips[grips.size() - 1] - grips[grips.size() - 3], 1e-8);
+}
+
+// A period that is taken for 1e-4 too long ends late after the last grip: its time is less by just that.
+TEST(Orbit, APeriodIsInStepWithWhatItsSequenceWaitsFor) {
+  const Scene scene = scene_from(gripped_each_turn(""));
+  const Orbit orbit = orbit_of(scene);
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  ReturnMap map(compile(scene, scene.effects), {}, orbit.point.time * (1 + 1e-4));
+  const ReturnMap::Image way = map.approach_from(orbit.state);
+  ASSERT_EQ(way.end, ReturnMap::End::returned) << way.why;
+  const ReturnMap::Image round = map.image(way.z, false);
+  ASSERT_EQ(round.end, ReturnMap::End::returned) << round.why;
+  EXPECT_NEAR(round.time, orbit.point.time, 1e-7 * orbit.point.time);
+}
+
+// A crank's speed within its cycle goes from that at the section up to another: a step that waits for one between them is
+// carried out in the period, one beyond them is not.
+TEST(Orbit, ASequenceGoesOnWhereAPeriodTriggersItsStep) {
+  const auto machine = [](double waited_for) {
+    return scene_from(
+        std::string("line = [\"motor\", \"crank\"]\n") + dc_motor +
+        fmt::format("sequence = {{ steps = [{{ speed_above = \"{} rad/s\", of = \"crank\", set = \"motor\", "
+                    "to = 0.5 }}] }}\n",
+                    waited_for) +
+        "[crank]\nkind = \"slider-crank\"\nradius = \"50 mm\"\nrod = \"0.2 m\"\nslider_mass = \"60 "
+        "kg\"\ncrank_inertia = \"0.3 kg*m2\"\n");
+  };
+  const Orbit orbit = orbit_of(machine(1000));
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_FALSE(sequence_goes_on(*orbit.map, orbit.point.z));
+  Equations equations(orbit.map->shared_model(), false);
+  LinkSpeeds speeds(orbit.map->model());
+  follow_period(*orbit.map, orbit.point, equations, {}, {&speeds});
+  const double begin = std::abs(speed_of(machine(1000), orbit, "crank")), most = speeds.greatest();
+  ASSERT_GT(most, 1.01 * begin);
+  const auto goes_on = [&](double waited_for) {
+    const Scene scene = machine(waited_for);
+    ReturnMap map(compile(scene, scene.effects), map_options({}));
+    map.follow(*orbit.map);
+    return sequence_goes_on(map, orbit.point.z);
+  };
+  EXPECT_TRUE(goes_on(0.9 * begin));
+  EXPECT_TRUE(goes_on(0.5 * (begin + most)));
+  EXPECT_FALSE(goes_on(1.1 * most));
+}
+
+// A soft start of 2 s that begins when its motor is switched on at 3 s ends at 5 s.
+TEST(Orbit, WhatStartsAnewIsSwitchedUntilItsOwnEnd) {
+  const Scene scene = scene_from(R"(
+line = ["motor"]
+motor = { kind = "induction motor", rated_power = "4 kW", rated_speed = "1440 rpm", synchronous_speed = "1500 rpm", breakdown_ratio = 2.8, inertia = "0.2 kg*m2", starting = "soft start", ramp = "2 s" }
+)");
+  const auto model = compile(scene, scene.effects);
+  Equations equations(model, false);
+  const std::vector<double> y = equations.start(0);
+  Modes modes = equations.modes();
+  bool is_there = false;
+  for (std::size_t i = 0; i < model->network.elements.size(); ++i)
+    if (model->network.elements[i].element->is.starts_anew) modes.on_since[i] = 3, is_there = true;
+  ASSERT_TRUE(is_there);
+  EXPECT_EQ(switched_until(*model, {}, {3, y, modes}), 5);
+}
+
+// At 2 s: one of two windows is on for good, one is over, one never comes.
+TEST(Orbit, OfAMomentWindowsStayAsTheyAre) {
+  const Scene scene = scene_from(R"(
+line = ["wheel"]
+wheel = { kind = "flywheel", inertia = "1 kg*m2" }
+over = { kind = "torque source", on = "wheel", torque = "1 N*m", stop = "1 s" }
+on = { kind = "torque source", on = "wheel", torque = "1 N*m", start = "1 s", stop = "3 s" }
+later = { kind = "torque source", on = "wheel", torque = "1 N*m", start = "3 s", stop = "4 s" }
+)");
+  const Network network = network_as_of(scene, {.after_step = {}, .time = 2});
+  const double never = Window{}.stop;
+  for (const auto& [name, start, stop] :
+       {std::tuple("over", Window{}.start, 1.0), std::tuple("on", 1.0, never), std::tuple("later", never, never)}) {
+    const auto e = std::find_if(network.elements.begin(), network.elements.end(),
+                                [&name = name](const Network::ShaftElement& of) { return of.component == name; });
+    ASSERT_NE(e, network.elements.end()) << name;
+    EXPECT_EQ(e->window.start, start) << name;
+    EXPECT_EQ(e->window.stop, stop) << name;
+  }
 }
 
 // A flywheel so heavy that a turn takes off 1e-7 of a deviation: that is slow, not a family of motions.

@@ -293,6 +293,102 @@ TEST_P(Dependencies, ThatAreNotSaidAreNotThere) {
   compare((*unpacked)["time"].reference);
 }
 
+// J ω̇ = −c(t) M, c(t) a law over time that a step of the sequence begins: what depends on time says so.
+TEST(Laws, OfACommandDependOnTime) {
+  const Folder folder;
+  const std::string file = written(folder, R"toml(
+title = "A brake that follows a law"
+line = ["wheel", "brake"]
+[wheel]
+kind = "flywheel"
+inertia = "2 kg*m2"
+[brake]
+kind = "brake"
+torque = "10 N*m"
+[sequence]
+steps = [{ at = "0 s", set = "brake", law = { over = "time", formula = "t/(4 s)", range = ["0 s", "4 s"] } }]
+[run]
+start = { speed = "40 rad/s" }
+until = "2 s"
+accuracy = 1e-8
+)toml");
+  for (const int fmi : {2, 3}) {
+    const auto unpacked = exported(file, fmi);
+    const Library library(unpacked->library());
+    Slave slave(*unpacked, library, Kind::model_exchange);
+    slave.initialise(0);
+    slave.discrete();
+    const unsigned time = (*unpacked)["time"].reference, rate = (*unpacked)["derivative: speed of wheel"].reference;
+    std::vector<double> found;
+    for (const double t : {0.4, 1.2}) slave.time(t), found.push_back(slave.get(rate));
+    EXPECT_NEAR(found[0], -0.5, 1e-9);
+    EXPECT_NEAR(found[1], -1.5, 1e-9);
+    const std::vector<unsigned>& on = unpacked->dependencies.at(rate);
+    EXPECT_EQ(std::count(on.begin(), on.end(), time), 1);
+  }
+}
+
+// Wheels of 3 and 5 kg·m² in a clutch that holds; a drag b brakes the second: the clutch passes on 3/8 b ω.
+TEST(Derivatives, OfAJointThatSticksAreThoseOfWhatItHolds) {
+  const Folder folder;
+  const std::string file = written(folder, R"(
+title = "A clutch that holds"
+line = ["first", "clutch", "second"]
+first = { kind = "flywheel", inertia = "3 kg*m2" }
+clutch = { kind = "clutch", torque = "100 N*m" }
+second = { kind = "flywheel", inertia = "5 kg*m2" }
+drag = { kind = "bearing drag", on = "second", damping = "0.4 N*m*s/rad" }
+run = { start = { speed = "10 rad/s" }, until = "1 s", accuracy = 1e-8 }
+)");
+  for (const int fmi : {2, 3}) {
+    const auto unpacked = exported(file, fmi);
+    const Library library(unpacked->library());
+    Slave slave(*unpacked, library, Kind::co_simulation);
+    slave.initialise(0);
+    slave.step(0, 0.1);
+    EXPECT_NEAR(slave["torque.clutch"], 0.4 * 3 / 8 * slave["speed.second"], 1e-8);
+    double by_speeds = 0;  // of both wheels together
+    for (const unsigned state : unpacked->states)
+      if (unpacked->variables[state].name.starts_with("state: speed of"))
+        by_speeds += slave.directional((*unpacked)["torque.clutch"].reference, state);
+    EXPECT_NEAR(by_speeds, 0.4 * 3 / 8, 1e-9);
+  }
+}
+
+// A torque at the input of a gear of 3 and the angles on both sides of it: ω̇ = 3 M/(J + 9 J_m), ∂φ_m/∂φ = 3.
+TEST(Gears, PortsAndAnglesAreOnTheirOwnSide) {
+  const Folder folder;
+  const std::string file = written(folder, R"(
+title = "A gear"
+line = ["wheel", "gear", "pinion"]
+wheel = { kind = "flywheel", inertia = "6 kg*m2" }
+gear = { kind = "gearbox", stages = [{ teeth = [60, 20] }] }
+pinion = { kind = "flywheel", inertia = "0.5 kg*m2" }
+run = { start = { speed = "1 rad/s" }, until = "1 s", accuracy = 1e-8 }
+)");
+  const double whole = 6 + 9 * 0.5, torque = 7;
+  for (const int fmi : {2, 3})
+    for (const auto& [port, lever] : {std::pair("gear.in", 1.0), std::pair("gear.out", 3.0)}) {
+      const auto unpacked = exported(file, fmi, std::string("--input ") + port + ".torque");
+      const Library library(unpacked->library());
+      Slave slave(*unpacked, library, Kind::co_simulation);
+      slave.set(std::string(port) + ".torque", torque);
+      slave.initialise(0);
+      slave.step(0, 0.5);
+      const double speed = 1 + 0.5 * lever * torque / whole;
+      EXPECT_NEAR(slave["speed.wheel"], speed, 1e-8) << port;
+      EXPECT_NEAR(slave["speed.pinion"], 3 * speed, 1e-8) << port;
+      const unsigned angle = unpacked->states.front();
+      ASSERT_TRUE(unpacked->variables[angle].name.starts_with("state: angle")) << unpacked->variables[angle].name;
+      EXPECT_NEAR(slave.directional((*unpacked)["angle.pinion"].reference, angle) /
+                      slave.directional((*unpacked)["angle.wheel"].reference, angle),
+                  3, 1e-12);
+      EXPECT_NEAR(slave.directional((*unpacked)["angle.wheel"].reference, angle) *
+                      slave.directional(unpacked->derivatives.front(), unpacked->states.back()),
+                  slave.directional((*unpacked)["speed.wheel"].reference, unpacked->states.back()), 1e-12);
+    }
+}
+
 TEST(Units, HaveTheExponentsOfTheirBaseUnits) {
   const std::map<std::string, std::map<std::string, int>> known = {{"s", {{"s", 1}}},
                                                                    {"rad", {{"rad", 1}}},

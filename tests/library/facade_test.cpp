@@ -94,6 +94,19 @@ TEST(Facade, AColumnOutlivesItsRun) {
   for (std::size_t i = 0; i < torque.size(); i += 7) ASSERT_NEAR(torque[i], torque_at(time[i]), 1e-4);
 }
 
+// J₁ ω₁ + J₂ ω₂ = M t, by columns that are asked for by their names.
+TEST(Facade, AColumnIsThatOfItsName) {
+  const kurbel::Run run = kurbel::run(Machine::from_text(two_masses), {.no_error = true, .page = false});
+  const TimeSeries rotor = run.trajectory()["speed.rotor"], fan = run.trajectory()["speed.fan"],
+                   torque = run.trajectory()["torque.coupling"], time = run.trajectory().time();
+  for (std::size_t i = 0; i < time.size(); i += 7) {
+    ASSERT_NEAR(0.2 * rotor[i] + 1.5 * fan[i], 50 * time[i], 1e-4);
+    ASSERT_NEAR(torque[i], torque_at(time[i]), 1e-4);
+  }
+  EXPECT_NE(rotor[10], fan[10]);
+  EXPECT_THROW(run.trajectory()["speed.fans"], std::out_of_range);
+}
+
 // A record of the closed form, told 10 ms late and 3 N·m too high.
 TEST(Facade, ARecordIsLaidOverRunAndCycle) {
   const std::string file = testing::TempDir() + "facade_record.csv";

@@ -90,6 +90,30 @@ TEST(JointFrictionEffect, LossOfARunIsTheEnergyThatIsMissing) {
   EXPECT_NEAR(r.energy.kinetic_start - r.energy.kinetic_end + r.energy.by_line.at("weight"), lost, 1e-4 * lost);
 }
 
+// Two of a kind, each with half of the wheel, move as one: on one shaft, and on two behind a spring that is never twisted.
+TEST(JointFrictionEffect, TwoOfAKindMoveAsOne) {
+  const auto machine = [](const std::string& line, const std::string& effects, const std::string& more) {
+    const std::string of = crank(effects, "start = { speed = \"30 rad/s\" }\nuntil = \"0.6 s\"\naccuracy = 1e-9", "");
+    const std::size_t begin = of.find("[crank]"), end = of.find("[effects]");
+    std::string other = of.substr(begin, end - begin);
+    other.replace(0, 7, "[other]");
+    std::string text = of;
+    text.insert(end, (line.find("other") < line.size() ? other : "") + more);
+    return test::run(text.replace(text.find("line = "), text.find("[wheel]") - text.find("line = "), line + "\n"),
+                     false);
+  };
+  const double one =
+      test::figure(machine("line = [\"wheel\", \"crank\"]", "joint_friction = true", ""), "final_speed.wheel");
+  EXPECT_LT(one, 29);
+  const std::string second = "[second]\nkind = \"flywheel\"\ninertia = \"0.4 kg*m2\"\n";
+  const Result stiff = machine("line = [\"wheel\", \"crank\", \"second\", \"other\"]", "joint_friction = true", second);
+  EXPECT_NEAR(test::figure(stiff, "final_speed.wheel"), one, 1e-7 * one);
+  const Result apart = machine("line = [\"wheel\", \"crank\", \"coupling\", \"second\", \"other\"]",
+                               "joint_friction = true\nelasticity = true",
+                               second + "[coupling]\nkind = \"coupling\"\nstiffness = \"20 kN*m/rad\"\n");
+  EXPECT_NEAR(test::figure(apart, "final_speed.wheel"), one, 1e-7 * one);
+}
+
 TEST(JointFrictionEffect, RunDownEndsHeldByStaticFriction) {
   const Result r = test::run(
       crank("joint_friction = true", "start = { speed = \"5 rad/s\" }\nuntil = \"60 s\"\naccuracy = 1e-5"), false);

@@ -134,6 +134,18 @@ yoke   = "Y"
          "\n[run]\n" + run;
 }
 
+// Without a free length the spring is free as it is drawn, at φ = 0: it is stretched by r (1 − cos φ).
+TEST(LinkForces, ASpringIsFreeAsItIsDrawn) {
+  const Result r =
+      test::run(test::scene_from(yoke("[m.springs]\nreturn = { between = \"Y F\", stiffness = \"900 N/m\" }",
+                                      "start = { speed = \"200 rpm\" }\nuntil = \"1.1 s\"\naccuracy = 1e-10")));
+  EXPECT_TRUE(r.complete) << r.diagnosis;
+  const double phi = test::figure(r, "final_angle.m"), omega = test::figure(r, "final_speed.m"), start = 200 * pi / 30;
+  const double stored = 0.5 * 900 * std::pow(0.06 * (1 - std::cos(phi)), 2);
+  EXPECT_NEAR(0.01 * omega * omega + stored, 0.01 * start * start, 1e-7);
+  EXPECT_NEAR(r.energy.by_account.at("m.return"), -stored, 1e-7);
+}
+
 // J ω²/2 + k r² cos²φ/2 stays: the spring's free length is that of the yoke amid its way.
 TEST(LinkForces, ASpringOnAYokeKeepsItsEnergy) {
   const Result r = test::run(test::scene_from(

@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "engine/equations/jam.h"
+#include "engine/events/equations.h"
 #include "engine/model/model.h"
 #include "mechanisms/joints/reaction_table.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/mechanisms/linkage_examples.h"
+#include "tests/support/jacobians.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::linkage_friction_test {
@@ -73,6 +75,24 @@ TEST(LinkageFriction, SlideJamsWhereTheFrictionAngleMeetsTheRod) {
   EXPECT_THROW(guide(1.001)->torque(state), Jam);
   EXPECT_EQ(guide(1.001)->resting(phi, -100, 1, true), HUGE_VAL);  // locks itself
   EXPECT_LT(guide(1.001)->resting(phi, -100, -1, true), 0);        // not backwards
+}
+
+// Rollers of radius r_r with the rolling arm k_r are a friction coefficient k_r/r_r more.
+TEST(LinkageFriction, RollersAddTheirArmOverTheirRadius) {
+  const MechanismData data = crank_and_ram().data();
+  const auto guide = [&](double f, double arm) {
+    RubbingJoint joint{.name = "slide ram", .friction = {f, f, 0, 0}};
+    joint.rolling_arm = arm, joint.roller_radius = 0.02;
+    return law_of(data, {joint});
+  };
+  const auto rolls = guide(0.03, 1e-3), alone = guide(0, 1e-3), slides = guide(0.08, 0);
+  for (const double phi : {0.5, 1.7, 4.0}) {
+    const JointFriction::State state{.phi = phi, .omega = 2, .load = -300};
+    const double torque = slides->torque(state).torque;
+    EXPECT_LT(torque, -0.01);
+    EXPECT_NEAR(rolls->torque(state).torque, torque, 1e-9) << phi;
+    EXPECT_NEAR(alone->torque(state).torque, guide(0.05, 0)->torque(state).torque, 1e-9) << phi;
+  }
 }
 
 // --- a four-bar by hand ---
@@ -329,6 +349,9 @@ accuracy = 1e-9
     const auto found = m->friction->torque({.phi = phi, .omega = 6, .applied = &applied});
     EXPECT_NEAR(found.torque, friction(phi), 1e-11) << phi;
   }
+  Equations equations(model, false);
+  for (const double phi : {0.4, 1.1, 2.3, 4.0, 5.5})
+    test::expect_exact(test::slopes_of(equations, 0, equations.modes_from_scratch(0, phi, 9)), equations, 1e-6);
   const Result run = test::run(scene);
   EXPECT_TRUE(run.complete) << run.diagnosis;
   EXPECT_LT(run.energy.relative, 1e-7);

@@ -322,6 +322,24 @@ TEST(Linkage, ARedundantRodOfAnotherLengthIsRefused) {
       << data.linkage->faults()[0].text;
 }
 
+// Of a four-bar the dyad is nearest to a dead position where the ground and the crank lie in one line: cos μ = (b² + c² −
+// (d ± a)²)/2bc between coupler and rocker, and the margin is the least sin² μ.
+TEST(Linkage, TheMarginOfADyadIsTheSineOfTheAngleBetweenItsLinks) {
+  const double a = 0.06, d = 0.22;
+  for (const auto& [b, c] : {std::pair(0.2, 0.16), std::pair(0.16, 0.2), std::pair(0.3, 0.18)}) {
+    SketchOf of;
+    const double x = (b * b - c * c + (d - a) * (d - a)) / (2 * (d - a));  // of B from A, with A on the line OD
+    of.point('O', 0, 0).point('A', a, 0).point('B', a + x, std::sqrt(b * b - x * x)).point('D', d, 0).frame("OD");
+    of.link("crank", "OA", 1, 0.01).link("coupler", "AB", 1, 0.01).link("rocker", "DB", 1, 0.01).rocks("rocker");
+    const LinkageData data = of.data();
+    ASSERT_EQ(data.linkage->least_margins().size(), 1u);
+    double least = 1;
+    for (const double reach : {d - a, d + a})
+      least = std::min(least, 1 - std::pow((b * b + c * c - reach * reach) / (2 * b * c), 2));
+    EXPECT_NEAR(double(data.linkage->least_margins()[0].margin), least, 1e-9) << b;
+  }
+}
+
 // --- lengths ---
 
 double distance_in(const LinkageSketch& s, int a, int b) {
@@ -366,6 +384,35 @@ TEST(Linkage, ALengthOfTheFrameMovesItsOwnPoints) {
   EXPECT_NEAR(of.s.points[6].y, 0.08, 1e-16);
   EXPECT_NEAR(distance_in(of.s, 1, 2), std::hypot(0.14, 0.14), 1e-16);
   expect_rigid(of.data());
+}
+
+// A longer frame turns the links; their centres of mass, beside their lines, stay where they are on them.
+TEST(Linkage, CentresOfMassTurnWithTheirLinks) {
+  SketchOf of = test::stephenson();
+  struct Place {
+    double along, across, turned;
+  };
+  const auto places = [&] {
+    std::vector<Place> all;
+    for (const LinkageSketch::Link& link : of.s.links) {
+      const auto &p = of.s.points[static_cast<std::size_t>(link.points[0])],
+                 &q = of.s.points[static_cast<std::size_t>(link.points[1])];
+      const double x = q.x - p.x, y = q.y - p.y, l = std::hypot(x, y), u = link.com_x - p.x, v = link.com_y - p.y;
+      all.push_back({(x * u + y * v) / l, (x * v - y * u) / l, std::atan2(y, x)});
+    }
+    return all;
+  };
+  for (LinkageSketch::Link& link : of.s.links) link.com_x += 0.01, link.com_y += 0.03;
+  const std::vector<Place> before = places();
+  EXPECT_TRUE(take_lengths(of.s, {{0, 3, 0.27, "OC"}}).empty());
+  const std::vector<Place> after = places();
+  double turned = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_NEAR(after[k].along, before[k].along, 1e-12) << k;
+    EXPECT_NEAR(after[k].across, before[k].across, 1e-12) << k;
+    turned = std::max(turned, std::abs(after[k].turned - before[k].turned));
+  }
+  EXPECT_GT(turned, 0.02);
 }
 
 // A ram keeps its line, a block the offset of its slot.

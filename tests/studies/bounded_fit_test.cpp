@@ -21,6 +21,21 @@ TEST(BoundedFit, HoldsWhatPressesAgainstABound) {
   EXPECT_EQ(fit.on_bound, (std::vector<int>{1, 0}));
 }
 
+// min (x + 1)² + (y − 1/2)² from the corner 0, 0: x presses against it, y wants away.
+TEST(BoundedFit, OfTwoOnTheirLowerBoundTheOneThatPressesIsHeld) {
+  const BoundedProblem problem{
+      .residuals = [](const Eigen::VectorXd& u) -> std::optional<Eigen::VectorXd> {
+        return Eigen::Vector2d(u[0] + 1, u[1] - 0.5);
+      },
+      .derivative = [](const Eigen::VectorXd&, const Eigen::VectorXd&) -> std::optional<Eigen::MatrixXd> {
+        return Eigen::MatrixXd::Identity(2, 2);
+      }};
+  const BoundedFit fit = fit_within_bounds(problem, Eigen::Vector2d::Zero());
+  EXPECT_EQ(fit.u[0], 0);
+  EXPECT_NEAR(fit.u[1], 0.5, 1e-6);
+  EXPECT_EQ(fit.on_bound, (std::vector<int>{-1, 0}));
+}
+
 // Two columns in the ratio 3: the direction (1, −1) of columns of equal length is not seen; the third is known.
 TEST(BoundedFit, NamesTheDirectionThatColumnsShare) {
   Eigen::MatrixXd j(4, 3);

@@ -163,6 +163,27 @@ run = {{ start = {{ angle = "33 deg" }}, until = "1 s" }}
   }
 }
 
+// A wheel with a drag b to which nothing gives a mean speed, shaken at Ω and 2Ω: ω_n = A/(b + i nΩ J), φ_n = ω_n/(i nΩ).
+TEST(Orders, OfAnAngleAreThoseOfItsSpeedEachOverItsOwnFrequency) {
+  const Scene scene = scene_from(R"(line = ["wheel", "drag"]
+wheel = { kind = "torque source", inertia = "0.4 kg*m2", amplitude = "5 N*m", frequency = "4 Hz" }
+shake = { kind = "torque source", on = "wheel", amplitude = "3 N*m", frequency = "8 Hz" }
+drag = { kind = "load", damping = "2 N*m*s/rad" }
+run = { until = "1 s" }
+)");
+  const SteadyCycle c = cycle_of(scene, Effects{});
+  const OrdersOf &speed = orders_of(c, "speed.wheel"), &angle = orders_of(c, "angle.wheel");
+  ASSERT_GE(angle.orders.size(), 2u);
+  for (const int n : {1, 2}) {
+    const double frequency = 8 * pi * n, swing = (n == 1 ? 5 : 3) / std::hypot(2, frequency * 0.4);
+    const auto k = static_cast<std::size_t>(n - 1);
+    ASSERT_EQ(angle.orders[k].order, n);
+    EXPECT_NEAR(std::abs(speed.orders[k].wave), swing, 1e-8 * swing) << n;
+    EXPECT_NEAR(std::abs(angle.orders[k].wave), swing / frequency, 1e-8 * swing / frequency) << n;
+    EXPECT_NEAR(std::abs(angle.orders[k].wave * Complex(0, frequency) - speed.orders[k].wave), 0, 1e-8 * swing) << n;
+  }
+}
+
 TEST(Orders, WithoutAnAngleThereAreNone) {
   const Scene scene = scene_from(R"(line = ["motor", "wheel"]
 motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", rated_torque = "20 N*m", inertia = "0.5 kg*m2" }

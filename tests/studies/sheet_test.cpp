@@ -310,6 +310,28 @@ TEST(ForcesSheet, ASliderCranksNumbersAreTheStudysFigures) {
   EXPECT_GT(most, 600e3);  // of the blow, between 11 and 0
 }
 
+// Of a crank that accelerates, every link's θ̈ = θ″ ω² + θ′ ε: the crank's is ε, the rod's β″ by sin β = (e + r sin φ)/l.
+TEST(Kinematics, LinksTakeTheCranksAcceleration) {
+  const Scene scene = test::scene_from(R"(
+line = ["motor", "pump"]
+motor = { kind = "torque source", torque = "30 N*m", inertia = "0.3 kg*m2" }
+pump = { kind = "slider-crank", radius = "50 mm", rod = "180 mm", slider_mass = "3 kg" }
+)");
+  const auto model = compile(scene, scene.effects);
+  const MechanismOnSheet pump = mechanisms_of(*model).front();
+  const double w = 7, e = -40;
+  for (const double phi : {0.4, 1.9, 3.7, 5.5}) {
+    const MechanismMotionAt even = motion_at(pump, phi, w, 0), faster = motion_at(pump, phi, w, e);
+    ASSERT_GE(faster.links.size(), 2u);
+    EXPECT_NEAR(faster.links[0].alpha, e, 1e-12);
+    const double part = 50.0 / 180, sine = part * std::sin(phi), cosine = std::sqrt(1 - sine * sine);
+    const double rate = part * std::cos(phi) / cosine, curve = (rate * rate - 1) * sine / cosine;  // β′, β″
+    EXPECT_NEAR(std::abs(faster.links[1].alpha), std::abs(curve * w * w + rate * e), 1e-10) << phi;
+    for (std::size_t k = 0; k < faster.links.size(); ++k)
+      EXPECT_NEAR(faster.links[k].alpha - even.links[k].alpha, even.links[k].omega / w * e, 1e-10) << k;
+  }
+}
+
 // Σ R − m a_S = 0 of every link of a four-bar without weights; power in = power out + dT/dt.
 TEST(ForcesSheet, EveryLinkIsInEquilibrium) {
   const Scene scene = test::scene_from(R"(

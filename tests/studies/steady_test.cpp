@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "studies/question/option_values.h"
 #include "tests/published/published.h"
 
 namespace kurbel::test::steady_test {
@@ -329,6 +330,18 @@ TEST(Steady, StepsOfASequenceAreCountedFromOne) {
   EXPECT_THROW(steady(scene, {Effects{}}, options), std::invalid_argument);
 }
 
+TEST(Steady, AMomentIsAStepATimeOrASpeed) {
+  std::optional<double> speed;
+  EXPECT_EQ(moment_of("--at", "step 2", speed).after_step, std::optional<std::size_t>(2));
+  EXPECT_EQ(moment_of("--at", "step 0", speed).describe(), "before step 1");
+  EXPECT_EQ(moment_of("--at", "1.5 s", speed).time, 1.5);
+  EXPECT_FALSE(speed);
+  EXPECT_FALSE(moment_of("--at", "60 rpm", speed).any());
+  EXPECT_NEAR(*speed, 2 * pi, 1e-15);
+  for (const char* wrong : {"step", "step -1", "step two", "2", "-1 s", "0 rpm"})
+    EXPECT_THROW(moment_of("--at", wrong, speed), std::invalid_argument) << wrong;
+}
+
 // --- operating points ---
 
 OperatingDiagram diagram_of(const std::string& text, int direction = 1) {
@@ -370,6 +383,30 @@ TEST(OperatingPoints, MeanLoadTorqueIsWorkPerTurnOverTheTurn) {
   for (const double omega : {1.0, 17.0, 39.0}) {
     EXPECT_NEAR(mean.at(omega).load, 200 / (2 * pi), 1e-10);
     EXPECT_NEAR(mean.at(omega).drive, 60 * (1 - omega / 40), 1e-10);
+  }
+}
+
+// Everything turned round: the same diagram of the other direction, whose torques drive and brake as before.
+TEST(OperatingPoints, OfTheOtherDirectionAreTheSameMirrored) {
+  const auto machine = [](int sense) {
+    return fmt::format(
+        "line = [\"motor\", \"wheel\"]\nmotor = {{ kind = \"torque source\", table = {{ over = \"speed\", unit = "
+        "[\"rad/s\", \"N*m\"], points = [[{}, {}], [{}, {}]] }} }}\nwheel = {{ kind = \"load\", inertia = \"1 kg*m2\", "
+        "damping = \"0.5 N*m*s/rad\" }}\n",
+        sense > 0 ? -40 : -80, sense > 0 ? 120 : 60, sense > 0 ? 80 : 40, sense > 0 ? -60 : -120);
+  };
+  for (const int sense : {1, -1}) {  // 60 (1 − ω/40) forwards, −60 (1 + ω/40) backwards
+    RigidMachine rigid(scene_from(machine(sense)));
+    MeanCharacteristic mean(rigid, sense);
+    const MeanTorques at = mean.at(10);
+    EXPECT_EQ(at.omega, 10 * sense);
+    EXPECT_NEAR(at.drive, 45, 1e-10) << sense;
+    EXPECT_NEAR(at.load, 5, 1e-10) << sense;
+    const OperatingDiagram d = operating_diagram(rigid, sense);
+    ASSERT_EQ(d.points.size(), 1u) << sense;
+    EXPECT_NEAR(d.points[0].speed.value, 30 * sense, 1e-9);
+    EXPECT_NEAR(d.points[0].torque.value, 15, 1e-9);
+    EXPECT_TRUE(d.points[0].stable());
   }
 }
 
