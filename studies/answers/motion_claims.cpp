@@ -26,6 +26,7 @@ constexpr double disagree = 0.1;          // of the usual speed: shafts that a s
 constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is told
+constexpr double short_while = 0.02;      // of the time
 constexpr double gains = 1.3;             // times its speed: one that few cycles tell of grows
 
 class Judge {
@@ -48,6 +49,12 @@ class Judge {
   bool is_held() const { return equations_.at_standstill(shaft_) && now_.now.speed[shaft_] == 0; }
   // Held, or at the end of springs that are held: small vibration is allowed.
   bool rests() const { return is_held() || recorder_.rests(outcome_.t); }
+  bool slows_down() const { return speed() * gain() * now_.alpha[shaft_] < 0; }
+  // Slower than 1 % of its usual speed, and by so little slower than before that it comes to a balance: no reversal.
+  bool creeps() const {
+    const double slow = turns_back_from * m_.speed_scale;
+    return std::abs(speed()) < slow && slows_down() && std::abs(now_.alpha[shaft_]) * short_while * outcome_.t < slow;
+  }
   bool is_commanded() const { return !m_.commands.empty(); }
   // Torque of all drives, reduced to the link [N·m].
   double drive() const {
@@ -57,10 +64,10 @@ class Judge {
         torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
     return torque;
   }
-  // A motor under torque whose shaft is slower than this part of its rated speed: stands.
-  const MotorTorque* standing_motor(double slower = stands) const {
+  // A motor under more than this part of its rated torque whose shaft is slower than that part of its rated speed: stands.
+  const MotorTorque* standing_motor(double torque = drives, double slower = stands) const {
     for (const MotorTorque& motor : m_.motors)
-      if (!motor.prescribed && std::abs(torque_of(motor)) > drives * motor.rated_torque &&
+      if (!motor.prescribed && std::abs(torque_of(motor)) > torque * motor.rated_torque &&
           std::abs(speed_of(motor)) < slower * std::abs(motor.rated_speed))
         return &motor;
     return nullptr;
@@ -165,8 +172,7 @@ class Judge {
       return {};
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
-    const bool slows_down = speed() * gain() * now_.alpha[shaft_] < 0;
-    if (torque < -least || (torque <= least && slows_down && !since_off)) return {};
+    if (torque < -least || (torque <= least && slows_down() && !since_off)) return {};
     return claimed(
         Predicate::turns_back,
         fmt::format("\"{}\" turns backwards, at {} at the end: {}", link(), m_.scene.speed_unit.text(speed()),
@@ -275,14 +281,17 @@ class Judge {
     return claim;
   }
 
-  // While the link still moves: by an applied brake on its own shaft, or, where the link only trembles, by what stands.
+  // While the link still moves: by an applied brake on its own shaft, or, where the link only trembles or creeps, by what
+  // stands, or by loads that balance it.
   std::optional<Claim> motor_held() const {
     const bool trembles = recorder_.swings() && recorder_.speed_of_swing() < turns_back_from * m_.speed_scale;
-    const MotorTorque* motor = standing_motor(trembles ? turns_back_from : stands);
-    if (!motor || rests() || !(std::abs(torque_of(*motor)) > pushes * motor->rated_torque)) return {};
+    const bool nearly_rests = trembles || (!recorder_.swings() && creeps());
+    const MotorTorque* motor = standing_motor(pushes, nearly_rests ? turns_back_from : stands);
+    if (!motor || rests()) return {};
     const std::string* brake = brake_that_holds();
     const bool own = brake && m_.shaft_of_node[at(motor->node)] == m_.shaft_of_node[at(m_.network.ports.at(*brake).in)];
-    const std::string holders = own || trembles ? what_holds() : std::string();
+    std::string holders = own || nearly_rests ? what_holds() : std::string();
+    if (holders.empty() && nearly_rests) holders = "its loads";
     if (holders.empty()) return {};
     return claimed_aside(Predicate::held_by,
                          fmt::format("\"{}\" is held by {} against the {:.4g} N·m that it gives", motor->component,

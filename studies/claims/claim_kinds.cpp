@@ -130,7 +130,8 @@ constexpr std::array kinds = {
         held_by, runs, note, anything,
         "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
         "brought to rest by it; while the link moves, a motor that gives a tenth of its rated torque is held by a "
-        "brake on its own shaft, or, where the link vibrates below 1 % of its usual speed, by what stands",
+        "brake on its own shaft, or, where the link vibrates or creeps below 1 % of its usual speed, by what stands or "
+        "by loads that balance it",
         "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
     ClaimKind{sticks_and_slips, runs, note, above,
               "while the link turns, another shaft comes to rest and moves on in the same sense, three times at least",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -242,6 +243,34 @@ TEST(Stalls, HideNoClutch) {
   const Claim* slips = find(r.claims, Predicate::clutch_slips_closed, "clutch");
   ASSERT_TRUE(slips) << said(r);
   EXPECT_NEAR(*slips->evidence.at, 1, 1e-9);
+}
+
+// J φ″ + 2 N·m·s/rad φ′ + c (φ − 1) = 20 N·m: it creeps, or vibrates, to where the load balances the motor. At 0.3 s it
+// still creeps at 5 % of the no-load speed, and nothing holds it.
+TEST(Holding, IsSaidOfAMotorThatItsLoadBalances) {
+  const auto balanced = [](double inertia, double stiffness, double until) {
+    return test::run(fmt::format(R"(
+      line = ["motor", "arm"]
+      motor = {{ kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "10 rad/s", rated_torque = "8 N*m", inertia = "{0} kg*m2" }}
+      arm = {{ kind = "load", table = {{ over = "angle", formula = "{1} [N*m/rad]*phi - {1} [N*m]" }} }}
+      sequence = {{ steps = [{{ at = "0 s", set = "motor", to = 1 }}] }}
+      run = {{ start = {{ angle = "1 rad" }}, until = "{2} s" }}
+    )",
+                                 inertia, stiffness, until));
+  };
+  const Result creeps = balanced(0.01, 20, 0.55), vibrates = balanced(1, 400, 4.2);
+  const double root = std::sqrt(4 - 4 * 0.01 * 20), slow = (-2 + root) / 0.02, fast = (-2 - root) / 0.02;
+  const double w = std::sqrt(400 - 1);
+  const std::array<std::pair<const Result*, double>, 2> expected{
+      {{&creeps, 20 / root * (std::exp(slow * 0.55) - std::exp(fast * 0.55))},
+       {&vibrates, 20 / w * std::exp(-4.2) * std::sin(w * 4.2)}}};
+  for (const auto& [r, speed] : expected) {
+    const Claim* held = find(r->claims, Predicate::held_by, "motor");
+    ASSERT_TRUE(held) << said(*r);
+    EXPECT_NEAR(*held->evidence.value, 20 - 2 * speed, 1e-5);
+    EXPECT_TRUE(has(said(*r), "held by its loads against the ")) << said(*r);
+  }
+  EXPECT_FALSE(find(balanced(0.01, 20, 0.3).claims, Predicate::held_by));
 }
 
 // Two masses of 1 kg·m² on 100 N·m/rad: f = √200/2π, each to and fro by half the spring's 0.05 rad.

@@ -329,7 +329,7 @@ class Judge:
         for name, wrong in (("does not move", m["moves"]), ("starts", m["begins"] != "at rest" or not m["moves"]),
                             ("at rest", m["end"] != "rests" and abs(m["speed_at_end"]) > 0.02 * self.usual),
                             ("strokes", not ((m.get("stands_within") or 0) > 0 or (m.get("least_speed") or 0) <= 0)),
-                            ("held by", m["end"] not in ("rests", "vibrates"))):
+                            ("held by", m["end"] not in ("rests", "vibrates") and abs(m["speed_at_end"]) > NEAR * self.usual)):
             if r.says(name, self.truth["link"] if name == "held by" else None) and wrong:
                 self.contradiction(f"claim \"{name}\" is false", f"{m['end']} at the end, moves: {m['moves']}, begins {m['begins']}")
         for motor in self.truth["motors"]:
