@@ -29,7 +29,7 @@ void DeclaredOptions::add_to(OptionList& command, const std::vector<DeclaredOpti
     } else {
       Option added = command.add_option(name, storage.several, text.doc);
       if (text.count > 0)
-        added.values(text.count);
+        added.values(text.least > 0 ? text.least : text.count, text.count);
       else if (!text.words)  // a scene after it is not one of its values
         added.repeatable().one_value_each_time();
     }
@@ -47,7 +47,7 @@ GivenOptions DeclaredOptions::given() const {
 
 Inquiry inquiry_of(const Scene& scene, const StudyOptions& options, Progress& progress) {
   return {.scene = scene,
-          .text = read_text_file(options.scene, max_scene_bytes),
+          .text = options.scene.empty() ? "" : read_text_file(options.scene, max_scene_bytes),
           .file = options.scene,
           .settings = options.set,
           .allowed = options.allow_files ? DataFiles::anywhere : DataFiles::below_the_scene,
@@ -56,16 +56,18 @@ Inquiry inquiry_of(const Scene& scene, const StudyOptions& options, Progress& pr
           .author = options.author};
 }
 
-int answer(const Question& question, const StudyOptions& options, const GivenOptions& given) {
+int answer(const Question& question, StudyOptions options, const GivenOptions& given) {
   for (const DeclaredOption& option : question.options)
     if (option.text.makes_a_file && options.no_files &&
         std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first == option.text.name; }))
       throw std::invalid_argument(
           fmt::format("--{0} with --no-files: the {0} is a file; omit one of the two", option.text.name));
-  const Scene scene = read(options);
-  check_folder(options);
+  const Scene scene = options.scene.empty() ? Scene{} : read(options);
   Progress progress(options.quiet);
-  return present(question.answer(inquiry_of(scene, options, progress), given), options);
+  const Inquiry inquiry = inquiry_of(scene, options, progress);
+  if (options.scene.empty()) options.scene = question.alone;
+  check_folder(options);
+  return present(question.answer(inquiry, given), options);
 }
 
 VerbText verb_of(const Question& question) {
@@ -77,6 +79,7 @@ VerbText verb_of(const Question& question) {
     };
     const auto asked = std::make_shared<Asked>();
     add_study_options(command, asked->study);
+    command.option("scene").required(question.alone.empty());
     asked->declared.add_to(command, question.options);
     command.action([&code, &question, asked] { code = answer(question, asked->study, asked->declared.given()); });
   };

@@ -29,6 +29,6 @@ class DeclaredOptions {
 Inquiry inquiry_of(const Scene& scene, const StudyOptions& options, Progress& progress);
 
 // Answers the question and presents the result; returns the exit code.
-int answer(const Question& question, const StudyOptions& options, const GivenOptions& given);
+int answer(const Question& question, StudyOptions options, const GivenOptions& given);
 
 }  // namespace kurbel::app

@@ -112,7 +112,8 @@ std::string questions_as_stubs() {
   for (const Question& question : questions()) {
     if (question.name == "diff") continue;  // of two scenes: by hand
     const std::string begin = fmt::format("def {}(", question.name);
-    std::string line = begin + "scene: _Scene, *, set: _Settings = ...";
+    std::string line =
+        begin + (question.alone.empty() ? "scene: _Scene" : "scene: _Scene | None = ...") + ", *, set: _Settings = ...";
     for (const DeclaredOption& option : question.options) {
       const bool list =
           option.form == OptionForm::several || option.text.name == "effects" || option.text.name == "against";
