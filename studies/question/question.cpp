@@ -10,6 +10,7 @@
 namespace kurbel {
 
 // Each is defined in the folder of its study.
+Question run_question();
 Question compare_question();
 Question difference_question();
 Question reduce_question();
@@ -28,9 +29,10 @@ Question fit_question();
 
 const std::vector<Question>& questions() {
   static const std::vector<Question> all = {
-      compare_question(), difference_question(), reduce_question(),      size_question(),   forces_question(),
-      gears_question(),   modes_question(),      report_question(),      steady_question(), effects_question(),
-      advise_question(),  accuracy_question(),   uncertainty_question(), fit_question(),    export_question()};
+      run_question(),      compare_question(),     difference_question(), reduce_question(),
+      size_question(),     forces_question(),      gears_question(),      modes_question(),
+      report_question(),   steady_question(),      effects_question(),    advise_question(),
+      accuracy_question(), uncertainty_question(), fit_question(),        export_question()};
   return all;
 }
 
