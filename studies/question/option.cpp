@@ -75,8 +75,9 @@ std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOpt
       for (std::string one; std::getline(stream, one, ',');)
         if (!one.empty()) texts.push_back(one);
     }
-    if (texts.empty()) continue;
+    if (texts.empty() && !option.text.required) continue;
     const OptionValues values(option, texts, scene);
+    if (texts.empty()) throw std::invalid_argument(fmt::format("{} needs {}", question, values.label()));
     if (option.form != OptionForm::several && texts.size() > 1)
       throw std::invalid_argument(fmt::format("{} is given {} times; give one", values.label(), texts.size()));
     const int most = option.text.count, number = static_cast<int>(texts.size());

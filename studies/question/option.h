@@ -41,7 +41,8 @@ struct OptionText {
   bool each_time = false;      // several values: one per occurrence of the option; otherwise also joined by commas
   bool words = false;          // several values: also as successive words on the command line
   bool makes_a_file = false;   // it adds a file to the results
-  bool by_place = false;       // on the command line by its place, behind the scene, and required there
+  bool required = false;
+  bool by_place = false;  // on the command line by its place, behind the scene, and required there
 };
 
 enum class OptionForm { flag, one, several };

@@ -41,6 +41,7 @@ struct QuestionText {
   std::string help;                    // one line, in kurbel --help
   std::string does;                    // for the manual page and docs/commands.md: Markdown without links
   std::string alone = {};              // not empty: may be asked without a scene; the name of such results
+  bool of_scene = true;                // otherwise it has its own options alone, no scene and no results folder
   std::vector<std::string> more = {};  // further examples: "scene.toml --explain", followed by " | " and their purpose
 };
 
