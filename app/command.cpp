@@ -28,10 +28,6 @@ Option& Option::one_value_each_time() {
   option_->allow_extra_args(false);
   return *this;
 }
-Option& Option::split_at(char delimiter) {
-  option_->delimiter(delimiter);
-  return *this;
-}
 Option& Option::check(std::function<std::string(const std::string&)> fault) {
   option_->check(CLI::Validator([fault = std::move(fault)](std::string& value) { return fault(value); }, ""));
   return *this;
@@ -41,28 +37,7 @@ std::string OptionList::name() const { return app_.get_name(); }
 Option OptionList::add_option(const std::string& name, std::string& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
-Option OptionList::add_option(const std::string& name, double& value, const std::string& help) {
-  return Option(app_.add_option(name, value, help));
-}
-Option OptionList::add_option(const std::string& name, int& value, const std::string& help) {
-  return Option(app_.add_option(name, value, help));
-}
-Option OptionList::add_option(const std::string& name, std::size_t& value, const std::string& help) {
-  return Option(app_.add_option(name, value, help));
-}
-Option OptionList::add_option(const std::string& name, std::optional<std::string>& value, const std::string& help) {
-  return Option(app_.add_option(name, value, help));
-}
-Option OptionList::add_option(const std::string& name, std::optional<double>& value, const std::string& help) {
-  return Option(app_.add_option(name, value, help));
-}
 Option OptionList::add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) {
-  return Option(app_.add_option(name, value, help));
-}
-Option OptionList::add_option(const std::string& name, std::vector<double>& value, const std::string& help) {
-  return Option(app_.add_option(name, value, help));
-}
-Option OptionList::add_option(const std::string& name, std::vector<int>& value, const std::string& help) {
   return Option(app_.add_option(name, value, help));
 }
 Option OptionList::add_flag(const std::string& name, bool& value, const std::string& help) {

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +23,8 @@ class Option {
   explicit Option(CLI::Option* option) : option_(option) {}
   Option& required(bool is = true);
   Option& values(int least, int most);  // number of words that follow the option
-  Option& values(int count) { return values(count, count); }
-  Option& repeatable();           // one value each time it is given
-  Option& one_value_each_time();  // further words are not values of the option
-  Option& split_at(char delimiter);
+  Option& repeatable();                 // one value each time it is given
+  Option& one_value_each_time();        // further words are not values of the option
   // `fault` returns why a value is not accepted; empty: it is accepted.
   Option& check(std::function<std::string(const std::string&)> fault);
 
@@ -42,14 +39,7 @@ class OptionList {
 
   // The value is unchanged if the option is not given. A name without dashes is a positional argument.
   Option add_option(const std::string& name, std::string& value, const std::string& help = "");
-  Option add_option(const std::string& name, double& value, const std::string& help);
-  Option add_option(const std::string& name, int& value, const std::string& help);
-  Option add_option(const std::string& name, std::size_t& value, const std::string& help);
-  Option add_option(const std::string& name, std::optional<std::string>& value, const std::string& help);
-  Option add_option(const std::string& name, std::optional<double>& value, const std::string& help);
   Option add_option(const std::string& name, std::vector<std::string>& value, const std::string& help);
-  Option add_option(const std::string& name, std::vector<double>& value, const std::string& help);
-  Option add_option(const std::string& name, std::vector<int>& value, const std::string& help);
   Option add_flag(const std::string& name, bool& value, const std::string& help);
   Option add_flag(const std::string& name, std::function<void()> act, const std::string& help);
   Option option(const std::string& name);  // one declared before

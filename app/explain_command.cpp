@@ -46,8 +46,7 @@ const Verb verb{
       .help = "what a figure means: definition, formula, unit, what it is not",
       .does = "what a figure means: definition, formula, unit, what it is not, which commands give it; without "
               "a name all figures"},
-     set_up,
-     false}};
+     set_up}};
 
 }  // namespace
 }  // namespace kurbel::app::explain_command

@@ -212,15 +212,13 @@ const Verb check_verb{{{.place = 120,
                         .arguments = "scene.toml",
                         .help = "validate a scene",
                         .does = "validates only; all errors at once as `file:line:col: what, got, allowed, next step`"},
-                       set_up_with_scene<check>,
-                       false}};
+                       set_up_with_scene<check>}};
 const Verb figures_verb{{{.place = 130,
                           .name = "figures",
                           .arguments = "scene.toml",
                           .help = "list the figures that runs of a scene yield",
                           .does = "names of the figures that runs of the scene yield"},
-                         set_up_with_scene<figures>,
-                         false}};
+                         set_up_with_scene<figures>}};
 const Verb new_verb{
     {{.place = 140,
       .name = "new",
@@ -231,8 +229,7 @@ const Verb new_verb{
           "; or the train of a maker's mass–elastic sheet (`--from`); a file that exists is never overwritten. Beside "
           "it, where there is none, the schema by "
           "which editors complete and check keys"},
-     set_up_new,
-     false}};
+     set_up_new}};
 const Verb keys_verb{
     {{.place = 150,
       .name = "keys",
@@ -240,23 +237,20 @@ const Verb keys_verb{
       .help = "print the keys of one kind, or of a whole scene (Markdown)",
       .does = "keys of one kind, for the terminal; without a kind every key of a scene with unit, default "
               "and domain (docs/keys.md)"},
-     set_up_keys,
-     false}};
+     set_up_keys}};
 const Verb schema_verb{{{.place = 160,
                          .name = "schema",
                          .help = "print the JSON Schema of a scene, for editors",
                          .does = "JSON Schema of a scene (docs/scene.schema.json): editors complete and check by its "
                                  "`#:schema` line"},
-                        set_up_schema,
-                        false}};
+                        set_up_schema}};
 const Verb commands_verb{{{.place = 170,
                            .name = "commands",
                            .arguments = "run",
                            .help = "list the commands, or the options of one, for completion and manual",
                            .does = "options of a command, a line each, as completion uses them; without a name the "
                                    "commands"},
-                          set_up_commands,
-                          false}};
+                          set_up_commands}};
 
 }  // namespace
 }  // namespace kurbel::app::scene_commands

@@ -62,13 +62,14 @@ std::string capitalised(std::string text) {
 
 }  // namespace
 
-Verb::Verb(VerbText text) { registered().push_back(std::move(text)); }
+Verb::Verb(VerbText text) {
+  text.of_scene = false;
+  registered().push_back(std::move(text));
+}
 
 std::vector<VerbText> verbs() {
   std::vector<VerbText> list = registered();
-  for (const Question& question : questions())
-    if (std::none_of(list.begin(), list.end(), [&](const VerbText& verb) { return verb.name == question.name; }))
-      list.push_back(verb_of(question));
+  for (const Question& question : questions()) list.push_back(verb_of(question));
   std::sort(list.begin(), list.end(), [](const VerbText& a, const VerbText& b) { return a.place < b.place; });
   return list;
 }
@@ -108,11 +109,13 @@ std::string verbs_as_markdown() {
 // A flag, one value, or several: as the module takes them.
 std::string questions_as_stubs() {
   constexpr std::size_t width = 119;
+  const std::set<std::string> by_hand{"diff", "run", "sweep", "merge"};  // they return more, or are asked otherwise
   std::string text;
   for (const Question& question : questions()) {
-    if (question.name == "diff") continue;  // of two scenes: by hand
+    if (by_hand.contains(question.name)) continue;
     const std::string begin = fmt::format("def {}(", question.name);
-    std::string line = begin + "scene: _Scene, *, set: _Settings = ...";
+    std::string line =
+        begin + (question.alone.empty() ? "scene: _Scene" : "scene: _Scene | None = ...") + ", *, set: _Settings = ...";
     for (const DeclaredOption& option : question.options) {
       const bool list =
           option.form == OptionForm::several || option.text.name == "effects" || option.text.name == "against";

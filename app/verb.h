@@ -5,7 +5,7 @@
 //                        .help = "validate a scene", .does = "validates only; …"},
 //                       [](OptionList& command, int& code) { … }}};
 //
-// Every question is a command without further code (studies/question); a command of the same name replaces it.
+// Every question is a command without further code (studies/question).
 #pragma once
 
 #include <functional>
@@ -20,10 +20,9 @@ namespace kurbel::app {
 struct VerbText : QuestionText {
   // Adds options; the action leaves its exit code in `code`.
   std::function<void(OptionList& command, int& code)> set_up = nullptr;
-  bool of_scene = true;  // has the options common to all studies; otherwise only its own
 };
 
-// Registers the command for the lifetime of the program.
+// Registers a command that is no question, for the lifetime of the program.
 class Verb {
  public:
   explicit Verb(VerbText text);

@@ -1,14 +1,13 @@
 // run.cpp — a run and its records for the caller.
 #include <kurbel/run.h>
 
-#include <stdexcept>
+#include <fmt/format.h>
 
 #include "library/machine_parts.h"
-#include "studies/measured/overlay.h"
+#include "studies/question/question.h"
 #include "studies/run/run_findings.h"
-#include "studies/run/simulate.h"
 #include "studies/tables/trajectory_rows.h"
-#include "studies/trials/trials_findings.h"
+#include "studies/trials/run_question.h"
 
 namespace kurbel {
 
@@ -20,30 +19,6 @@ struct RunParts {
 };
 
 namespace {
-
-// A run, its trials if requested, and a measured record compared with it.
-struct ToldRun {
-  WithTrials<Result> tried;
-  bool has_trials = false;
-  std::optional<Overlay> overlay = {};
-};
-Findings findings_of(const ToldRun& run) {
-  Findings findings = run.has_trials ? findings_of(run.tried) : findings_of(run.tried.study);
-  if (run.overlay) show(findings, *run.overlay);
-  return findings;
-}
-
-// Read before any computation; empty: not requested.
-std::optional<Measurement> measurement_of(const RunChoices& choices, const Model& model) {
-  const MeasurementRequest request{choices.measured, choices.map, choices.shift, choices.offset};
-  if (!request.asked()) return {};
-  const RunSettings& run = model.scene.run;
-  if (run.model != "reduced")
-    throw std::invalid_argument("a test's record belongs to the reduced model; set run.model = \"reduced\"");
-  Measurement measurement = read_measurement(request, channels_of_run(model));
-  if (choices.from_state.empty()) require_overlap(measurement, 0, choices.until.value_or(run.until));
-  return measurement;
-}
 
 FigureValues figures_of(const Result& result) {
   std::vector<FigureValue> all;
@@ -63,46 +38,31 @@ Trajectory trajectory_of(const Result& result) {
   return {rows, &rows->time, &rows->values, std::move(names), std::move(units)};
 }
 
-SimulateOptions options_of(const RunChoices& choices, const Scene& scene) {
-  SimulateOptions options;
-  options.measure_error = !choices.no_error;
-  options.traces = choices.page;
-  if (choices.method) check_method(*choices.method, scene.run.model);
-  options.method = choices.method;
-  if (choices.accuracy && !(*choices.accuracy >= 1e-12 && *choices.accuracy <= 0.1))
-    throw std::invalid_argument("accuracy must be 1e-12 … 0.1");
-  options.accuracy = choices.accuracy;
-  if (choices.until && !(*choices.until > 0 && *choices.until < 1e30))
-    throw std::invalid_argument("until must be a time > 0 [s]");
-  options.until = choices.until;
-  options.go_on_from = choices.from_state;
-  if (!choices.from_state.empty() && scene.run.model != "reduced")
-    throw std::invalid_argument("a state belongs to the reduced model; set run.model = \"reduced\"");
-  options.watch = watch_of(choices.watcher);
-  return options;
+GivenOptions options_of(const RunChoices& choices) {
+  GivenOptions given{{"measured", choices.measured}, {"shift", choices.shift}};
+  if (choices.effects) given.emplace_back("effects", *choices.effects);
+  if (choices.method) given.emplace_back("method", *choices.method);
+  if (choices.accuracy) given.emplace_back("accuracy", fmt::format("{}", *choices.accuracy));
+  if (choices.until) given.emplace_back("until", fmt::format("{} s", *choices.until));
+  if (choices.no_error) given.emplace_back("no_error", "true");
+  if (choices.no_trials) given.emplace_back("no_trials", "true");
+  for (const std::string& one : choices.map) given.emplace_back("map", one);
+  for (const std::string& one : choices.offset) given.emplace_back("offset", one);
+  return given;
 }
 
 }  // namespace
 
 Run run(const Machine& machine, const RunChoices& choices) {
   return asked_of(machine.parts(), [&] {
-    const Scene& scene = machine.parts().scene;
-    const Effects effects = choices.effects ? parse_effects(*choices.effects, scene) : scene.effects;
-    const auto model = compile(scene, effects);
-    SimulateOptions options = options_of(choices, scene);
-    const std::optional<Measurement> measurement = measurement_of(choices, *model);
-    if (measurement) options.traces = true;
-    const auto told = std::make_shared<ToldRun>();
-    Result result = simulate(model, is_elastic(*model) ? "elastic" : "rigid", options);
-    told->has_trials = !choices.no_trials;
-    if (told->has_trials)
-      told->tried = with_trials(std::move(result), options);
-    else
-      told->tried.study = std::move(result);
-    if (measurement) told->overlay = lay_over(*measurement, told->tried.study);
-    const std::shared_ptr<const Result> run(told, &told->tried.study);
+    Inquiry inquiry = inquiry_of(machine.parts(), choices.watcher);
+    inquiry.page = choices.page;
+    SingleRunAsked asked = single_run_options().read(options_of(choices), "run", inquiry.scene);
+    asked.state = choices.from_state;
+    const auto told = single_run(inquiry, asked);
+    const std::shared_ptr<const Result> result(told, &told->tried.study);
     return Run(std::make_shared<const RunParts>(
-        RunParts{run, study_of({findings_of(*told), {}, {}, told}), figures_of(*run), trajectory_of(*run)}));
+        RunParts{result, study_of(output_of(told)), figures_of(*result), trajectory_of(*result)}));
   });
 }
 

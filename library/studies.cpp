@@ -1,5 +1,6 @@
 // studies.cpp — the questions by name: asked of a machine, with their findings.
 #include <algorithm>
+#include <stdexcept>
 
 #include "library/machine_parts.h"
 #include "library/own_mechanism.h"
@@ -30,6 +31,8 @@ std::vector<std::string> option_names(const std::string& study) {
   return names;
 }
 
+bool needs_machine(const std::string& study) { return question_named(study).of_scene && question_named(study).alone.empty(); }
+
 Study study(const std::string& name, const Machine& machine, const Options& given, const Watcher& watcher) {
   const Question& question = question_named(name);
   return asked_of(machine.parts(), [&] {
@@ -38,6 +41,15 @@ Study study(const std::string& name, const Machine& machine, const Options& give
       refuse_forces_of_own(machine.parts().scene, of == given.end() ? "" : of->second);
     }
     return study_of(question.answer(inquiry_of(machine.parts(), watcher), given));
+  });
+}
+
+Study study(const std::string& name, const Options& given, const Watcher& watcher) {
+  return answered([&] {
+    const Question& question = question_named(name);
+    if (needs_machine(name)) throw std::invalid_argument(name + " needs a machine");
+    const Scene none;
+    return study_of(question.answer({.scene = none, .watch = watch_of(watcher)}, given));
   });
 }
 

@@ -9,8 +9,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "library/machine_parts.h"
-#include "studies/sweep/sweep.h"
-#include "studies/sweep/sweep_findings.h"
+#include "studies/sweep/sweep_question.h"
 #include "studies/variants/in_threads.h"
 #include "studies/variants/machine.h"
 
@@ -51,22 +50,12 @@ SweepRows held_rows_of(const SweepStore& store) {
   return all;
 }
 
-// The report reads rows that are not held from the store.
-struct KeptSweep {
-  KeptSweep(const std::string& file, const std::vector<std::string>& limits)
-      : store(file), study(study_of(store, limits)) {}
-  SweepStore store;
-  SweepStudyResult study;
-};
-
-SweepRows computed(const Design& design, const SweepIdentity& identity, const SweepChoices& choices,
-                   const std::function<Evaluator()>& evaluator) {
+const std::string& file_of(const SweepChoices& choices) {
   if (choices.into.empty()) throw std::invalid_argument("a sweep needs a file that it fills: into");
-  SweepJob job{
-      .design = &design, .jobs = threads_of(choices.jobs), .evaluator = evaluator, .watch = watch_of(choices.watcher)};
-  read_shard(choices.shard, job);
-  SweepStore store(choices.into, identity);
-  const SweepEnd end = run_sweep(job, store);
+  return choices.into;
+}
+
+SweepRows rows_after(const SweepEnd& end, const SweepStore& store, const SweepChoices& choices) {
   SweepRows rows = choices.lines ? held_rows_of(store) : rows_of(store, {});
   rows.computed = end.computed;
   rows.complete = end.complete();
@@ -115,7 +104,15 @@ SweepRows sweep(const Variation& variation, const std::string& question, const s
     }
     return !(choices.watcher.interrupted && choices.watcher.interrupted->load());
   };
-  return answered([&] { return computed(design, identity, choices, [&] { return evaluator; }); });
+  return answered([&] {
+    SweepJob job{.design = &design,
+                 .jobs = threads_of(choices.jobs),
+                 .evaluator = [&] { return evaluator; },
+                 .watch = watch_of(choices.watcher)};
+    read_shard(choices.shard, job);
+    SweepStore store(file_of(choices), identity);
+    return rows_after(run_sweep(job, store), store, choices);
+  });
 }
 
 SweepRows rows_in(const std::string& file, const std::function<void(const SweepLine&)>& visit) {
@@ -126,8 +123,9 @@ SweepRows rows_in(const std::string& file, const std::function<void(const SweepL
 }
 
 Study sweep_report(const std::string& file, const std::vector<std::string>& limits) {
-  const auto kept = answered([&] { return std::make_shared<const KeptSweep>(file, limits); });
-  return study_of({findings_of(kept->study), {}, {}, kept});
+  return answered([&] {
+    return study_of(output_of(std::make_shared<const KeptSweep>(std::make_unique<SweepStore>(file), limits)));
+  });
 }
 
 std::size_t merge(const std::vector<std::string>& files, const std::string& into) {
@@ -147,20 +145,15 @@ SweepAnswer answer(const Machine& machine, const std::string& of, bool no_error,
 SweepRows sweep(const Machine& machine, const Variation& variation, const std::vector<std::string>& figures,
                 const SweepChoices& choices, const std::string& of) {
   return asked_of(machine.parts(), [&] {
-    const MachineParts& parts = machine.parts();
-    const Design design = design_of(variation);
-    const MachineQuestion question = question_of(inquiry_of(parts, choices.watcher), {.of = of});
-    const VariedScene varied(question, design.parameters());
-    const std::vector<SweptFigure> wanted = chosen(figures_of(question), figures);
-    const SweepIdentity identity = identity_of(design, wanted, choices.shard,
-                                               {{"title", parts.scene.title},
-                                                {"scene file", parts.file},
-                                                {"scene text", parts.scene.text},
-                                                {"settings", joined_lines(parts.settings)},
-                                                {"of", of},
-                                                {"errors", "measure"},
-                                                {"seed", std::to_string(variation.seed)}});
-    return computed(design, identity, choices, [&] { return machine_evaluator(question, varied, wanted); });
+    const auto [store, end] = fill_sweep(inquiry_of(machine.parts(), choices.watcher), {.machine = {.of = of},
+                                                                                        .vary = variation.vary,
+                                                                                        .figures = figures,
+                                                                                        .design = variation.design,
+                                                                                        .into = file_of(choices),
+                                                                                        .shard = choices.shard,
+                                                                                        .jobs = choices.jobs,
+                                                                                        .seed = variation.seed});
+    return rows_after(end, *store, choices);
   });
 }
 

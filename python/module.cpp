@@ -113,8 +113,10 @@ void bind_study(py::module_& m) {
            "summary.json, report.html and tables, whole or not there. Formats of the tables: \"csv,mat,xlsx\".");
   m.def(
       "study",
-      [](const std::string& name, const Machine& machine, const Options& options) {
-        return computed([&](const Watcher& watcher) { return study(name, machine, options, watcher); });
+      [](const std::string& name, const Machine* machine, const Options& options) {
+        return computed([&](const Watcher& watcher) {
+          return machine ? study(name, *machine, options, watcher) : study(name, options, watcher);
+        });
       },
       py::arg("name"), py::arg("machine"), py::arg("options") = Options{});
   m.def(
@@ -124,6 +126,7 @@ void bind_study(py::module_& m) {
       },
       py::arg("a"), py::arg("b"), py::arg("options") = Options{});
   m.def("study_names", &study_names, "What study() may be asked: \"compare\", \"steady\", …");
+  m.def("needs_machine", &needs_machine, py::arg("study"));
   m.def("option_names", &option_names, py::arg("study"), "The options of one of study_names().");
 }
 

@@ -52,6 +52,10 @@ using Options = std::vector<std::pair<std::string, std::string>>;
 // Answers one of study_names() for a machine. Throws std::invalid_argument for another name, and for an option that
 // the study does not have (with those that it has); BadScene if the machine cannot be compiled or started.
 Study study(const std::string& name, const Machine& machine, const Options& options = {}, const Watcher& watcher = {});
+// Without a machine: a pair of gears alone, {{"teeth", "19,95"}, {"module", "4 mm"}}; the list of effects. Throws
+// std::invalid_argument, also for a study that needs a machine.
+Study study(const std::string& name, const Options& options, const Watcher& watcher = {});
+bool needs_machine(const std::string& study);
 std::vector<std::string> study_names();                           // "compare", "steady", "modes", …
 std::vector<std::string> option_names(const std::string& study);  // "mid_speed", …; std::invalid_argument: none such
 
@@ -71,8 +75,9 @@ inline Study forces(const Machine& m, const Options& o = {}, const Watcher& w = 
 inline Study size(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("size", m, o, w); }
 // The machine reduced to one link (`to`): inertia, torque and elastic chain of the drive over its angle.
 inline Study reduce(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("reduce", m, o, w); }
-// Gear pairs of stages given by module: contact ratio, sliding, undercut, mesh stiffness.
+// Gear pairs of stages given by module, or a pair alone: contact ratio, sliding, undercut, mesh stiffness.
 inline Study gears(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("gears", m, o, w); }
+inline Study gears(const Options& o, const Watcher& w = {}) { return study("gears", o, w); }
 // What each effect changes and costs: the full model without one effect at a time.
 inline Study effects(const Machine& m, const Options& o = {}, const Watcher& w = {}) {
   return study("effects", m, o, w);

@@ -67,10 +67,10 @@ def _options(given):
     return said
 
 
-def study(name, /, scene, *, set=None, **options):
-    """One of study_names() put to a scene; options as the command has them: mid_speed="60 rpm"; those that may be given
+def study(name, /, scene=None, *, set=None, **options):
+    """One of study_names() put to a scene, or without one: a pair of gears alone, the list of effects; options as the command has them: mid_speed="60 rpm"; those that may be given
     again there as a list."""
-    return Study(_kurbel.study(name, machine(scene, set=set), _options(options)))
+    return Study(_kurbel.study(name, None if scene is None else machine(scene, set=set), _options(options)))
 
 
 def diff(scene, other, *, set=None, other_set=None, **options):
@@ -113,14 +113,15 @@ def schema():
 
 
 def _verb(name):
-    def ask(scene, *, set=None, **options):
+    def ask(scene=None, *, set=None, **options):
         return study(name, scene, set=set, **options)
     ask.__name__ = ask.__qualname__ = name
     ask.__doc__ = (f"kurbel {name} put to a scene. Options: {', '.join(option_names(name)) or 'none'}; "
                    f"what they are: kurbel {name} --help.")
     keyword = inspect.Parameter.KEYWORD_ONLY
+    default = inspect.Parameter.empty if _kurbel.needs_machine(name) else None
     ask.__signature__ = inspect.Signature(
-        [inspect.Parameter("scene", inspect.Parameter.POSITIONAL_OR_KEYWORD)] +
+        [inspect.Parameter("scene", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default)] +
         [inspect.Parameter(option, keyword, default=None) for option in ["set", *option_names(name)]])
     return ask
 

@@ -31,11 +31,19 @@ struct StudyOutput : Findings {
   std::vector<std::pair<std::string, std::string>> files = {};  // other than tables: name and text
   std::string next = {};  // next step for the user when files are written: {scene}, {summary} stand for their names
   std::shared_ptr<const void> study = {};  // data of page and files, if owned here
+  std::string aside = {};                  // said beside the results, no part of them
+  std::string words = {};                  // an answer in words alone: nothing else is shown or written
 
-  std::string text(bool all_digits = false) const { return terminal_text(*this, all_digits); }
+  std::string text(bool all_digits = false) const { return words.empty() ? terminal_text(*this, all_digits) : words; }
   std::string json() const { return json_text(summary_of(*this)); }
   Report report() const { return page_of(*this); }
 };
+
+inline StudyOutput in_words(std::string words) {
+  StudyOutput output;
+  output.words = std::move(words);
+  return output;
+}
 
 // For a study with a function findings_of. An lvalue must outlive the output; an rvalue is kept by it.
 template <class Study>

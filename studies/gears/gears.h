@@ -48,10 +48,6 @@ struct GearsOptions {
   std::optional<double> speed = {};  // of the first wheel of each gearbox [rad/s]
 };
 
-template <class Asked>
-class OptionsOf;
-const OptionsOf<GearsOptions>& gears_options();
-
 // Every stage of the scene's gearboxes whose module is given. Throws std::invalid_argument with the reason if there
 // is none, or none of that name.
 Gears find_gears(const Scene& scene, const GearsOptions& options);

@@ -75,11 +75,13 @@ std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOpt
       for (std::string one; std::getline(stream, one, ',');)
         if (!one.empty()) texts.push_back(one);
     }
-    if (texts.empty()) continue;
+    if (texts.empty() && !option.text.required) continue;
     const OptionValues values(option, texts, scene);
+    if (texts.empty()) throw std::invalid_argument(fmt::format("{} needs {}", question, values.label()));
     if (option.form != OptionForm::several && texts.size() > 1)
       throw std::invalid_argument(fmt::format("{} is given {} times; give one", values.label(), texts.size()));
-    if (option.text.count > 0 && texts.size() != static_cast<std::size_t>(option.text.count))
+    const int most = option.text.count, number = static_cast<int>(texts.size());
+    if (most > 0 && (number > most || number < (option.text.least > 0 ? option.text.least : most)))
       values.refuse(fmt::format("{}", fmt::join(texts, " ")), option.text.what);
     if (option.form == OptionForm::flag && texts.front() != "true" && texts.front() != "false")
       values.refuse(texts.front(), "true or false");

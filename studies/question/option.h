@@ -12,6 +12,7 @@
 // vectors several values; std::optional if it may be absent.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -36,10 +37,12 @@ struct OptionText {
   std::string what = {};       // what a quantity must be: "a speed > 0"
   Domain domain = any_number;  // of quantities and whole numbers
   int count = 0;               // number of values for several values; 0: any
+  int least = 0;               // fewest of them, if fewer than count are allowed
   bool each_time = false;      // several values: one per occurrence of the option; otherwise also joined by commas
   bool words = false;          // several values: also as successive words on the command line
   bool makes_a_file = false;   // it adds a file to the results
-  bool by_place = false;       // on the command line by its place, behind the scene, and required there
+  bool required = false;
+  bool by_place = false;  // on the command line by its place, behind the scene, and required there
 };
 
 enum class OptionForm { flag, one, several };
@@ -74,6 +77,10 @@ class OptionValues {
   void read(std::optional<T>& value) const {
     read(value.emplace());
   }
+  template <class T, std::size_t count>
+  void read(std::array<T, count>& value) const {
+    for (std::size_t k = 0; k < texts_.size(); ++k) OptionValues(option_, {texts_[k]}, scene_).read(value[k]);
+  }
 
  private:
   double quantity(const std::string& text) const;
@@ -90,6 +97,13 @@ std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOpt
                                                    const GivenOptions& given, const std::string& question,
                                                    const Scene& scene);
 
+template <class T>
+inline constexpr bool has_several = false;
+template <class T>
+inline constexpr bool has_several<std::vector<T>> = true;
+template <class T, std::size_t count>
+inline constexpr bool has_several<std::array<T, count>> = true;
+
 template <class Asked>
 class OptionsOf {
  public:
@@ -97,8 +111,7 @@ class OptionsOf {
 
   template <class M, class B>
   OptionsOf& add(OptionText text, M B::*member) {
-    constexpr bool several = std::is_same_v<M, std::vector<double>> || std::is_same_v<M, std::vector<std::string>>;
-    return add(std::move(text), several ? OptionForm::several : OptionForm::one,
+    return add(std::move(text), has_several<M> ? OptionForm::several : OptionForm::one,
                [member](Asked& asked, const OptionValues& given) { given.read(asked.*member); });
   }
   // A flag; if given, the member has the value `given`.

@@ -16,16 +16,17 @@
 
 namespace kurbel {
 
-// A scene and the settings under which a question is asked.
+// A scene and the settings under which a question is asked; of a question without a scene an empty one.
 struct Inquiry {
   const Scene& scene;
-  std::string text, file;             // as given, without the settings
-  std::vector<std::string> settings;  // "main_coupling.stiffness=1 MN*m/rad"
+  std::string text = {}, file = {};        // as given, without the settings
+  std::vector<std::string> settings = {};  // "main_coupling.stiffness=1 MN*m/rad"
   DataFiles allowed = DataFiles::below_the_scene;
   Watch watch = {};
   bool page = true;         // a page is written: data for its plots are recorded
   std::string author = {};  // for a worksheet
 
+  bool without_scene() const { return text.empty(); }
   SimulateOptions simulation() const {
     SimulateOptions options;
     options.traces = page, options.watch = watch;
@@ -39,6 +40,8 @@ struct QuestionText {
   std::string arguments = {};          // as in "kurbel modes scene.toml"
   std::string help;                    // one line, in kurbel --help
   std::string does;                    // for the manual page and docs/commands.md: Markdown without links
+  std::string alone = {};              // not empty: may be asked without a scene; the name of such results
+  bool of_scene = true;                // otherwise it has its own options alone, no scene and no results folder
   std::vector<std::string> more = {};  // further examples: "scene.toml --explain", followed by " | " and their purpose
 };
 

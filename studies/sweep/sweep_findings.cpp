@@ -18,7 +18,7 @@ constexpr std::size_t most_influences = 12, most_worst = 10;
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-std::string in_words(const Index& i) {
+std::string interval_words(const Index& i) {
   if (i.low == i.high) return fmt::format("{:.3f}", i.value);
   return fmt::format("{:.3f} ({:.3f} … {:.3f})", i.value, i.low, i.high);
 }
@@ -64,9 +64,10 @@ Rows influence_table(const SweepStudyResult& s) {
           .text_in(2)
           .column("figure", "figure", &InfluenceRow::figure)
           .column("parameter", "parameter", &InfluenceRow::parameter)
-          .only_for_people("first order", [](const InfluenceRow& r) { return in_words(r.influence.first); })
-          .only_for_people("total",
-                           [](const InfluenceRow& r) { return r.influence.total ? in_words(*r.influence.total) : "—"; })
+          .only_for_people("first order", [](const InfluenceRow& r) { return interval_words(r.influence.first); })
+          .only_for_people(
+              "total",
+              [](const InfluenceRow& r) { return r.influence.total ? interval_words(*r.influence.total) : "—"; })
           .only_for_programs("first", [](const InfluenceRow& r) { return r.influence.first.value; })
           .only_for_programs("first_low", [](const InfluenceRow& r) { return r.influence.first.low; })
           .only_for_programs("first_high", [](const InfluenceRow& r) { return r.influence.first.high; });

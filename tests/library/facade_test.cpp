@@ -336,23 +336,28 @@ TEST(Facade, AStudyHasTheOptionsOfItsCommand) {
   // scene's settings and data files.
   const std::set<std::string> of_all = {"all",      "allow_files", "author", "brand", "format", "help", "json",
                                         "no_files", "open",        "out",    "plots", "quiet",  "set",  "verbose"};
-  // A pair of gears without a machine.
-  const std::map<std::string, std::set<std::string>> of_commands_alone = {
-      {"gears",
-       {"addendum", "backlash", "bore", "centre_distance", "clearance", "friction", "helix", "module", "pressure_angle",
-        "root_radius", "shaft_angle", "shift", "teeth", "tip_diameter", "width", "worm_diameter"}}};
   for (const std::string& study : study_names()) {
     std::set<std::string> command = options_of_command(study);
-    ASSERT_GT(command.size(), of_all.size() - 3) << study;
+    ASSERT_GT(command.size(), study == "merge" ? 1 : of_all.size() - 3) << study;
     for (const std::string& name : of_all) command.erase(name);
-    const auto alone = of_commands_alone.find(study);
-    for (const std::string& name : alone == of_commands_alone.end() ? std::set<std::string>{} : alone->second) {
-      EXPECT_EQ(command.erase(name), 1u) << study << " --" << name;
-    }
     const std::vector<std::string> there = option_names(study);
     if (study == "diff") command.insert("other");  // by its place
+    if (study == "merge") command.insert("files");
     EXPECT_EQ(std::set<std::string>(there.begin(), there.end()), command) << study;
   }
+}
+
+TEST(Facade, APairOfGearsNeedsNoMachine) {
+  const Study pair = gears({{"teeth", "31"}, {"teeth", "30"}, {"module", "3.5 mm"}, {"shift", "0.291"}});
+  EXPECT_NE(pair.json().find("\"shift\""), std::string::npos) << pair.json();
+  EXPECT_NE(study("effects", Options{}).text().find("elasticity — "), std::string::npos);
+  EXPECT_NE(message_of([] { gears({{"teeth", "19,95"}}); }).find("teeth needs module"), std::string::npos);
+  EXPECT_NE(message_of([] { study("modes", Options{}); }).find("modes needs a machine"), std::string::npos);
+  const Machine machine = Machine::from_text(example_scene("press"));
+  EXPECT_NE(message_of([&] {
+              gears(machine, {{"bore", "20 mm, 20 mm"}});
+            }).find("bore belongs to a pair alone"),
+            std::string::npos);
 }
 
 TEST(Facade, WordsAreThoseOfTheCommands) {

@@ -1,0 +1,32 @@
+// run_question.h — one run of a scene: its trials if requested, and a measured record compared with it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "studies/measured/overlay.h"
+#include "studies/trials/run_options.h"
+#include "studies/trials/trials.h"
+
+namespace kurbel {
+
+struct SingleRunAsked : RunAsked {
+  MeasurementRequest measured;
+  std::string setting, save_state, from_state;  // files
+  std::string state;                            // text of the checkpoint from which the run continues
+  bool explain = false;
+};
+const OptionsOf<SingleRunAsked>& single_run_options();
+
+struct SingleRun {
+  WithTrials<Result> tried;
+  bool has_trials = false;
+  std::optional<Overlay> overlay = {};
+};
+// Throws std::invalid_argument for options that do not go together, SceneError for errors of the scene; a run that
+// fails is returned incomplete.
+std::shared_ptr<const SingleRun> single_run(const Inquiry& inquiry, const SingleRunAsked& asked);
+StudyOutput output_of(const std::shared_ptr<const SingleRun>& run);
+
+}  // namespace kurbel
