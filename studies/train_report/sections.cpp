@@ -139,7 +139,14 @@ Claims claims_of(const std::vector<Part>& parts) {
   Claims all;
   for (const Part& part : parts) {
     if (!part.assessed()) continue;
+    // Limits that another part has judged alike are told once.
+    const bool alike = std::all_of(part.output.claims.begin(), part.output.claims.end(), [&](const Claim& claim) {
+      return claim.predicate != Predicate::limit_held || std::any_of(all.begin(), all.end(), [&](const Claim& told) {
+               return told.predicate == claim.predicate && told.of == claim.of && told.load_case == claim.load_case;
+             });
+    });
     for (Claim claim : part.output.claims) {
+      if (alike && claim.predicate == Predicate::limit_held) continue;
       const std::size_t cut = claim.text.find(open);
       if (cut != std::string::npos && open_limits(parts, part).empty()) claim.text.resize(cut);
       add(all, std::move(claim));
