@@ -62,6 +62,14 @@ bool is_judged(const std::vector<Part>& parts, const Rows& limits, std::size_t i
   return false;
 }
 
+// A run's limits without those that it leaves open and another question assesses.
+void leave_out_what_is_judged(const std::vector<Part>& parts, Rows& limits) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < limits.count; ++i)
+    if (!is_open(limits, i) || !is_judged(parts, limits, i)) shown.push_back(i);
+  limits.for_people = std::move(shown), limits.title += " in the simulated run";
+}
+
 // Limits of all parts that none assesses.
 std::vector<std::string> open_limits(const std::vector<Part>& parts, const Part& part) {
   std::vector<std::string> lines;
@@ -116,7 +124,8 @@ std::optional<Place> section_of(const std::string& question, const std::string& 
   return chapter == chapter_of_cost || chapter == chapter_of_model ? Place::input : Place::time;
 }
 
-void take(const Part& part, const std::vector<bool>& wanted, const std::vector<Chapter>& chapters, Findings& report) {
+void take(const std::vector<Part>& parts, const Part& part, const std::vector<bool>& wanted,
+          const std::vector<Chapter>& chapters, Findings& report) {
   const StudyOutput& from = part.output;
   for (const Statement& statement : from.statements) {
     if (!statement.chapter) continue;
@@ -126,6 +135,7 @@ void take(const Part& part, const std::vector<bool>& wanted, const std::vector<C
     Statement taken = statement;
     taken.chapter = chapters[static_cast<std::size_t>(*section)];
     if (Rows* rows = std::get_if<Rows>(&taken.what)) {
+      if (rows->key == "ratings") leave_out_what_is_judged(parts, *rows);
       rows->key.clear(), rows->terminal = rows->folded = false;
       if (section == Place::input) rows->means.clear();  // the dictionary explains them; key figures are explained here
     }
