@@ -29,6 +29,19 @@ std::string masses_of(const Section& s) {
   return text;
 }
 
+// Whether two lengths, masses or inertias that are given differ by more than units of the same sort usually do.
+bool far_apart(const Section& s) {
+  constexpr double usual = 1e6;
+  for (const char* unit : {"m", "kg", "kg*m2"}) {
+    double least = HUGE_VAL, most = 0;
+    for (const Key& key : s.kind->keys)
+      if (const double size = key.unit == unit && s.has(key.name) ? std::abs(s.number(key.name)) : 0; size > 0)
+        least = std::min(least, size), most = std::max(most, size);
+    if (most > usual * least) return true;
+  }
+  return false;
+}
+
 // Positions are sums of lengths, so that each loses what the longest is rounded by.
 constexpr double longest = 1e9;  // of the crank
 
@@ -119,13 +132,13 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
   } catch (const OutOfTime&) {
     throw;
   } catch (const std::exception& why) {
-    const std::string masses = masses_of(s);
-    const bool by_sketch =
-        has_bodies && masses.empty();  // its own words; else Simbody's checks, which speak of matrices
-    messages.add(s.at, by_sketch
-                           ? fmt::format("{} \"{}\": its links cannot be followed over the cycle ({}); probably a "
-                                         "dead position or change point is too near: change a length clearly",
-                                         s.kind->name, s.name, why.what())
+    // A sketch has its own words; Simbody's checks speak of matrices.
+    const std::string masses = masses_of(s),
+                      by_sketch = has_bodies && masses.empty() ? fmt::format(" ({})", why.what()) : "";
+    messages.add(s.at, !far_apart(s) || !by_sketch.empty()
+                           ? fmt::format("{} \"{}\": its links cannot be followed over the cycle{}; probably a dead "
+                                         "position or change point is too near: change a length clearly",
+                                         s.kind->name, s.name, by_sketch)
                            : fmt::format("{} \"{}\": its lengths, masses and inertias lie too far apart to be "
                                          "computed together ({}); check their units",
                                          s.kind->name, s.name, masses));

@@ -50,7 +50,11 @@ class Study:
         return dict(self._output.tables)
 
     def figures_of(self, model=""):
-        """Figures by their names, of one of several models ("rigid", "elastic") or of the only one."""
+        """Figures by their names, of one of several models ("rigid", "elastic") or of the only one. Raises KeyError for a model
+        that has none."""
+        models = sorted({figure.of for figure in self._output.figures} - {""})
+        if model and model not in models:
+            raise KeyError(f"no figures of a model {model!r}; allowed: {', '.join(map(repr, models)) or 'no model'}")
         found = Figures()
         for figure in self._output.figures:
             if figure.of == model:
@@ -90,8 +94,8 @@ class Trajectory:
         return self._output.time
 
     def __getitem__(self, name):
-        """A quantity over time, in SI: `units` says which. Read-only, a view into the run's memory."""
-        return self._output.series(name)
+        """A quantity over time, or "time" itself, in SI: `units` says which. Read-only, a view into the run's memory."""
+        return self.time if name == "time" else self._output.series(name)
 
     def __iter__(self):
         return iter(self.units)

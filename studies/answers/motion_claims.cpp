@@ -140,9 +140,17 @@ class Judge {
 
   // --- claims ---
 
-  // `contacts`: a clutch that slips meanwhile is the one that no longer holds.
+  // The next step of the sequence waits for an angle of a shaft that is held.
+  bool waits_in_vain() const {
+    const std::size_t next = equations_.modes().next_step;
+    const int angle = next < m_.trigger_angle.size() ? m_.trigger_angle[next] : -1;
+    return angle >= 0 && equations_.at_standstill(at(m_.angles[at(angle)].shaft));
+  }
+
+  // `contacts`: a clutch that slips meanwhile is the one that no longer holds. A motor behind springs may still tremble where
+  // the sequence waits for the link that is held.
   std::optional<Claim> stalls(Claims& contacts) const {
-    const MotorTorque* motor = standing_motor();
+    const MotorTorque* motor = standing_motor(is_held() && waits_in_vain() ? turns_back_from : stands);
     const std::optional<double> since = is_held() ? rest() : std::optional(recorder_.turned_at());
     if (!rests() || !since || (is_commanded() && !motor) || brake_that_holds()) return {};
     if (!is_held() && (!motor || *since == 0)) return {};

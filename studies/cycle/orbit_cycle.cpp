@@ -87,11 +87,15 @@ class RoundRecorder final : public Observer {
     samples_[channel].push_back(speed);
     samples_[channel + 1].push_back(2 * equations.kinetic_energy(t, y_) / (speed * speed));
   }
+  static double to_turn(double angle) {
+    const double within = std::fmod(angle, 2 * std::numbers::pi);
+    return within < 0 ? within + 2 * std::numbers::pi : within;
+  }
   void refuse(Equations& equations, double speed) {
     if (!singular_.empty()) return;
     singular_ = fmt::format("\"{}\" {} within its steady motion, at {:.4g}°", m_.node_label(m_.reduction_node),
                             speed < -slowest_of_rated * m_.speed_scale ? "turns back" : "stands",
-                            (sense_ * way(equations, y_) + origin_) * 180 / std::numbers::pi);
+                            to_turn(sense_ * way(equations, y_) + origin_) * 180 / std::numbers::pi);
   }
 
   const Model& m_;
@@ -176,10 +180,14 @@ OrbitCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::vec
   const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&recorder});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   if (!recorder.singular().empty())
-    throw std::invalid_argument(
-        fmt::format("{}: its angle does not determine where the machine is in its cycle, and torques reduced to it are "
-                    "infinite there; simulate the machine with kurbel run",
-                    recorder.singular()));
+    throw std::invalid_argument(fmt::format(
+        "{}: its angle does not determine where the machine is in its cycle, and torques reduced to it are "
+        "infinite there; {}simulate the machine with kurbel run",
+        recorder.singular(),
+        m.scene.sequence.steps.empty()
+            ? ""
+            : "choose the machine in the state after a step of its sequence, as with its clutch engaged, by "
+              "--at \"step 2\", or "));
   OrbitCycle c = assembled(m, recorder, sense, sampled_within * tolerance, nodes.size());
   c.time = outcome.t - map.start_time();
   return c;

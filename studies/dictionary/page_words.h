@@ -67,6 +67,19 @@ inline constexpr PageWord of_pages[] = {
     {"share; share [*]", of_all, "of the row in the sum that the title of the table names"},
     {"crank angle; engine angle; * angle", of_all, "angle of the shaft named, over one cycle"},
     {"travel; slider speed", "run, compare", "position and velocity of what the mechanism moves"},
+    {"transmission angle; transmission angle of *", "forces, reduce",
+     "between coupler (or rod) and the link or line that it drives; 90° transmits best, below some 40° friction may "
+     "jam it; the least of the cycle is shown"},
+    {"time ratio", "forces, reduce", "of the slower stroke's crank angle to the quicker one's (quick return: > 1)"},
+    {"dead centre; dead centres", "forces, reduce",
+     "crank angles where the output stands and turns back: crank and coupler (or rod) lie in one line"},
+    {"stroke", "forces, reduce", "way or angle of the output from one dead centre to the other"},
+    {"linkage of class *; class of a linkage; RRR; RRP; RPR; dyad", "forces, reduce",
+     "Assur's class by the groups of links that close it: II of dyads alone, named by their joints, R turning, P "
+     "sliding"},
+    {"Grashof; Grashof's condition; crank-rocker; crank–rocker; drag link", "forces, reduce",
+     "of a four-bar: the shortest link turns fully where shortest and longest together are less than the two others "
+     "(theory 9)"},
     {"note", of_all, "on this row alone"},
     {"component; element; part; joint; shaft; link; elastic element; line; point", of_all,
      "name of the scene's part, of a link of its mechanism, of an account of work, or of a point of the path of "
@@ -182,6 +195,23 @@ inline constexpr PageWord of_pages[] = {
      "a component's limit, the load of the load case with its factors, and use = load over limit; barred: range of "
      "speeds "
      "where it is exceeded"},
+    {"T_KN", of_trains, "nominal torque of a coupling by its maker, for the mean torque of steady motion (DIN 740-2)"},
+    {"T_Kmax; T_K max", of_trains,
+     "maximum torque of a coupling by its maker, for the peaks of starts and blows (DIN 740-2)"},
+    {"T_KW", of_trains, "vibratory torque of a coupling by its maker: lasting amplitude at 10 Hz (DIN 740-2)"},
+    {"P_KW; P_W", of_trains, "power that a coupling's damping may take, and that it takes (DIN 740-2)"},
+    {"T_N; T_mean; T_S; T_W", of_trains,
+     "torques in a coupling: mean; peak above it at a start; largest deviation from the mean in steady motion"},
+    {"K_A; S_t; S_f; S_z", "run, modes, report",
+     "factors on torques: application; temperature; frequency √(f/10 Hz); number of starts (theory 12.9)"},
+    {"critical speed; critical speeds", of_trains,
+     "speed at which the frequency of an order equals a natural frequency"},
+    {"barred range; barred ranges; barred speed range; barred speed ranges", of_trains,
+     "speeds at which the load of a part would exceed its limit, or where it has none its rated torque, if the "
+     "machine stayed there"},
+    {"separation margin; separation margins", of_trains,
+     "distance of the speed where an excitation meets a natural frequency from the nearest operating speed, in "
+     "percent"},
     {"τ_C, *; τ_T, *", "report", "stresses allowed for continuous running and for quick passing (IACS UR M68)"},
     {"order of the inertia; around; variation ε; half width; state", "modes",
      "parametric instability: ranges of speed 2 ω_n/order in which the varying inertia makes a mode grow"},
@@ -203,8 +233,8 @@ inline constexpr PageWord of_pages[] = {
      "tip shortening; "
      "reference centre distance; radius; base pitch; pitch",
      "gears", "dimensions of the wheels (theory 6)"},
-    {"pressure angle, *; working pressure angle; base helix angle; overlap ratio; total contact ratio", "gears",
-     "angles and contact ratios of the mesh (theory 6)"},
+    {"pressure angle; pressure angle, *; working pressure angle; base helix angle; overlap ratio; total contact ratio",
+     "gears", "angles and contact ratios of the mesh (theory 6)"},
     {"backlash *; mesh stiffness *; stiffness of a pair *; torsional mesh stiffness *", "gears",
      "backlash along the circle, the normal or as an angle; stiffness of the teeth in contact (theory 6.13)"},
     {"along the reference circle; specific sliding ζ; from the wheel's axis; rack*; its datum line; flank of *; "

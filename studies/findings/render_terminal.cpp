@@ -44,10 +44,10 @@ void say(std::string& text, const Sentences& words, bool) {
 void say(std::string&, const Field&, bool) {}
 void say(std::string&, const Drawn&, bool) {}
 
-// At most `columns` columns; the rest is in the report.
-std::string shortened(const std::string& text, std::size_t columns) {
+// At most `columns` columns; the rest, of what goes on in any case, is in the report.
+std::string shortened(const std::string& text, std::size_t columns, bool goes_on = false) {
   static const std::string told_elsewhere = " … (report)";
-  if (width(text) <= columns) return text;
+  if (width(text) + (goes_on ? width(told_elsewhere) : 0) <= columns) return text + (goes_on ? told_elsewhere : "");
   std::size_t n = 0, bytes = 0;
   for (std::size_t i = 0; i < text.size() && n + width(told_elsewhere) <= columns; ++i)
     if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) bytes = i, ++n;
@@ -103,14 +103,33 @@ std::string in_lines(const std::vector<std::string>& lines) {
   return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
+// The first sentences and the last, which answers the question; those between that find no room are counted. A sentence is
+// cut only where it alone is too long.
 std::vector<std::string> headline_of(const Findings& findings) {
-  std::vector<std::string> lines;
+  std::vector<std::vector<std::string>> sentences;
+  std::size_t all = 0;
   for (const std::string& sentence : concluded(findings.claims))
-    for (std::string& line : wrapped(sentence, Brief::width, "  ")) lines.push_back(std::move(line));
-  if (lines.size() > Brief::most_of_conclusion) {
-    lines.resize(Brief::most_of_conclusion);
-    lines.back() = shortened(lines.back() + std::string(Brief::width, '.'), Brief::width);
+    all += sentences.emplace_back(wrapped(sentence, Brief::width, "  ")).size();
+  std::vector<std::string> lines;
+  const auto take = [&](std::vector<std::string>& sentence, std::size_t room) {
+    if (sentence.size() > room) {
+      sentence.resize(std::max<std::size_t>(room, 1));
+      sentence.back() = shortened(sentence.back(), Brief::width, true);
+    }
+    lines.insert(lines.end(), sentence.begin(), sentence.end());
+  };
+  constexpr std::size_t most = Brief::most_of_conclusion;
+  if (all <= most) {
+    for (std::vector<std::string>& sentence : sentences) take(sentence, most);
+    return lines;
   }
+  const std::size_t last = sentences.size() - 1, left = std::min<std::size_t>(sentences[last].size(), 2);
+  std::size_t told = 0;
+  for (; told < last && (told == 0 || lines.size() + sentences[told].size() + 1 + left <= most); ++told)
+    take(sentences[told], last == 1 ? most - left : most - left - 1);
+  if (told < last)
+    lines.push_back(fmt::format("{} more sentence{} (report)", last - told, last - told == 1 ? "" : "s"));
+  take(sentences[last], most - lines.size());
   return lines;
 }
 

@@ -46,9 +46,11 @@ std::string load_case_at(const Result& r, std::optional<double> at) {
   if (taken > 0) return fmt::format("after step {} of the sequence", (taken - 1) % steps.size() + 1);
   const bool starts =
       std::any_of(r.claims.begin(), r.claims.end(), [](const Claim& c) { return c.predicate == Predicate::starts; });
-  if (!p.steady) return starts ? load_case::start : load_case::run;  // it is still on its way
+  if (!p.steady)
+    return starts && begins_at_rest(r.model) ? load_case::start : load_case::run;  // it is still on its way
   if (p.run_down_begin && *at > *p.run_down_begin) return load_case::run_down;
-  return p.run_up_end && *at <= *p.run_up_end ? load_case::start : load_case::steady;
+  if (!p.run_up_end || *at > *p.run_up_end) return load_case::steady;
+  return begins_at_rest(r.model) ? load_case::start : load_case::run;
 }
 
 // Remedy of a verdict: words, and the key's value if there is one.
@@ -115,6 +117,12 @@ class Rater {
   void leave(const char* requirement, double limit, const char* unit) {
     out_.push_back(not_assessed(component_, requirement, limit, unit, load_case::steady,
                                 "kurbel steady and modes judge the steady motion"));
+  }
+  // The largest torque of a start, where the run has none.
+  void leave_start(const char* requirement, double limit, const char* unit) {
+    if (only_case_.empty() && result_.model->scene.sequence.steps.empty() && !begins_at_rest(result_.model))
+      out_.push_back(not_assessed(component_, requirement, limit, unit, load_case::start,
+                                  "the run does not begin at rest; kurbel modes judges a start from rest"));
   }
   Remedy remedy(const char* key, double value, const char* unit) const {
     return {component_ + "." + key, enough(value), unit};
@@ -210,6 +218,7 @@ class Rater {
       v.bound = start_factor > 1;
       v.factor = factor;
       if (factor != 1) v.factors = fmt::format("S_t = {:g}, S_z = {:g}", limits.temperature_factor, start_factor);
+      leave_start(requirement::maximum, limits.maximum, "N*m");
     }
     if (limits.nominal > 0) leave("nominal torque: K_A S_t |T_mean| ≤ T_KN", limits.nominal, "N*m");
     if (limits.vibratory > 0) leave("vibratory torque: S_t S_f T_W ≤ T_KW", limits.vibratory, "N*m");
@@ -229,6 +238,7 @@ class Rater {
                      *shaft.allowable_shear_stress, "Pa", [&](double times) { return thicker(shaft, times); });
     v.factor = factor;
     if (factor != 1) v.factors = fmt::format("K_A = {:g}", factor);
+    leave_start(requirement::shear, *shaft.allowable_shear_stress, "Pa");
   }
 
   // The extremes of the whole run including the start: not repeated continuously, but a bound for every part of it.

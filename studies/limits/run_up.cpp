@@ -27,7 +27,7 @@ class Search {
       : machine_(std::move(machine)), orbit_(&orbit), loads_(loads), joints_(joints), watch_(watch) {}
 
   RunUp result() {
-    if (!begins_at_rest()) {
+    if (!begins_at_rest(machine_)) {
       if (!loads_.found) return none(loads_.words);
       if (!make_from_rest()) return out_;
     } else if (loads_.found) {
@@ -52,16 +52,6 @@ class Search {
     if (static_cast<std::size_t>(link.shaft) < m.free_shafts) return link.gain * y[equations.speed_index(link.shaft)];
     return link.gain * equations.snapshot(t, y).now.speed[link.shaft];
   }
-  bool begins_at_rest() const {
-    const Model& m = *machine_;
-    Equations equations(machine_, false);
-    const std::vector<double> y = equations.start(0);
-    const Snapshot& s = equations.snapshot(0, y);
-    for (std::size_t k = 0; k < m.shafts.size(); ++k)
-      if (std::abs(s.now.speed[k]) > 1e-9 * m.shafts[k].speed_scale) return false;
-    return true;
-  }
-
   // The same machine, initially standing and unloaded; whether it reaches the same motion.
   bool make_from_rest() {
     out_.made = true;
@@ -71,7 +61,7 @@ class Search {
     scene.run.start.at = where;
     try {
       machine_ = compile(scene, machine_->effects);
-      if (!begins_at_rest()) return none("the scene prescribes a speed: there is no start from rest"), false;
+      if (!begins_at_rest(machine_)) return none("the scene prescribes a speed: there is no start from rest"), false;
       if (!find_end()) return false;
       OrbitOptions options;
       options.budget = scene.run.budget;
@@ -184,6 +174,15 @@ class Search {
 };
 
 }  // namespace
+
+bool begins_at_rest(const std::shared_ptr<const Model>& machine) {
+  Equations equations(machine, false);
+  const std::vector<double> y = equations.start(0);
+  const Snapshot& s = equations.snapshot(0, y);
+  for (std::size_t k = 0; k < machine->shafts.size(); ++k)
+    if (std::abs(s.now.speed[k]) > 1e-9 * machine->shafts[k].speed_scale) return false;
+  return true;
+}
 
 RunUp find_run_up(const std::shared_ptr<const Model>& machine, const Orbit& orbit, const SteadyLoads& loads,
                   const std::vector<LimitedJoint>& joints, const Watch& watch) {

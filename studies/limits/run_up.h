@@ -23,6 +23,9 @@ struct RunUp {
   std::vector<Peak> peaks;
 };
 
+// Whether every shaft stands at the scene's own start.
+bool begins_at_rest(const std::shared_ptr<const Model>& machine);
+
 // The scene's own start if it is from rest, otherwise a start from rest with the same operating sequence. Steady
 // motion begins when the reduction link reaches 99 % of its least speed in it and no switching is left; two periods
 // are added. Errors: the larger of the difference to a run with 30 × looser tolerances and twice the difference to a

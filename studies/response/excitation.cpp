@@ -18,6 +18,9 @@ namespace kurbel {
 namespace {
 
 constexpr std::size_t many_shafts = 500, time_samples = 2048, most_samples = 65536;
+// A multiple of 2 … 8, 10, 12, 14, 16, three times it of 9 and 18: what equal cylinders of that number cancel is cancelled
+// in the samples, too, up to rounding.
+constexpr std::size_t few_samples = 1680;
 constexpr double nothing = 1e-12;       // of the torque scale: rounding of what does not change
 constexpr double least_of_time = 1e-9;  // of the largest amplitude over time
 constexpr double misfit_refined = 1e-4, misfit_told = 1e-3;
@@ -140,7 +143,7 @@ class SourceSearch {
     found_.fundamental = 2 * pi / cycle.angle;
     found_.harmonics = static_cast<std::size_t>(std::max(1.0, std::floor(highest_order_ / found_.fundamental + 1e-9)));
     found_.speed = drive_.at.speed;
-    samples_ = m_.shafts.size() > many_shafts ? 1024 : 4096;
+    samples_ = m_.shafts.size() > many_shafts ? few_samples : 3 * few_samples;
     const double turns = cycle.angle / (2 * pi);
     while (samples_ < 8 * found_.harmonics || (samples_ < most_samples && static_cast<double>(samples_) < 1024 * turns))
       samples_ *= 2;

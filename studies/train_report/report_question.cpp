@@ -106,7 +106,7 @@ class TrainReport {
     for (const Part& part : *parts_) {
       if (!part.assessed()) continue;
       if (part.question == "compare" && wants(Place::time)) say_figures(part, f, chapter(Place::time));
-      take(part, wanted_, chapters, f);
+      take(*parts_, part, wanted_, chapters, f);
     }
     if (wants(Place::train)) say_train(f, chapter(Place::train));
     if (wants(Place::input))

@@ -62,6 +62,14 @@ bool is_judged(const std::vector<Part>& parts, const Rows& limits, std::size_t i
   return false;
 }
 
+// A run's limits without those that it leaves open and another question assesses.
+void leave_out_what_is_judged(const std::vector<Part>& parts, Rows& limits) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < limits.count; ++i)
+    if (!is_open(limits, i) || !is_judged(parts, limits, i)) shown.push_back(i);
+  limits.for_people = std::move(shown), limits.title += " in the simulated run";
+}
+
 // Limits of all parts that none assesses.
 std::vector<std::string> open_limits(const std::vector<Part>& parts, const Part& part) {
   std::vector<std::string> lines;
@@ -116,7 +124,8 @@ std::optional<Place> section_of(const std::string& question, const std::string& 
   return chapter == chapter_of_cost || chapter == chapter_of_model ? Place::input : Place::time;
 }
 
-void take(const Part& part, const std::vector<bool>& wanted, const std::vector<Chapter>& chapters, Findings& report) {
+void take(const std::vector<Part>& parts, const Part& part, const std::vector<bool>& wanted,
+          const std::vector<Chapter>& chapters, Findings& report) {
   const StudyOutput& from = part.output;
   for (const Statement& statement : from.statements) {
     if (!statement.chapter) continue;
@@ -126,6 +135,7 @@ void take(const Part& part, const std::vector<bool>& wanted, const std::vector<C
     Statement taken = statement;
     taken.chapter = chapters[static_cast<std::size_t>(*section)];
     if (Rows* rows = std::get_if<Rows>(&taken.what)) {
+      if (rows->key == "ratings") leave_out_what_is_judged(parts, *rows);
       rows->key.clear(), rows->terminal = rows->folded = false;
       if (section == Place::input) rows->means.clear();  // the dictionary explains them; key figures are explained here
     }
@@ -139,7 +149,14 @@ Claims claims_of(const std::vector<Part>& parts) {
   Claims all;
   for (const Part& part : parts) {
     if (!part.assessed()) continue;
+    // Limits that another part has judged alike are told once.
+    const bool alike = std::all_of(part.output.claims.begin(), part.output.claims.end(), [&](const Claim& claim) {
+      return claim.predicate != Predicate::limit_held || std::any_of(all.begin(), all.end(), [&](const Claim& told) {
+               return told.predicate == claim.predicate && told.of == claim.of && told.load_case == claim.load_case;
+             });
+    });
     for (Claim claim : part.output.claims) {
+      if (alike && claim.predicate == Predicate::limit_held) continue;
       const std::size_t cut = claim.text.find(open);
       if (cut != std::string::npos && open_limits(parts, part).empty()) claim.text.resize(cut);
       add(all, std::move(claim));

@@ -37,7 +37,8 @@ struct Part {
 std::optional<Place> section_of(const std::string& question, const std::string& chapter, const Statement& statement);
 
 // Copies the statements of the `wanted` sections into chapters of the report; `chapters` by Place.
-void take(const Part& part, const std::vector<bool>& wanted, const std::vector<Chapter>& chapters, Findings& report);
+void take(const std::vector<Part>& parts, const Part& part, const std::vector<bool>& wanted,
+          const std::vector<Chapter>& chapters, Findings& report);
 
 // Claims of all parts; a part's open limits are not mentioned if other parts assess all of them.
 Claims claims_of(const std::vector<Part>& parts);

@@ -136,6 +136,13 @@ TEST(ExplainedNames, NoWordOfAnotherFigureStandsForThem) {
   EXPECT_EQ(meant_by("engine.load (driving)")->is, meant_by("driving")->is);
   EXPECT_EQ(meant_by("greatest peak_torque.coupling")->name, "peak_torque");
   EXPECT_EQ(meant_by("mode 3, 20 Hz: wheel")->name, "natural_frequency");
+  // Terms of the field are not a star's: "* angle" is a shaft's, T_* a slide's friction.
+  for (const char* word :
+       {"transmission angle", "pressure angle", "T_KW", "T_KN", "T_Kmax", "S_f", "K_A", "critical speed"}) {
+    const Definition* const known = meant_by(word);
+    ASSERT_TRUE(known) << word;
+    EXPECT_EQ(known->name, word);
+  }
   for (const char* word : {"xyzzy", "xyzzy 3", "1", "2", "mode xyzzy", "from here", "to do", "by hand"})
     EXPECT_FALSE(meant_by(word)) << word;
 }

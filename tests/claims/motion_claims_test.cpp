@@ -227,6 +227,28 @@ TEST(Stalls, AreNotSaidWhileItTrembles) {
   EXPECT_TRUE(find(stands.claims, Predicate::stalls)) << said(stands);
 }
 
+// A press that jams in its work while the sequence waits for an angle beyond it does not go through its sequence, also
+// while the shafts behind it still vibrate.
+TEST(Stalls, AreSaidOfAPressThatJamsBeforeTheAngleThatItsSequenceWaitsFor) {
+  const auto press = [](const char* force) {
+    return test::run(fmt::format(R"(
+      line = ["motor", "clutch", "shaft", "press"]
+      motor = {{ kind = "dc shunt motor", stall_torque = "200 N*m", no_load_speed = "14 rad/s", inertia = "10 kg*m2" }}
+      clutch = {{ kind = "clutch", torque = "12 kN*m", static_torque = "14 kN*m", inertia_out = "1.5 kg*m2" }}
+      shaft = {{ kind = "shaft", stiffness = "3 MN*m/rad", damping = "1 N*m*s/rad" }}
+      press = {{ kind = "slider-crank", radius = "40 mm", rod = "400 mm", crank_inertia = "2 kg*m2", slider_mass = "250 kg", load = {{ kind = "press", nominal_force = "{}", nominal_travel = "5 mm" }} }}
+      effects = {{ elasticity = true }}
+      sequence = {{ steps = [{{ at = "0 s", set = "clutch", to = 0 }}, {{ at = "0.1 s", set = "clutch", to = 1 }}, {{ angle = "150 deg", of = "press", set = "clutch", to = 0 }}] }}
+      run = {{ start = {{ angle = "180 deg", motor = {{ speed = "13 rad/s" }}, press = {{ speed = "0 rad/s" }} }}, until = "2 s", accuracy = 1e-4 }}
+    )",
+                                 force));
+  };
+  const Result jams = press("4 MN"), passes = press("40 kN");
+  EXPECT_TRUE(find(jams.claims, Predicate::stalls, "press")) << said(jams);
+  EXPECT_FALSE(has(said(jams), "goes through")) << said(jams);
+  EXPECT_FALSE(find(passes.claims, Predicate::stalls)) << said(passes);
+}
+
 // What a clutch did on the way is said of a machine that stalls, too.
 TEST(Stalls, HideNoClutch) {
   const Result r = test::run(R"(

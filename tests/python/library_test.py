@@ -39,6 +39,7 @@ class Runs(unittest.TestCase):
         w = math.sqrt(4000 * (1 / 0.2 + 1 / 1.5))
         expected = STEP / 2 * (1 - numpy.cos(w * run.trajectory.time))
         self.assertLess(numpy.abs(run.trajectory["torque.coupling"] - expected).max(), 1e-4 * STEP)
+        self.assertTrue(numpy.array_equal(run.trajectory["time"], run.trajectory.time))
 
     def test_settings_are_those_of_the_command(self):
         run = kurbel.run(TWO_MASSES, set={"motor.torque": "25 N*m"}, no_error=True)
@@ -241,6 +242,8 @@ class Studies(unittest.TestCase):
         # A step rings to twice what is transmitted rigidly.
         rigid, elastic = (study.figures_of(model)["peak_torque.coupling"].value for model in ("rigid", "elastic"))
         self.assertAlmostEqual(elastic / rigid, 2, delta=1e-4)
+        with self.assertRaisesRegex(KeyError, "'elastic', 'rigid'"):
+            study.figures_of("elastik")
         frame = study.to_pandas().loc["peak_torque.coupling"].set_index("model")
         self.assertEqual(frame.loc["elastic", "value"], elastic)
         with tempfile.TemporaryDirectory() as folder:

@@ -135,6 +135,31 @@ TEST(Conclusion, OfEverySceneIsOneAndTheShortFormIsShort) {
   }
 }
 
+// Too long for the screen: the first sentence and the last, which is the answer; those between are counted.
+TEST(Conclusion, IsShortenedBySentencesAndKeepsItsAnswer) {
+  Findings f;
+  const std::string filler =
+      "a long sentence that fills the line word by word until it has to be told on a second line of the screen";
+  for (int i = 0; i < 4; ++i)
+    add(f.claims, claimed(Predicate::limit_exceeded, fmt::format("excess {}, {}", i, filler), fmt::format("part {}", i),
+                          {.value = 9.0 - i, .limit = 1}));
+  add(f.claims, claimed(Predicate::figures_told, "the answer, " + filler));
+  const std::string text = headline_text(f);
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n') + 1, static_cast<long>(Brief::most_of_conclusion)) << text;
+  EXPECT_TRUE(text.starts_with("Excess 0, ")) << text;
+  EXPECT_NE(text.find("more sentence"), std::string::npos) << text;
+  EXPECT_NE(text.find("The answer, "), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with("screen.")) << text;
+  EXPECT_EQ(text.find("…"), std::string::npos) << text;
+  // A sentence alone that is too long is cut between words.
+  Findings one;
+  std::string many = "it";
+  for (int i = 0; i < 200; ++i) many += " goes on";
+  add(one.claims, claimed(Predicate::figures_told, many));
+  EXPECT_TRUE(headline_text(one).ends_with(" … (report)")) << headline_text(one);
+  EXPECT_EQ(headline_text(one).find(".."), std::string::npos);
+}
+
 // --- does it run at all? ---
 
 std::string first_sentence(const Result& r) { return concluded(findings_of(r).claims).front(); }

@@ -197,5 +197,26 @@ TEST(KeptSpeeds, NothingIsBarredWhereTheMachineCannotStay) {
   }));
 }
 
+// Equal cylinders at equal intervals: what they cancel is no order, whatever the kinks of their diagram.
+TEST(CriticalSpeeds, OrdersThatEqualCylindersCancelAreNone) {
+  for (const int cylinders : {2, 3, 5, 6, 7, 8, 9, 10, 12}) {
+    std::string order = "1";
+    for (int i = 2; i <= cylinders; ++i) order += fmt::format(", {}", i);
+    const Scene scene = scene_from(fmt::format(R"~(
+line = ["engine", "shaft", "wheel"]
+engine = {{ kind = "engine", firing_order = [{}], inertia = "0.5 kg*m2", torque = {{ over = "angle", unit = ["deg", "N*m"], points = [[0, 0], [17, 431], [38, 760], [71, 330], [123, 90], [180, 0], [541, -15], [630, -90], [691, -360], [720, 0]] }} }}
+shaft = {{ kind = "shaft", stiffness = "2 kN*m/rad", damping = "5 N*m*s/rad" }}
+wheel = {{ kind = "load", damping = "1 N*m*s/rad", inertia = "1.5 kg*m2" }}
+effects = {{ elasticity = true }}
+run = {{ start = {{ speed = "1500 rpm" }} }}
+)~",
+                                               order));
+    const ModesStudy study = find_modes(scene, scene.effects, {});
+    ASSERT_FALSE(study.critical.empty()) << cylinders;
+    for (const CriticalSpeed& c : study.critical)
+      EXPECT_NEAR(std::remainder(c.order, 0.5 * cylinders), 0, 1e-9) << cylinders << " cylinders, order " << c.order;
+  }
+}
+
 }  // namespace
 }  // namespace kurbel::test::critical_speeds_test

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "studies/limits/limits_findings.h"
+#include "studies/limits/ratings.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/modes.h"
 #include "tests/support/scenes.h"
@@ -373,6 +374,29 @@ TEST(BarredRanges, EndsAreRootsWhereTheLoadsAreKnownBetweenThePoints) {
   EXPECT_NEAR(ranges[0].from, 70, 1e-3);  // 100/(1 + 4) = 20
   EXPECT_NEAR(ranges[0].to, 90, 1e-3);
   EXPECT_EQ(ranges[0].peak, 100);
+}
+
+// The same machine switched on while it turns: its first peak is not that of a start, which `modes` judges.
+TEST(LimitsFromRest, AMachineThatTurnsAtTheStartHasNoStartFromRest) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "coupling", "wheel"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }
+    coupling = { kind = "coupling", stiffness = "2 kN*m/rad", relative_damping = 0.8, maximum_torque = "300 N*m" }
+    wheel = { kind = "load", damping = "0.2 N*m*s/rad", inertia = "4 kg*m2" }
+    effects = { elasticity = true }
+    run = { until = "20 s", start = { speed = "60 rad/s" } }
+  )");
+  const std::vector<Verdict> by_run = judge_ratings(test::run(scene)),
+                             by_modes = find_modes(scene, scene.effects, {}).verdicts;
+  ASSERT_EQ(by_run.size(), 2u);
+  EXPECT_EQ(by_run[0].load_case, load_case::run);
+  EXPECT_EQ(by_run[0].state(), Compliance::holds);
+  EXPECT_EQ(by_run[1].load_case, load_case::start);
+  EXPECT_EQ(by_run[1].state(), Compliance::not_assessed);
+  const auto start =
+      std::find_if(by_modes.begin(), by_modes.end(), [](const Verdict& v) { return v.load_case == load_case::start; });
+  ASSERT_NE(start, by_modes.end());
+  EXPECT_GT(start->value, 1.5 * by_run[0].value);
 }
 
 }  // namespace

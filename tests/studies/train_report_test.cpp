@@ -98,6 +98,24 @@ TEST(TrainReport, RefersTheTrainToOneShaft) {
   EXPECT_NEAR(own, 140, 0.5);  // and half of its shaft
 }
 
+// Of limits that the run leaves open and `modes` assesses, the document says the verdict alone; one that both judge alike
+// stands once in its conclusion.
+TEST(TrainReport, ContradictsItselfInNoLimit) {
+  const Scene scene = test::scene_file("docs/tasks/two_cylinder_compressor.toml");
+  const StudyOutput report =
+      question_named("report").answer({.scene = scene, .text = scene.text, .file = scene.file, .settings = {}}, {});
+  std::size_t tables = 0;
+  for (const auto& [title, table] : tables_of(report.report()))
+    if (title.starts_with("Limits of the components")) {
+      ++tables;
+      for (const auto& row : table->rows)
+        for (const auto& cell : row) EXPECT_EQ(cell.find("not assessed"), std::string::npos) << title << ": " << row[0];
+    }
+  EXPECT_EQ(tables, 2u);
+  const std::string said = report.conclusion();
+  EXPECT_EQ(said.find("that is assessed"), std::string::npos) << said;
+}
+
 TEST(TrainReport, SaysWhatWasNotAssessed) {
   const Asked asked;
   const auto open = [](const StudyOutput& output) {
