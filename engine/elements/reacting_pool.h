@@ -18,14 +18,16 @@ class ReactingPool : public ElementPool {
   virtual const std::vector<int>& side_modes() const = 0;
   // Guards of the sides, in the order of side_modes(), each times its mode; of order one.
   virtual const std::vector<int>& side_guards() const = 0;  // their indices in guards()
-  // Signed distances of the reactions from the kinks at the accelerations alpha per shaft; of order one.
-  virtual void find_sides(const Instant& now, const double* alpha, double* side) const = 0;
+  // Signed distances of the reactions from the kinks at the accelerations alpha per shaft; of order one. The memory is that
+  // of the reactions found at this instant and alpha.
+  virtual void find_sides(const Instant& now, const double* alpha, double* side, Memory* memory) const = 0;
 
   // Shafts of the reacting elements, one entry per element.
   virtual const std::vector<int>& reacting_shafts() const = 0;
   // For a pool with one reacting element: its reaction M_r at the shaft acceleration alpha + response M_r, both solved
   // together. response: acceleration of the shaft per unit torque, ≥ 0 [1/(kg·m²)].
-  virtual void add_answered(const Instant& now, double alpha, double response, Reactions& sums) const = 0;
+  virtual void add_answered(const Instant& now, double alpha, double response, Reactions& sums,
+                            Memory* memory) const = 0;
 };
 
 }  // namespace kurbel

@@ -110,6 +110,7 @@ class Flow : public OdeSystem {
   // without the torques of ties; torques and inertias of the elements.
   const std::vector<double>& accelerations();
   const std::vector<double>& inertia() const { return inertia_; }
+  const ReactionBalance& reactions() const { return reactions_; }
   std::span<const double> effective_inertia() const {
     return reactions_.any() ? reactions_.effective_inertia() : std::span<const double>(inertia_);
   }

@@ -31,6 +31,10 @@ ReactionBalance::ReactionBalance(const Model& model, const Modes& modes) : model
     for (const int s : group.shafts) alone_coupled_ = alone_coupled_ || at(s) == alone_shaft_;
 }
 
+ElementPool::Memory* ReactionBalance::memory_of(const ElementPool& pool) const {
+  return memory_[static_cast<std::size_t>(std::find(pools_.begin(), pools_.end(), &pool) - pools_.begin())].get();
+}
+
 void ReactionBalance::react(const Instant& now, double* work_rate) {
   std::fill(torque_.begin(), torque_.end(), 0.0);
   std::fill(slope_.begin(), slope_.end(), 0.0);
@@ -77,7 +81,7 @@ bool ReactionBalance::settle_alone(const Instant& now, std::span<const double> f
     }
   }
   Reactions reactions{torque_.data(), slope_.data(), element_torque_.data(), sums.work_rate};
-  alone_->add_answered(now, before, response, reactions);
+  alone_->add_answered(now, before, response, reactions, memory_.front().get());
   if (s < free) {
     if (alone_coupled_) {
       effective_torque_[s] = free_torque[s] + torque_[s];

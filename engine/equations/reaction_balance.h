@@ -31,6 +31,8 @@ class ReactionBalance {
   void settle(const Instant& now, std::span<const double> free_torque, std::span<const double> inertia,
               const Accelerate& accelerate, double* alpha, Sums& sums);
 
+  // Of a pool, with the reactions of the last balance.
+  ElementPool::Memory* memory_of(const ElementPool& pool) const;
   // Of the last balance, per shaft: −∂M_r/∂α, and the effective inertia including it [kg·m²].
   double slope(std::size_t shaft) const { return slope_[shaft]; }
   std::span<const double> effective_inertia() const { return effective_inertia_; }

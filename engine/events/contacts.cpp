@@ -27,17 +27,21 @@ bool Contacts::is_open(std::size_t c) const { return sense(c) == 0 && !modes().r
 // ---------------------------------------------------------------------------------------------------------------------
 // Guards
 
-void Contacts::guards(double t, std::span<const double> y, bool evaluated, double* g) {
+void Contacts::guards(double t, std::span<const double> y, bool evaluated, std::size_t which, double* g) {
   const Instant now = flow_.instant(t, y);
   const Ties& ties = flow_.ties();
   const std::vector<Contact>& contacts = list();
-  bool stuck = !ties.lossy().empty();
-  for (std::size_t c = 0; c < contacts.size() && !stuck; ++c) stuck = sense(c) == 0 && !modes().regularised[c];
+  const bool all = which >= guard_count();
+  const std::size_t first = all ? 0 : std::min(which / 2, contacts.size());
+  const std::size_t end = all ? contacts.size() : std::min(first + 1, contacts.size());
+  const bool flanks = (all || first == end) && !ties.lossy().empty();
+  bool stuck = flanks;
+  for (std::size_t c = first; c < end && !stuck; ++c) stuck = sense(c) == 0 && !modes().regularised[c];
   if (stuck) {
     if (!evaluated) flow_.evaluate(t, y);
     flow_.ties().find_holds(flow_.now());
   }
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
+  for (std::size_t c = first; c < end; ++c) {
     const Contact& contact = contacts[c];
     double* const own = g + 2 * c;
     own[0] = own[1] = 1;
@@ -55,6 +59,7 @@ void Contacts::guards(double t, std::span<const double> y, bool evaluated, doubl
     }
   }
   double* sign = g + 2 * contacts.size();
+  if (!flanks) return;
   for (const int r : ties.lossy()) *sign++ = modes().loss_direction[at(r)] == 0 ? 1 : ties.flank_margin(at(r));
 }
 

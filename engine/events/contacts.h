@@ -24,8 +24,9 @@ class Contacts {
 
   // Two guards per contact, one per gear with losses.
   std::size_t guard_count() const { return 2 * list().size() + flow_.ties().lossy().size(); }
-  // Positive while the modes hold, of order one. evaluated: the flow has been evaluated at this state.
-  void guards(double t, std::span<const double> y, bool evaluated, double* g);
+  // Positive while the modes hold, of order one. evaluated: the flow has been evaluated at this state. which: one of them;
+  // beyond the last: all.
+  void guards(double t, std::span<const double> y, bool evaluated, std::size_t which, double* g);
   // The contact, or the gear whose flanks change, of this guard.
   std::size_t contact_of(std::size_t guard) const;
   std::string owner(std::size_t guard) const { return list()[contact_of(guard)].name; }

@@ -34,8 +34,23 @@ void Equations::guards(double t, std::span<const double> y, std::span<double> g)
   const Instant now = instant(t, y);
   for (std::size_t p = 0; p < m.pools.size(); ++p) m.pools[p]->guards(now, g.data() + guard_begin_[p]);
   const bool evaluated = guard_reactions(*this, t, y, guard_begin_, g);
-  if (contact_guards_ < sequence_guard_) contacts_.guards(t, y, evaluated, g.data() + contact_guards_);
+  if (contact_guards_ < sequence_guard_)
+    contacts_.guards(t, y, evaluated, contacts_.guard_count(), g.data() + contact_guards_);
   if (switching_.has_sequence()) g[sequence_guard_] = switching_.guard(y, now.speed);
+}
+
+double Equations::guard(double t, std::span<const double> y, std::size_t which, std::span<double> g) {
+  [[maybe_unused]] const FpTraps traps(y);
+  const Instant now = instant(t, y);
+  if (which >= sequence_guard_) return switching_.guard(y, now.speed);
+  if (which >= contact_guards_) {
+    contacts_.guards(t, y, false, which - contact_guards_, g.data() + contact_guards_);
+    return g[which];
+  }
+  const auto [p, local] = pool_guard(which);
+  model().pools[p]->guards(now, g.data() + guard_begin_[p]);
+  if (is_side(*model().pools[p], local)) guard_reactions(*this, t, y, guard_begin_, g);
+  return g[which];
 }
 
 Equations::PoolGuard Equations::pool_guard(std::size_t guard) const {

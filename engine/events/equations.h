@@ -40,6 +40,8 @@ class Equations final : public Flow {
   std::size_t guard_count() const { return guard_count_; }
   // Positive while the modes hold, of order one.
   void guards(double t, std::span<const double> y, std::span<double> g);
+  // One of them alone, without what others cost; g: memory for all.
+  double guard(double t, std::span<const double> y, std::size_t which, std::span<double> g);
   // Changes the modes whose guards fired (y may be set exactly onto the event). Appends to `log`.
   void fire(double t, std::span<double> y, const std::vector<std::size_t>& fired, EventLog& log);
   double next_edge(double t) const { return switching_.next_edge(t); }

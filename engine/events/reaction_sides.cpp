@@ -35,7 +35,7 @@ bool for_sides(Flow& flow, double t, std::span<const double> y, Wanted wanted, V
     if (!evaluated) flow.evaluate(t, y);
     evaluated = true;
     side.resize(pool->side_modes().size());
-    pool->find_sides(flow.now(), flow.accelerations().data(), side.data());
+    pool->find_sides(flow.now(), flow.accelerations().data(), side.data(), flow.reactions().memory_of(*pool));
     visit(*pool, p, side);
   }
   return evaluated;
@@ -54,6 +54,11 @@ bool guard_reactions(Flow& flow, double t, std::span<const double> y, std::span<
   });
 } catch (const Jam&) {  // a trial step goes too far: its rates are no numbers, either
   return false;
+}
+
+bool is_side(const ElementPool& any, int guard) {
+  const ReactingPool* const pool = reacting(any);
+  return pool && std::count(pool->side_guards().begin(), pool->side_guards().end(), guard) > 0;
 }
 
 OpenSides::OpenSides(Flow& flow) : flow_(flow) {

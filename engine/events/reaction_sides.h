@@ -13,6 +13,9 @@ namespace kurbel {
 bool guard_reactions(Flow& flow, double t, std::span<const double> y, std::span<const std::size_t> pool_guards,
                      std::span<double> g);
 
+// Whether this guard of the pool is one of them.
+bool is_side(const ElementPool& pool, int guard);
+
 // While other modes change, reactions may jump across kinks: until settle() the sides follow from the state.
 class OpenSides {
  public:

@@ -54,8 +54,8 @@ double EventLocation::guard_at(double t, std::size_t which) {
   work_.resize(states_);
   stepper_->interpolate(t, work_);
   probe_.resize(guard_.size());
-  find_guards(t, work_, probe_);
-  return probe_[which];
+  if (which == equations_.guard_count()) return options_.stop(t, work_);
+  return equations_.guard(t, work_, which, probe_);
 }
 
 // dg/dt from a small step along the slope.
@@ -132,16 +132,22 @@ std::vector<std::size_t> EventLocation::locate() {
       at_begin_ = true;
       return fired;
     }
+    // Of each only until it is known to be later than another.
+    const double at_once = 1e-12 * (t1 - t0), enough = below.size() > 1 ? 1e-14 : 1e-9;  // land_on does the rest
     double first = t1;
-    std::vector<double> root(below.size());
+    std::vector<double> root(below.size(), HUGE_VAL);
     for (std::size_t k = 0; k < below.size(); ++k) {
       const std::size_t i = below[k].guard;
-      root[k] =
-          find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], below[k].t, below[k].value, 1e-14);
+      double end = below[k].t, value_at_end = below[k].value;
+      if (first + at_once < end && first + at_once > from[k]) {
+        end = first + at_once, value_at_end = guard_at(end, i);
+        if (value_at_end > 0) continue;
+      }
+      root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], end, value_at_end, enough);
       first = std::min(first, root[k]);
     }
     for (std::size_t k = 0; k < below.size(); ++k)
-      if (root[k] <= first + 1e-12 * (t1 - t0)) fired.push_back(below[k].guard);
+      if (root[k] <= first + at_once) fired.push_back(below[k].guard);
     if (!try_to_land_on(first, fired.front())) return {};
     find_guards(stepper_->t(), stepper_->y(), guard_);
     // What is at its root now counts as fired; another guard may have fired before it.

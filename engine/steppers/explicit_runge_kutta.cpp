@@ -201,7 +201,7 @@ void ExplicitRungeKutta::search_step(double t_limit) {
     if (error <= 1) {
       if (!error_needs_end_slope_) evaluate(goal.t, y_, table_.stages);
       if (end_slope_is_finite()) {
-        t_ = goal.t;
+        t_ = stages_end_ = goal.t;
         watch_stability(goal.h);
         adapt(error, goal, rejected);
         return;
@@ -230,11 +230,25 @@ void ExplicitRungeKutta::retake(double t) {
   if (t == t_) return;
   if (!(t <= step_end_))
     throw std::invalid_argument(fmt::format("retake to t = {} s, beyond the step's end {} s", t, step_end_));
-  t_ = std::max(t, t_previous_);
+  if (std::abs(t - t_) <= 1e-5 * (t - t_previous_)) {
+    nudge(t);
+  } else {
+    t_ = stages_end_ = std::max(t, t_previous_);
+    take(t_ - t_previous_);
+  }
   dense_is_ready_ = false;
-  take(t_ - t_previous_);
   evaluate(t_, y_, table_.stages);
   if (!end_slope_is_finite()) fail(t_ - t_previous_, std::numeric_limits<double>::quiet_NaN());
+}
+
+// The end of a step moves by a small part of it: Heun's rule, whose error is that part cubed.
+void ExplicitRungeKutta::nudge(double t) {
+  const double half = 0.5 * (t - t_);
+  const double* const f = slope_[table_.stages];
+  for (std::size_t i = 0; i < size_; ++i) stage_y_[i] = (y_[i] += half * f[i]) + half * f[i];
+  t_ = t;
+  evaluate(t, stage_y_, table_.stages);
+  for (std::size_t i = 0; i < size_; ++i) y_[i] += half * f[i];
 }
 
 void ExplicitRungeKutta::evaluate(double t, const double* y, std::size_t stage) {
@@ -242,11 +256,15 @@ void ExplicitRungeKutta::evaluate(double t, const double* y, std::size_t stage) 
   system_.flow(t, {y, size_}, {slope_[stage], size_});
 }
 
-void ExplicitRungeKutta::take(double h) {
+void ExplicitRungeKutta::take_stages(double h) {
   for (std::size_t i = 1; i < table_.stages; ++i) {
     combine(size_, y_previous_, table_.row[i], slope_, h, stage_y_);
     evaluate(t_previous_ + table_.node[i] * h, stage_y_, i);
   }
+}
+
+void ExplicitRungeKutta::take(double h) {
+  take_stages(h);
   combine(size_, y_previous_, table_.row[table_.stages], slope_, h, y_);
 }
 
@@ -340,6 +358,7 @@ double ExplicitRungeKutta::first_step(double longest) {
 void ExplicitRungeKutta::prepare_dense_output() {
   if (std::exchange(dense_is_ready_, true)) return;
   const double h = t_ - t_previous_;
+  if (std::abs(t_ - stages_end_) > 0.1 * tolerance_ * h) take_stages(h), stages_end_ = t_;
   for (std::size_t i = table_.stages + 1; i < table_.row.size(); ++i) {
     combine(size_, y_previous_, table_.row[i], slope_, h, stage_y_);
     evaluate(t_previous_ + table_.node[i] * h, stage_y_, i);

@@ -40,7 +40,9 @@ class ExplicitRungeKutta final : public Stepper {
   void search_step(double t_limit);
   Aim aim(double h, double t_limit) const;
   void evaluate(double t, const double* y, std::size_t stage);
-  void take(double h);          // stages and solution, from y_previous_ and slope_[0] to y_
+  void take_stages(double h);   // from y_previous_ and slope_[0]
+  void take(double h);          // stages and solution, to y_
+  void nudge(double t);         // y_ from t_ to a time close by
   double error_norm(double h);  // ≤ 1: accepted; not finite if any value of the step is not
   bool end_slope_is_finite() const;
   void adapt(double error, const Aim& done, bool after_rejection);
@@ -66,8 +68,9 @@ class ExplicitRungeKutta final : public Stepper {
   bool dense_is_ready_ = false;
 
   double t_ = 0, t_previous_ = 0;
-  double step_end_ = 0;  // of the last step as it was accepted
-  double h_next_ = 0;    // 0: unknown
+  double step_end_ = 0;    // of the last step as it was accepted
+  double stages_end_ = 0;  // to which the stages belong: t_, or close to it
+  double h_next_ = 0;      // 0: unknown
   double previous_error_ = 1e-4;
   std::size_t worst_ = 0;  // state with the largest error in the last step tried
   StepLimit::By limit_ = StepLimit::By::end;

@@ -300,7 +300,9 @@ JointFriction::Torque JointFriction::torque(const State& s, double response, Pla
   if (place.phi != s.phi) table_->read(s.phi, place.values), place.phi = s.phi;
   Work w;
   prepare(s, response, place.values, true, w);
+  place.found = false;
   find(s, w);
+  std::copy_n(w.q, w.n, place.loads), place.found = true;
   const double* ratio = place.values + places_.ratio(0);
   Torque out;
   double by_alpha[most_loads];
@@ -371,12 +373,16 @@ JointFriction::Slopes JointFriction::slopes(const State& s) const {
 }
 
 // Each relative to its terms, so that sides that vanish together are of order one elsewhere.
-void JointFriction::sides(const State& s, double* side) const {
-  double values[most_values];
-  table_->read(s.phi, values);
+void JointFriction::sides(const State& s, double* side, Place& place) const {
+  const bool known = place.found && place.phi == s.phi;
+  if (!known) table_->read(s.phi, place.values), place.phi = s.phi;
+  const double* const values = place.values;
   Work w;
   prepare(s, 0, values, true, w);
-  find(s, w);
+  if (known)
+    std::copy_n(place.loads, w.n, w.q);
+  else
+    find(s, w);
   w.react<0>();
   const double weight = s.weightless ? 0 : 1;
   const auto terms = [&](std::size_t i) {

@@ -125,10 +125,11 @@ class JointFriction {
   // M at the acceleration ε + m M; response: m [1/(kg·m²)]; 0: at the given acceleration. Throws Jam with the angle and the
   // share of the friction coefficients beyond which there is no solution.
   Torque torque(const State& state, double response = 0) const;
-  // The same with the table values at φ kept in `place` between calls.
+  // The same with the table values at φ and the friction loads found kept in `place`.
   struct Place {
     double phi = std::numeric_limits<double>::quiet_NaN();
-    double values[most_values];
+    double values[most_values], loads[most_loads];
+    bool found = false;
   };
   Torque torque(const State& state, double response, Place& place) const;
   // ∂M/∂(φ, ω, F, F_i) at that ε.
@@ -137,8 +138,8 @@ class JointFriction {
     double by_applied[most_applied] = {};            // [m] or [1]
   };
   Slopes slopes(const State& state) const;
-  // Signed, scaled contact force of every side; zero where the contact changes.
-  void sides(const State& state, double* side) const;
+  // Signed, scaled contact force of every side; zero where the contact changes. place: that of the torque in this state.
+  void sides(const State& state, double* side, Place& place) const;
   // All reactions and friction loads: per joint R_x, R_y or N, M; per load q.
   struct Solved {
     std::vector<double> reactions, loads;

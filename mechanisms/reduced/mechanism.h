@@ -129,11 +129,11 @@ class MechanismPool final : public ReactingPool {
   int guard_count() const override { return guards_; }
   const std::vector<int>& side_modes() const override { return side_modes_; }
   const std::vector<int>& side_guards() const override { return side_guards_; }
-  void find_sides(const Instant& now, const double* alpha, double* side) const override;
+  void find_sides(const Instant& now, const double* alpha, double* side, Memory* memory) const override;
   // The guards depend on travel or crank angle, not on the speed, except those of the sides of reactions.
   bool guards_are_of_angle() const override { return true; }
   const std::vector<int>& reacting_shafts() const override { return reacting_shafts_; }
-  void add_answered(const Instant& now, double alpha, double response, Reactions& sums) const override;
+  void add_answered(const Instant& now, double alpha, double response, Reactions& sums, Memory* memory) const override;
   void guards(const Instant& now, double* g) const override;
   void fire(const Instant& now, int guard, int* mode) const override;
   GuardLabel label(int guard, const Instant& now) const override;

@@ -77,13 +77,15 @@ void MechanismPool::add_reactions(const Instant& now, const double* alpha, React
   }
 }
 
-void MechanismPool::add_answered(const Instant& now, double alpha, double response, Reactions& sums) const {
-  for (const Placed& p : placed_) {
+void MechanismPool::add_answered(const Instant& now, double alpha, double response, Reactions& sums,
+                                 Memory* memory) const {
+  auto& known = static_cast<FrictionMemory&>(*memory);
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
     if (!p.mechanism.friction) continue;
-    JointFriction::Place place;
     const Acting forces = acting(p, now);
     const JointFriction::State state = crank_state(p, now, alpha, forces);
-    add_friction(p, state, friction_torque(p, state, p.at.gain * p.at.gain * response, place), sums);
+    add_friction(p, state, friction_torque(p, state, p.at.gain * p.at.gain * response, known.of[k].place), sums);
   }
 }
 
@@ -145,13 +147,15 @@ void MechanismPool::take_first_signs(const Placed& p, const Instant& now, int* m
 }
 
 // At standstill nothing slides.
-void MechanismPool::find_sides(const Instant& now, const double* alpha, double* side) const {
-  for (const Placed& p : placed_) {
+void MechanismPool::find_sides(const Instant& now, const double* alpha, double* side, Memory* memory) const {
+  auto& known = static_cast<FrictionMemory&>(*memory);
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    const Placed& p = placed_[k];
     if (!p.mechanism.friction) continue;
     const int count = p.mechanism.friction->side_count();
     std::fill_n(side, count, 1.0);
     if (now.direction[p.at.shaft] != 0)
-      p.mechanism.friction->sides(crank_state(p, now, alpha[p.at.shaft], acting(p, now)), side);
+      p.mechanism.friction->sides(crank_state(p, now, alpha[p.at.shaft], acting(p, now)), side, known.of[k].place);
     side += count;
   }
 }
