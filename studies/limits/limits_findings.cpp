@@ -32,8 +32,8 @@ std::string load_text(const Verdict& v) {
   const ReadableUnit unit = readable_unit(v.limit, v.unit);
   const std::string value = read_as(unit.factor * v.load(), {.digits = 5, .otherwise = "unbounded"});
   if (v.bound) return fmt::format("≤ {} {}", value, unit.unit);
-  if (!(v.error > 1e-4 * std::abs(v.value))) return fmt::format("{} {}", value, unit.unit);
-  return fmt::format("{} ± {} {}", value, read_as(unit.factor * v.error / v.factor, {.digits = 2}), unit.unit);
+  if (!(v.known_error() > 1e-4 * std::abs(v.value))) return fmt::format("{} {}", value, unit.unit);
+  return fmt::format("{} ± {} {}", value, read_as(unit.factor * v.known_error() / v.factor, {.digits = 2}), unit.unit);
 }
 
 // A rule that bars all speeds gives no range to avoid; it is in the notes.
@@ -83,7 +83,7 @@ Rows verdict_table(const std::vector<Verdict>& verdicts) {
           .column("requirement", "requirement", &Verdict::requirement)
           .column("load_case", "load case", &Verdict::load_case)
           .only_for_programs("value", &Verdict::value)
-          .only_for_programs("error", &Verdict::error)
+          .only_for_programs("error", &Verdict::known_error)
           .only_for_programs("bound", &Verdict::bound)
           .only_for_programs("limit", &Verdict::limit)
           .only_for_programs("unit", &Verdict::unit)

@@ -91,10 +91,10 @@ class Rater {
   template <class Mends>
   Verdict& add(const char* requirement, const Estimate& value, std::optional<double> at, double limit, const char* unit,
                const Mends& mends) {
-    Verdict v{component_, requirement, value.value, limit, unit, "", value.error.value_or(0)};
-    v.load_case = load_case_of(at), v.at = at, v.error_known = value.error.has_value();
+    Verdict v{value, component_, requirement, limit, unit, ""};
+    v.load_case = load_case_of(at), v.at = at;
     if (v.state() == Compliance::exceeded || v.state() == Compliance::undecided) {
-      Mend mend = mends((v.value + v.error) / limit);
+      Mend mend = mends((v.value + v.known_error()) / limit);
       if (mend.remedy) {
         v.remedy = mend.remedy;
         take_tried(v);
@@ -144,7 +144,7 @@ class Rater {
                                   "it slips while closed, and states no allowable_heat"));
   }
   void gives_way(const char* requirement, double limit, const Claim& slips) {
-    Verdict v{component_, requirement, limit, limit, "N*m", ""};
+    Verdict v{{limit, 0}, component_, requirement, limit, "N*m", ""};
     v.gives_way = true, v.at = slips.evidence.at, v.load_case = load_case_of(v.at);
     out_.push_back(std::move(v));
   }

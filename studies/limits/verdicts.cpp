@@ -53,10 +53,9 @@ class Judge {
   // `key`: of the limit in the scene; its required value is given; null: the section is decisive.
   Verdict& add(std::string requirement, const Estimate& value, double limit, std::string unit, const char* load_case,
                std::string note, const char* key = nullptr) {
-    Verdict v{joint_.name,     std::move(requirement), value.value, limit, std::move(unit),
-              std::move(note), value.error.value_or(0)};
-    v.load_case = load_case, v.error_known = value.error.has_value();
-    const double needed = v.value + v.error;
+    Verdict v{value, joint_.name, std::move(requirement), limit, std::move(unit), std::move(note)};
+    v.load_case = load_case;
+    const double needed = v.value + v.known_error();
     if (v.state() == Compliance::exceeded && std::isfinite(needed)) {
       std::string mends = fmt::format("by an estimate it holds from {:.3g} times this diameter on, at the same torque",
                                       std::cbrt(needed / limit));
@@ -179,15 +178,15 @@ const char* name_of(Compliance c) { return enumerator_words<Compliance::not_asse
 Compliance Verdict::state() const {
   if (!assessed) return Compliance::not_assessed;
   if (gives_way) return Compliance::exceeded;
-  if (std::isnan(value) || std::isnan(error)) return Compliance::undecided;
-  if (value + error <= limit) return Compliance::holds;
+  if (std::isnan(value) || std::isnan(known_error())) return Compliance::undecided;
+  if (value + known_error() <= limit) return Compliance::holds;
   if (bound) return Compliance::not_assessed;
-  return value - error <= limit ? Compliance::undecided : Compliance::exceeded;
+  return value - known_error() <= limit ? Compliance::undecided : Compliance::exceeded;
 }
 
 Verdict not_assessed(std::string component, std::string requirement, double limit, std::string unit,
                      const char* load_case, std::string why) {
-  Verdict v{std::move(component), std::move(requirement), std::nan(""), limit, std::move(unit), std::move(why)};
+  Verdict v{{std::nan(""), 0}, std::move(component), std::move(requirement), limit, std::move(unit), std::move(why)};
   v.load_case = load_case, v.assessed = false;
   return v;
 }
@@ -312,7 +311,7 @@ Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& wha
                                          {.at = v.at,
                                           .value = v.gives_way ? std::nullopt : known(v.value),
                                           .limit = known(v.limit),
-                                          .error = v.error_known ? known(v.error) : std::nullopt,
+                                          .error = v.error ? known(*v.error) : std::nullopt,
                                           .unit = v.unit});
     if (!claim) continue;
     claim->load_case = v.load_case, claim->remedy = v.remedy, claim->in_conclusion = &v == worst;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "engine/scene/speed_unit.h"
 #include "studies/claims/claim.h"
 #include "studies/limits/run_up.h"
@@ -33,12 +34,11 @@ inline constexpr const char* speed_range = "steady, range of speeds";  // held a
 }  // namespace load_case
 
 // One requirement on one component, in one load case. With the factors of a standard, value = factor · load.
-struct Verdict {
+struct Verdict : Estimate {
   std::string component, requirement;  // "vibratory torque: S_t S_f T_W ≤ T_KW"
-  double value = 0, limit = 0;
+  double limit = 0;
   std::string unit;
   std::string note;        // if exceeded, it begins with the remedy
-  double error = 0;        // of the value
   bool bound = false;      // the value is only an upper bound
   bool gives_way = false;  // it slips at its limit: the required torque is at least the value
   std::string load_case = load_case::run;
@@ -46,9 +46,9 @@ struct Verdict {
   std::string factors = {};           // "S_t = 1.2, S_f = 1.41"
   std::optional<Remedy> remedy = {};  // value of the key from which on it holds
   bool assessed = true;
-  bool error_known = true;
   std::optional<double> at = {};  // of a run's figure [s]
   double load() const { return value / factor; }
+  double known_error() const { return error.value_or(0); }
   double share() const { return value / limit; }
   Compliance state() const;
   bool holds() const { return state() == Compliance::holds; }

@@ -55,14 +55,13 @@ void judge_history(ModesStudy& found) {
     if (joint.name != h.component || !(joint.limits.maximum > 0)) continue;
     // Without an error the run was not confirmed, and is not used for verdicts.
     const Estimate most = joint.limits.temperature_factor * (below ? -h.least : h.greatest);
-    found.verdicts.push_back({.component = joint.name,
-                              .requirement = "maximum torque of the simulated run: S_t |T| ≤ T_Kmax",
-                              .value = most.value,
-                              .limit = joint.limits.maximum,
-                              .unit = "N*m",
-                              .note = most.error ? "" : "of a run that was not confirmed",
-                              .error = most.error.value_or(std::nan("")),
-                              .factor = joint.limits.temperature_factor});
+    found.verdicts.push_back({{most.value, most.error.value_or(std::nan(""))},
+                              joint.name,
+                              "maximum torque of the simulated run: S_t |T| ≤ T_Kmax",
+                              joint.limits.maximum,
+                              "N*m",
+                              most.error ? "" : "of a run that was not confirmed"});
+    found.verdicts.back().factor = joint.limits.temperature_factor;
   }
 }
 

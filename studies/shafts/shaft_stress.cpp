@@ -39,14 +39,10 @@ class Worst {
     stress_ = stress, allowed_ = allowed, lambda_ = lambda, known_ = true;
   }
   void add(const LimitedJoint& joint, const char* what, std::vector<Verdict>& verdicts) const {
-    if (known_)
-      verdicts.push_back({.component = joint.name,
-                          .requirement = what,
-                          .value = stress_,
-                          .limit = allowed_,
-                          .unit = "Pa",
-                          .note = fmt::format("worst at λ = {:.3g}, linear response", lambda_),
-                          .load_case = what == requirement::passing ? load_case::passing : load_case::speed_range});
+    if (!known_) return;
+    verdicts.push_back(
+        {{stress_, 0}, joint.name, what, allowed_, "Pa", fmt::format("worst at λ = {:.3g}, linear response", lambda_)});
+    verdicts.back().load_case = what == requirement::passing ? load_case::passing : load_case::speed_range;
   }
 
  private:

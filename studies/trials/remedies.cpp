@@ -51,7 +51,7 @@ class Search {
 
  private:
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  double share_of(const Verdict& v) const { return (v.value + verdict_.error) / v.limit; }
+  double share_of(const Verdict& v) const { return (v.value + verdict_.known_error()) / v.limit; }
 
   // A bore stays in proportion to its diameter. NaN: that machine has no such verdict.
   double share_with(double value) const {
