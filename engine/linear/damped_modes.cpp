@@ -146,22 +146,8 @@ class DampedNewton {
  public:
   using Complex = std::complex<double>;
 
-  explicit DampedNewton(const LinearDrive& drive) : drive_(drive), n_(drive.size()), states_(drive.own_states()) {
-    std::vector<Eigen::Triplet<Complex>> mass, damping, stiffness;
-    for (Index i = 0; i < n_; ++i) mass.emplace_back(i, i, drive.inertia[i]);
-    add(drive.damping, 0, 0, 1, damping);
-    add(drive.stiffness, 0, 0, 1, stiffness);
-    add(drive.other_stiffness, 0, 0, 1, stiffness);
-    if (states_ > 0) {
-      add(drive.torque_by_own, 0, n_, -1, stiffness);
-      add(product(drive.own_by_twist, drive.twists), n_, 0, -1, stiffness);
-      add(drive.own_by_angle, n_, 0, -1, stiffness);
-      add(drive.own_by_speed, n_, 0, -1, damping);
-      add(drive.own_by_own, n_, n_, -1, stiffness);
-      for (Index k = 0; k < states_; ++k) damping.emplace_back(n_ + k, n_ + k, 1.0);
-    }
-    mass_ = matrix(mass), damping_ = matrix(damping), stiffness_ = matrix(stiffness);
-  }
+  explicit DampedNewton(const LinearDrive& drive)
+      : drive_(drive), n_(drive.size()), states_(drive.own_states()), pencil_(pencil_of(drive)) {}
 
   // False where it does not converge. `change`: of λ in the last step, what its error is of the order of.
   bool refine(Complex& lambda, Eigen::VectorXcd& v, double& change) {
@@ -169,9 +155,9 @@ class DampedNewton {
     x.head(n_) = v;
     refined_ = x;
     for (int iteration = 0; iteration < 30; ++iteration) {
-      const Sparse q = lambda * lambda * mass_ + lambda * damping_ + stiffness_;
+      const Sparse q = lambda * lambda * pencil_.mass + lambda * pencil_.damping + pencil_.stiffness;
       if (!solver_.factorise(q)) return true;  // λ is an eigenvalue to the last bit
-      const Eigen::VectorXcd w = solver_.solve((2.0 * lambda * mass_ + damping_) * x);
+      const Eigen::VectorXcd w = solver_.solve((2.0 * lambda * pencil_.mass + pencil_.damping) * x);
       if (!w.allFinite()) return false;
       const Complex before = lambda;
       const Complex step = x.dot(x) / x.dot(w);
@@ -220,7 +206,7 @@ class DampedNewton {
 
   Eigen::VectorXcd left_vector(Complex lambda) {
     const auto transposed = [this](Complex s) {
-      return Sparse((s * s * mass_ + s * damping_ + stiffness_).transpose());
+      return Sparse((s * s * pencil_.mass + s * pencil_.damping + pencil_.stiffness).transpose());
     };
     constexpr double beside = 1e-12;  // where λ is an eigenvalue to the last bit
     Eigen::VectorXcd u = refined_;
@@ -229,21 +215,9 @@ class DampedNewton {
     return u;
   }
 
-  static void add(const SparseMatrix& m, Index row, Index column, double factor,
-                  std::vector<Eigen::Triplet<Complex>>& to) {
-    for (Index c = 0; c < m.outerSize(); ++c)
-      for (SparseMatrix::InnerIterator it(m, c); it; ++it)
-        to.emplace_back(row + it.row(), column + c, factor * it.value());
-  }
-  Sparse matrix(std::vector<Eigen::Triplet<Complex>>& entries) const {
-    for (Index i = 0; i < n_ + states_; ++i) entries.emplace_back(i, i, 0.0);
-    Sparse m(n_ + states_, n_ + states_);
-    m.setFromTriplets(entries.begin(), entries.end());
-    return m;
-  }
   Complex root(const Eigen::VectorXcd& v, Complex near) const {
     const auto form = [&](const Sparse& m) { return (v.transpose() * (m * v)).value(); };
-    const Complex a = form(mass_), c = form(damping_), k = form(stiffness_);
+    const Complex a = form(pencil_.mass), c = form(pencil_.damping), k = form(pencil_.stiffness);
     const Complex half = std::sqrt(c * c - 4.0 * a * k);
     const Complex one = (-c + half) / (2.0 * a), two = (-c - half) / (2.0 * a);
     return std::abs(one - near) < std::abs(two - near) ? one : two;
@@ -251,7 +225,7 @@ class DampedNewton {
 
   const LinearDrive& drive_;
   Index n_, states_;
-  Sparse mass_, damping_, stiffness_;
+  QuadraticPencil pencil_;
   ComplexSparseLu solver_;
   Eigen::VectorXcd refined_;  // [q, z]
 };
@@ -280,6 +254,37 @@ std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedMo
 }
 
 }  // namespace
+
+QuadraticPencil pencil_of(const LinearDrive& drive) {
+  using Complex = std::complex<double>;
+  using Entries = std::vector<Eigen::Triplet<Complex>>;
+  const Index n = drive.size(), z = drive.own_states();
+  const auto add = [](const SparseMatrix& from, Index row, Index column, double factor, Entries& to) {
+    for (Index c = 0; c < from.outerSize(); ++c)
+      for (SparseMatrix::InnerIterator it(from, c); it; ++it)
+        to.emplace_back(row + it.row(), column + c, factor * it.value());
+  };
+  const auto matrix = [&](Entries& entries) {
+    for (Index i = 0; i < n + z; ++i) entries.emplace_back(i, i, 0.0);
+    ComplexSparseMatrix sparse(n + z, n + z);
+    sparse.setFromTriplets(entries.begin(), entries.end());
+    return sparse;
+  };
+  Entries mass, damping, stiffness;
+  for (Index i = 0; i < n; ++i) mass.emplace_back(i, i, drive.inertia[i]);
+  add(drive.damping, 0, 0, 1, damping);
+  add(drive.stiffness, 0, 0, 1, stiffness);
+  add(drive.other_stiffness, 0, 0, 1, stiffness);
+  if (z > 0) {
+    add(drive.torque_by_own, 0, n, -1, stiffness);
+    add(product(drive.own_by_twist, drive.twists), n, 0, -1, stiffness);
+    add(drive.own_by_angle, n, 0, -1, stiffness);
+    add(drive.own_by_speed, n, 0, -1, damping);
+    add(drive.own_by_own, n, n, -1, stiffness);
+    for (Index k = 0; k < z; ++k) damping.emplace_back(n + k, n + k, 1.0);
+  }
+  return {matrix(mass), matrix(damping), matrix(stiffness)};
+}
 
 double EnergyParts::in_own() const { return std::accumulate(own.begin(), own.end(), 0.0); }
 

@@ -43,6 +43,12 @@ struct EnergyParts {
   double in_own() const;             // Σ of `own`
 };
 
+// λ² M + λ C + K over [q, z], the coordinates and the internal states: its nullspaces are the damped modes.
+struct QuadraticPencil {
+  ComplexSparseMatrix mass, damping, stiffness;
+};
+QuadraticPencil pencil_of(const LinearDrive& drive);
+
 struct DampedMode {
   std::complex<double> lambda;  // [1/s], Im ≥ 0; Im = 0: aperiodic
   Eigen::VectorXcd shape;       // per coordinate; largest entry 1

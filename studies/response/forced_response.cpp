@@ -6,6 +6,7 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "engine/linear/eigen_modes.h"
 #include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -14,7 +15,6 @@ namespace kurbel {
 namespace {
 
 using Eigen::Index;
-using ComplexSparse = ComplexSparseMatrix;
 
 constexpr Index small_drive = 24;  // coordinates: dense
 
@@ -51,8 +51,7 @@ double polished(const std::vector<Complex>& x, double begin, double step) {
 }  // namespace
 
 // (K + iω C − ω² M) [q; z] = right, over coordinates and own states together.
-struct FrequencyResponse::Solver {
-  ComplexSparse stiffness, damping, mass;
+struct FrequencyResponse::Solver : QuadraticPencil {
   Eigen::MatrixXcd dense_stiffness, dense_damping, dense_mass;
   ComplexSparseLu lu;
 
@@ -60,7 +59,7 @@ struct FrequencyResponse::Solver {
     const Complex iw(0, omega);
     if (right.size() <= small_drive)
       return ComplexLu(dense_stiffness + iw * dense_damping - omega * omega * dense_mass).solve(right);
-    ComplexSparse a = stiffness + iw * damping - omega * omega * mass;
+    ComplexSparseMatrix a = stiffness + iw * damping - omega * omega * mass;
     a.makeCompressed();
     if (!lu.factorise(a)) return Eigen::VectorXcd::Constant(right.size(), Complex(HUGE_VAL, 0));
     return lu.solve(right);
@@ -68,34 +67,8 @@ struct FrequencyResponse::Solver {
 };
 
 FrequencyResponse::FrequencyResponse(const LinearDrive& drive) : drive_(drive), solver_(std::make_shared<Solver>()) {
-  const Index n = drive.size(), z = drive.own_states();
-  std::vector<Eigen::Triplet<Complex>> k, c, m;
-  const auto add = [](const SparseMatrix& from, Index row, Index column, double factor,
-                      std::vector<Eigen::Triplet<Complex>>& to) {
-    for (Index i = 0; i < from.outerSize(); ++i)
-      for (SparseMatrix::InnerIterator it(from, i); it; ++it)
-        to.emplace_back(row + it.row(), column + i, factor * it.value());
-  };
-  for (Index i = 0; i < n; ++i) m.emplace_back(i, i, drive.inertia[i]);
-  add(drive.stiffness, 0, 0, 1, k);
-  add(drive.other_stiffness, 0, 0, 1, k);
-  add(drive.damping, 0, 0, 1, c);
-  if (z > 0) {
-    add(drive.torque_by_own, 0, n, -1, k);
-    add(product(drive.own_by_twist, drive.twists), n, 0, -1, k);
-    add(drive.own_by_angle, n, 0, -1, k);
-    add(drive.own_by_own, n, n, -1, k);
-    add(drive.own_by_speed, n, 0, -1, c);
-    for (Index i = 0; i < z; ++i) c.emplace_back(n + i, n + i, 1.0);
-  }
-  const auto matrix = [&](std::vector<Eigen::Triplet<Complex>>& entries) {
-    for (Index i = 0; i < n + z; ++i) entries.emplace_back(i, i, 0.0);
-    ComplexSparse sparse(n + z, n + z);
-    sparse.setFromTriplets(entries.begin(), entries.end());
-    return sparse;
-  };
-  solver_->stiffness = matrix(k), solver_->damping = matrix(c), solver_->mass = matrix(m);
-  if (n + z > small_drive) return;
+  static_cast<QuadraticPencil&>(*solver_) = pencil_of(drive);
+  if (drive.size() + drive.own_states() > small_drive) return;
   solver_->dense_stiffness = solver_->stiffness, solver_->dense_damping = solver_->damping;
   solver_->dense_mass = solver_->mass;
 }
