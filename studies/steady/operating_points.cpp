@@ -315,13 +315,12 @@ class RatioTrial {
     const auto model = compile_network(network_, scene, effects_);
     node_ = network_.ports.at(gearbox_).out;
     target_ *= model->node_ratio[at(node_)];
-    present_ = 1;
-    for (const std::size_t j : gears_of(network_, gearbox_)) present_ *= network_.joints[j].ratio;
-    lies_in_a_loop_ = !has_gears() || !turns_with(1.01 * present_);
+    present_ = ratio_of(*model);
+    can_change_ = !gears_of(network_, gearbox_).empty() && turns_with(1.01 * present_);
   }
-  // A stage whose ratio can be changed: none if all have losses or elastic teeth, or if a closed loop of shafts
-  // determines it.
-  bool has_gears() const { return !gears_of(network_, gearbox_).empty() && !lies_in_a_loop_; }
+  // A stage whose ratio can be changed: none if all have losses or elastic teeth, if losses join the gearbox's ends
+  // directly, or if a closed loop of shafts determines it.
+  bool has_gears() const { return can_change_; }
   double present() const { return present_; }
   // Start time with another ratio of the last stage; HUGE_VAL: never reached.
   double operator()(double ratio) {
@@ -342,9 +341,12 @@ class RatioTrial {
     net.joints[gears_of(net, gearbox_).back()].ratio *= ratio / present_;
     return net;
   }
+  double ratio_of(const Model& m) const {
+    const Network::Ports ports = network_.ports.at(gearbox_);
+    return std::abs(m.node_ratio[at(ports.in)] / m.node_ratio[at(ports.out)]);
+  }
   bool turns_with(double ratio) const try {
-    compile_network(with(ratio), scene_, effects_);
-    return true;
+    return std::abs(ratio_of(*compile_network(with(ratio), scene_, effects_)) - ratio) < 1e-6 * ratio;
   } catch (const SceneError&) {
     return false;
   }
@@ -356,7 +358,7 @@ class RatioTrial {
   double target_, limit_;
   const std::atomic<bool>* interrupted_;
   double present_ = 1;
-  bool lies_in_a_loop_ = false;
+  bool can_change_ = false;
   int node_ = 0;
   std::vector<std::pair<double, double>> tried_;
 };

@@ -218,6 +218,26 @@ fan = { kind = "inertia", inertia = "5 kg*m2" }
   EXPECT_NEAR(found[0].best_time, time(5), 1e-6);
 }
 
+// Losses of a stage leave the other one to be changed, and the ratio is that of both; losses that join the ends of the gearbox
+// leave none, for the shaft between them alone would turn otherwise.
+TEST(FastestRatios, AreOfTheWholeGearbox) {
+  const auto search = [](const char* keys) {
+    return fastest_ratios(test::scene_from(fmt::format(R"(
+line = ["motor", "gear", "fan"]
+motor = {{ kind = "torque source", torque = "40 N*m", inertia = "0.2 kg*m2" }}
+gear = {{ kind = "gearbox", {} }}
+fan = {{ kind = "inertia", inertia = "5 kg*m2" }}
+)",
+                                                       keys)),
+                          rigid_effects(), 60, 100);
+  };
+  const auto of_one = search("stages = [{ teeth = [20, 30], efficiency = 1 }, { teeth = [25, 50] }]");
+  ASSERT_EQ(of_one.size(), 1u);
+  EXPECT_NEAR(of_one[0].present, 3, 1e-12);
+  EXPECT_NEAR(of_one[0].best, 5, 1e-2);
+  EXPECT_TRUE(search("stages = [{ teeth = [20, 30] }, { teeth = [25, 50] }], efficiency = 1").empty());
+}
+
 // √(∫τ² dt/t) over the time that it ran, when told to run shorter than its scene: J₂/(J₁ + J₂) M, constant.
 TEST(Figures, RootMeanSquareIsOverTheTimeThatWasRun) {
   const Scene scene = test::scene_from(R"(
