@@ -340,6 +340,27 @@ TEST(Linkage, TheMarginOfADyadIsTheSineOfTheAngleBetweenItsLinks) {
   }
 }
 
+// A ram of mass m on a line at 0.5 rad, in a sketch that lies at 0.3 rad: its weight takes −m g sin 0.8 s′, and nothing else
+// has mass. Whether the crank is drawn from its bearing or towards it, φ is its direction from there.
+TEST(Linkage, WeightsOnASlantedLineAndACrankThatIsDrawnBackwards) {
+  for (const char* crank : {"OA", "AO"}) {
+    SketchOf of;
+    of.point('O', 0, 0).point('A', 0.1, 0).point('B', 0.1 + 0.3 * std::cos(0.4), 0.3 * std::sin(0.4)).frame("O");
+    of.link("crank", crank).link("rod", "AB").link("ram", "B", 7).slide("ram", 0.5).moves("ram", 'B', 0.5);
+    of.s.gravity = 9.81, of.s.elevation = 0.3;
+    const LinkageData data = of.data();
+    ASSERT_TRUE(data.linkage->faults().empty()) << data.linkage->faults()[0].text;
+    for (int i = 0; i < 12; ++i) {
+      const double phi = 0.1 + 0.5 * i;
+      const ReducedSample s = closed_sample(data, phi);
+      EXPECT_GT(std::abs(s.output_velocity_ratio), 1e-3);
+      EXPECT_NEAR(s.gravity_torque, -7 * 9.81 * std::sin(0.8) * s.output_velocity_ratio, 1e-12) << crank << phi;
+      const PlanarLinkage l = linkage_of(data, phi);
+      EXPECT_NEAR(std::remainder(double(l.bodies[0].direction.angle()) - phi, 2 * M_PI), 0, 1e-12) << crank << phi;
+    }
+  }
+}
+
 // --- lengths ---
 
 double distance_in(const LinkageSketch& s, int a, int b) {
