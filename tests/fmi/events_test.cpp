@@ -405,6 +405,7 @@ run = { until = "1 s" }
     const Library library(unpacked->library());
     Slave slave(*unpacked, library, Kind::model_exchange);
     slave.initialise(0);
+    slave.discrete();
     const std::vector<double> x = slave.states();
     ASSERT_EQ(x.size(), 1u);
     EXPECT_NEAR(slave.rates()[0], 2, 1e-12);

@@ -341,7 +341,8 @@ TEST(Linkage, TheMarginOfADyadIsTheSineOfTheAngleBetweenItsLinks) {
 }
 
 // A ram of mass m on a line at 0.5 rad, in a sketch that lies at 0.3 rad: its weight takes −m g sin 0.8 s′, and nothing else
-// has mass. Whether the crank is drawn from its bearing or towards it, φ is its direction from there.
+// has mass. Whether the crank is drawn from its bearing or towards it, φ is its direction from there
+// in the sketch, of which the line is the axis of positions.
 TEST(Linkage, WeightsOnASlantedLineAndACrankThatIsDrawnBackwards) {
   for (const char* crank : {"OA", "AO"}) {
     SketchOf of;
@@ -356,7 +357,8 @@ TEST(Linkage, WeightsOnASlantedLineAndACrankThatIsDrawnBackwards) {
       EXPECT_GT(std::abs(s.output_velocity_ratio), 1e-3);
       EXPECT_NEAR(s.gravity_torque, -7 * 9.81 * std::sin(0.8) * s.output_velocity_ratio, 1e-12) << crank << phi;
       const PlanarLinkage l = linkage_of(data, phi);
-      EXPECT_NEAR(std::remainder(double(l.bodies[0].direction.angle()) - phi, 2 * M_PI), 0, 1e-12) << crank << phi;
+      EXPECT_NEAR(std::remainder(double(l.bodies[0].direction.angle()) + 0.5 - phi, 2 * M_PI), 0, 1e-12)
+          << crank << phi;
     }
   }
 }
