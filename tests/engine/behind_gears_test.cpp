@@ -247,6 +247,48 @@ TEST(BehindGears, ModesAreSoughtAtTheStartSpeedOfAGearedShaft) {
   EXPECT_NEAR(modes.modes[0].ratio, -swinging.real() / std::abs(swinging), 1e-9);
 }
 
+// ζ = c ω/2k and ω² = k (1/J₁ + i²/J₂) of a spring before a gear whose shaft counts by the crank behind it.
+TEST(BehindGears, ADampersRateIsThatOfItsOwnSides) {
+  const Scene scene = scene_from(R"(line = ["a", "c", "gear", "crank"]
+a = { kind = "inertia", inertia = "0.2 kg*m2" }
+c = { kind = "coupling", stiffness = "2 kN*m/rad", damping = "3 N*m*s/rad" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 50] }] }
+crank = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia = "0.6 kg*m2", slider_mass = "1e-6 kg" }
+effects = { elasticity = true }
+run = { until = "1 s", start = { speed = "5 rad/s" } }
+)");
+  const double omega = std::sqrt(2000 * (1 / 0.2 + 2.5 * 2.5 / 0.6));
+  const ModesStudy modes = find_modes(scene, scene.effects, {});
+  ASSERT_EQ(modes.modes.size(), 1u);
+  EXPECT_NEAR(modes.modes[0].omega, omega, 1e-5 * omega);
+  EXPECT_NEAR(modes.modes[0].ratio, 3 * omega / (2 * 2000), 1e-5);
+}
+
+// J₁ + J₂/i₁² + J₃/(i₁ i₂)², of two wheels on the shaft between both stages.
+TEST(BehindGears, EveryWheelOfAGearboxHasItsInertia) {
+  const Result r = run(R"(line = ["motor", "gear"]
+motor = { kind = "torque source", torque = "12 N*m", inertia = "0.2 kg*m2" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 40], inertia = ["0.3 kg*m2", "0.4 kg*m2"] }, { teeth = [20, 60], inertia = ["0.8 kg*m2", "1.8 kg*m2"] }] }
+run = { start = "rest", until = "1 s", accuracy = 1e-9 }
+)");
+  EXPECT_NEAR(figure(r, "final_speed.motor"), 12 / (0.5 + 1.2 / 4 + 1.8 / 36), 1e-7);
+}
+
+// Over the angle as over the time: a crank behind a gear of 2.5, loaded over its own angle, comes to the same place.
+TEST(BehindGears, ACrankTurnsByItsOwnRatioOverTheAngle) {
+  const auto machine = [](const char* method) {
+    return run(std::string(R"(line = ["first", "gear", "second"]
+first = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia = "1 kg*m2", slider_mass = "1 g" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 50] }] }
+second = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia = "0.5 kg*m2", slider_mass = "8 kg", load = { kind = "opposing", force = "90 N" } }
+run = { start = { speed = "25 rad/s" }, until = "1 s", accuracy = 1e-9, method = ")") +
+               method + "\" }\n");
+  };
+  const Result over_angle = machine("work"), over_time = machine("dop853");
+  for (const char* name : {"final_speed.first", "final_angle.first", "final_angle.second"})
+    EXPECT_NEAR(figure(over_angle, name), figure(over_time, name), 1e-5 * figure(over_time, name)) << name;
+}
+
 // Rated values count at the link: torque times the ratio, speed over it.
 TEST(BehindGears, ScalesAreRatedValuesCarriedToTheLink) {
   const Scene scene =

@@ -27,6 +27,12 @@ TEST(Curve, LinearRunsStraightBetweenPointsAndConstantOutside) {
   EXPECT_DOUBLE_EQ(c.max_abs(), 2);
 }
 
+// Laws are simplified and their speeds scaled by it, whichever side of zero they lie on.
+TEST(Curve, GreatestMagnitudeIsWithoutItsSign) {
+  EXPECT_EQ(Curve({0, 1, 2}, {-5, -1, -3}, Form::linear).max_abs(), 5);
+  EXPECT_EQ(Curve({0, 1, 2}, {2, -4, 3}, Form::linear).max_abs(), 4);
+}
+
 TEST(Curve, PiecesAreNumberedFromMinusOneToTheLastPoint) {
   const Curve c({0, 1, 3}, {0, 2, -2}, Form::linear);
   EXPECT_EQ(c.piece(-0.1), -1);

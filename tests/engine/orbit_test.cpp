@@ -10,6 +10,7 @@
 #include <optional>
 #include <tuple>
 
+#include "engine/orbit/follow_period.h"
 #include "engine/orbit/held_speeds.h"
 #include "engine/orbit/link_speeds.h"
 #include "engine/orbit/moment.h"
@@ -481,6 +482,32 @@ motor = { kind = "induction motor", rated_power = "4 kW", rated_speed = "1440 rp
     if (model->network.elements[i].element->is.starts_anew) modes.on_since[i] = 3, is_there = true;
   ASSERT_TRUE(is_there);
   EXPECT_EQ(switched_until(*model, {}, {3, y, modes}), 5);
+}
+
+// What time drives repeats in its time, and three periods take three; no period of its own is sought for it, whether a torque
+// swings or a speed that is given.
+TEST(Orbit, PeriodsOfWhatTimeDrivesAreItsOwn) {
+  const auto shaken = [](const char* by) {
+    return scene_from(std::string("line = [\"drive\", \"spring\", \"wheel\"]\n") + by +
+                      "spring = { kind = \"coupling\", stiffness = \"300 N*m/rad\", damping = \"2 N*m*s/rad\" }\n"
+                      "wheel = { kind = \"load\", inertia = \"1 kg*m2\", damping = \"0.5 N*m*s/rad\" }\n"
+                      "effects = { elasticity = true }\n");
+  };
+  const Scene torque = shaken(
+      "drive = { kind = \"torque source\", torque = \"5 N*m\", amplitude = \"3 N*m\", frequency = \"4 Hz\", inertia = "
+      "\"1 "
+      "kg*m2\" }\n");
+  const Scene speed = shaken(
+      "drive = { kind = \"prescribed speed\", speed = \"10 rad/s\", amplitude = \"1 rad/s\", frequency = \"4 Hz\" }\n");
+  for (const Scene& scene : {torque, speed}) {
+    const auto model = compile(scene, scene.effects);
+    EXPECT_FALSE(has_own_period(*model, periodicity_of(*model)));
+  }
+  const Orbit orbit = orbit_of(torque);
+  ASSERT_TRUE(orbit.repeats()) << orbit.words;
+  Equations equations(orbit.map->shared_model(), false);
+  const RunOutcome outcome = follow_period(*orbit.map, orbit.point, equations, {.tolerance = 1e-9, .periods = 3}, {});
+  EXPECT_NEAR(outcome.t - orbit.map->start_time(), 0.75, 1e-12);
 }
 
 // At 2 s: one of two windows is on for good, one is over, one never comes.

@@ -389,6 +389,36 @@ run = { start = { speed = "1 rad/s" }, until = "1 s", accuracy = 1e-8 }
     }
 }
 
+// A crank behind a gear of 3 on a shaft whose speed is given at the gear's other side: its angle is the state.
+TEST(Gears, AnAngleOnAShaftThatIsDrivenIsThatOfTheCrank) {
+  const Folder folder;
+  const std::string file = written(folder, R"(
+title = "A crank behind a gear"
+line = ["drive", "gear", "crank"]
+drive = { kind = "prescribed speed", speed = "6 rad/s" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 60] }] }
+crank = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", slider_mass = "1 kg" }
+run = { until = "1 s" }
+)");
+  for (const int fmi : {2, 3}) {
+    const auto unpacked = exported(file, fmi);
+    const Library library(unpacked->library());
+    Slave slave(*unpacked, library, Kind::model_exchange);
+    slave.initialise(0);
+    slave.discrete();
+    const std::vector<double> x = slave.states();
+    ASSERT_EQ(x.size(), 1u);
+    EXPECT_NEAR(slave.rates()[0], 2, 1e-12);
+    for (const auto& [angle, ratio] : {std::pair("angle.crank", 1.0), std::pair("angle.drive", 3.0)}) {
+      EXPECT_NEAR(slave.directional((*unpacked)[angle].reference, unpacked->states[0]), ratio, 1e-12) << angle;
+      slave.states({x[0] + 0.5});
+      const double moved = slave[angle];
+      slave.states(x);
+      EXPECT_NEAR(moved - slave[angle], 0.5 * ratio, 1e-12) << angle;
+    }
+  }
+}
+
 TEST(Units, HaveTheExponentsOfTheirBaseUnits) {
   const std::map<std::string, std::map<std::string, int>> known = {{"s", {{"s", 1}}},
                                                                    {"rad", {{"rad", 1}}},

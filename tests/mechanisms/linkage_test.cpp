@@ -340,6 +340,64 @@ TEST(Linkage, TheMarginOfADyadIsTheSineOfTheAngleBetweenItsLinks) {
   }
 }
 
+// A ram of mass m on a line at 0.5 rad, in a sketch that lies at 0.3 rad: its weight takes −m g sin 0.8 s′, and nothing else
+// has mass. Whether the crank is drawn from its bearing or towards it, φ is its direction from there
+// in the sketch, of which the line is the axis of positions.
+TEST(Linkage, WeightsOnASlantedLineAndACrankThatIsDrawnBackwards) {
+  for (const char* crank : {"OA", "AO"}) {
+    SketchOf of;
+    of.point('O', 0, 0).point('A', 0.1, 0).point('B', 0.1 + 0.3 * std::cos(0.4), 0.3 * std::sin(0.4)).frame("O");
+    of.link("crank", crank).link("rod", "AB").link("ram", "B", 7).slide("ram", 0.5).moves("ram", 'B', 0.5);
+    of.s.gravity = 9.81, of.s.elevation = 0.3;
+    const LinkageData data = of.data();
+    ASSERT_TRUE(data.linkage->faults().empty()) << data.linkage->faults()[0].text;
+    for (int i = 0; i < 12; ++i) {
+      const double phi = 0.1 + 0.5 * i;
+      const ReducedSample s = closed_sample(data, phi);
+      EXPECT_GT(std::abs(s.output_velocity_ratio), 1e-3);
+      EXPECT_NEAR(s.gravity_torque, -7 * 9.81 * std::sin(0.8) * s.output_velocity_ratio, 1e-12) << crank << phi;
+      const PlanarLinkage l = linkage_of(data, phi);
+      EXPECT_NEAR(std::remainder(double(l.bodies[0].direction.angle()) + 0.5 - phi, 2 * M_PI), 0, 1e-12)
+          << crank << phi;
+    }
+  }
+}
+
+// A rod from A on a circle of radius 1 about C goes through S, 0.6 beside C; its point P, 0.9 from A, draws a curve with a
+// loop in it, about O. A driver about O that P slides on goes round twice in a cycle: towards C it meets the curve 0.5 from S,
+// where A stands 0.4 off, and 0.7 from S, where A stands 1.6 off.
+TEST(Linkage, ACycleOfTwoTurnsComesBackAfterBoth) {
+  const double rod = 0.3 + std::sqrt(0.09 + 0.64), x = -0.5, y = std::sqrt(0.75);  // A from S at 120°
+  const double from = 0.25 + (rod - 0.9) * x, up = (rod - 0.9) * y;                // P from O
+  SketchOf of;
+  of.point('C', 0, 0).point('S', 0.6, 0).point('O', 0.35, 0).point('A', 0.6 + rod * x, rod * y);
+  of.point('P', 0.35 + from, up).point('D', 0.35 + 3 * from, 3 * up).frame("CSO");
+  of.link("driver", "OD", 1, 0.1).link("block", "P").link("rod", "AP", 1, 0.1).link("guide", "S");
+  of.link("arm", "CA", 1, 0.1).slide("block", std::atan2(up, from), "driver").slide("guide", std::atan2(y, x), "rod");
+  of.drives("driver").moves("block", 'P', 0);
+  const LinkageData data = of.data();
+  const Linkage& l = *data.linkage;
+  ASSERT_TRUE(l.faults().empty()) << l.faults()[0].text;
+  ASSERT_EQ(l.turns(), 2);
+  const auto place = [&](double turns) {
+    const Path p = l.poses(2 * std::acos(-1.0L) * turns)[1](l.spot_of(4));
+    return std::pair(double(p.x.value()), double(p.y.value()));
+  };
+  const double outer = std::min(place(0.5).first, place(1.5).first),
+               inner = std::max(place(0.5).first, place(1.5).first);
+  EXPECT_NEAR(outer, -0.45, 1e-12);
+  EXPECT_NEAR(inner, -0.25, 1e-12);
+  for (const double turns : {0.1, 0.3, 0.5, 0.9}) {
+    const auto [first, high] = place(turns);
+    const auto [other, low] = place(turns + 1);
+    EXPECT_GT(std::hypot(other - first, low - high), 1e-3) << turns;
+    const auto [again, level] = place(turns + 2);
+    EXPECT_NEAR(again, first, 1e-12) << turns;
+    EXPECT_NEAR(level, high, 1e-12) << turns;
+  }
+  expect_rigid(data);
+}
+
 // --- lengths ---
 
 double distance_in(const LinkageSketch& s, int a, int b) {

@@ -172,6 +172,10 @@ TEST(ForcesWithoutARegime, HaveAnErrorThatHoldsTheNextCycle) {
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_LE(std::abs(a.reaction(k).value - b.reaction(k).value), *a.reaction(k).error) << k;
   EXPECT_LE(std::abs(a.shaking_force.value - b.shaking_force.value), *a.shaking_force.error);
+  double work = 0;  // is what the mechanism loses
+  for (const CycleWork& w : a.work) work += w.work.value;
+  EXPECT_LT(a.kinetic_change.value, -1e-3);
+  EXPECT_NEAR(work, a.kinetic_change.value, -1e-6 * a.kinetic_change.value);
 }
 
 // Two cranks, one at twice the speed: the machine comes again after two cycles of the fast one, which its peaks know.

@@ -34,6 +34,19 @@ Margins margins_of(const Scene& scene, const ModesOptions& options = {}) {
   return find_modes(scene, scene.effects, options).margins;
 }
 
+// A motor's rated speed is told of the link behind its gear.
+TEST(Margins, SpeedsAreThoseOfTheLink) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "gear", "crank"]
+    motor = { kind = "induction motor", rated_power = "4 kW", rated_speed = "1440 rpm", synchronous_speed = "1500 rpm", breakdown_ratio = 2.8, inertia = "0.02 kg*m2" }
+    gear = { kind = "gearbox", stages = [{ teeth = [20, 60] }] }
+    crank = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "0.1 kg*m2", slider_mass = "1 kg" }
+  )");
+  const OperatingSpeeds speeds = operating_speeds(*compile(scene, scene.effects), {}, {});
+  EXPECT_NEAR(speeds.slowest, 1440 * M_PI / 30 / 3, 1e-9);
+  EXPECT_EQ(speeds.slowest, speeds.fastest);
+}
+
 // Below its breakdown the motor does not stay; the shaft crosses there all the same: ω = √(k (1/J₁ + 1/J₂)).
 TEST(Margins, DoNotHangOnTheSlopeOfAMotorsCurve) {
   const double omega = std::sqrt(1400 * (1 / 0.1 + 1 / 0.8));

@@ -422,6 +422,22 @@ run = { start = { speed = "10 rad/s" }, until = "20 s", accuracy = 1e-7 }
   EXPECT_NEAR(*r.periods.standstill, 1e-3 + 2 * std::log((50 - 40 * std::exp(-1e-3)) / 0.1), 1e-5);
 }
 
+// A weight of 10 N·m, seen through a gear of η = 0.45 that no weight drives: 100 N·m (1 − ω/100) lift it at 100 − 10/η. Off
+// at 20 s the motor's 1 kg·m² lift it on against the drum's 0.1, by 10/(η + 0.1) rad/s², until the gear holds.
+TEST(Periods, StandstillIsWhereTheLossesOfAGearHoldTheLink) {
+  const Result r = run(R"(
+line = ["motor", "gear", "drum"]
+motor = { kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", inertia = "1 kg*m2", stop = "20 s" }
+gear = { kind = "gearbox", stages = [{ teeth = [20, 40] }], efficiency_forwards = 0.45, efficiency_backwards = -0.2 }
+drum = { kind = "flywheel", inertia = "0.4 kg*m2" }
+weight = { kind = "load", on = "drum", torque = "20 N*m", acts = "always" }
+run = { until = "40 s", accuracy = 1e-8 }
+)");
+  const double steady = 100 - 10 / 0.45, fades = 1 + 0.1 / 0.45;
+  ASSERT_TRUE(r.periods.standstill) << r.periods.verdict;
+  EXPECT_NEAR(*r.periods.standstill, 20 + steady * (1 - std::exp(-20 / fades)) * (0.45 + 0.1) / 10, 1e-6);
+}
+
 // --- nothing depends on what is sampled ---
 
 void expect_same_figures(const Result& a, const Result& b, const std::string& what) {
