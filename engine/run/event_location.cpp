@@ -139,8 +139,8 @@ std::vector<std::size_t> EventLocation::locate() {
     for (std::size_t k = 0; k < below.size(); ++k) {
       const std::size_t i = below[k].guard;
       double end = below[k].t, value_at_end = below[k].value;
-      if (first + at_once < end && first + at_once > from[k]) {
-        end = first + at_once, value_at_end = guard_at(end, i);
+      if (const double behind = first + 1e-6 * (t1 - t0); behind < end && behind > from[k]) {
+        end = behind, value_at_end = guard_at(end, i);
         if (value_at_end > 0) continue;
       }
       root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], end, value_at_end, enough);
