@@ -151,6 +151,9 @@ std::vector<std::size_t> EventLocation::locate() {
     if (!try_to_land_on(first, fired.front())) return {};
     find_guards(stepper_->t(), stepper_->y(), guard_);
     // What is at its root now counts as fired; another guard may have fired before it.
+    for (std::size_t k = 0; k < below.size(); ++k)
+      if (root[k] > first + at_once && std::abs(guard_[below[k].guard]) <= at_root) fired.push_back(below[k].guard);
+    std::sort(fired.begin(), fired.end());
     for (const std::size_t i : fired) guard_[i] = std::max(guard_[i], 0.0);
   }
   return fired;
