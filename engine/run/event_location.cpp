@@ -133,7 +133,7 @@ std::vector<std::size_t> EventLocation::locate() {
       return fired;
     }
     // Of each only until it is known to be later than another.
-    const double at_once = 1e-12 * (t1 - t0), enough = below.size() > 1 ? 1e-14 : 1e-9;  // land_on does the rest
+    const double at_once = 1e-12 * (t1 - t0);
     double first = t1;
     std::vector<double> root(below.size(), HUGE_VAL);
     for (std::size_t k = 0; k < below.size(); ++k) {
@@ -143,7 +143,7 @@ std::vector<std::size_t> EventLocation::locate() {
         end = behind, value_at_end = guard_at(end, i);
         if (value_at_end > 0) continue;
       }
-      root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], end, value_at_end, enough);
+      root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], end, value_at_end, 1e-14);
       first = std::min(first, root[k]);
     }
     for (std::size_t k = 0; k < below.size(); ++k)
