@@ -18,8 +18,8 @@ namespace kurbel {
 struct ConnectionPorts {
   int id = 0;  // index of the twist
   int shaft_a = 0, shaft_b = 0;
-  double gain_a = 1, gain_b = 1;  // θ̇ = gain_a ω_a − gain_b ω_b
   int loss_account = 0;
+  double gain_a = 1, gain_b = 1;  // θ̇ = gain_a ω_a − gain_b ω_b
 };
 
 // Indices needed by some connections only: modes, internal states, a command, the angle of a.
@@ -255,9 +255,9 @@ class ConnectionPool final : public ElementPool {
       }
       sums.twist_rate[p.at.id] = x.rate;
       sums.connection_torque[p.at.id] = tau;
-      double on_a = -tau;
-      if constexpr (UsesAngle<E>) on_a += sums.turning_torque[p.at.id] = p.element.turning_torque(x);
-      sums.torque[p.at.shaft_a] += p.at.gain_a * on_a;
+      double from_a = tau;
+      if constexpr (UsesAngle<E>) from_a -= sums.turning_torque[p.at.id] = p.element.turning_torque(x);
+      sums.torque[p.at.shaft_a] -= p.at.gain_a * from_a;
       sums.torque[p.at.shaft_b] += p.at.gain_b * tau;
       if constexpr (HasStates<E>) p.element.rates(x, sums.own_rate + p.more.own);
       if constexpr (with_work) add_work(p, x, tau, sums);

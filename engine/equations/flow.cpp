@@ -34,6 +34,9 @@ Flow::Flow(std::shared_ptr<const Model> model, bool audit)
       ties_(*model_, modes_),
       reactions_(*model_, modes_),
       joint_torques_(*model_),
+      twists_begin_(model_->angle_count()),
+      speeds_begin_(twists_begin_ + model_->twist_count()),
+      own_begin_(speeds_begin_ + model_->free_shafts),
       states_(model_->state_count()) {
   const Model& m = *model_;
   const std::size_t shafts = m.shafts.size(), elements = m.network.elements.size();
@@ -90,26 +93,22 @@ void Flow::list_elastic_tree() {
     seen[at(queue.front())] = 1;
     for (std::size_t next = 0; next < queue.size(); ++next)
       for (const int j : joints_at[at(queue[next])]) {
-        const bool forward = m.elastic[at(j)].shaft_a == queue[next];
-        const int other = forward ? m.elastic[at(j)].shaft_b : m.elastic[at(j)].shaft_a;
+        const ElasticJoint& e = m.elastic[at(j)];
+        const bool forward = e.shaft_a == queue[next];
+        const int other = forward ? e.shaft_b : e.shaft_a;
         if (seen[at(other)]) continue;
         seen[at(other)] = 1;
         queue.push_back(other);
-        elastic_steps_.push_back({j, forward});
+        elastic_steps_.push_back({j, queue[next], other, forward ? e.gain_a / e.gain_b : e.gain_b / e.gain_a,
+                                  forward ? -1 / e.gain_b : 1 / e.gain_a});
       }
   }
 }
 
 // φ_b = (gain_a φ_a − θ)/gain_b, and back.
 void Flow::set_shaft_angles(const double* twists, std::vector<double>& angles) const {
-  for (const ElasticStep& step : elastic_steps_) {
-    const ElasticJoint& e = model_->elastic[at(step.elastic)];
-    if (step.forward) {
-      angles[at(e.shaft_b)] = (e.gain_a * angles[at(e.shaft_a)] - twists[step.elastic]) / e.gain_b;
-    } else {
-      angles[at(e.shaft_a)] = (e.gain_b * angles[at(e.shaft_b)] + twists[step.elastic]) / e.gain_a;
-    }
-  }
+  for (const ElasticStep& step : elastic_steps_)
+    angles[at(step.to)] = step.by_angle * angles[at(step.from)] + step.by_twist * twists[step.elastic];
 }
 
 std::vector<double> Flow::shaft_angles_by_twist(std::size_t elastic) const {
@@ -119,20 +118,14 @@ std::vector<double> Flow::shaft_angles_by_twist(std::size_t elastic) const {
   return angles;
 }
 
-Instant Flow::instant(double t, std::span<const double> y) {
-  Instant now;
-  look_at(t, y, now);
-  return now;
-}
-
 // Word by word: a copy reads by pairs what was just stored so, and the processor waits for that (a sixth of the whole
 // right-hand side of a small machine).
-void Flow::look_at(double t, std::span<const double> y, Instant& now) {
+[[gnu::always_inline]] inline void Flow::look_at(double t, std::span<const double> y, Instant& now) {
   const Model& m = *model_;
   const double* speed = y.data() + speed_index(0);
-  if (m.free_shafts < m.shafts.size()) {
+  if (m.free_shafts < speed_.size()) {
     std::copy(speed, speed + m.free_shafts, speed_.begin());
-    for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) speed_[s] = prescribed_speed(m, modes_, s, t);
+    for (std::size_t s = m.free_shafts; s < speed_.size(); ++s) speed_[s] = prescribed_speed(m, modes_, s, t);
     speed = speed_.data();
   }
   for (std::size_t c = 0; c < modes_.command.size(); ++c)
@@ -150,6 +143,14 @@ void Flow::look_at(double t, std::span<const double> y, Instant& now) {
   now.own = y.data() + own_begin();
 }
 
+Instant Flow::instant(double t, std::span<const double> y) {
+  Instant now;
+  look_at(t, y, now);
+  return now;
+}
+
+void Flow::look(double t, std::span<const double> y) { look_at(t, y, snapshot_.now); }
+
 // Stages: clear, elements, accelerations, torques in merged joints where somebody asks.
 void Flow::evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
                     double* own_rate) {
@@ -163,7 +164,8 @@ void Flow::evaluate(double t, std::span<const double> y, double* twist_rate, dou
   snapshot_.sums.own_rate = own_rate ? own_rate : own_rate_.data();
   for (const auto& pool : m.pools) pool->add(snapshot_.now, snapshot_.sums);
   if (plain_) {
-    for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque_[s] * inverse_inertia_[s];
+    const volatile double* const torque = torque_.data();  // word by word, as in look_at()
+    for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque[s] * inverse_inertia_[s];
     for (const int s : variable_)
       if (at(s) < m.free_shafts) alpha[s] = torque_[at(s)] / inertia_[at(s)];
     if (!following_.empty()) let_follow(t, alpha, snapshot_.sums.own_rate);
@@ -211,7 +213,7 @@ void Flow::flow(double t, std::span<const double> y, std::span<double> ydot) {
   } catch (const Jam&) {  // a step too long: it is tried again, shorter
     return lose();
   }
-  ties_.refuse_broken(t);
+  if (!plain_) ties_.refuse_broken(t);
   for (std::size_t i = 0; i < m.angles.size(); ++i) ydot[i] = m.angles[i].gain * snapshot_.now.speed[m.angles[i].shaft];
   if (audit()) {
     std::copy(alpha, alpha + m.free_shafts, alpha_.begin());

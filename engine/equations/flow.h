@@ -49,10 +49,8 @@ class Flow : public OdeSystem {
 
   // --- indices in y ---
   std::size_t integral_count() const { return quadratures_; }  // of the audit, after the states in y
-  std::size_t twist_index(int elastic) const { return twists_begin() + static_cast<std::size_t>(elastic); }
-  std::size_t speed_index(int shaft) const {
-    return twists_begin() + model_->twist_count() + static_cast<std::size_t>(shaft);
-  }
+  std::size_t twist_index(int elastic) const { return twists_begin_ + static_cast<std::size_t>(elastic); }
+  std::size_t speed_index(int shaft) const { return speeds_begin_ + static_cast<std::size_t>(shaft); }
   std::size_t work_index(std::size_t account) const { return states_ + account; }
   // ∫τ² dt of the transmitted and of the spring torque of a torque joint.
   std::size_t square_index(std::size_t torque_joint, bool spring) const {
@@ -104,7 +102,7 @@ class Flow : public OdeSystem {
   Instant instant(double t, std::span<const double> y);
   // The instant of the last look() or evaluate().
   const Instant& now() const { return snapshot_.now; }
-  void look(double t, std::span<const double> y) { look_at(t, y, snapshot_.now); }
+  void look(double t, std::span<const double> y);
   void evaluate(double t, std::span<const double> y) { evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr); }
   // Results of the last evaluate(): accelerations of all shafts, including prescribed ones; inertias; torques on the shafts
   // without the torques of ties; torques and inertias of the elements.
@@ -121,13 +119,13 @@ class Flow : public OdeSystem {
   void balance_followers(double* own) const;
   bool has_followers() const { return !following_.empty(); }
   std::size_t state_count() const { return states_; }
-  std::size_t twists_begin() const { return model_->angle_count(); }
-  std::size_t own_begin() const { return twists_begin() + model_->twist_count() + model_->free_shafts; }
+  std::size_t twists_begin() const { return twists_begin_; }
+  std::size_t own_begin() const { return own_begin_; }
 
  private:
-  struct ElasticStep {  // an elastic joint, in order outwards from the reduction link
-    int elastic;
-    bool forward;
+  struct ElasticStep {  // over an elastic joint, in order outwards from the reduction link
+    int elastic, from, to;
+    double by_angle, by_twist;  // φ_to by φ_from and θ
   };
   void list_elastic_tree();
   void look_at(double t, std::span<const double> y, Instant& now);
@@ -145,7 +143,7 @@ class Flow : public OdeSystem {
   ReactionBalance reactions_;
   JointTorques joint_torques_;
   bool plain_ = false;  // no contact, no relation, no reaction: ω̇ = M/I
-  std::size_t states_ = 0, quadratures_ = 0;
+  std::size_t twists_begin_, speeds_begin_, own_begin_, states_, quadratures_ = 0;
   std::vector<int> directional_;  // shafts with elements opposing motion
   std::vector<int> variable_;     // shafts with mechanisms
   std::vector<double> constant_inertia_, inverse_inertia_;

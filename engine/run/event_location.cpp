@@ -133,17 +133,17 @@ std::vector<std::size_t> EventLocation::locate() {
       return fired;
     }
     // Of each only until it is known to be later than another.
-    const double at_once = 1e-12 * (t1 - t0), enough = below.size() > 1 ? 1e-14 : 1e-9;  // land_on does the rest
+    const double at_once = 1e-12 * (t1 - t0);
     double first = t1;
     std::vector<double> root(below.size(), HUGE_VAL);
     for (std::size_t k = 0; k < below.size(); ++k) {
       const std::size_t i = below[k].guard;
       double end = below[k].t, value_at_end = below[k].value;
-      if (first + at_once < end && first + at_once > from[k]) {
-        end = first + at_once, value_at_end = guard_at(end, i);
+      if (const double behind = first + 1e-6 * (t1 - t0); behind < end && behind > from[k]) {
+        end = behind, value_at_end = guard_at(end, i);
         if (value_at_end > 0) continue;
       }
-      root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], end, value_at_end, enough);
+      root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], end, value_at_end, 1e-14);
       first = std::min(first, root[k]);
     }
     for (std::size_t k = 0; k < below.size(); ++k)
@@ -151,6 +151,9 @@ std::vector<std::size_t> EventLocation::locate() {
     if (!try_to_land_on(first, fired.front())) return {};
     find_guards(stepper_->t(), stepper_->y(), guard_);
     // What is at its root now counts as fired; another guard may have fired before it.
+    for (std::size_t k = 0; k < below.size(); ++k)
+      if (root[k] > first + at_once && std::abs(guard_[below[k].guard]) <= at_root) fired.push_back(below[k].guard);
+    std::sort(fired.begin(), fired.end());
     for (const std::size_t i : fired) guard_[i] = std::max(guard_[i], 0.0);
   }
   return fired;

@@ -61,6 +61,7 @@ struct JointFriction::Work {
   double by[most_loads][2];           // ∂law/∂ the two reactions of its joint
   std::size_t of[most_loads];         // the first of these
   double lu[most_loads][most_loads];  // of 1 − s ∂law/∂R (U + m b vᵀ)
+  double inverse[most_loads];         // of its pivots
   std::size_t row[most_loads];
   double determinant = 1;
   double answer[most_reactions];  // b
@@ -96,9 +97,9 @@ struct JointFriction::Work {
       }
       determinant *= lu[k][k];
       if (lu[k][k] == 0) continue;
-      const double inverse = 1 / lu[k][k];
+      inverse[k] = 1 / lu[k][k];
       for (std::size_t i = k + 1; i < n; ++i) {
-        const double factor = lu[i][k] *= inverse;
+        const double factor = lu[i][k] *= inverse[k];
         if (factor != 0)
           for (std::size_t j = k + 1; j < n; ++j) lu[i][j] -= factor * lu[k][j];
       }
@@ -112,7 +113,7 @@ struct JointFriction::Work {
       for (std::size_t i = k + 1; i < n; ++i) x[i] -= lu[i][k] * x[k];
     for (std::size_t k = n; k-- > 0;) {
       for (std::size_t j = k + 1; j < n; ++j) x[k] -= lu[k][j] * x[j];
-      x[k] /= lu[k][k];
+      x[k] *= inverse[k];
     }
   }
 };

@@ -73,7 +73,8 @@ std::vector<int> sides_of(const Both& of, JointFriction::State& s) {
   std::vector<int> modes;
   for (int k = 0; k < of.law->sign_count(); ++k) modes.push_back(of.law->turning(k, s.phi).value > 0 ? 1 : -1);
   std::vector<double> side(static_cast<std::size_t>(of.law->side_count()));
-  of.law->sides(s, side.data());
+  JointFriction::Place place;
+  of.law->sides(s, side.data(), place);
   for (const double value : side) modes.push_back(value > 0 ? 1 : -1);
   s.direction = s.omega > 0 ? 1 : -1;
   s.travel = of.statics.rates(s.phi, 1).slider > 0 ? 1 : -1;
