@@ -230,16 +230,12 @@ void add_kind(Kind kind) {
   known.lists.push_back(std::move(list));
 }
 
-namespace {
-
 const char* unsaid_text(const EffectFlag& effect) {
   return effect.unsaid == EffectFlag::Unsaid::off               ? "off"
          : effect.unsaid == EffectFlag::Unsaid::where_given     ? "on where the scene gives that"
          : effect.unsaid == EffectFlag::Unsaid::with_elasticity ? "on where anything is elastic"
                                                                 : "on, even in the rigid machine; off by name alone";
 }
-
-}  // namespace
 
 std::string keys_in_markdown() {
   std::string text =
