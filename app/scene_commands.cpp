@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "engine/model/model.h"
 #include "engine/scene/keys.h"
 #include "engine/scene/units.h"
+#include "studies/data/named.h"
 #include "studies/files/whole_file.h"
 #include "studies/run/simulate.h"
 #include "studies/scenes/kinds.h"
@@ -36,16 +36,10 @@ std::string names_of_templates() {
 }
 
 const SceneTemplate& template_named(const std::string& kind) {
-  std::vector<std::string> names;
-  for (const SceneTemplate& scene : scene_templates()) {
-    if (scene.name == kind) return scene;
-    names.push_back(scene.name);
-  }
   if (kind.empty())
     throw std::invalid_argument(
-        fmt::format("which kind of machine? Write e.g. kurbel new press; allowed: {}", listed(names)));
-  throw std::invalid_argument(
-      fmt::format("no scene {} to start from{}; allowed: {}", in_quotes(kind), suggestion(kind, names), listed(names)));
+        fmt::format("which kind of machine? Write e.g. kurbel new press; allowed: {}", names_of_templates()));
+  return named(scene_templates(), &SceneTemplate::name, kind, "no scene {} to start from{}; allowed: {}");
 }
 
 // The path as one word of a shell's line.
@@ -108,10 +102,6 @@ int print_keys(const std::string& kind, bool list_kinds) {
     say(keys_in_markdown());
     return exit_done;
   }
-  const std::vector<std::string> names = names_of_keys();
-  if (std::find(names.begin(), names.end(), kind) == names.end())
-    throw std::invalid_argument(
-        fmt::format("no kind {}{}; allowed: {}", in_quotes(kind), suggestion(kind, names), listed(names)));
   say(keys_of(kind));
   return exit_done;
 }

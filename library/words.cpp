@@ -5,12 +5,12 @@
 #include <kurbel/figures.h>
 #include <kurbel/scene.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
+#include "studies/data/named.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/dictionary/page_words.h"
 #include "studies/report/theory.h"
@@ -55,12 +55,6 @@ std::string sentences_on(const Definition& d, const std::string& asked) {
                                           near.empty() ? "" : fmt::format(" — did you mean {}?", near)));
 }
 
-void refuse_unless_one_of(const char* what, const std::string& name, const std::vector<std::string>& names) {
-  if (std::find(names.begin(), names.end(), name) == names.end())
-    throw std::invalid_argument(
-        fmt::format("no {} {}{}; allowed: {}", what, in_quotes(name), suggestion(name, names), listed(names)));
-}
-
 }  // namespace
 
 std::string explained(const std::string& figure) {
@@ -83,10 +77,7 @@ std::vector<std::string> explained_figures() {
 }
 
 std::vector<std::string> kinds() { return names_of_keys(); }
-std::string keys(const std::string& kind) {
-  refuse_unless_one_of("kind", kind, kinds());
-  return keys_of(kind);
-}
+std::string keys(const std::string& kind) { return keys_of(kind); }
 std::string schema() { return scene_schema(); }
 
 std::vector<std::string> example_scenes() {
@@ -96,10 +87,7 @@ std::vector<std::string> example_scenes() {
 }
 
 std::string example_scene(const std::string& name) {
-  refuse_unless_one_of("example scene", name, example_scenes());
-  for (const SceneTemplate& scene : scene_templates())
-    if (scene.name == name) return std::string(scene.text);
-  return {};
+  return std::string(named(scene_templates(), &SceneTemplate::name, name, "no example scene {}{}; allowed: {}").text);
 }
 
 }  // namespace kurbel

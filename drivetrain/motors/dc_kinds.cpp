@@ -96,6 +96,27 @@ void put_on_rheostat(const RheostatKeys& keys, const std::string& name, Window w
     put(OnRheostat<Motor, CutOut::by_current>{});
 }
 
+// The motor with a rheostat, an inductance, or both; false: it has neither.
+template <class Circuit, class Motor>
+bool put_with_circuit(const RheostatKeys& rheostat, const CircuitKeys& circuit, const std::string& name, Window window,
+                      const Motor& motor, Network& net, int node) {
+  const auto with = [&](double total) {
+    Motor one = motor;
+    one.resistance = total;
+    return one;
+  };
+  const auto wound = [&](double total) { return Circuit{with(total), *circuit.inductance, circuit.initial_current}; };
+  if (rheostat.starting_resistances && circuit.inductance)
+    put_on_rheostat(rheostat, name, window, motor.resistance, net, node, wound);
+  else if (rheostat.starting_resistances)
+    put_on_rheostat(rheostat, name, window, motor.resistance, net, node, with);
+  else if (circuit.inductance)
+    net.put(node, name, wound(motor.resistance), window);
+  else
+    return false;
+  return true;
+}
+
 // --- shunt motor ---
 
 struct ShuntKeys {
@@ -233,21 +254,8 @@ void build_dc_shunt(const Section& s, const Reading<ShuntKeys>& m, Network& net)
                                    : put_weakened<FieldOver::speed>(m, s.name, net, node);
   const double voltage = *m.voltage, resistance = *m.resistance, constant = *m.constant;
   const BrakedShuntMotor line{voltage, resistance, constant, m.rated_torque, {m.braking_resistance.value_or(0)}};
-  const auto with = [&](double total) {
-    BrakedShuntMotor one = line;
-    one.resistance = total;
-    return one;
-  };
-  const auto circuit = [&](double total) {
-    return DcShuntCircuit{with(total), *m.circuit.inductance, m.circuit.initial_current};
-  };
-  if (m.rheostat.starting_resistances && m.circuit.inductance)
-    put_on_rheostat(m.rheostat, s.name, m.window, resistance, net, node, circuit);
-  else if (m.rheostat.starting_resistances)
-    put_on_rheostat(m.rheostat, s.name, m.window, resistance, net, node, with);
-  else if (m.circuit.inductance)
-    net.put(node, s.name, circuit(resistance), m.window);
-  else if (line.brake.resistance > 0)
+  if (put_with_circuit<DcShuntCircuit>(m.rheostat, m.circuit, s.name, m.window, line, net, node)) return;
+  if (line.brake.resistance > 0)
     net.put(node, s.name, line, m.window);
   else
     net.put(node, s.name, DcShuntMotor{constant * voltage / resistance, voltage / constant, m.rated_torque}, m.window);
@@ -297,21 +305,7 @@ void build_dc_series(const Section& s, const Reading<SeriesKeys>& m, Network& ne
   motor.name = s.name;
   if (!m.given(&SeriesKeys::max_speed))
     motor.limit_by = m.rated_speed ? "by default 5 rated_speed" : "by default 100 R/κ, as rated_speed is not given";
-  const auto with = [&](double total) {
-    DcSeriesMotor one = motor;
-    one.resistance = total;
-    return one;
-  };
-  const auto circuit = [&](double total) {
-    return DcSeriesCircuit{with(total), *m.circuit.inductance, m.circuit.initial_current};
-  };
-  if (m.rheostat.starting_resistances && m.circuit.inductance)
-    put_on_rheostat(m.rheostat, s.name, m.window, motor.resistance, net, node, circuit);
-  else if (m.rheostat.starting_resistances)
-    put_on_rheostat(m.rheostat, s.name, m.window, motor.resistance, net, node, with);
-  else if (m.circuit.inductance)
-    net.put(node, s.name, circuit(motor.resistance), m.window);
-  else
+  if (!put_with_circuit<DcSeriesCircuit>(m.rheostat, m.circuit, s.name, m.window, motor, net, node))
     net.put(node, s.name, motor, m.window);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -14,6 +15,11 @@
 #include "mechanisms/linkage/travel.h"
 
 namespace kurbel {
+
+std::vector<std::string> words_in(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
 namespace {
 
 const Tables<Reading<SpringKeys>>& spring_tables() {
@@ -133,7 +139,7 @@ class LinkageForceBuilder {
         [&](Mechanism& m) { return put_further(k.loads, m); });
   }
   void add(const Reading<CoupleKeys>& k) {
-    const std::vector<std::string> two = words(k.between);
+    const std::vector<std::string> two = words_in(k.between);
     if (two.size() != 2) return void(k.refuse(&CoupleKeys::between, "must name two links, or frame and a link"));
     LinkageTravel travel{LinkageTravel::Of::rotation, {}, {}, 0};
     for (const auto& [name, place] : {std::pair{two[0], &travel.from}, std::pair{two[1], &travel.to}}) {
@@ -162,12 +168,6 @@ class LinkageForceBuilder {
   }
 
  private:
-  static std::vector<std::string> words(const std::string& text) {
-    std::istringstream in(text);
-    std::vector<std::string> list;
-    for (std::string word; in >> word;) list.push_back(word);
-    return list;
-  }
   template <class T>
   static std::vector<std::string> names(const std::vector<T>& list) {
     std::vector<std::string> all;
@@ -191,7 +191,7 @@ class LinkageForceBuilder {
   // the sense of the motion is known.
   std::optional<LinkageTravel::Place> place_on(const Reading<PointForceKeys>& k) const {
     const auto& on = &PointForceKeys::on;
-    const std::vector<std::string> parts = words(*k.on);
+    const std::vector<std::string> parts = words_in(*k.on);
     if (parts.empty() || parts.size() > 2) {
       k.refuse(on, "must name one point, of a pin with the link before it: \"B\" or \"rocker B\"");
       return {};
@@ -217,7 +217,7 @@ class LinkageForceBuilder {
   }
   template <class K, class M>
   std::optional<LinkageTravel> between(const K& k, M member, const std::string& text) const {
-    const std::vector<std::string> two = words(text);
+    const std::vector<std::string> two = words_in(text);
     if (two.size() != 2 || two[0] == two[1]) {
       k.refuse(member, "must name two points");
       return {};

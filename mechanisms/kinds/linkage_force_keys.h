@@ -23,6 +23,8 @@ Tables<Reading<K>> by_names(const char* name, const char* doc, const Fields<K>& 
   return tables;
 }
 
+std::vector<std::string> words_in(const std::string& text);
+
 struct SpringKeys {
   std::string between;                // two points
   double stiffness = 0, preload = 0;  // [N/m], [N]

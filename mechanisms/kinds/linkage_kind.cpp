@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "mechanisms/kinds/kinds.h"
 #include "mechanisms/kinds/linkage_force_keys.h"
@@ -128,13 +127,6 @@ Fields<LinkageKeys> linkage_fields() {
       .add({.name = "torque", .doc = "torque on an output that rocks, or a list of them"}, &LinkageKeys::torques,
            rocker_loads())
       .add(linkage_force_fields(), &LinkageKeys::within);
-}
-
-std::vector<std::string> words_in(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
 }
 
 // Names become indices; what is wrong goes to its place.

@@ -160,13 +160,14 @@ class LengthsTaker {
     return moved;
   }
   void hold(int p) {
-    for (const SketchSpot n : {SketchSpot{1, 0}, SketchSpot{0, 1}}) {
-      const long double wanted = dot(n, drawn(p));
-      conditions_.push_back({{p}, [=](const Unknowns& q, std::vector<SketchSpot>& by) {
-                               by = {n};
-                               return dot(n, point_in(q, p)) - wanted;
-                             }});
-    }
+    for (const SketchSpot n : {SketchSpot{1, 0}, SketchSpot{0, 1}}) hold_along(n, p);
+  }
+  void hold_along(SketchSpot n, int p) {
+    const long double wanted = dot(n, drawn(p));
+    conditions_.push_back({{p}, [=](const Unknowns& q, std::vector<SketchSpot>& by) {
+                             by = {n};
+                             return dot(n, point_in(q, p)) - wanted;
+                           }});
   }
 
   // A line in a link goes with the first two points of it, a line in the frame or in a link of one point keeps its angle.
@@ -191,12 +192,7 @@ class LengthsTaker {
       return;
     }
     if (slide.on == LinkageSketch::frame) {
-      const SketchSpot n = left_of(along);
-      const long double wanted = dot(n, drawn(p));
-      conditions_.push_back({{p}, [=](const Unknowns& q, std::vector<SketchSpot>& by) {
-                               by = {n};
-                               return dot(n, point_in(q, p)) - wanted;
-                             }});
+      hold_along(left_of(along), p);
     } else {
       conditions_.push_back(across(guide[0], p, along, dot(left_of(along), drawn(p) - drawn(guide[0]))));
     }

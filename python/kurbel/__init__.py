@@ -30,7 +30,7 @@ __all__ = ["Event", "Figure", "Machine", "Motion", "Run", "SceneError", "State",
 
 def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None, no_error=False, page=True,
         no_trials=True, measured="", map=(), shift="", offset=(), from_state=None):
-    """Simulates a scene: figures confirmed by further runs, trajectory, page.
+    """Simulates a scene: figures confirmed by further runs, trajectory, page. Options:
 
     set       values put beside the scene: {"main_coupling.stiffness": "1 MN*m/rad"}
     effects   "none", "all", or names, joined by commas or as a list, in place of the scene's
@@ -68,8 +68,8 @@ def _options(given):
 
 
 def study(name, /, scene=None, *, set=None, **options):
-    """One of study_names() put to a scene, or without one: a pair of gears alone, the list of effects; options as the command has them: mid_speed="60 rpm"; those that may be given
-    again there as a list."""
+    """One of study_names() put to a scene, or without one: a pair of gears alone, the list of effects; options as the
+    command has them: mid_speed="60 rpm"; those that may be given again there as a list."""
     return Study(_kurbel.study(name, None if scene is None else machine(scene, set=set), _options(options)))
 
 

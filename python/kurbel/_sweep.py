@@ -88,7 +88,7 @@ class Sweep:
 
 def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None, executor=None, into=None, jobs=0,
           **choices):
-    """Runs variants of a scene.
+    """Runs variants of a scene. Options:
 
     vary      ["main_coupling.stiffness=500..1500 kN*m/rad", "flywheel.inertia=200,400 kg*m2"]
     design    "grid:21x3", "sobol:4096", "lhs:500", "random:500"; row i is a function of i, design and seed alone
@@ -120,7 +120,8 @@ def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None,
 
 
 def merge(files, into):
-    """Puts shards of one sweep, which `kurbel sweep --shard` filled, into one file; how many rows it has."""
+    """Puts shards of one sweep, which `kurbel sweep --shard` filled, into one file; how many rows it has.
+    Options: files, into."""
     return _kurbel.merge([os.fspath(file) for file in files], os.fspath(into))
 
 

@@ -99,6 +99,20 @@ Plot figure_cost(const AccuracyStudy& study, std::size_t figure) {
   return plot;
 }
 
+// The settings of every model.
+template <class X, class Y>
+void add_levels(const AccuracyStudy& study, const X& x, const Y& y, Plot& plot) {
+  for (std::size_t level = 0; level < study.levels.size(); ++level) {
+    Series series{.name = study.levels[level].name, .role = level_role(level, study.fullest), .line = false};
+    for (const MeasuredSetting& s : study.settings) {
+      if (s.level != level || !(x(s) > 0)) continue;
+      series.add(x(s), y(s));
+      series.labels.push_back(label_of(study, s));
+    }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+}
+
 // Every setting by its numerical error and its model error: right of the diagonal the numerical error dominates, left
 // of it the model error, and a tighter tolerance is useless.
 Plot error_plane(const AccuracyStudy& study) {
@@ -106,20 +120,14 @@ Plot error_plane(const AccuracyStudy& study) {
   Plot plot{.title = fmt::format("Error of the model against error of the numbers: {}", study.figures[k].name),
             .x = {"numerical error", "relative", true},
             .y = {"error of the model", "relative", true}};
-  double low = HUGE_VAL, high = 0;
   const double floor = study.levels[study.fullest].floor[k];
-  for (std::size_t level = 0; level < study.levels.size(); ++level) {
-    const ModelLevel& m = study.levels[level];
-    Series series{.name = m.name, .role = level_role(level, study.fullest), .line = false};
-    for (const MeasuredSetting& s : study.settings) {
-      if (s.level != level || !(s.numerical_error[k] > 0)) continue;
-      series.add(s.numerical_error[k], std::max(m.model_error[k], floor));
-      series.labels.push_back(label_of(study, s));
-      low = std::min({low, series.x.back(), series.y.back()});
-      high = std::max({high, series.x.back(), series.y.back()});
-    }
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
-  }
+  add_levels(
+      study, [&](const MeasuredSetting& s) { return s.numerical_error[k]; },
+      [&](const MeasuredSetting& s) { return std::max(study.levels[s.level].model_error[k], floor); }, plot);
+  double low = HUGE_VAL, high = 0;
+  for (const Series& series : plot.series)
+    for (const std::vector<double>& values : {series.x, series.y})
+      for (const double value : values) low = std::min(low, value), high = std::max(high, value);
   plot.series.push_back({.name = "numerical error as large as the model's",
                          .role = Role::reference,
                          .x = {low, high},
@@ -139,15 +147,8 @@ Plot total_cost(const AccuracyStudy& study) {
       .title = fmt::format("Total error and processor time, model and numbers together: {}", study.figures[k].name),
       .x = {"total error", "relative", true},
       .y = {"processor time", "ms", true}};
-  for (std::size_t level = 0; level < study.levels.size(); ++level) {
-    Series series{.name = study.levels[level].name, .role = level_role(level, study.fullest), .line = false};
-    for (const MeasuredSetting& s : study.settings) {
-      if (s.level != level || !(error(s) > 0)) continue;
-      series.add(error(s), 1e3 * s.seconds);
-      series.labels.push_back(label_of(study, s));
-    }
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
-  }
+  add_levels(
+      study, error, [](const MeasuredSetting& s) { return 1e3 * s.seconds; }, plot);
   plot.series.push_back(front_series(
       study, [](const MeasuredSetting& s) { return s.on_front; }, error));
   plot.note = fmt::format("Against the converged {}.", model_called(study.levels[study.fullest].name));

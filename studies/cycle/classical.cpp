@@ -58,4 +58,20 @@ std::vector<std::string> beyond_the_rigid_machine(const Scene& scene, const Mome
   return list;
 }
 
+CycleBasis MachineOnBasis::choose_basis(const Scene& scene, const Moment& at, std::optional<CycleBasis> wanted,
+                                        bool needs_cycle) {
+  beyond_ = beyond_the_rigid_machine(scene, at);
+  const CycleBasis basis =
+      wanted.value_or(beyond_.empty() || !needs_cycle ? CycleBasis::classical : CycleBasis::regime);
+  if (basis == CycleBasis::classical)
+    make_rigid(scene, at);
+  else
+    model_ = compile_at(scene, scene.effects, at);
+  return basis;
+}
+
+void MachineOnBasis::make_rigid(const Scene& scene, const Moment& at) {
+  machine_.emplace(compile_at(scene, classical_effects(scene), at));
+}
+
 }  // namespace kurbel

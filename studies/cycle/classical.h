@@ -8,6 +8,7 @@
 
 #include "engine/model/model.h"
 #include "engine/orbit/moment.h"
+#include "engine/rigid/rigid_machine.h"
 
 namespace kurbel {
 
@@ -20,5 +21,25 @@ std::vector<std::string> beyond_the_rigid_machine(const Scene& scene, const Mome
 
 // Compiles a scene already as of a moment (as_of), with its sources and loads at that time.
 std::shared_ptr<const Model> compile_at(const Scene& scene, const Effects& effects, const Moment& at);
+
+// Motion from which torques and inertia are taken.
+enum class CycleBasis {
+  classical,  // the rigid machine at successive positions, at constant speed
+  regime      // the machine's steady cycle with the scene's effects
+};
+
+// The machine of a study of the cycle.
+class MachineOnBasis {
+ protected:
+  // On the basis wanted; default: classical if the rigid machine represents all but elasticity, or if no cycle is needed.
+  CycleBasis choose_basis(const Scene& scene, const Moment& at, std::optional<CycleBasis> wanted,
+                          bool needs_cycle = true);
+  void make_rigid(const Scene& scene, const Moment& at);
+  const Model& model() const { return machine_ ? machine_->model() : *model_; }
+
+  std::optional<RigidMachine> machine_;  // of the classical basis
+  std::shared_ptr<const Model> model_;   // of the steady motion's
+  std::vector<std::string> beyond_;      // what the rigid machine cannot represent
+};
 
 }  // namespace kurbel

@@ -4,6 +4,7 @@
 #include "engine/scene/effects.h"
 #include "studies/effects/effect_study.h"
 #include "studies/question/question.h"
+#include "studies/scenes/kinds.h"
 
 namespace kurbel {
 namespace {
@@ -16,11 +17,7 @@ std::string list_of_effects() {
       "an excitation meets a mode, and for starts and blows; unless mentioned: off\n";
   for (const EffectFlag& effect : effect_flags())
     list += fmt::format("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
-                        effect.parameters, effect.states, effect.matters,
-                        effect.unsaid == EffectFlag::Unsaid::off               ? "off"
-                        : effect.unsaid == EffectFlag::Unsaid::where_given     ? "on where the scene gives that"
-                        : effect.unsaid == EffectFlag::Unsaid::with_elasticity ? "on where anything is elastic"
-                                                                               : "on, even in the rigid machine");
+                        effect.parameters, effect.states, effect.matters, unsaid_text(effect));
   return list;
 }
 

@@ -1,11 +1,7 @@
 // question.cpp — the list of all questions.
 #include "studies/question/question.h"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-
-#include "engine/scene/messages.h"
+#include "studies/data/named.h"
 
 namespace kurbel {
 
@@ -39,13 +35,7 @@ const std::vector<Question>& questions() {
 }
 
 const Question& question_named(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Question& question : questions()) {
-    if (question.name == name) return question;
-    names.push_back(question.name);
-  }
-  throw std::invalid_argument(
-      fmt::format("no study {}; there are {}{}", in_quotes(name), listed(names, "and"), suggestion(name, names)));
+  return named(questions(), &Question::name, name, "no study {}{}; allowed: {}");
 }
 
 }  // namespace kurbel

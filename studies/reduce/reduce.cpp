@@ -15,7 +15,6 @@
 #include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
-#include "studies/cycle/classical.h"
 #include "studies/reduce/along_cycle.h"
 #include "studies/reduce/mechanism_words.h"
 #include "studies/reduce/targets.h"
@@ -27,7 +26,7 @@ namespace {
 
 constexpr double looser_sampling = 1e-9;
 
-class Reducer {
+class Reducer : MachineOnBasis {
  public:
   Reducer(const Scene& scene, const ReduceOptions& options)
       : scene_(as_of(scene, scene.effects, options.at)), options_(options) {
@@ -37,7 +36,7 @@ class Reducer {
   }
 
   MachineReduction run() {
-    choose_basis();
+    r_.basis = choose_basis(scene_, options_.at, options_.basis, !options_.speed);
     r_.link = model().node_label(model().reduction_node);
     choose_target();
     if (machine_) {
@@ -66,18 +65,8 @@ class Reducer {
   }
 
  private:
-  const Model& model() const { return machine_ ? machine_->model() : *model_; }
   double on_link() const { return machine_ ? machine_->constant_inertia() : constant_inertia(*model_); }
 
-  void choose_basis() {
-    beyond_ = beyond_the_rigid_machine(scene_, options_.at);
-    const bool steady = !beyond_.empty() && !options_.speed;  // at a speed that is given, no cycle is asked for
-    r_.basis = options_.basis.value_or(steady ? ReduceBasis::regime : ReduceBasis::classical);
-    if (r_.basis == ReduceBasis::classical)
-      machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
-    else
-      model_ = compile_at(scene_, scene_.effects, options_.at);
-  }
   Orbit orbit_of(std::shared_ptr<const Model> model, int most_rounds) const {
     OrbitOptions options = orbit_options(scene_.run);
     options.most_rounds = most_rounds;
@@ -113,12 +102,12 @@ class Reducer {
     const std::string text = fmt::format("there is no steady cycle to look at: {}", why);
     if (options_.basis) throw std::invalid_argument(text);
     try {
-      machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
+      make_rigid(scene_, options_.at);
     } catch (const std::invalid_argument&) {
       throw std::invalid_argument(
           fmt::format("the torques depend on more than angle and speed ({}), and {}", fmt::join(beyond_, ", "), text));
     }
-    r_.basis = ReduceBasis::classical;
+    r_.basis = CycleBasis::classical;
     has_cycle_ = false;
     r_.notes.push_back(text);
     r_.cycle = machine_->cycle();
@@ -411,11 +400,8 @@ class Reducer {
 
   const Scene scene_;
   const ReduceOptions& options_;
-  std::optional<RigidMachine> machine_;  // of the classical basis
-  std::shared_ptr<const Model> model_;   // of the steady motion's
   std::optional<AlongCycle> along_;
   std::optional<OrbitCycle> looser_;
-  std::vector<std::string> beyond_;  // what the rigid machine cannot carry
   MachineReduction r_;
   int target_node_ = 0;
   bool has_cycle_ = true;  // as far as it is known

@@ -8,16 +8,11 @@
 
 #include "engine/base/estimate.h"
 #include "engine/orbit/moment.h"
+#include "studies/cycle/classical.h"
 #include "studies/cycle/machine_cycle.h"
 #include "studies/findings/output.h"
 
 namespace kurbel {
-
-// Motion from which torques and inertia are taken.
-enum class ReduceBasis {
-  classical,  // the rigid machine at successive positions, at constant speed
-  regime      // the machine's steady cycle with the scene's effects
-};
 
 struct MachineReduction;
 
@@ -27,7 +22,7 @@ struct ReduceOptions {
   std::optional<double> speed;  // of the reduction link, for torques that depend on it [rad/s]
   int orders = 12;              // of the harmonics, per turn of the reduction link
   Moment at = {};               // state of the machine at that moment; default: after all switching
-  std::optional<ReduceBasis> basis = {};  // default: classical if the rigid machine represents all but elasticity
+  std::optional<CycleBasis> basis = {};  // default: as for MachineOnBasis
   // Further angles [rad], 0 ≤ φ < cycle, chosen when all other results are known.
   std::function<std::vector<double>(const MachineReduction&)> also = {};
 };
@@ -96,7 +91,7 @@ struct MachineReduction {
   double speed = 0;     // of the link, if torques depend on it [rad/s]
   std::string speed_source;
   SpeedUnit speed_unit;
-  ReduceBasis basis = ReduceBasis::classical;
+  CycleBasis basis = CycleBasis::classical;
   double cycle = 0;                   // of the link [rad]
   double sense = 1;                   // ±1, of its motion
   double constant_inertia = 0;        // on the chosen shaft [kg·m²]; of a slider: on the link

@@ -14,6 +14,7 @@
 #include "engine/scene/scene.h"
 #include "engine/scene/units.h"
 #include "mechanisms/kinds/kinds.h"
+#include "studies/data/named.h"
 #include "studies/scenes/add_kind.h"
 
 namespace kurbel {
@@ -147,6 +148,7 @@ std::vector<std::string> names_of_keys() {
 }
 
 std::string keys_of(const std::string& name) {
+  check_name(names_of_keys(), name, "no kind {}{}; allowed: {}");
   if (name == "run") return "[run]: what is simulated, and how well.\n\n" + aligned(run_keys());
   if (name == "operation") return "[operation]: where the machine runs for long.\n\n" + aligned(operation_keys());
   std::string text;
@@ -166,7 +168,6 @@ std::string keys_of(const std::string& name) {
         text += fmt::format("\n  {}: tables of kind {}; see kurbel keys {}\n", key.name, listed(names), names.front());
       }
   }
-  if (text.empty()) throw std::invalid_argument(fmt::format("no kind {}", in_quotes(name)));
   return text;
 }
 
@@ -229,16 +230,12 @@ void add_kind(Kind kind) {
   known.lists.push_back(std::move(list));
 }
 
-namespace {
-
 const char* unsaid_text(const EffectFlag& effect) {
   return effect.unsaid == EffectFlag::Unsaid::off               ? "off"
          : effect.unsaid == EffectFlag::Unsaid::where_given     ? "on where the scene gives that"
          : effect.unsaid == EffectFlag::Unsaid::with_elasticity ? "on where anything is elastic"
                                                                 : "on, even in the rigid machine; off by name alone";
 }
-
-}  // namespace
 
 std::string keys_in_markdown() {
   std::string text =

@@ -20,6 +20,9 @@ std::vector<std::string> names_of_keys();
 // The keys of one kind as aligned text. Throws std::invalid_argument for another name.
 std::string keys_of(const std::string& kind);
 
+// What holds for an effect that a scene does not mention: "off".
+const char* unsaid_text(const EffectFlag& effect);
+
 // What a scene's key of this name means, with the kinds that have it; each meaning once. Empty: no kind has such a key.
 std::string meanings_of_key(const std::string& key);
 

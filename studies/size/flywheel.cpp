@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/scene/keys.h"
+#include "studies/data/named.h"
 
 namespace kurbel {
 namespace {
@@ -199,13 +199,8 @@ const std::vector<CustomaryDelta>& customary_deltas() {
 }
 
 const CustomaryDelta& customary_delta(const std::string& machine) {
-  std::vector<std::string> names;
-  for (const CustomaryDelta& c : customary_deltas()) {
-    if (c.machine == machine) return c;
-    names.push_back(c.machine);
-  }
-  throw std::invalid_argument(fmt::format("no customary δ for a machine {}{}; known: {}; or give --delta",
-                                          in_quotes(machine), suggestion(machine, names), listed(names)));
+  return named(customary_deltas(), &CustomaryDelta::machine, machine,
+               "no customary δ for a machine {}{}; known: {}; or give --delta");
 }
 
 // What the sizing puts beside the scene's torques, which alone would change the machine's speed from cycle to cycle.

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/angles.h"
-#include "engine/scene/keys.h"
+#include "studies/data/named.h"
 #include "studies/size/flywheel.h"
 
 namespace kurbel {
@@ -126,13 +126,7 @@ const std::vector<FlywheelMaterial>& flywheel_materials() {
 }
 
 const FlywheelMaterial& flywheel_material(const std::string& name) {
-  std::vector<std::string> names;
-  for (const FlywheelMaterial& m : flywheel_materials()) {
-    if (m.name == name) return m;
-    names.push_back(m.name);
-  }
-  throw std::invalid_argument(
-      fmt::format("no flywheel material {}{}; known: {}", in_quotes(name), suggestion(name, names), listed(names)));
+  return named(flywheel_materials(), &FlywheelMaterial::name, name, "no flywheel material {}{}; known: {}");
 }
 
 FlywheelDimensions flywheel_dimensions(const FlywheelRequest& request) {

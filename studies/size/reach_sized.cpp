@@ -27,7 +27,7 @@ class Reach {
 
   void run() {
     if (!s_.needed) return look_without();
-    if (s_.basis == SizeBasis::classical && !s_.operating) return reach_family();
+    if (s_.basis == CycleBasis::classical && !s_.operating) return reach_family();
     reach();
   }
 
@@ -36,7 +36,7 @@ class Reach {
   static SizedOrbits::Parts parts(const Sizing& s, const SizeOptions& options) {
     SizedOrbits::Parts parts{s.flywheel, s.link, s.motor, options.at};
     constexpr int few_rounds = 40;
-    if ((s.basis == SizeBasis::classical && !s.operating) || s.held) parts.most_rounds = few_rounds;
+    if ((s.basis == CycleBasis::classical && !s.operating) || s.held) parts.most_rounds = few_rounds;
     if (s.held) parts.held = s.mid_speed;
     return parts;
   }
@@ -110,7 +110,7 @@ class Reach {
       take(orbit, as, by, sized_by);
       meet_if_missed(as, by, orbit, effects);
     } else if ((s_.operating && !(orbit.stops && as == SizedModel::rigid)) ||
-               (s_.basis == SizeBasis::regime && !s_.held)) {
+               (s_.basis == CycleBasis::regime && !s_.held)) {
       s_.complete = false;
       s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, orbit.why);
     } else {
@@ -127,7 +127,7 @@ class Reach {
     const double off = orbit.crank.value / s_.delta - 1;
     constexpr double missed = 0.01, far_smoother = -0.5;
     const bool heavier = off > missed;
-    const bool lighter = s_.basis == SizeBasis::regime && off < -missed && off > far_smoother;
+    const bool lighter = s_.basis == CycleBasis::regime && off < -missed && off > far_smoother;
     if ((by == SizedBy::constant_drive || s_.stalls) && last && !s_.meeting && (heavier || lighter))
       meet(as, orbit, effects);
   }
@@ -247,7 +247,7 @@ void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
         (rigid ? fmt::format("; with it the sized machine has δ = {:.5g} instead of {:g}", rigid->crank.value, s.delta)
                : std::string()));
   }
-  if (rigid && elastic && s.basis == SizeBasis::classical)
+  if (rigid && elastic && s.basis == CycleBasis::classical)
     s.notes.push_back(
         fmt::format("the work equation omits elasticity: with it δ is {:.5g} instead of {:.5g} ({:+.3g} %)",
                     elastic->crank.value, rigid->crank.value, 100 * (elastic->crank.value / rigid->crank.value - 1)));

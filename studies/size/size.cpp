@@ -12,7 +12,6 @@
 #include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
-#include "studies/cycle/classical.h"
 #include "studies/size/reach_sized.h"
 #include "studies/steady/cycle_search.h"
 #include "studies/validity/substitutes.h"
@@ -22,7 +21,7 @@ namespace {
 
 constexpr double looser_sampling = 1e-9;
 
-class Sizer {
+class Sizer : MachineOnBasis {
  public:
   Sizer(const Scene& scene, const SizeOptions& options) : options_(options) {
     choose_delta();
@@ -34,7 +33,7 @@ class Sizer {
       s_.flywheel = scene.find("flywheel") ? "sized_flywheel" : "flywheel";
       scene_ = with_flywheel(scene_, s_.flywheel, 0, component_of(*bare, bare->reduction_node));
     }
-    choose_basis();
+    s_.basis = choose_basis(scene_, options_.at, options_.basis);
     s_.title = scene.heading();
     s_.speed_unit = scene.speed_unit;
     s_.scene_file = scene.file;
@@ -45,13 +44,13 @@ class Sizer {
   Sizing run() {
     list_inertias();
     for (const std::string& note : substitutes(model())) s_.notes.push_back(note);
-    if (s_.basis == SizeBasis::classical) {
+    if (s_.basis == CycleBasis::classical) {
       find_speed();
       find_cycle();
     } else {
       find_orbit_cycle();
     }
-    if (s_.basis == SizeBasis::classical && machine_->uses_time())
+    if (s_.basis == CycleBasis::classical && machine_->uses_time())
       s_.notes.push_back("some torque depends on time; the torques are those at t = 0");
     if (model().scene.run.start.speed == 0)
       s_.notes.push_back(
@@ -65,7 +64,6 @@ class Sizer {
   }
 
  private:
-  const Model& model() const { return machine_ ? machine_->model() : *model_; }
   static std::string component_of(const Model& m, int node) { return m.network.nodes[at(node)].component; }
 
   void choose_delta() {
@@ -86,16 +84,6 @@ class Sizer {
           "value");
     }
     check_delta(s_.delta);
-  }
-
-  // The rigid machine at constant speed gives the torques if the scene has no other effects than elasticity beyond it.
-  void choose_basis() {
-    beyond_ = beyond_the_rigid_machine(scene_, options_.at);
-    s_.basis = options_.basis.value_or(beyond_.empty() ? SizeBasis::classical : SizeBasis::regime);
-    if (s_.basis == SizeBasis::classical)
-      machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
-    else
-      model_ = compile_at(scene_, scene_.effects, options_.at);
   }
 
   // Everything that turns at constant ratio, reduced to the flywheel's shaft.
@@ -241,11 +229,11 @@ class Sizer {
     const std::string text = fmt::format("no steady cycle was found to size a flywheel for: {}", why);
     if (!options_.mid_speed || options_.basis) throw std::invalid_argument(text);
     try {
-      machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at));
+      make_rigid(scene_, options_.at);
     } catch (const std::invalid_argument&) {
       throw std::invalid_argument(text);
     }
-    s_.basis = SizeBasis::classical;
+    s_.basis = CycleBasis::classical;
     s_.notes.push_back(text + "; the work equation takes the rigid machine at the mid speed given");
     find_speed();
     find_cycle();
@@ -308,7 +296,7 @@ class Sizer {
                   method("neglecting I_em", inertia_by_fluctuation(s_.diagram.fluctuation(), s_.mid_speed, s_.delta))};
     s_.delta_now = delta_of(constant_inertia_).value_or(std::nan(""));
     s_.needed = s_.methods.front().flywheel > 0;
-    s_.estimate = s_.basis == SizeBasis::classical && !beyond_.empty();
+    s_.estimate = s_.basis == CycleBasis::classical && !beyond_.empty();
     if (looser_ && !s_.estimate) measure_errors(balanced(*looser_), looser_->mechanism);
   }
   // The same with torques sampled, or found, with looser tolerances.
@@ -372,10 +360,7 @@ class Sizer {
 
   const SizeOptions& options_;
   Scene scene_;
-  std::optional<RigidMachine> machine_;  // of the classical basis
-  std::shared_ptr<const Model> model_;   // of the steady motion's
-  std::shared_ptr<const Model> along_;   // of the cycle along an orbit: a held speed adds an account
-  std::vector<std::string> beyond_;      // what the rigid machine cannot carry
+  std::shared_ptr<const Model> along_;  // of the cycle along an orbit: a held speed adds an account
   std::optional<MachineCycle> looser_;
   double constant_inertia_ = 0;        // on the link [kg·m²]
   std::optional<double> start_speed_;  // of the link at its angle 0 in steady motion [rad/s]

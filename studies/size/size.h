@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/cycle/classical.h"
 #include "studies/cycle/machine_cycle.h"
 #include "studies/findings/output.h"
 #include "studies/run/simulate.h"
@@ -13,14 +14,8 @@
 
 namespace kurbel {
 
-// Source of the torques in the work equation.
-enum class SizeBasis {
-  classical,  // constant drive torque; loads of the rigid machine at constant speed
-  regime      // constant drive torque; loads along the machine's steady cycle with the scene's effects
-};
-
 struct SizeOptions {
-  std::optional<SizeBasis> basis;   // default: classical if the rigid machine represents all but elasticity
+  std::optional<CycleBasis> basis;  // of the loads, at constant drive torque; default: as for MachineOnBasis
   std::optional<double> delta;      // demanded, 0 < δ < 2
   std::string machine;              // or the customary value for a machine: "press" (the upper end of the range)
   std::optional<double> mid_speed;  // of the reduction link [rad/s]; default: the operating speed
@@ -70,7 +65,7 @@ struct Sizing {
   double mid_speed = 0;
   std::string mid_speed_source;
   SpeedUnit speed_unit;
-  SizeBasis basis = SizeBasis::classical;
+  CycleBasis basis = CycleBasis::classical;
 
   MachineCycle cycle;
   WorkDiagram diagram;

@@ -221,7 +221,7 @@ Sentences basis_words(const Sizing& s) {
                     fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
                                 with_unit(s.diagram.work, "J"), with_unit(s.diagram.fluctuation(), "J"),
                                 s.diagram.least.x * in_degrees, s.diagram.most.x * in_degrees),
-                    s.basis == SizeBasis::classical
+                    s.basis == CycleBasis::classical
                         ? std::string("classical: constant drive torque; loads of the rigid machine at constant speed")
                         : std::string("loads along the steady cycle that the machine has with the scene's effects, and "
                                       "the constant drive torque that balances them"),
@@ -273,7 +273,7 @@ Record punch_record(const PunchPress& p) {
 
 void tell_basis(Findings& f, const Sizing& s) {
   f.tell("link", s.link);
-  f.tell("basis", s.basis == SizeBasis::classical ? "classical" : "regime");
+  f.tell("basis", s.basis == CycleBasis::classical ? "classical" : "regime");
   f.tell("delta", Record{{"demanded", s.delta}, {"source", s.delta_source}});
   f.tell("mid_speed", Record{{"value", s.mid_speed}, {"unit", "rad/s"}, {"source", s.mid_speed_source}});
   f.tell("flywheel", Record{{"component", s.flywheel},

@@ -94,8 +94,8 @@ SizeOptions size_options(const MachineReduction& r, const ReduceOptions& options
   constexpr double any = 0.05;  // the works do not hang on it
   SizeOptions o;
   o.delta = request.delta.value_or(any);
-  o.basis = r.basis == ReduceBasis::classical ? SizeBasis::classical : SizeBasis::regime;
-  if (r.basis == ReduceBasis::classical) o.mid_speed = r.speed;
+  o.basis = r.basis;
+  if (r.basis == CycleBasis::classical) o.mid_speed = r.speed;
   o.at = options.at;
   o.flywheel = request.flywheel;
   o.simulate = false;
@@ -122,7 +122,7 @@ void find_works(ReduceSheet& sheet, const Scene& scene, const ReduceOptions& opt
 
 std::string speed_words(const MachineReduction& r) {
   return fmt::format("{} of {}{}", r.speed_unit.text(r.speed, 5), r.link,
-                     r.basis == ReduceBasis::classical ? ", constant" : " on the mean of the steady cycle");
+                     r.basis == CycleBasis::classical ? ", constant" : " on the mean of the steady cycle");
 }
 
 using ReducedRow = SheetRow<ReducedPosition>;

@@ -220,7 +220,7 @@ TEST(BeyondTables, ALoadThatIsOffIsTakenFromNowhere) {
 TEST(BeyondTables, ReducedTorquesFromOutsideHaveNoErrors) {
   for (const auto& [points, outside] : {std::pair(part, true), std::pair(held_on, false)}) {
     const MachineReduction r = reduce(press_known_over(points, shunt), {});
-    EXPECT_EQ(r.basis, ReduceBasis::classical);
+    EXPECT_EQ(r.basis, CycleBasis::classical);
     EXPECT_EQ(r.mean_load.error.has_value(), !outside);
     EXPECT_EQ(r.load_error.has_value(), !outside);
     EXPECT_TRUE(r.inertia_error) << "no torque is in it";
@@ -229,7 +229,7 @@ TEST(BeyondTables, ReducedTorquesFromOutsideHaveNoErrors) {
     EXPECT_EQ(says_outside(conclusion(output_of(r))), outside) << conclusion(output_of(r));
   }
   ReduceOptions options;
-  options.basis = ReduceBasis::regime;
+  options.basis = CycleBasis::regime;
   const MachineReduction r = reduce(press_known_over(part, shunt), options);
   EXPECT_FALSE(r.mean_load.error || r.inertia_error);
   EXPECT_TRUE(says_outside(conclusion(output_of(r))));

@@ -256,6 +256,13 @@ class Studies(unittest.TestCase):
         self.assertIn("coupling.stiffness", json.dumps(study.summary))
         self.assertIn("natural_frequency", study.text)
 
+    def test_a_pair_of_gears_needs_no_scene(self):
+        pair = kurbel.gears(teeth=[31, 30], module="3.5 mm", shift=0.291)
+        self.assertEqual(pair.summary["pairs"][0]["wheels"][0]["teeth"], 31)
+        self.assertIn("elasticity — ", kurbel.effects().text)
+        with self.assertRaisesRegex(ValueError, "modes needs a machine"):
+            kurbel.study("modes")
+
     def test_a_list_is_an_option_given_again(self):
         spots = kurbel.study("modes", PRESS, spot_checks=0, spot=["50 rpm", "55 rpm"], range=["20 rpm", "80 rpm"])
         self.assertIn("55 rpm", spots.text)

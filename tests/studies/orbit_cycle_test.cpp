@@ -36,7 +36,7 @@ fan     = { kind = "load", quadratic = "0.05 N*m*s2/rad2", inertia = "0.6 kg*m2"
 // The motor: 60 (1 − ω/40) = 9, the fan: 0.05 ω² = 9.
 TEST(OrbitCycle, LoadBehindASlippingLimiterIsItsLimit) {
   const MachineReduction r = reduce(test::scene_from(slipping), {});
-  EXPECT_EQ(r.basis, ReduceBasis::regime);
+  EXPECT_EQ(r.basis, CycleBasis::regime);
   const double motor = 34, fan = std::sqrt(9 / 0.05);
   EXPECT_NEAR(r.speed, motor, 1e-9 * motor);
   EXPECT_NEAR(r.mean_drive.value, 9, 1e-9);
@@ -141,9 +141,9 @@ work   = {{ kind = "load", table = {{ over = "angle", unit = ["rad", "N*m"], poi
 )",
                                        high, low, mean + 20 * 4.0, 20 + mean / 4, test::digits(2 * pi));
   SizeOptions options;
-  options.delta = 0.05, options.simulate = false, options.basis = SizeBasis::regime;
+  options.delta = 0.05, options.simulate = false, options.basis = CycleBasis::regime;
   const Sizing s = size_flywheel(test::scene_from(text), options);
-  EXPECT_EQ(s.basis, SizeBasis::regime);
+  EXPECT_EQ(s.basis, CycleBasis::regime);
   const double area = (high - mean) * part;
   EXPECT_NEAR(s.diagram.fluctuation(), area, 3e-4 * area);
   EXPECT_NEAR(s.exact.inertia, area / (s.mid_speed * s.mid_speed * 0.05), 3e-4 * s.exact.inertia);
@@ -237,12 +237,12 @@ TEST(OrbitCycle, PressWithItsClutchInIsSizedAsItIsThen) {
   sizing.at.after_step = 3;
   const Sizing s = size_flywheel(scene, sizing);
   EXPECT_EQ(s.methods.front().flywheel, by_itself.methods.front().flywheel);
-  EXPECT_EQ(s.basis, SizeBasis::regime);
+  EXPECT_EQ(s.basis, CycleBasis::regime);
   EXPECT_TRUE(s.needed);
   ReduceOptions reducing;
   reducing.at.after_step = 3;
   const MachineReduction r = reduce(scene, reducing);
-  EXPECT_EQ(r.basis, ReduceBasis::regime);
+  EXPECT_EQ(r.basis, CycleBasis::regime);
   EXPECT_NEAR(r.mean_drive.value, r.mean_load.value, 1e-6 * r.mean_load.value);
 }
 
@@ -253,7 +253,7 @@ TEST(OrbitCycle, RefusalsAreOfPhysics) {
       test::scene_from(test::with(held, "torque = \"10 N*m\", slipping_part = 0.9", "torque = \"90 N*m\""));
   SizeOptions options;
   options.delta = 0.05;
-  options.basis = SizeBasis::regime;
+  options.basis = CycleBasis::regime;
   // It turns steadily, and a smooth load needs no flywheel.
   EXPECT_FALSE(size_flywheel(stands, options).needed);
   const Scene stalled = test::scene_from(test::with(
@@ -266,7 +266,7 @@ TEST(OrbitCycle, RefusalsAreOfPhysics) {
   }
   // Its inertia is what it is.
   const MachineReduction r = reduce(stalled, {});
-  EXPECT_EQ(r.basis, ReduceBasis::classical);
+  EXPECT_EQ(r.basis, CycleBasis::classical);
   EXPECT_NEAR(r.positions.front().inertia, 1.1, 1e-12);
   EXPECT_NE(r.notes.front().find("no steady cycle"), std::string::npos);
 }
@@ -275,9 +275,9 @@ TEST(OrbitCycle, RefusalsAreOfPhysics) {
 TEST(OrbitCycle, ClassicalBasisSaysWhatItLeavesOut) {
   const Scene scene = test::scene_file("tests/agreement/gearbox_losses_crank.toml");
   SizeOptions options;
-  options.delta = 0.012, options.basis = SizeBasis::classical;
+  options.delta = 0.012, options.basis = CycleBasis::classical;
   const Sizing s = size_flywheel(scene, options);
-  EXPECT_EQ(s.basis, SizeBasis::classical);
+  EXPECT_EQ(s.basis, CycleBasis::classical);
   const auto said = [&](const char* words) {
     return std::any_of(s.notes.begin(), s.notes.end(),
                        [&](const std::string& note) { return note.find(words) != std::string::npos; });
