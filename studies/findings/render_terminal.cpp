@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "studies/findings/figure_text.h"
 #include "studies/findings/output.h"
@@ -103,8 +104,8 @@ std::string in_lines(const std::vector<std::string>& lines) {
   return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
-// The first sentences and the last, which answers the question; those between that find no room are counted. A sentence is
-// cut only where it alone is too long.
+// Bad news first, as far as there is room; then whole sentences and the last, which answers the question. Those that find no
+// room are counted.
 std::vector<std::string> headline_of(const Findings& findings) {
   std::vector<std::vector<std::string>> sentences;
   std::size_t all = 0;
@@ -123,13 +124,23 @@ std::vector<std::string> headline_of(const Findings& findings) {
     for (std::vector<std::string>& sentence : sentences) take(sentence, most);
     return lines;
   }
-  const std::size_t last = sentences.size() - 1, left = std::min<std::size_t>(sentences[last].size(), 2);
+  Claims bad_news;
+  std::copy_if(findings.claims.begin(), findings.claims.end(), std::back_inserter(bad_news),
+               [](const Claim& c) { return c.is_bad() && c.variant.empty(); });
+  const std::size_t bad = concluded(bad_news).size(), last = sentences.size() - 1,
+                    answer = std::min<std::size_t>(sentences[last].size(), 2);
   std::size_t told = 0;
-  for (; told < last && (told == 0 || lines.size() + sentences[told].size() + 1 + left <= most); ++told)
-    take(sentences[told], last == 1 ? most - left : most - left - 1);
-  if (told < last)
-    lines.push_back(fmt::format("{} more sentence{} (report)", last - told, last - told == 1 ? "" : "s"));
-  take(sentences[last], most - lines.size());
+  for (bool cut = false; told < last && !cut; ++told) {
+    const std::size_t kept = lines.size() + 1 + (told < bad ? 0 : answer), room = most - std::min(kept, most);
+    cut = sentences[told].size() > room;
+    if (cut && (told >= bad || room == 0)) break;
+    take(sentences[told], room);
+  }
+  const std::size_t room = most - lines.size();
+  const bool has_answer = told == last || room > answer;
+  if (const std::size_t more = last - told + (has_answer ? 0 : 1); more > 0)
+    lines.push_back(fmt::format("{} more sentence{} (report)", more, more == 1 ? "" : "s"));
+  if (has_answer) take(sentences[last], most - lines.size());
   return lines;
 }
 

@@ -251,7 +251,7 @@ void note_changes(const CycleSamples& samples, ModesStudy& found) {
   found.notes.push_back(
       fmt::format("within a cycle of the steady motion contacts change: {}. Modes and forced response have them as "
                   "they are at {:.4g}° of {}; what the joints do in the steady motion is that of the full equations",
-                  list, samples.link_angle * 180 / pi, found.link));
+                  list, (samples.link_angle - turn * std::floor(samples.link_angle / turn)) * in_degrees, found.link));
 }
 
 void note_missing_swings(ModesStudy& found) {

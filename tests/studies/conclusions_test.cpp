@@ -140,17 +140,26 @@ TEST(Conclusion, IsShortenedBySentencesAndKeepsItsAnswer) {
   Findings f;
   const std::string filler =
       "a long sentence that fills the line word by word until it has to be told on a second line of the screen";
-  for (int i = 0; i < 4; ++i)
-    add(f.claims, claimed(Predicate::limit_exceeded, fmt::format("excess {}, {}", i, filler), fmt::format("part {}", i),
-                          {.value = 9.0 - i, .limit = 1}));
+  for (const auto& [what, begin] :
+       {std::pair{Predicate::limit_exceeded, "excess, "}, std::pair{Predicate::runs_steadily, "it runs, "},
+        std::pair{Predicate::effect_matters, "friction, "}})
+    add(f.claims, claimed(what, begin + filler, {}, {.value = 2, .limit = 1}));
   add(f.claims, claimed(Predicate::figures_told, "the answer, " + filler));
   const std::string text = headline_text(f);
   EXPECT_LE(std::count(text.begin(), text.end(), '\n') + 1, static_cast<long>(Brief::most_of_conclusion)) << text;
-  EXPECT_TRUE(text.starts_with("Excess 0, ")) << text;
-  EXPECT_NE(text.find("more sentence"), std::string::npos) << text;
+  EXPECT_TRUE(text.starts_with("Excess, ")) << text;
+  EXPECT_NE(text.find("\n2 more sentences (report)\n"), std::string::npos) << text;
   EXPECT_NE(text.find("The answer, "), std::string::npos) << text;
   EXPECT_TRUE(text.ends_with("screen.")) << text;
   EXPECT_EQ(text.find("…"), std::string::npos) << text;
+  // No bad news for the answer's sake.
+  for (const auto& [what, begin] :
+       {std::pair{Predicate::limit_exceeded, "a second excess, "}, std::pair{Predicate::stalls, "a stall, "}})
+    add(f.claims, claimed(what, begin + filler, "part", {.value = 1.5, .limit = 1}));
+  EXPECT_NE(headline_text(f).find("A stall, "), std::string::npos) << headline_text(f);
+  EXPECT_NE(headline_text(f).find("A second excess, "), std::string::npos) << headline_text(f);
+  const std::string worse = headline_text(f);
+  EXPECT_LE(std::count(worse.begin(), worse.end(), '\n'), 5) << worse;
   // A sentence alone that is too long is cut between words.
   Findings one;
   std::string many = "it";

@@ -205,7 +205,7 @@ TEST(CriticalSpeeds, OrdersThatEqualCylindersCancelAreNone) {
     const Scene scene = scene_from(fmt::format(R"~(
 line = ["engine", "shaft", "wheel"]
 engine = {{ kind = "engine", firing_order = [{}], inertia = "0.5 kg*m2", torque = {{ over = "angle", unit = ["deg", "N*m"], points = [[0, 0], [17, 431], [38, 760], [71, 330], [123, 90], [180, 0], [541, -15], [630, -90], [691, -360], [720, 0]] }} }}
-shaft = {{ kind = "shaft", stiffness = "2 kN*m/rad", damping = "5 N*m*s/rad" }}
+shaft = {{ kind = "shaft", stiffness = "20 kN*m/rad", damping = "15 N*m*s/rad" }}
 wheel = {{ kind = "load", damping = "1 N*m*s/rad", inertia = "1.5 kg*m2" }}
 effects = {{ elasticity = true }}
 run = {{ start = {{ speed = "1500 rpm" }} }}

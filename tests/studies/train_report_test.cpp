@@ -104,8 +104,9 @@ TEST(TrainReport, ContradictsItselfInNoLimit) {
   const Scene scene = test::scene_file("docs/tasks/two_cylinder_compressor.toml");
   const StudyOutput report =
       question_named("report").answer({.scene = scene, .text = scene.text, .file = scene.file, .settings = {}}, {});
+  const Report page = report.report();
   std::size_t tables = 0;
-  for (const auto& [title, table] : tables_of(report.report()))
+  for (const auto& [title, table] : tables_of(page))
     if (title.starts_with("Limits of the components")) {
       ++tables;
       for (const auto& row : table->rows)
