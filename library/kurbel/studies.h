@@ -55,6 +55,7 @@ Study study(const std::string& name, const Machine& machine, const Options& opti
 // Without a machine: a pair of gears alone, {{"teeth", "19,95"}, {"module", "4 mm"}}; the list of effects. Throws
 // std::invalid_argument, also for a study that needs a machine.
 Study study(const std::string& name, const Options& options, const Watcher& watcher = {});
+// Whether study() needs a machine to answer it.
 bool needs_machine(const std::string& study);
 std::vector<std::string> study_names();                           // "compare", "steady", "modes", …
 std::vector<std::string> option_names(const std::string& study);  // "mid_speed", …; std::invalid_argument: none such
@@ -77,6 +78,7 @@ inline Study size(const Machine& m, const Options& o = {}, const Watcher& w = {}
 inline Study reduce(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("reduce", m, o, w); }
 // Gear pairs of stages given by module, or a pair alone: contact ratio, sliding, undercut, mesh stiffness.
 inline Study gears(const Machine& m, const Options& o = {}, const Watcher& w = {}) { return study("gears", m, o, w); }
+// A pair alone, by its numbers of teeth: {{"teeth", "19,95"}, {"module", "4 mm"}}.
 inline Study gears(const Options& o, const Watcher& w = {}) { return study("gears", o, w); }
 // What each effect changes and costs: the full model without one effect at a time.
 inline Study effects(const Machine& m, const Options& o = {}, const Watcher& w = {}) {
