@@ -287,6 +287,8 @@ run = { start = { speed = "25 rad/s" }, until = "1 s", accuracy = 1e-9, method =
   const Result over_angle = machine("work"), over_time = machine("dop853");
   for (const char* name : {"final_speed.first", "final_angle.first", "final_angle.second"})
     EXPECT_NEAR(figure(over_angle, name), figure(over_time, name), 1e-5 * figure(over_time, name)) << name;
+  EXPECT_NEAR(last_of(over_angle, "position.second"), last_of(over_time, "position.second"), 1e-5);
+  EXPECT_NEAR(last_of(over_angle, "position.second"), position(figure(over_time, "final_angle.second")), 1e-5);
 }
 
 // Rated values count at the link: torque times the ratio, speed over it.
