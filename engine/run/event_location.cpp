@@ -136,6 +136,8 @@ std::vector<std::size_t> EventLocation::locate() {
     std::vector<double> root(below.size());
     for (std::size_t k = 0; k < below.size(); ++k) {
       const std::size_t i = below[k].guard;
+      root[k] = HUGE_VAL;  // of one that has not fired where another does
+      if (first < below[k].t && (first <= from[k] || guard_at(first, i) > at_root)) continue;
       root[k] =
           find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], below[k].t, below[k].value, 1e-14);
       first = std::min(first, root[k]);
