@@ -111,7 +111,7 @@ bool parse(int argc, char** argv, const std::string& about, const std::string& v
   app.set_version_flag("--version", version);
   for (const Subcommand& each : commands) {
     OptionList command(*app.add_subcommand(each.name, each.help));
-    each.set_up(command);
+    if (std::find(argv, argv + argc, each.name) != argv + argc) each.set_up(command);  // others have no use for options
   }
   refuse_empty_values(app);
   try {

@@ -132,10 +132,10 @@ TableCost bench_tables() {
     double build = 1e9;
     for (int i = 0; i < 3; ++i) {
       const double start = seconds();
-      sink = extract_mechanism(data).inertia(1).value;
+      sink = extract_mechanism(data, table_tolerance, table_max_pieces, Extraction::second).inertia(1).value;
       build = std::min(build, (seconds() - start) * 1e3);
     }
-    const ReducedMechanism table = extract_mechanism(data);
+    const ReducedMechanism table = extract_mechanism(data, table_tolerance, table_max_pieces, Extraction::second);
     const auto from_table = [&](double phi) { return table.inertia(phi); };
     const auto from_closed_form = [&](double phi) { return closed.inertia(phi); };
     const double table_ns = nanoseconds(from_table), closed_ns = nanoseconds(from_closed_form);

@@ -67,7 +67,7 @@ const std::vector<Key>& run_keys() {
       {.name = "model",
        .type = KeyType::text,
        .fallback = "\"reduced\"",
-       .doc = "reduced: tables extracted from Simbody; multibody: Simbody's closed loop at every step (rigid, one "
+       .doc = "reduced: tables from the loop equations; multibody: Simbody's closed loop at every step (rigid, one "
               "mechanism)",
        .choices = {"reduced", "multibody"}},
       {.name = "samples",

@@ -1,4 +1,4 @@
-// mechanism_tree.h — a Simbody model from the description of any mechanism: the source of the first extraction.
+// mechanism_tree.h — a Simbody model from the description of any mechanism: the source of the second extraction.
 #pragma once
 
 #include <functional>

@@ -37,8 +37,8 @@ class TabulatedReactions final : public ReactionTable {
           sampler(angle_at(part), all.data());
           for (std::size_t k = 0; k < place_.size(); ++k) values[k] = all[place_[k]];
         },
-        std::move(channels), (first ? 1 : second_tolerance) * table_tolerance, table_max_pieces,
-        first ? PeriodicTable::Cut() : second_cut);
+        std::move(channels), (first ? 1 : fine_tolerance) * table_tolerance, table_max_pieces,
+        first ? PeriodicTable::Cut() : fine_cut);
   }
 
   const ReactionPlaces& places() const override { return places_; }

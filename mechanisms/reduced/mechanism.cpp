@@ -201,7 +201,7 @@ std::string MechanismElement::describe() const {
   const TableReport& report = mechanism_.reduced->report();
   std::string text =
       fmt::format("table of {}: {} pieces from {} samples of {}, errors", mechanism_.name, report.pieces,
-                  report.samples, mechanism_.extraction == Extraction::first ? "Simbody" : "the closed form");
+                  report.samples, mechanism_.extraction == Extraction::first ? "the closed form" : "Simbody");
   for (const TableReport::Channel& channel : report.channels)
     text += fmt::format(" {} {:.0e},", channel.name, channel.error);
   text.back() = report.converged ? ' ' : ';';

@@ -198,30 +198,34 @@ double ReducedMechanism::on_arc(double phi) const {
 
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
                                    Extraction extraction) {
-  const std::unique_ptr<MechanismBodies> bodies = data.make_bodies();  // finds the data's faults in either case
-  const bool first = extraction == Extraction::first && has_bodies;
-  double turns = 0;  // an output that rocks may count whole turns from another place [rad]
-  const ReducedMechanism::Sampler second = [&](double phi) {
-    ReducedSample sample = closed_sample(data, phi);
-    sample.output_position += turns;
+  const bool by_bodies = extraction == Extraction::second && has_bodies;
+  std::unique_ptr<MechanismBodies> bodies;
+  if (by_bodies)
+    bodies = data.make_bodies();
+  else
+    data.bodies_of();  // finds the data's faults all the same
+  double turns = 0;    // an output that rocks may count whole turns from another place [rad]
+  const ReducedMechanism::Sampler closed = [&](double phi) { return closed_sample(data, phi); };
+  const ReducedMechanism::Sampler sampler = by_bodies ? ReducedMechanism::Sampler([&](double phi) {
+    ReducedSample sample = bodies->sample(phi);
+    sample.output_position -= turns;
     return sample;
-  };
-  const ReducedMechanism::Sampler sampler =
-      first ? ReducedMechanism::Sampler([&](double phi) { return bodies->sample(phi); }) : second;
+  })
+                                                      : closed;
   CrankCycle cycle(data);
-  if (const double phi = place_of(cycle, 1); first && data.rocks()) {
-    const double apart = sampler(phi).output_position - second(phi).output_position;
+  if (const double phi = place_of(cycle, 1); by_bodies && data.rocks()) {
+    const double apart = sampler(phi).output_position - closed(phi).output_position;
     turns = apart - std::remainder(apart, 2 * std::numbers::pi);
   }
   const auto noise = noise_scales(sampler, cycle, !data.rocks());
-  return ReducedMechanism(sampler, noise, first ? tolerance : second_tolerance * tolerance, max_pieces,
-                          first ? PeriodicTable::Cut() : second_cut, std::move(cycle),
-                          first ? second : ReducedMechanism::Sampler());
+  return ReducedMechanism(sampler, noise, by_bodies ? tolerance : fine_tolerance * tolerance, max_pieces,
+                          by_bodies ? PeriodicTable::Cut() : fine_cut, std::move(cycle),
+                          by_bodies ? closed : ReducedMechanism::Sampler());
 }
 
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance,
                                                          std::size_t max_pieces, Extraction extraction) {
-  if (rough_tables) tolerance = rough_tolerance, max_pieces = rough_pieces, extraction = Extraction::second;
+  if (rough_tables) tolerance = rough_tolerance, max_pieces = rough_pieces, extraction = Extraction::first;
   const CacheKey key = cache_key(data, tolerance, max_pieces, extraction);
   for (const double value : key.second)
     if (std::isnan(value)) throw std::invalid_argument("reduce_mechanism: a value is no number");  // nor a key

@@ -1,5 +1,5 @@
-// reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from Simbody
-// or, for runs that confirm others, from the loop equations in closed form.
+// reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from the
+// loop equations in closed form or, for runs that confirm others, from Simbody.
 //
 // For a rocking crank the tables are over σ with φ = middle + reach · cos σ, which is smooth at the ends of the arc.
 //
@@ -88,7 +88,7 @@ class ReducedMechanism {
   // Mean over a cycle; for a rocking crank the value in the middle of its arc.
   double mean(Channel channel) const { return rocks_ ? at(cycle_.arc()->middle).value(channel) : table_.mean(channel); }
 
-  // Pieces, samples and measured error of every channel; in the first extraction including the difference of the second.
+  // Pieces, samples and measured error of every channel; of Simbody's including the difference from the closed form.
   const TableReport& report() const { return table_.report(); }
 
  private:
@@ -106,13 +106,13 @@ class ReducedMechanism {
 inline constexpr double table_tolerance = 0.5e-12;
 inline constexpr std::size_t table_max_pieces = 4096;
 
-// The second extraction has no boundary in common with the first and polynomials of another degree; its errors are so
-// much smaller that the difference of two runs is the error of the first.
-inline constexpr PeriodicTable::Cut second_cut = {23, 0.381966, 8};
-inline constexpr double second_tolerance = 0.04;  // of the first's
+// Tables from the closed form have no boundary in common with those from Simbody and polynomials of another degree; their
+// errors are so much smaller that the difference of two runs is the error of Simbody's.
+inline constexpr PeriodicTable::Cut fine_cut = {23, 0.381966, 8};
+inline constexpr double fine_tolerance = 0.04;  // of Simbody's
 
-// A mechanism as functions of its crank angle: the first extraction from Simbody (10 … 40 µs per sample), the second from
-// sums over the links (planar_linkage.h, 1 … 3 µs per sample) with other boundaries and polynomials, so that the two have
+// A mechanism as functions of its crank angle: the first extraction from sums over the links (planar_linkage.h, 1 … 3 µs
+// per sample), the second from Simbody (10 … 40 µs per sample) with other boundaries and polynomials, so that the two have
 // no error in common. Kept for the life of the process and shared by calls with equal data. Throws as make_bodies and
 // MechanismBodies. Thread-safe.
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance = table_tolerance,

@@ -60,10 +60,10 @@ const Trace* Traces::find(const std::string& name) const {
   return nullptr;
 }
 
-void TraceRecorder::record(double t, std::span<const double> y, Equations& equations, bool only_jumps) {
+void TraceRecorder::look(double t, std::span<const double> y, Equations& equations) {
   const Snapshot& s = equations.snapshot(t, y);
   for (std::size_t k = 0; k < channels_.size(); ++k) now_[k] = channels_[k].value(s);
-  const double angle = s.node_angle[model_->reduction_node];
+  angle_ = s.node_angle[model_->reduction_node];
   std::size_t k = channels_.size();
   now_[k++] = equations.kinetic_energy(t, y);
   now_[k++] = equations.stored_energy(t, y);
@@ -73,12 +73,15 @@ void TraceRecorder::record(double t, std::span<const double> y, Equations& equat
       if (model_->accounts[a].kind == kind) sum += y[equations.work_index(a)];
     now_[k++] = sum;
   }
+}
+
+void TraceRecorder::put(double t, Equations& equations, bool only_jumps) {
   for (std::size_t i = 0; i < now_.size(); ++i) {
     Trace& trace = traces_->over_time[i];
     const bool same = !trace.y.empty() && std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i]);
     if (!only_jumps || !same) push(trace, t, now_[i]);
   }
-  if (model_->cycle > 0 && !only_jumps) follow_cycle(t, angle, sources_.drive(equations.modes().active));
+  if (model_->cycle > 0 && !only_jumps) follow_cycle(t, sources_.drive(equations.modes().active));
 }
 
 // A turn of the run-down is not among the cycles for figures.
@@ -90,8 +93,8 @@ void TraceRecorder::keep_open_cycle() {
   if (traces_->last_cycles.size() > 2) traces_->last_cycles.pop_front();
 }
 
-void TraceRecorder::follow_cycle(double t, double angle, bool driven) {
-  const double turn = std::floor(angle / model_->cycle + 1e-12);
+void TraceRecorder::follow_cycle(double t, bool driven) {
+  const double turn = std::floor(angle_ / model_->cycle + 1e-12);
   const auto start = [&] {
     open_ = {t, t, {}};
     open_driven_ = driven;
@@ -106,43 +109,53 @@ void TraceRecorder::follow_cycle(double t, double angle, bool driven) {
   };
   if (open_.traces.empty()) {
     turn_ = turn;
-    open_whole_ = std::abs(angle - turn * model_->cycle) < 1e-6;
+    open_whole_ = std::abs(angle_ - turn * model_->cycle) < 1e-6;
     start();
   } else if (turn != turn_) {
     open_driven_ = open_driven_ && driven;
-    add(angle - turn_ * model_->cycle);
+    add(angle_ - turn_ * model_->cycle);
     if (open_whole_ && turn > turn_) keep_open_cycle();
     open_whole_ = turn > turn_;
     turn_ = turn;
     start();
   }
   open_driven_ = open_driven_ && driven;
-  add(angle - turn_ * model_->cycle);
+  add(angle_ - turn_ * model_->cycle);
 }
 
-void TraceRecorder::begin(double t, std::span<const double> y, Equations& equations) { record(t, y, equations, false); }
+void TraceRecorder::begin(double t, std::span<const double> y, Equations& equations) {
+  look(t, y, equations);
+  put(t, equations, false);
+}
 
 // Where the link passes from one turn to the next, so that cycles begin and end there and not at the next sample.
-std::optional<double> TraceRecorder::border_between(double from, double to, StepView& view) const {
-  const auto turns = [&](double t) {
-    return view.equations().snapshot(t, view.at(t)).node_angle[model_->reduction_node] / model_->cycle;
-  };
-  const double first = turns(from), last = turns(to);
+std::optional<double> TraceRecorder::border_between(double from, double angle_from, double to, double angle_to,
+                                                    StepView& view) const {
+  const double first = angle_from / model_->cycle, last = angle_to / model_->cycle;
   const double border = std::max(std::floor(first), std::floor(last));
   if (std::floor(first) == std::floor(last) || first == border || last == border) return {};
-  return find_root([&](double t) { return turns(t) - border; }, from, first - border, to, last - border);
+  const auto beyond = [&](double t) {
+    return view.snapshot(t).node_angle[model_->reduction_node] / model_->cycle - border;
+  };
+  return find_root(beyond, from, first - border, to, last - border);
 }
 
 void TraceRecorder::step(StepView& view) {
   const double t0 = view.t_previous(), t1 = view.t();
-  record(t0, view.at(t0), view.equations(), true);
+  Equations& equations = view.equations();
+  look(t0, view.at(t0), equations);
+  put(t0, equations, true);
   double before = t0;
   for (int i = 1; i <= samples_per_step; ++i) {
-    const double t = i == samples_per_step ? t1 : t0 + (t1 - t0) * i / samples_per_step;
+    const double t = i == samples_per_step ? t1 : t0 + (t1 - t0) * i / samples_per_step, angle_before = angle_;
+    look(t, view.at(t), equations);
     if (model_->cycle > 0)
-      if (const std::optional<double> border = border_between(before, t, view))
-        record(*border, view.at(*border), view.equations(), false);
-    record(t, view.at(t), view.equations(), false);
+      if (const std::optional<double> border = border_between(before, angle_before, t, angle_, view)) {
+        look(*border, view.at(*border), equations);
+        put(*border, equations, false);
+        look(t, view.at(t), equations);
+      }
+    put(t, equations, false);
     before = t;
   }
 }

@@ -47,10 +47,13 @@ class TraceRecorder final : public Observer {
   std::shared_ptr<const Traces> traces() const { return traces_; }
 
  private:
-  void record(double t, std::span<const double> y, Equations& equations, bool only_jumps);
-  std::optional<double> border_between(double from, double to, StepView& view) const;
+  void look(double t, std::span<const double> y, Equations& equations);  // now_ and angle_
+  void put(double t, Equations& equations, bool only_jumps);
+  // Angles of the link at both times.
+  std::optional<double> border_between(double from, double angle_from, double to, double angle_to,
+                                       StepView& view) const;
   void keep_open_cycle();
-  void follow_cycle(double t, double angle, bool driven);
+  void follow_cycle(double t, bool driven);
 
   const Model* model_;  // outlives the run
   std::vector<Channel> channels_;
@@ -63,6 +66,7 @@ class TraceRecorder final : public Observer {
        any_driven_ = false;  // driven throughout; a whole driven cycle is preferred
   Sources sources_;
   std::vector<double> now_;
+  double angle_ = 0;  // of the link
 };
 
 }  // namespace kurbel

@@ -161,15 +161,21 @@ class Simulation {
     return true;
   }
 
+  bool end_elsewhere(const std::string& what, const std::string& why) {
+    unconfirmed_ = fmt::format("{} failed ({})", what, why);
+    return !(elsewhere_ended_ = true);
+  }
+
   // By another method, with other step ends and other table lookups. False if it failed: the run before it is used.
   bool run_elsewhere(double tolerance) {
-    std::unique_ptr<OneRun> other = one_run(tolerance, true);
-    if (!other->outcome.complete) {
-      elsewhere_ended_ = true;
-      unconfirmed_ = fmt::format("the run by another method that should confirm the figures failed ({})",
-                                 other->outcome.diagnosis);
-      return false;
+    try {
+      equations_elsewhere();
+    } catch (const std::runtime_error& why) {
+      return end_elsewhere("Simbody, whose tables should confirm the figures,", why.what());
     }
+    std::unique_ptr<OneRun> other = one_run(tolerance, true);
+    if (!other->outcome.complete)
+      return end_elsewhere("the run by another method that should confirm the figures", other->outcome.diagnosis);
     // At the end of the sequence no finer run shows the error of its last run, and the one before it shows only its
     // own coarseness: two independent runs, one with a smaller tolerance, show more.
     if (elsewhere_ && ladder_ended()) {

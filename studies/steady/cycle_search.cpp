@@ -343,9 +343,15 @@ class Search {
 
   // The same search with looser tolerances and other tables; the difference is the error.
   void measure_errors(Round& fine) {
+    std::shared_ptr<const Model> elsewhere;
+    try {
+      elsewhere = model_elsewhere();
+    } catch (const std::runtime_error&) {
+      return;  // Simbody cannot follow a mechanism: nothing measures the errors
+    }
     const auto [loose, point] = options_.holds_speed()
-                                    ? SteadyTwin{looser_map(*map_, looser_tolerance, model_elsewhere()), out_.point}
-                                    : looser_twin(*map_, out_.point, looser_tolerance, model_elsewhere());
+                                    ? SteadyTwin{looser_map(*map_, looser_tolerance, elsewhere), out_.point}
+                                    : looser_twin(*map_, out_.point, looser_tolerance, elsewhere);
     if (!point.found) return;
     for (std::size_t i = 0; i < std::min(point.multipliers.size(), out_.point.multipliers.size()); ++i)
       out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +

@@ -68,10 +68,10 @@ TEST(HardLinkages, NearChangePoints) {
                            second = extract_mechanism(data, table_tolerance, table_max_pieces, Extraction::second);
     double apart = 0;
     for (int i = 0; i < 400; ++i) {
-      const double phi = double(2 * pi) * (i + 0.2) / 400, inertia = second.inertia(phi).value;
-      apart = std::max(apart, std::abs(first.inertia(phi).value - inertia) / inertia);
+      const double phi = double(2 * pi) * (i + 0.2) / 400, inertia = first.inertia(phi).value;
+      apart = std::max(apart, std::abs(second.inertia(phi).value - inertia) / inertia);
     }
-    EXPECT_LE(apart, 4 * first.report().channels[0].error + 2 * table_tolerance);
+    EXPECT_LE(apart, 4 * second.report().channels[0].error + 2 * table_tolerance);
   }
 }
 

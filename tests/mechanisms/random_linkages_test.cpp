@@ -155,7 +155,7 @@ TEST(RandomLinkages, BothExtractionsAgreeInMotionAndReactions) {
   EXPECT_EQ(good, wanted) << refused << " refused";
 }
 
-// Nearer to dead positions the tables of the two differ by no more than what the first states as its error.
+// Nearer to dead positions the tables of the two differ by no more than what the second states as its error.
 TEST(RandomLinkages, NearDeadPositionsTheTablesKeepTheirStatedErrors) {
   const int wanted = test::thorough() ? 40 : 3;
   std::mt19937 random(64);
@@ -166,21 +166,21 @@ TEST(RandomLinkages, NearDeadPositionsTheTablesKeepTheirStatedErrors) {
     SCOPED_TRACE(data.linkage->structure_in_words());
     const ReducedMechanism first = extract_mechanism(data),
                            second = extract_mechanism(data, table_tolerance, table_max_pieces, Extraction::second);
-    ASSERT_EQ(first.report().channels.size(), std::size_t(test::sample_channels));
+    ASSERT_EQ(second.report().channels.size(), std::size_t(test::sample_channels));
     double scale[test::sample_channels] = {}, off[test::sample_channels] = {};
     for (int i = 0; i < 500; ++i) {
       const double phi = 2 * pi * (i + 0.123) / 500;
       const auto a = first.at(phi), b = second.at(phi);
       for (int c = 0; c < test::sample_channels; ++c) {
         const auto channel = static_cast<ReducedMechanism::Channel>(c);
-        scale[c] = std::max(scale[c], std::abs(b.value(channel)));
+        scale[c] = std::max(scale[c], std::abs(a.value(channel)));
         off[c] = std::max(off[c], std::abs(a.value(channel) - b.value(channel)));
       }
     }
     for (int c = 0; c < test::sample_channels; ++c)
       EXPECT_LE(off[c],
-                (4 * first.report().channels[static_cast<std::size_t>(c)].error + 2 * table_tolerance) * scale[c])
-          << first.report().channels[static_cast<std::size_t>(c)].name;
+                (4 * second.report().channels[static_cast<std::size_t>(c)].error + 2 * table_tolerance) * scale[c])
+          << second.report().channels[static_cast<std::size_t>(c)].name;
   }
 }
 

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 
 #include "studies/data/data_table.h"
+#include "studies/data/number_text.h"
 
 namespace kurbel::test::value_test {
 namespace {
@@ -59,6 +61,26 @@ TEST(Values, AnEstimateIsTwoFieldsOfItsRecord) {
   EXPECT_EQ(read.dump(),
             R"({"speed":2.0,"speed_error":0.5,"torque":3.0,"torque_error":null,"none":null,"none_error":null,)"
             R"("list":[{"value":4.0,"error":1.0}],"drawn":[0.333,null]})");
+}
+
+// Of all magnitudes, beside decimals and beside the middles between them: printf's digits.
+TEST(Values, DigitsAreThoseOfPrintf) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> exponent(-7, 14), sign(-1, 1);
+  for (int i = 0; i < 50000; ++i) {
+    const double decimal = std::round(1e6 * sign(random)) / std::pow(10.0, i % 9),
+                 middle = decimal + 5 / std::pow(10.0, i % 13);
+    for (const double number :
+         {sign(random) * std::pow(10, exponent(random)), decimal, middle, std::nextafter(decimal, 0),
+          std::nextafter(middle, HUGE_VAL), std::pow(10.0, i % 25 - 8)}) {
+      const int digits = 1 + i % 14;
+      std::string text;
+      append_digits(text, number, digits);
+      char expected[64];
+      std::snprintf(expected, sizeof expected, "%.*g", digits, number);
+      ASSERT_EQ(text, expected);
+    }
+  }
 }
 
 TEST(Values, WhatIsNoUtf8OrObeyedIsEscaped) {
