@@ -98,15 +98,12 @@ std::optional<Method> MethodChoice::after(const Stepper& stepper, Method now) {
   if (!automatic() || (m.elastic.empty() && m.own_states.empty()) || now == Method::work_equation) return {};
   const double t = stepper.t(), h = t - stepper.t_previous(), left = options_.until - t;
   if (now == explicit_) {
-    if (held_ == 0) explicit_begin_ = stepper.t_previous(), explicit_steps_ = 0;
-    ++explicit_steps_;
     held_ = stepper.held_by_stability() ? held_ + 1 : std::max(0, held_ - 3);
     if (held_ < memory_.held_needed || left < 5 * held_steps_before_trial * h) return {};
-    explicit_step_ = (t - explicit_begin_) / explicit_steps_;  // of all: events cut some short
+    explicit_step_ = h;
     implicit_steps_ = held_ = 0;
-    return change(
-        implicit_, t,
-        fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", explicit_step_));
+    return change(implicit_, t,
+                  fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", h));
   }
   // After the trial the check continues with new windows of steps.
   if (++implicit_steps_ == trial_warm_up) trial_begin_ = t;

@@ -45,8 +45,8 @@ class MethodChoice {
   Method first_ = Method::dormand_prince_853, now_ = Method::dormand_prince_853;
   std::string reason_;
   int changes_ = 0;
-  int held_ = 0, explicit_steps_ = 0, implicit_steps_ = 0;
-  double explicit_begin_ = 0, explicit_step_ = 0, trial_begin_ = 0;
+  int held_ = 0, implicit_steps_ = 0;
+  double explicit_step_ = 0, trial_begin_ = 0;
 };
 
 // Methods of SUNDIALS.
