@@ -48,6 +48,11 @@ std::string crank() {
          "effects = { elasticity = true }\nrun = { until = \"0.5 s\" }\n";
 }
 
+std::string six_inertias() {
+  std::ifstream file(std::string(KURBEL_SOURCE_DIR) + "/scenes/six_inertia_chain.toml");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 // One machine, its design, what is asked of it, at errors measured.
 struct Campaign {
   explicit Campaign(const SweptMachine& m) : machine(m) {
@@ -147,6 +152,7 @@ void rates_of_sweeps(BenchBook& book, const std::string& program) {
   fs::create_directories(folder);
   const SweptMachine machines[] = {
       {"two masses", two_masses(), {"spring.stiffness=3..5 kN*m/rad", "mass.inertia=1..2 kg*m2"}, 2000},
+      {"six inertias", six_inertias(), {"c1.stiffness=3..5 kN*m/rad", "fan.inertia=0.5..0.7 kg*m2"}, 60},
       {"crank", crank(), {"shaft.stiffness=1..3 kN*m/rad", "crank.crank_inertia=0.5..1 kg*m2"}, 300},
       {"crank, its geometry swept", crank(), {"crank.radius=15..25 mm", "crank.rod=90..120 mm"}, 300}};
   Table table{.title = "Sweeps, errors measured: medians of five",

@@ -27,6 +27,9 @@ double twist_scale(const Model& m, const ElasticJoint& elastic, double tolerance
   return std::max(elastic.twist_scale, 16 * std::numeric_limits<double>::epsilon() * swing / tolerance);
 }
 
+// What it transmits follows from the motion of all that is behind it, not from its own twist.
+bool is_rigid(const TorqueJoint& joint) { return joint.elastic < 0; }
+
 }  // namespace
 
 Flow::Flow(std::shared_ptr<const Model> model, bool audit)
@@ -218,7 +221,8 @@ void Flow::flow(double t, std::span<const double> y, std::span<double> ydot) {
   if (audit()) {
     std::copy(alpha, alpha + m.free_shafts, alpha_.begin());
     for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(m, modes_, s, t);
-    find_joint_torques();
+    if (m.free_shafts < m.shafts.size() || std::any_of(m.torque_joints.begin(), m.torque_joints.end(), is_rigid))
+      find_joint_torques();
     write_quadratures(ydot.data() + states_);
   }
 }
@@ -246,7 +250,7 @@ JointTorques::Given Flow::given_torques() const {
 void Flow::write_quadratures(double* rate) {
   const Model& m = *model_;
   std::size_t account = m.accounts.size();
-  for (std::size_t n = m.network.nodes.size(); n-- > 0;) {
+  for (std::size_t n = m.network.nodes.size(); m.free_shafts < m.shafts.size() && n-- > 0;) {
     if (m.network.nodes[n].prescribed < 0) continue;
     --account;
     const std::size_t s = at(m.shaft_of_node[n]);
@@ -254,8 +258,9 @@ void Flow::write_quadratures(double* rate) {
   }
   for (std::size_t i = 0; i < m.torque_joints.size(); ++i) {
     const TorqueJoint& joint = m.torque_joints[i];
-    const double tau = joint.torque(joint_torques_.torque().data());
-    const double spring = joint.elastic >= 0 ? joint.told(spring_torque_.data(), joint.elastic) : tau;
+    const double tau = is_rigid(joint) ? joint.torque(joint_torques_.torque().data())
+                                       : joint.told(connection_torque_.data(), joint.elastic);
+    const double spring = is_rigid(joint) ? tau : joint.told(spring_torque_.data(), joint.elastic);
     rate[m.accounts.size() + 2 * i] = tau * tau;
     rate[m.accounts.size() + 2 * i + 1] = spring * spring;
   }

@@ -11,6 +11,13 @@ namespace {
 // Peaks that differ by less are repetitions of the same peak: the time of the first one counts.
 constexpr double same_peak = 1e-9;
 
+// Both slopes within a factor of two of the mean one: nothing turns between. A parabola turns where one is below zero, a
+// cubic where one is above three times the mean.
+bool runs_straight(double first_slope, double last_slope, double mean_slope) {
+  const auto is_alike = [&](double slope) { return slope / mean_slope >= 0.5 && slope / mean_slope <= 2; };
+  return mean_slope != 0 && is_alike(first_slope) && is_alike(last_slope);
+}
+
 }  // namespace
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -82,10 +89,12 @@ void ExtremeRecorder::sample(const Snapshot& snapshot, double t, Sample& out) co
   out.value.resize(wanted_.size());
   out.rate.resize(wanted_.size());
   out.slope.resize(wanted_.size());
+  out.argument.resize(wanted_.size());
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     out.value[i] = wanted_[i].value(snapshot);
     out.rate[i] = wanted_[i].rate ? wanted_[i].rate(snapshot) : 0;
     out.slope[i] = wanted_[i].slope ? wanted_[i].slope(snapshot) : HUGE_VAL;
+    if (wanted_[i].argument) out.argument[i] = wanted_[i].argument(snapshot);
   }
 }
 
@@ -108,6 +117,7 @@ void ExtremeRecorder::step(StepView& view) {
   sample(end, t1, last_);
   bool any = false;
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    if (wanted_[i].argument) learn_steepness(i);
     consider(i, t0, first_.value[i]);
     consider(i, t1, last_.value[i]);
     any = any || may_be_beaten(i);
@@ -124,10 +134,24 @@ void ExtremeRecorder::step(StepView& view) {
       take_row(found, view.snapshot(found.time));
 }
 
+// What round-off leaves of a change tells nothing.
+void ExtremeRecorder::learn_steepness(std::size_t i) {
+  constexpr double told = 1e-9;
+  const double change = std::abs(last_.value[i] - first_.value[i]);
+  if (change > told * std::abs(last_.value[i]))
+    steepness_[i] = std::max(steepness_[i], change / std::abs(last_.argument[i] - first_.argument[i]));
+}
+
 // A cubic through both ends with these slopes exceeds them by at most 4/27 h (|slope| + |slope|), half a sine wave between
-// two zeros by 1/(2π) of h (|slope| + |slope|); the limit used is some seven times as large.
+// two zeros by 1/(2π) of h (|slope| + |slope|); the limit used is some seven times as large. A law
+// rises by its argument's; twice as steeply as it did between samples, for one that is steeper between them.
 bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
-  const double reach = (last_.t - first_.t) * (std::abs(first_.slope[i]) + std::abs(last_.slope[i]));
+  const double h = last_.t - first_.t, first = first_.slope[i], last = last_.slope[i];
+  double reach = h * (std::abs(first) + std::abs(last));
+  if (wanted_[i].argument)
+    reach = steepness_[i] > 0 ? 2 * steepness_[i] * reach : HUGE_VAL;
+  else if (runs_straight(first, last, (last_.value[i] - first_.value[i]) / h))
+    return false;
   return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
 }
 

@@ -59,6 +59,8 @@ struct ExtremeOf {
   std::function<double(const Snapshot&)> rate;  // vanishes at the extreme; empty: by central differences of the value
   // d value/dt, if it bounds the value between two points of a step; empty: unknown.
   std::function<double(const Snapshot&)> slope = {};
+  // Between events the value is a smooth law of this alone, and `slope` is the one of this.
+  std::function<double(const Snapshot&)> argument = {};
 };
 
 // Peaks of torques in all couplings, of the reduction link's speed, and of the mechanisms' motion and force.
@@ -74,7 +76,8 @@ class ExtremeRecorder final : public Observer {
     double row_time = 0;  // time of `row`, if there is one
     void remember(Tape& tape) { tape(value, time, any, merit_then, row, row_time); }
   };
-  explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}
+  explicit ExtremeRecorder(std::vector<ExtremeOf> wanted)
+      : wanted_(std::move(wanted)), found_(wanted_.size()), steepness_(wanted_.size(), 0.0) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override { tape(found_); }
@@ -87,11 +90,12 @@ class ExtremeRecorder final : public Observer {
  private:
   struct Sample {
     double t;
-    std::vector<double> value, rate, slope;
+    std::vector<double> value, rate, slope, argument;
   };
   double merit(std::size_t i, double value) const;
   void consider(std::size_t i, double t, double value);
   void sample(const Snapshot& snapshot, double t, Sample& out) const;
+  void learn_steepness(std::size_t i);
   bool may_be_beaten(std::size_t i) const;
   void search(StepView& view, std::size_t i);
   void take_row(Found& found, const Snapshot& snapshot) const;
@@ -99,6 +103,7 @@ class ExtremeRecorder final : public Observer {
   std::vector<ExtremeOf> wanted_;
   std::vector<Channel> channels_;
   std::vector<Found> found_;
+  std::vector<double> steepness_;  // of laws of an argument, the greatest between two samples; 0: not known yet
   Sample first_, middle_, last_;
 };
 

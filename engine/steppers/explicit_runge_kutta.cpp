@@ -178,7 +178,7 @@ void ExplicitRungeKutta::step(double t_limit) {
   t_previous_ = t_;
   std::swap(y_, y_previous_);
   std::swap(slope_[0], slope_[table_.stages]);
-  dense_is_ready_ = false;
+  dense_stages_are_ready_ = dense_is_ready_ = false;
   try {
     search_step(t_limit);
   } catch (...) {
@@ -238,7 +238,7 @@ void ExplicitRungeKutta::retake(double t) {
     t_ = stages_end_ = std::max(t, t_previous_);
     take(t_ - t_previous_);
   }
-  dense_is_ready_ = false;
+  dense_stages_are_ready_ = dense_is_ready_ = false;
   evaluate(t_, y_, table_.stages);
   if (!end_slope_is_finite()) fail(t_ - t_previous_, std::numeric_limits<double>::quiet_NaN());
 }
@@ -357,15 +357,35 @@ double ExplicitRungeKutta::first_step(double longest) {
   return std::min({100 * h, accurate, longest});  // `accurate` is ∞ when nothing moves
 }
 
-void ExplicitRungeKutta::prepare_dense_output() {
-  if (std::exchange(dense_is_ready_, true)) return;
+void ExplicitRungeKutta::prepare_dense_stages() {
+  if (std::exchange(dense_stages_are_ready_, true)) return;
+  dense_state_ = size_;
   const double h = t_ - t_previous_;
   if (std::abs(t_ - stages_end_) > 0.1 * tolerance_ * h) take_stages(h), stages_end_ = t_;
   for (std::size_t i = table_.stages + 1; i < table_.row.size(); ++i) {
     combine(size_, y_previous_, table_.row[i], slope_, h, stage_y_);
     evaluate(t_previous_ + table_.node[i] * h, stage_y_, i);
   }
-  for (std::size_t d = 0; d < table_.dense.size(); ++d) sum_up(size_, table_.dense[d], slope_, h, dense_[d]);
+}
+
+void ExplicitRungeKutta::prepare_dense_output() {
+  if (std::exchange(dense_is_ready_, true)) return;
+  prepare_dense_stages();
+  for (std::size_t d = 0; d < table_.dense.size(); ++d)
+    sum_up(size_, table_.dense[d], slope_, t_ - t_previous_, dense_[d]);
+}
+
+// Of one state alone: what watches the speed of a link asks for no more in most steps.
+const std::array<double, 4>& ExplicitRungeKutta::dense_of(std::size_t state) {
+  prepare_dense_stages();
+  if (std::exchange(dense_state_, state) == state) return dense_of_;
+  const double h = t_ - t_previous_;
+  for (std::size_t d = 0; d < table_.dense.size(); ++d) {
+    double sum = 0;
+    for (const Term& term : table_.dense[d]) sum += term.weight * slope_[term.stage][state];
+    dense_of_[d] = sum * h;
+  }
+  return dense_of_;
 }
 
 void ExplicitRungeKutta::interpolate(double t, std::span<double> y) {
@@ -389,11 +409,11 @@ void ExplicitRungeKutta::interpolate(double t, std::span<double> y) {
 double ExplicitRungeKutta::interpolate(double t, std::size_t state) {
   if (t >= t_) return y_[state];
   if (t <= t_previous_) return y_previous_[state];
-  prepare_dense_output();
+  const std::array<double, 4>& dense = dense_of(state);
   const double h = t_ - t_previous_, x = (t - t_previous_) / h;
   const DensePlace place{h, x, 1 - x};
   double tail = 0;
-  for (std::size_t d = table_.dense.size(); d-- > 0;) tail = dense_[d][state] + place.weight(d) * tail;
+  for (std::size_t d = table_.dense.size(); d-- > 0;) tail = dense[d] + place.weight(d) * tail;
   return place.value(y_previous_[state], y_[state], slope_[0][state], slope_[table_.stages][state], tail);
 }
 

@@ -47,7 +47,9 @@ class ExplicitRungeKutta final : public Stepper {
   bool end_slope_is_finite() const;
   void adapt(double error, const Aim& done, bool after_rejection);
   void watch_stability(double h);
+  void prepare_dense_stages();
   void prepare_dense_output();
+  const std::array<double, 4>& dense_of(std::size_t state);
   void stand_still();
   [[noreturn]] void fail(double h, double error) const;
 
@@ -65,7 +67,9 @@ class ExplicitRungeKutta final : public Stepper {
   double* stage_y_;  // argument of the last stage before the end slope
   std::array<double*, most_stages> slope_{};
   std::array<double*, 4> dense_{};
-  bool dense_is_ready_ = false;
+  bool dense_stages_are_ready_ = false, dense_is_ready_ = false;
+  std::size_t dense_state_ = 0;  // whose dense output alone stands in dense_of_; size_: none
+  std::array<double, 4> dense_of_{};
 
   double t_ = 0, t_previous_ = 0;
   double step_end_ = 0;    // of the last step as it was accepted

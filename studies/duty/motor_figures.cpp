@@ -8,6 +8,11 @@
 namespace kurbel {
 namespace {
 
+bool is_commanded(const Model& m, const MotorTorque& motor) {
+  return std::any_of(m.commands.begin(), m.commands.end(),
+                     [&](const CommandTarget& c) { return c.component == motor.component; });
+}
+
 // Synchronous speed of an induction motor at the mains with a static curve whose field is never reversed; empty: no
 // heat of slip is given.
 std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor) {
@@ -15,10 +20,8 @@ std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor
   const bool transient = std::any_of(m.own_states.begin(), m.own_states.end(), [&](const OwnStatePlace& own) {
     return own.component == motor.component && !own.state.lags;
   });
-  const bool commanded = std::any_of(m.commands.begin(), m.commands.end(),
-                                     [&](const CommandTarget& c) { return c.component == motor.component; });
-  return data && !data->by_converter && !transient && !commanded ? std::optional(data->synchronous_speed)
-                                                                 : std::nullopt;
+  return data && !data->by_converter && !transient && !is_commanded(m, motor) ? std::optional(data->synchronous_speed)
+                                                                              : std::nullopt;
 }
 
 // Null: no law gives the current from the torque, whose sign changes for a reversed series motor.
@@ -172,6 +175,15 @@ class OneMotor {
   FigureTeller& tell_;
 };
 
+// Between events.
+bool is_of_speed_alone(const Model& m, const MotorTorque& motor) {
+  return !motor.prescribed && !is_commanded(m, motor) &&
+         std::all_of(motor.elements.begin(), motor.elements.end(), [&](std::size_t e) {
+           const AnyShaftElement& law = *m.network.elements[e].element;
+           return law.is.states == 0 && !law.is.uses_angle && !law.uses_time;
+         });
+}
+
 }  // namespace
 
 double driving_work(const Model& m, const std::string& component, std::span<const double> work) {
@@ -206,6 +218,11 @@ std::vector<ExtremeOf> motor_extremes_of(const Model& m) {
   };
   for (const MotorTorque& motor : m.motors) {
     want("motor_peak_torque", motor, "N*m", motor.rated_torque, [motor](const Snapshot& s) { return motor.torque(s); });
+    if (is_of_speed_alone(m, motor)) {
+      const int shaft = m.shaft_of_node[at(motor.node)];
+      wanted.back().argument = [shaft](const Snapshot& s) { return s.now.speed[shaft]; };
+      wanted.back().slope = [shaft](const Snapshot& s) { return s.alpha[shaft]; };
+    }
     if (!motor.prescribed) continue;
     want("motor_peak_power", motor, "W", std::abs(motor.rated_torque * motor.rated_speed), power_of(m, motor).value);
   }

@@ -267,13 +267,13 @@ class Simulation {
   std::unique_ptr<OneRun> one_run(double tolerance, Equations& equations, bool elsewhere = false) {
     const Model& model = equations.model();
     auto run = std::make_unique<OneRun>();
-    run->trajectory =
-        std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, settings_.samples);
+    const int rows = elsewhere ? 0 : settings_.samples;  // a witness is asked for figures alone
+    run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, rows);
     std::vector<ExtremeOf> extremes = extremes_of(model);
     for (const auto more : {motor_extremes_of, rim_speeds_of, shaft_torques_of, held_torques_of})
       for (ExtremeOf& extreme : more(model)) extremes.push_back(std::move(extreme));
     run->extremes = std::make_unique<ExtremeRecorder>(std::move(extremes));
-    run->extremes->take_rows_of(run->trajectory->channels());
+    if (rows > 0) run->extremes->take_rows_of(run->trajectory->channels());
     run->heat = heat_recorder_of(model);
     run->slips = std::make_unique<SlipRecorder>(model);
     run->link = std::make_unique<LinkRecorder>(model, settings_.until);

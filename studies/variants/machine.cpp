@@ -160,8 +160,9 @@ MachineAnswer answer_of_run(const MachineQuestion& q, const Scene& scene, bool m
   SimulateOptions options;
   options.measure_error = measure;
   options.watch.interrupted = q.interrupted;
-  const auto model = compile(scene, scene.effects);
-  Result result = simulate(model, "", options);
+  Scene unseen = scene;
+  unseen.run.samples = 0;  // nobody asks for the motion of a variant
+  Result result = simulate(unseen, unseen.effects, "", options);
   if (!result.complete) return {RowState::failed, result.diagnosis, {}};
   return {result.unconfirmed() ? RowState::unconfirmed : RowState::done,
           result.unconfirmed() ? result.accuracy_in_words() : "", std::move(result.figures)};

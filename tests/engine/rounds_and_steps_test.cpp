@@ -188,49 +188,6 @@ TEST(ExplicitRungeKutta, TellsStabilityFromAccuracyInAnyUnitOfTime) {
   }
 }
 
-// A step as long as it is told to be.
-class OneStep final : public Stepper {
- public:
-  using Stepper::interpolate;
-  OneStep(double from, double to, std::vector<double> y) : from_(from), to_(to), y_(std::move(y)) {}
-  void start(double, std::span<const double>) override {}
-  void step(double) override {}
-  void retake(double) override {}
-  void interpolate(double, std::span<double> y) override { std::copy(y_.begin(), y_.end(), y.begin()); }
-  double t() const override { return to_; }
-  double t_previous() const override { return from_; }
-  std::span<const double> y() const override { return y_; }
-  std::span<const double> y_previous() const override { return y_; }
-  std::span<const double> ydot() const override { return y_; }
-  std::span<const double> ydot_previous() const override { return y_; }
-
- private:
-  double from_, to_;
-  std::vector<double> y_;
-};
-
-// x³ − 0.9 x over −1 … 1, its ends and its middle on one line: the peak between them, 2 (0.3)^{3/2}, is found.
-TEST(ExtremeRecorder, FindsAPeakThatThreeSamplesOnALineHide) {
-  const Scene scene = scene_from("line = [\"a\"]\na = { kind = \"inertia\", inertia = \"1 kg*m2\" }\n");
-  Equations equations(compile(scene, scene.effects), false);
-  const std::vector<double> y = equations.start(0);
-  for (const double sign : {1.0, -1.0}) {
-    const auto value = [sign](const Snapshot& s) { return sign * (std::pow(s.now.t, 3) - 0.9 * s.now.t); };
-    ExtremeRecorder recorder({{.name = {quantities::other, "", "cubic"},
-                               .unit = "1",
-                               .functional = Functional::greatest,
-                               .value = value,
-                               .rate = {}}});
-    recorder.begin(-1, y, equations);
-    OneStep step(-1, 1, y);
-    StepView view(equations);
-    view.watch(step);
-    recorder.step(view);
-    EXPECT_NEAR(recorder.found()[0].value, 2 * std::pow(0.3, 1.5), 1e-6);
-    EXPECT_NEAR(recorder.found()[0].time, -sign * std::sqrt(0.3), 1e-3);
-  }
-}
-
 // --- over the angle, backwards ---------------------------------------------------------------------------------------
 
 // Without torques I ω² stays as it is, from wherever it starts, either way.
