@@ -156,16 +156,23 @@ class MotionJudge {
   }
   bool vibrates() const {
     const double from = 0.75 * until_;
-    double way = 0;
-    int changes = 0, sense = 0;
+    double way = 0, farthest = 0;
+    std::vector<double> ends;  // angles at which it reversed
+    int sense = 0;
     for (std::size_t k = 1; k < p_.size(); ++k) {
       if (p_[k].t < from) continue;
       way += std::abs(p_[k].angle - p_[k - 1].angle);
       const int now = turns_at(p_[k]) ? (p_[k].speed > 0 ? 1 : -1) : 0;
-      if (now != 0 && sense != 0 && now != sense) ++changes;
-      if (now != 0) sense = now;
+      if (now != 0 && sense != 0 && now != sense) ends.push_back(farthest);
+      if (now != 0 && now != sense) sense = now, farthest = p_[k].angle;
+      if (sense * (p_[k].angle - farthest) > 0) farthest = p_[k].angle;
     }
-    return changes >= 2 && std::abs(path_.angle(until_) - path_.angle(from)) < 0.25 * way;
+    const auto gains_little = [](double a, double b, double w) { return std::abs(b - a) < 0.25 * w; };
+    const std::size_t n = ends.size();
+    return n >= 2 &&
+           (gains_little(path_.angle(from), path_.angle(until_), way) ||
+            (n > 2 && gains_little(ends[n - 3], ends[n - 1],
+                                   std::abs(ends[n - 1] - ends[n - 2]) + std::abs(ends[n - 2] - ends[n - 3]))));
   }
   // At any point of the last 2 % of the time: what is held may tremble.
   bool pushed() const {

@@ -9,7 +9,8 @@
 //                             nor for as long as the last two reversals of a vibration lie apart, which stands at its
 //                             turns (the time between the two before is that within a factor of two)
 //               "vibrates":   in the last quarter of the time it turns in both senses, twice at least, and the angle that it
-//                             gained is less than a quarter of the way it went
+//                             gained is less than a quarter of the way it went there, or in the last whole swing: the
+//                             quarter may end at the other end of a swing than it begins
 //               "forwards", "backwards": else, by the sense of the last 2 % of the time
 //   fastest_late     the speed at the end; of one that vibrates the greatest of its last half swing, or of the last 2 % of the
 //               time
