@@ -44,6 +44,10 @@ void LinkRecorder::step(StepView& view) {
     if (sense < 0 && sense_ >= 0) backwards_since_ = view.t();
     sense_ = sense;
   }
+  if (speed >= 0)
+    driven_back_ = 0;
+  else if (sources_.drive(equations.modes().active))
+    driven_back_ = std::min(driven_back_, speed);
   const double least = least_turning * m_.speed_scale;
   const auto speed_at = [&](double t) { return view.at(t, state); };
   const double from = speed_at(view.t_previous()), to = speed_at(view.t());

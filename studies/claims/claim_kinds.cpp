@@ -94,15 +94,16 @@ constexpr std::array kinds = {
         "command, is at most 0.1 % of it, and the link does not stand within the cycle",
         "at: end of the run-up; value: mean speed [rad/s]", "\"press\" runs steadily at 59.77 rpm from 0.9627 s on",
         "run, compare, steady"},
-    ClaimKind{vibrates, runs, note, anything,
-              "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
-              "its last quarter, and gains less than a quarter of its way there, or in its last whole swing; it decays "
-              "or grows where the amplitude of "
-              "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
-              "slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
-              "value: frequency [Hz]",
-              "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
-              "run, compare, steady"},
+    ClaimKind{
+        vibrates, runs, note, anything,
+        "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
+        "its last quarter, and gains less than a quarter of its way there, or in its last whole oscillation; it decays "
+        "or grows where the amplitude of "
+        "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
+        "slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
+        "value: frequency [Hz]",
+        "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
+        "run, compare, steady"},
     ClaimKind{works_in_strokes, runs, note, anything, "the cycles come again, and the link stands within each",
               "at: end of the last cycle; value: its time [s]",
               "\"press\" makes single strokes, one every 1.961 s, and rests between them", "run, compare"},

@@ -59,6 +59,19 @@ TEST(Falling, IsNotSaidOfWhatWasDrivenBackwards) {
   EXPECT_NEAR(test::figure(r, "final_speed.drum"), -16, 1e-6);
 }
 
+// Driven to −20 rad/s within 1 s, and slowed down by 1 rad/s² since, but for the last 0.1 s, when a load speeds it up by 2.
+TEST(Falling, IsNotSaidOfWhatADriveLeftTurningFaster) {
+  const Result r = test::run(R"(
+    line = ["motor", "drum"]
+    motor = { kind = "torque source", torque = "-42 N*m", inertia = "1 kg*m2", stop = "1 s" }
+    drum = { kind = "load", torque = "2 N*m", acts = "against motion", inertia = "1 kg*m2" }
+    push = { kind = "load", on = "drum", torque = "6 N*m", acts = "always", start = "4.9 s" }
+    run = { start = "rest", until = "5 s" }
+  )");
+  EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << said(r);
+  EXPECT_NEAR(test::figure(r, "final_speed.drum"), -20 + 3.9 - 0.2, 1e-6);
+}
+
 // What swings through more than half a turn, driven or not, falls nowhere.
 TEST(Falling, IsNotSaidOfWhatSwings) {
   const Result r = test::run(R"(
@@ -332,6 +345,20 @@ TEST(Vibration, ThatDecaysIsSaidWithItsAmplitudes) {
       has(vibrates->text, fmt::format("decays: its amplitude falls from {:.3g}° to {:.3g}° in the last {:.3g} s",
                                       amplitude(first), amplitude(last), (last + 1 - first) * half)))
       << vibrates->text;
+}
+
+// A ripple of 5 Hz, ± 31.4/(2π 5)² rad, on a swing of 1 rad/s and ± 0.5 rad: its reversals are the ripple's, and tell nothing
+// of the swing's amplitude.
+TEST(Vibration, OfTwoFrequenciesNeitherGrowsNorDecays) {
+  const Result r = test::run(R"(
+    line = ["source", "arm"]
+    source = { kind = "torque source", torque = "0 N*m", amplitude = "31.4 N*m", frequency = "5 Hz", inertia = "0.5 kg*m2" }
+    arm = { kind = "load", inertia = "0.5 kg*m2", table = { over = "angle", formula = "1 [N*m/rad]*phi - 3 [N*m]" } }
+    run = { start = { angle = "3.5 rad" }, until = "20 s" }
+  )");
+  const Claim* vibrates = find(r.claims, Predicate::vibrates, "source");
+  ASSERT_TRUE(vibrates) << said(r);
+  EXPECT_TRUE(has(vibrates->text, "to the end, between ")) << vibrates->text;
 }
 
 // A screw's force comes from its energy: the conclusion has it.
