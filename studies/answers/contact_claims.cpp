@@ -45,9 +45,14 @@ class ContactJudge {
     if (found == result_.final_state.end() || !found->second.speed.error) return {};
     return *found->second.speed.error + (found->second.speed_out ? found->second.speed_out->error.value_or(0) : 0);
   }
-  // Error of a speed during the run: the largest relative error of the run's figures, times the usual value.
+  // Error of a speed during the run: the largest one of its speeds, and at most the usual value times the largest relative
+  // error of its figures; an angle may be far off where all speeds are known.
   double error_on_the_way(double usual) const {
-    return usual * (result_.errors_measured ? result_.measured_accuracy : result_.tolerance);
+    if (!result_.errors_measured) return usual * result_.tolerance;
+    double largest = 0;
+    for (const Figure& f : result_.figures)
+      if (f.unit == "rad/s") largest = std::max(largest, f.error.value_or(HUGE_VAL));
+    return std::min(usual * result_.measured_accuracy, largest);
   }
 
   // --- what slips ---

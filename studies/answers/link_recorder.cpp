@@ -18,7 +18,7 @@ constexpr double late = 0.75;                               // of the time
 void LinkRecorder::begin(double t, std::span<const double> y, Equations& equations) {
   if (began_) return;
   began_ = true;
-  angle_ = foremost_ = late_begin_ = low_ = high_ = equations.angle_with_turns(at(m_.reduction_angle), y);
+  angle_ = foremost_ = hindmost_ = late_begin_ = low_ = high_ = equations.angle_with_turns(at(m_.reduction_angle), y);
   turned_at_ = t, late_from_ = t + late * (until_ - t);
 }
 
@@ -36,12 +36,18 @@ void LinkRecorder::step(StepView& view) {
   const double speed = link.gain * view.y()[state], before = angle_in(view.y_previous());
   const int sense = speed > 0 ? 1 : -1;
   angle_ = angle_in(view.y());
+  hindmost_ = angle_ > foremost_ ? angle_ : std::min(hindmost_, angle_);
   foremost_ = std::max(foremost_, angle_), fastest_ = std::max(fastest_, std::abs(speed));
   if (std::abs(speed) > least_sense * m_.speed_scale) {
-    if (sense > 0 && sense_ < 0 && fell_back() > std::numbers::pi) turned_forwards_ = view.t();
+    const double fell = foremost_ - hindmost_;
+    if (sense > 0 && fell > std::numbers::pi && fell_back() < 0.5 * fell) turned_forwards_ = view.t();
     if (sense < 0 && sense_ >= 0) backwards_since_ = view.t();
     sense_ = sense;
   }
+  if (speed >= 0)
+    driven_back_ = 0;
+  else if (sources_.drive(equations.modes().active))
+    driven_back_ = std::min(driven_back_, speed);
   const double least = least_turning * m_.speed_scale;
   const auto speed_at = [&](double t) { return view.at(t, state); };
   const double from = speed_at(view.t_previous()), to = speed_at(view.t());
@@ -49,6 +55,7 @@ void LinkRecorder::step(StepView& view) {
   if (reverses) {
     reversal_ = find_root(speed_at, view.t_previous(), from, view.t(), to);
     extreme_ = angle_in(view.at(reversal_));
+    hindmost_ = extreme_ > foremost_ ? extreme_ : std::min(hindmost_, extreme_);
     foremost_ = std::max(foremost_, extreme_);
   }
   double reached = std::abs(speed);  // a swing may have its greatest speeds within steps
@@ -69,7 +76,7 @@ void LinkRecorder::step(StepView& view) {
     if (++changes_ == 1)
       first_change_ = reversal_;
     else
-      last_swing_ = std::abs(extreme_ - turned_back_);
+      swing_before_last_ = std::exchange(last_swing_, std::abs(extreme_ - turned_back_));
     if (changes_ == 2) first_swing_ = last_swing_;
     last_change_ = reversal_, turned_back_ = extreme_;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/run/run.h"
+#include "engine/run/sources.h"
 
 namespace kurbel {
 
@@ -11,26 +12,34 @@ namespace kurbel {
 // speed, at quarters of a step; its sense of rotation is updated above 1e-2 of it.
 class LinkRecorder final : public Observer {
  public:
-  LinkRecorder(const Model& model, double until) : m_(model), until_(until) {}
+  LinkRecorder(const Model& model, double until) : m_(model), sources_(model), until_(until) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override {
-    tape(began_, angle_, foremost_, turned_at_, sense_, backwards_since_, turned_forwards_, late_from_, late_begin_,
-         late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_,
-         extreme_, turned_back_, first_swing_, last_swing_, half_swing_, swing_fastest_, swing_before_);
+    tape(began_, angle_, foremost_, hindmost_, driven_back_, turned_at_, sense_, backwards_since_, turned_forwards_,
+         late_from_, late_begin_, late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_,
+         first_change_, last_change_, extreme_, turned_back_, first_swing_, last_swing_, swing_before_last_,
+         half_swing_, swing_fastest_, swing_before_);
   }
 
   // Its greatest angle minus the angle at the end, turns counted [rad].
   double fell_back() const { return foremost_ - angle_; }
-  // Its last reversal to forwards more than half a turn behind its greatest angle [s]; 0: none.
+  // When it last came forwards by half of what it had fallen behind its greatest angle, more than half a turn [s]; 0: never.
   double turned_forwards() const { return turned_forwards_; }
+  // Greatest speed of that rotation while anything drove [rad/s, ≤ 0].
+  double driven_back() const { return driven_back_; }
   double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
   double turned_at() const { return turned_at_; }              // end of the last step in which it turned [s]
   // It has not turned for the last fiftieth of the time up to t, nor for the time between its last two reversals: a swing
   // stands where it turns.
   bool rests(double t) const { return t - turned_at_ > std::max(0.02 * t, half_swing_); }
-  // In the last quarter of the time it reversed at least twice, and advanced by less than a quarter of the path covered.
-  bool swings() const { return changes_ >= 2 && std::abs(angle_ - late_begin_) < 0.25 * way_; }
+  // In the last quarter of the time it reversed at least twice, and advanced by less than a quarter of the path covered
+  // there or in its last whole swing, which need not fit into that quarter.
+  bool swings() const {
+    const double swing = last_swing_ + swing_before_last_;
+    return changes_ >= 2 && (std::abs(angle_ - late_begin_) < 0.25 * way_ ||
+                             (changes_ > 2 && std::abs(last_swing_ - swing_before_last_) < 0.25 * swing));
+  }
   // It swings, and reached more than a twentieth of its greatest speed in that quarter.
   bool vibrates() const { return swings() && late_fastest_ > 0.05 * fastest_; }
   // Greatest |speed| since its last reversal but one [rad/s]; 0: it does not swing.
@@ -46,16 +55,19 @@ class LinkRecorder final : public Observer {
 
  private:
   const Model& m_;
+  Sources sources_;
   double until_;
   bool began_ = false;
-  double angle_ = 0, foremost_ = 0, turned_at_ = 0, backwards_since_ = 0, turned_forwards_ = 0;
+  double angle_ = 0, foremost_ = 0, hindmost_ = 0;  // hindmost: since it was foremost
+  double driven_back_ = 0;
+  double turned_at_ = 0, backwards_since_ = 0, turned_forwards_ = 0;
   int sense_ = 0;
   double late_from_ = 0, late_begin_ = 0;
   int late_sense_ = 0, changes_ = 0;
   double way_ = 0, low_ = 0, high_ = 0, fastest_ = 0, late_fastest_ = 0;
   double reversal_ = 0, first_change_ = 0, last_change_ = 0;  // [s]
   double extreme_ = 0, turned_back_ = 0;                      // the angles at reversal_ and at last_change_
-  double first_swing_ = 0, last_swing_ = 0;
+  double first_swing_ = 0, last_swing_ = 0, swing_before_last_ = 0;
   double half_swing_ = 0;                        // between the last two reversals [s]
   double swing_fastest_ = 0, swing_before_ = 0;  // since the last reversal, and between that and the one before [rad/s]
 };

@@ -180,7 +180,7 @@ class Judge {
       return {};
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
-    if (torque < -least || (torque <= least && slows_down() && !since_off)) return {};
+    if (torque < -least || (torque <= least && speed() >= recorder_.driven_back() && !since_off)) return {};
     return claimed(
         Predicate::turns_back,
         fmt::format("\"{}\" turns backwards, at {} at the end: {}", link(), m_.scene.speed_unit.text(speed()),
@@ -339,9 +339,11 @@ class Judge {
   // A lasting vibration by its range, one that decays or grows by its amplitudes.
   std::string course_of_vibration() const {
     const double first = recorder_.first_amplitude(), last = recorder_.last_amplitude();
+    const bool alone =
+        recorder_.highest() - recorder_.lowest() < 4 * std::max(first, last);  // no ripple on a larger one
     const double degree = std::numbers::pi / 180, low = recorder_.lowest() / degree,
                  high = recorder_.highest() / degree;
-    if (first == 0 || std::abs(last - first) < changes_by * first)
+    if (first == 0 || !alone || std::abs(last - first) < changes_by * first)
       return fmt::format("to the end, between {:.1f}° and {:.1f}°", low, high);
     return fmt::format("about {:.1f}°; the vibration {}: its amplitude {} from {:.3g}° to {:.3g}° in the last {:.3g} s",
                        0.5 * (low + high), last < first ? "decays" : "grows", last < first ? "falls" : "rises",

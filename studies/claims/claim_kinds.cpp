@@ -37,8 +37,8 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{turns_back, runs, fault, below,
               "the link turned back for good, by more than half a turn from its foremost place, against what drives it "
-              "forwards or with nothing that drives; of a sequence with nothing that drives alone; not of what turned "
-              "forwards again from there",
+              "forwards or with nothing that drives; of a sequence with nothing that drives alone; not of what came "
+              "forwards again by half of that",
               "value: speed at the end [rad/s]; limit: 0",
               "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
               "drive it forwards",
@@ -94,14 +94,16 @@ constexpr std::array kinds = {
         "command, is at most 0.1 % of it, and the link does not stand within the cycle",
         "at: end of the run-up; value: mean speed [rad/s]", "\"press\" runs steadily at 59.77 rpm from 0.9627 s on",
         "run, compare, steady"},
-    ClaimKind{vibrates, runs, note, anything,
-              "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
-              "its last quarter, and gains less than a quarter of its way; it decays or grows where the amplitude of "
-              "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
-              "slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
-              "value: frequency [Hz]",
-              "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
-              "run, compare, steady"},
+    ClaimKind{
+        vibrates, runs, note, anything,
+        "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
+        "its last quarter, and gains less than a quarter of its way there, or in its last whole oscillation; it decays "
+        "or grows where the amplitude of "
+        "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
+        "slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
+        "value: frequency [Hz]",
+        "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
+        "run, compare, steady"},
     ClaimKind{works_in_strokes, runs, note, anything, "the cycles come again, and the link stands within each",
               "at: end of the last cycle; value: its time [s]",
               "\"press\" makes single strokes, one every 1.961 s, and rests between them", "run, compare"},

@@ -366,12 +366,13 @@ MotionAlong steady_motion(OutputLoads& loads, double speed, int positions) {
 }
 
 double MotionAlong::mean_speed() const {
-  double time = 0;
-  for (std::size_t i = 0; i < where.size(); ++i) time += where[i].weight / std::abs(motion[i].omega);
-  return std::copysign(cycle / time, motion.front().omega);
+  double sum = 0;
+  for (std::size_t i = 0; i < where.size(); ++i) sum += where[i].weight / std::abs(motion[i].omega);
+  return std::copysign(cycle / (time > 0 ? time : sum), motion.front().omega);
 }
 
 MotionAlong sped_up(MotionAlong along, double by) {
+  along.time /= 1 + by;
   for (CrankMotion& m : along.motion) m.omega *= 1 + by, m.alpha *= (1 + by) * (1 + by);
   return along;
 }

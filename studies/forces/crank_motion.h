@@ -126,6 +126,7 @@ void check(const ForcesOptions& options);
 // A cycle of the crank at the abscissae, in the order of time.
 struct MotionAlong {
   double cycle = 0;  // [rad]
+  double time = 0;   // that it takes, with stops between positions [s]; 0: as the speeds at the positions say
   std::vector<Abscissa> where;
   std::vector<CrankMotion> motion;
 

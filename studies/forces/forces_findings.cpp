@@ -42,7 +42,9 @@ Findings begin_findings(const Forces& f, const ForceCycle& front, const std::str
 
 // "press at 60 rpm: the main bearing carries up to 10.45 kN (at 90.0°)", or that reactions have no bound.
 std::string begin_conclusion(const Forces& f, const ForceCycle& front, const Peak& main_bearing) {
-  const std::string moving = fmt::format("{} at {}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4));
+  const double swing = front.greatest_speed.value - front.least_speed.value;
+  const std::string moving = fmt::format("{} at {}{}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4),
+                                         swing > 1e-4 * std::abs(front.mean_speed.value) ? " in the mean" : "");
   if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
   return fmt::format("{}: the main bearing carries up to {} (at {})", moving, in_words(main_bearing, "N"),
                      at_angle(main_bearing));

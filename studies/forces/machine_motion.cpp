@@ -57,10 +57,12 @@ class PassageRecorder final : public Observer {
                           : at_end < 0  ? view.t()
                                         : find_root(beyond, from, at_begin, view.t(), at_end);
       const Snapshot& s = view.snapshot(time);
+      (passed.empty() ? first : last) = time;
       passed.push_back({gain * s.now.speed[shaft], gain * s.alpha[shaft], acting_loads(m, forces_.element(), s.now)});
       machine.push_back(forces_.at(s));
     }
   }
+  double first = 0, last = 0;  // when [s]
   std::vector<CrankMotion> passed;
   std::vector<MachineForces> machine;
 
@@ -298,7 +300,8 @@ MachineMotion::Sampled MachineMotion::along_round(OutputLoads& loads, const Retu
   if (passages.passed.size() != where.size())
     throw std::invalid_argument(outcome.diagnosis.empty() ? "the motion ended before the crank's cycle"
                                                           : outcome.diagnosis);
-  out.along.motion = std::move(passages.passed), out.machine = std::move(passages.machine);
+  out.along.motion = std::move(passages.passed), out.along.time = passages.last - passages.first;
+  out.machine = std::move(passages.machine);
   check_sense(out.along, direction);
   return out;
 }
@@ -347,7 +350,8 @@ MachineMotion::Sampled MachineMotion::one_run(const std::vector<Abscissa>& where
   if (passages.passed.size() != where.size())
     throw std::runtime_error(
         "the simulated crank does not repeat its motion between two tolerances; request more accuracy (run.accuracy)");
-  out.along.motion = std::move(passages.passed), out.machine = std::move(passages.machine);
+  out.along.motion = std::move(passages.passed), out.along.time = passages.last - passages.first;
+  out.machine = std::move(passages.machine);
   out.outside_data = ranges.sentences();
   return out;
 }

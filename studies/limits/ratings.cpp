@@ -124,6 +124,11 @@ class Rater {
       out_.push_back(not_assessed(component_, requirement, limit, unit, load_case::start,
                                   "the run does not begin at rest; kurbel modes judges a start from rest"));
   }
+  // Of what one load case alone, the steady motion, does not contain.
+  void leave_to_run(const char* requirement, double limit, const char* unit, const char* load_case = load_case::run) {
+    if (!only_case_.empty())
+      out_.push_back(not_assessed(component_, requirement, limit, unit, load_case, "kurbel run judges it"));
+  }
   Remedy remedy(const char* key, double value, const char* unit) const {
     return {component_ + "." + key, enough(value), unit};
   }
@@ -131,15 +136,19 @@ class Rater {
 
   void heat(const HeatRating& rating) {
     const Figure *hottest = found("engagement_heat." + component_), *power = found("heat_power." + component_);
+    constexpr const char *engagement = "heat of an engagement: W ≤ W_allowable",
+                         *mean = "mean heat power: W_total/t ≤ P_allowable";
+    if (rating.engagement) leave_to_run(engagement, *rating.engagement, "J");
+    if (rating.power) leave_to_run(mean, *rating.power, "W");
     if (rating.engagement && hottest)
-      add("heat of an engagement: W ≤ W_allowable", abs(*hottest), {}, *rating.engagement, "J", [](double times) {
+      add(engagement, abs(*hottest), {}, *rating.engagement, "J", [](double times) {
         return Mend{
             fmt::format("by an estimate, as W goes with the square of the difference of speed, it holds where "
                         "that is {:.0f} % of what it is",
                         std::floor(100 / std::sqrt(times)))};
       });
     if (rating.power && power)
-      add("mean heat power: W_total/t ≤ P_allowable", abs(*power), {}, *rating.power, "W", [](double times) {
+      add(mean, abs(*power), {}, *rating.power, "W", [](double times) {
         return Mend{fmt::format("by an estimate it holds with {:.0f} % of these engagements in the same time",
                                 std::floor(100 / times))};
       });
@@ -174,18 +183,20 @@ class Rater {
 
   void belt(const BeltRating& b) {
     const Figure *peak = found("peak_torque." + component_), *strand = found("strand_force." + component_);
+    constexpr const char *tension = "strand force: F₀ + |τ|/(2 r₁) ≤ F_allowable",
+                         *reserve = "reserve against slip: S |τ| ≤ M";
+    if (b.tension) leave_to_run(tension, *b.tension, "N", load_case::start);
+    if (b.reserve) leave_to_run(reserve, b.limit, "N*m", load_case::start);
     if (b.tension && strand)
-      add("strand force: F₀ + |τ|/(2 r₁) ≤ F_allowable", abs(*strand), peak ? peak->at : strand->at, *b.tension, "N",
-          [&](double) {
-            const double left = *b.tension - b.pretension,
-                         pull = strand->value + strand->error.value_or(0) - b.pretension;
-            if (left <= 0) return Mend{"the pretension alone is as much"};
-            return Mend{.remedy = remedy("diameter_in", 2 * b.radius * pull / left, "m")};
-          });
+      add(tension, abs(*strand), peak ? peak->at : strand->at, *b.tension, "N", [&](double) {
+        const double left = *b.tension - b.pretension, pull = strand->value + strand->error.value_or(0) - b.pretension;
+        if (left <= 0) return Mend{"the pretension alone is as much"};
+        return Mend{.remedy = remedy("diameter_in", 2 * b.radius * pull / left, "m")};
+      });
     if (const Claim* slips = b.reserve ? nullptr : slips_closed()) gives_way("slip: |τ| ≤ M", b.limit, *slips);
     if (b.reserve && peak) {
       const bool slips = std::abs(peak->value) >= b.limit * (1 - 1e-9);
-      add("reserve against slip: S |τ| ≤ M", *b.reserve * abs(*peak), peak->at, b.limit, "N*m", [&](double times) {
+      add(reserve, *b.reserve * abs(*peak), peak->at, b.limit, "N*m", [&](double times) {
         // A slipping belt limits its torque: the torque without slip is not known.
         if (slips) return Mend{.more = "; the belt slips, so that the torque without slip is larger and not known"};
         return Mend{.remedy = remedy("pretension", b.pretension * times, "N")};
@@ -299,6 +310,9 @@ class Rater {
     const Figure* rms = found("motor_rms_torque." + component_);
     const auto* data = stated<InductionData>();
     const double rated = data ? data->rated_torque : rating.torque.value_or(0);
+    constexpr const char* of_duty = "RMS torque: √(∫ M² dt/t) ≤ M_N √part on";
+    if (!only_case_.empty() && rating.duty.duty == DutyRating::Duty::short_time)
+      return leave_to_run(of_duty, std::nan(""), "N*m");
     if (!rms || !(rated > 0)) return;
     const auto mends = [&](double times) {
       return Mend{fmt::format("by an estimate it holds from a rated torque of {:.4g} N·m on", enough(rated * times))};
@@ -314,7 +328,7 @@ class Rater {
       // The same heat ∫ M² dt as M_N during the rated time.
       const double span = result_.until - result_.begins_at,
                    part = rating.duty.time ? *rating.duty.time / span : rating.duty.share.value_or(1);
-      add("RMS torque: √(∫ M² dt/t) ≤ M_N √part on", abs(*rms), {}, rated * std::sqrt(part), "N*m", mends);
+      add(of_duty, abs(*rms), {}, rated * std::sqrt(part), "N*m", mends);
     }
     std::string& note = out_.back().note;
     note += fmt::format("{}M_N = {:.4g} N·m; a lower bound of its heating", note.empty() ? "" : "; ", rated);

@@ -36,7 +36,7 @@ std::vector<Figure> watched_figure_list(const Model& model);
 std::vector<Figure> rating_figure_list(const Model& model);
 
 // For a complete run; an incomplete one does not show its final loads. Load cases follow from the run's sequence and
-// periods, or are `only_case` if all figures belong to it.
+// periods, or are `only_case` if all figures belong to it; starts and engagements are not assessed then.
 std::vector<Verdict> judge_ratings(const Result& result, const std::string& only_case = {});
 
 }  // namespace kurbel

@@ -311,7 +311,7 @@ Findings findings_of(const MachineReduction& r) {
   f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
   f.conclude(true, conclusion_of(r));
   if (r.speed_source != "no torque depends on it")
-    f.conclude(true, fmt::format("Torques are those at {} of \"{}\" ({})", r.speed_unit.text(r.speed, 5), r.link,
+    f.conclude(true, fmt::format("Torques are those at {} of \"{}\" ({})", r.speed_unit.text(r.speed, 4), r.link,
                                  r.speed_source));
   for (const std::string& sentence : r.outside_data) f.claim(Predicate::outside_data, sentence);
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),

@@ -2,10 +2,12 @@
 #include "studies/steady/operating_points.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "drivetrain/gears/gear_keys.h"
 #include "engine/base/gauss.h"
@@ -133,10 +135,12 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
   if (least->net() < 0)
     return fmt::format(
         "stall: at every speed the loads' mean torque on \"{}\" exceeds the drive's, at the least by {} ({} against {} "
-        "at {}); the drive gives at most {} (at {}). A stronger drive, a higher ratio, or a lighter load is needed",
+        "at {}); the drive gives at most {} (at {}). {}",
         link, with_unit(-least->net(), "N*m", 4), with_unit(least->load, "N*m", 5), with_unit(least->drive, "N*m", 5),
         speed_text(speed_unit, least->omega), with_unit(strongest.value, "N*m", 5),
-        speed_text(speed_unit, strongest_at));
+        speed_text(speed_unit, strongest_at),
+        brakes.empty() ? "A stronger drive, a higher ratio, or a lighter load is needed"
+                       : fmt::format("These loads include {}, which is on", brakes));
   const MeanTorques& last = curve.back();
   if (last.net() > 0)
     return fmt::format(
@@ -162,6 +166,13 @@ void measure_errors(const MeanTorques& here, const MeanTorques& finer, double wi
   point.torque.error = std::abs(finer.load - here.load) + std::abs(point.load_slope) * *point.speed.error + rounding;
 }
 
+std::string brakes_of(const Network& network) {
+  std::set<std::string> names;
+  for (const Network::ShaftElement& e : network.elements)
+    if (network.kind_of(e.component) == "brake") names.insert('"' + e.component + '"');
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 double error_of(MeanCharacteristic& finer, const MeanTorques& mean, double within) {
   return std::abs(finer.at(mean.omega).net() - mean.net()) + (rounding_of_tables + within) * mean.turnover;
 }
@@ -173,6 +184,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
   result.speed_unit = machine.model().scene.speed_unit;
   result.direction = direction;
   result.uses_speed = machine.uses_speed();
+  if (machine.model().commands.empty()) result.brakes = brakes_of(machine.model().network);
   MeanCharacteristic mean(machine, direction, 1, lossy), finer(machine, direction, 2, lossy);
   const double rated = machine.model().speed_scale,
                step = scan_beyond * rated / (lossy ? scan_points_moving : scan_points);

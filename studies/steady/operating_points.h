@@ -70,6 +70,7 @@ struct OperatingDiagram {
   void become_estimate();  // drops its errors
   int direction = 1;
   SpeedUnit speed_unit;
+  std::string brakes;  // that are on, and among the loads
 
   // The fastest stable one; null if there is none.
   const OperatingPoint* working_point() const;

@@ -59,7 +59,6 @@ std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
   if (!c.found || !c.model) return {};
   Result as_run;
   as_run.model = c.model;
-  as_run.until = 1;  // of short-time duty alone, which is not judged here
   as_run.errors_measured =
       std::any_of(c.figures.begin(), c.figures.end(), [](const Figure& f) { return f.error.has_value(); });
   for (const Figure& f : c.figures) {
@@ -84,10 +83,6 @@ std::vector<Verdict> steady_ratings(const SteadyCycle& c) {
   }
   std::vector<Verdict> verdicts = judge_ratings(as_run, load_case::steady);
   add_loads(c, verdicts);
-  std::erase_if(verdicts, [&](const Verdict& v) {
-    const auto* motor = c.model->network.data.find<MotorRating>(v.component);
-    return motor && motor->duty.duty == DutyRating::Duty::short_time;
-  });
   return verdicts;
 }
 

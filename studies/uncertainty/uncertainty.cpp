@@ -237,15 +237,24 @@ class UncertaintyWork {
     std::size_t found = 0;
     for (const FigureUncertainty& f : study_.figures) {
       if (f.is_linear() || f.by_gradients <= 0 || ++found > most_told) continue;
-      const std::string unit = f.figure.unit.empty() ? "" : " " + pretty_unit(f.figure.unit);
+      const std::string unit = unit_of(f);
       study_.notes.push_back(fmt::format(
           "{} does not follow its gradients over these tolerances: the samples have a deviation of {:.3g}{} about "
           "{:.5g}{}, gradients say {:.3g}{} about {:.5g}{}; the samples are right, and shares by gradients are of "
           "small tolerances only (kurbel sweep --design saltelli:N shares out what is not linear)",
-          f.figure.name, f.by_samples, unit, f.mean, unit, f.by_gradients, unit, f.value, unit));
+          f.figure.name, told(f, f.by_samples), unit, told(f, f.mean), unit, told(f, f.by_gradients), unit,
+          told(f, f.value), unit));
     }
     if (found > most_told)
       study_.notes.push_back(fmt::format("so do {} more figures: compare the two columns", found - most_told));
+  }
+
+  // A speed in the scene's unit, all else in SI.
+  static bool is_speed(const FigureUncertainty& f) { return f.figure.unit == "rad/s"; }
+  double told(const FigureUncertainty& f, double x) const { return is_speed(f) ? study_.speed_unit.of(x) : x; }
+  std::string unit_of(const FigureUncertainty& f) const {
+    const std::string& name = is_speed(f) ? study_.speed_unit.name : f.figure.unit;
+    return name.empty() ? "" : " " + pretty_unit(name);
   }
 
   void conclude() {
@@ -259,15 +268,12 @@ class UncertaintyWork {
     });
     if (figure != study_.figures.end()) {
       const ToleranceShare& most = figure->shares.front();
-      const bool speed = figure->figure.unit == "rad/s";
-      const std::string& name = speed ? study_.speed_unit.name : figure->figure.unit;
-      const std::string unit = name.empty() ? "" : " " + pretty_unit(name);
-      const auto told = [&](double x) { return speed ? study_.speed_unit.of(x) : x; };
+      const std::string unit = unit_of(*figure);
       text += fmt::format("{}{} is {:.5g}{} with a standard deviation of {:.2g}{} by the tolerances",
-                          text.empty() ? "" : "; ", figure->figure.name, told(figure->value), unit,
-                          told(figure->deviation()), unit);
+                          text.empty() ? "" : "; ", figure->figure.name, told(*figure, figure->value), unit,
+                          told(*figure, figure->deviation()), unit);
       text += figure->is_linear() ? fmt::format("; {} contributes most: without its tolerance {:.2g}{}",
-                                                swept_[most.parameter].path, told(most.without), unit)
+                                                swept_[most.parameter].path, told(*figure, most.without), unit)
                                   : fmt::format(", not in proportion to them; it depends most on small changes of {}",
                                                 swept_[most.parameter].path);
     }

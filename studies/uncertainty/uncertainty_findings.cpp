@@ -16,8 +16,29 @@ std::string as_unit(const std::string& unit) { return pretty_unit(unit); }
 double told(const UncertaintyStudy& s, const std::string& unit, double value) {
   return unit == "rad/s" ? s.speed_unit.of(value) : value;
 }
+std::optional<double> told(const UncertaintyStudy& s, const std::string& unit, const std::optional<double>& value) {
+  return value ? std::optional(told(s, unit, *value)) : value;
+}
 std::string told_unit(const UncertaintyStudy& s, const std::string& unit) {
   return as_unit(unit == "rad/s" ? s.speed_unit.name : unit);
+}
+const std::string& unit_of(const FigureUncertainty& f) { return f.figure.unit; }
+template <class Row>
+const std::string& unit_of(const Row& row) {
+  return row.unit;
+}
+
+// For programs in SI, for people in the scene's unit.
+template <class Row, class Get, class Read>
+RowsOf<Row>& add_quantity(const UncertaintyStudy& s, RowsOf<Row>& table, const char* key, const char* heading, Get get,
+                          Read read) {
+  return table.only_for_programs(key, get).only_for_people(
+      heading, [&](const Row& row) { return told(s, unit_of(row), std::invoke(get, row)); }, read);
+}
+template <class Row>
+RowsOf<Row>& add_unit(const UncertaintyStudy& s, RowsOf<Row>& table) {
+  return table.only_for_programs("unit", [](const Row& row) { return unit_of(row); })
+      .only_for_people("unit", [&](const Row& row) { return told_unit(s, unit_of(row)); });
 }
 
 Rows figure_table(const UncertaintyStudy& s) {
@@ -25,10 +46,7 @@ Rows figure_table(const UncertaintyStudy& s) {
   auto table = table_of("figures", "Figures of machines within these tolerances", s.figures);
   table.column("figure", "figure", [](const F& f) { return f.figure.name; });
   const auto quantity = [&](const char* key, const char* heading, auto member, int digits) {
-    table.only_for_programs(key, member).only_for_people(heading, [&, member, digits](const F& f) {
-      const std::optional<double> value = std::invoke(member, f);
-      return read_as(value ? std::optional(told(s, f.figure.unit, *value)) : value, {.digits = digits});
-    });
+    add_quantity(s, table, key, heading, member, ReadAs{.digits = digits});
   };
   quantity("value", "as given", &F::value, 6);
   quantity("numerical", "numerical error", &F::error, 1);
@@ -38,9 +56,7 @@ Rows figure_table(const UncertaintyStudy& s) {
   quantity("mean", "mean", &F::mean, 6);
   quantity("low", "95 % from", &F::low, 5);
   quantity("high", "to", &F::high, 5);
-  return table.only_for_programs("unit", [](const F& f) { return f.figure.unit; })
-      .only_for_people("unit", [&](const F& f) { return told_unit(s, f.figure.unit); })
-      .column("samples", "samples", &F::samples);
+  return add_unit(s, table).column("samples", "samples", &F::samples);
 }
 
 struct ShareRow {
@@ -59,18 +75,22 @@ Rows share_table(const UncertaintyStudy& s) {
   constexpr std::size_t most_at_once = 40;
   std::vector<ShareRow> rows = share_rows(s);
   const bool is_long = rows.size() > most_at_once;
-  return table_of("shares", "Share of each tolerance in the deviation", std::move(rows))
-      .fold(is_long)
+  auto table = table_of("shares", "Share of each tolerance in the deviation", std::move(rows));
+  table.fold(is_long)
       .text_in(2)
       .column("figure", "figure", &ShareRow::figure)
       .column("parameter", "tolerance", &ShareRow::parameter)
-      .column("share", "share [%]", [](const ShareRow& r) { return r.share.share; }, {.factor = 100, .digits = 3})
-      .column("deviation", "deviation", [](const ShareRow& r) { return r.share.deviation; }, {.digits = 3})
-      .only_for_programs("gradient", [](const ShareRow& r) { return r.share.gradient; })
-      .column("noise", "numerical noise", [](const ShareRow& r) { return r.share.noise; }, {.digits = 1})
-      .column("step", "step [deviations]", [](const ShareRow& r) { return r.share.step; }, {.digits = 1})
-      .column("without", "deviation without it", [](const ShareRow& r) { return r.share.without; }, {.digits = 3})
-      .column("unit", "unit", &ShareRow::unit, as_unit);
+      .column("share", "share [%]", [](const ShareRow& r) { return r.share.share; }, {.factor = 100, .digits = 3});
+  add_quantity(
+      s, table, "deviation", "deviation", [](const ShareRow& r) { return r.share.deviation; }, ReadAs{.digits = 3})
+      .only_for_programs("gradient", [](const ShareRow& r) { return r.share.gradient; });
+  add_quantity(
+      s, table, "noise", "numerical noise", [](const ShareRow& r) { return r.share.noise; }, ReadAs{.digits = 1})
+      .column("step", "step [deviations]", [](const ShareRow& r) { return r.share.step; }, {.digits = 1});
+  add_quantity(
+      s, table, "without", "deviation without it", [](const ShareRow& r) { return r.share.without; },
+      ReadAs{.digits = 3});
+  return add_unit(s, table);
 }
 
 struct BiasRow {
@@ -84,15 +104,16 @@ std::vector<BiasRow> bias_rows(const UncertaintyStudy& s) {
   return rows;
 }
 Rows bias_table(const UncertaintyStudy& s) {
-  return table_of("biases", "Known biases: what each effect that is off would shift", bias_rows(s))
-      .text_in(2)
-      .column("figure", "figure", &BiasRow::figure)
-      .column("effect", "effect", [](const BiasRow& r) { return r.bias.effect; })
-      .column(
-          "shift", "shift", [](const BiasRow& r) { return r.bias.value; },
-          [](double v) { return fmt::format("{:+.4g}", v); })
-      .column("error", "numerical error", [](const BiasRow& r) { return r.bias.error; }, {.digits = 1})
-      .column("unit", "unit", &BiasRow::unit, as_unit);
+  auto table = table_of("biases", "Known biases: what each effect that is off would shift", bias_rows(s));
+  table.text_in(2).column("figure", "figure", &BiasRow::figure).column("effect", "effect", [](const BiasRow& r) {
+    return r.bias.effect;
+  });
+  add_quantity(
+      s, table, "shift", "shift", [](const BiasRow& r) { return r.bias.value; },
+      [](double v) { return fmt::format("{:+.4g}", v); });
+  add_quantity(
+      s, table, "error", "numerical error", [](const BiasRow& r) { return r.bias.error; }, ReadAs{.digits = 1});
+  return add_unit(s, table);
 }
 
 Rows parameter_table(const UncertaintyStudy& s) {

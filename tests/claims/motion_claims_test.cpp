@@ -59,6 +59,19 @@ TEST(Falling, IsNotSaidOfWhatWasDrivenBackwards) {
   EXPECT_NEAR(test::figure(r, "final_speed.drum"), -16, 1e-6);
 }
 
+// Driven to −20 rad/s within 1 s, and slowed down by 1 rad/s² since, but for the last 0.1 s, when a load speeds it up by 2.
+TEST(Falling, IsNotSaidOfWhatADriveLeftTurningFaster) {
+  const Result r = test::run(R"(
+    line = ["motor", "drum"]
+    motor = { kind = "torque source", torque = "-42 N*m", inertia = "1 kg*m2", stop = "1 s" }
+    drum = { kind = "load", torque = "2 N*m", acts = "against motion", inertia = "1 kg*m2" }
+    push = { kind = "load", on = "drum", torque = "6 N*m", acts = "always", start = "4.9 s" }
+    run = { start = "rest", until = "5 s" }
+  )");
+  EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << said(r);
+  EXPECT_NEAR(test::figure(r, "final_speed.drum"), -20 + 3.9 - 0.2, 1e-6);
+}
+
 // What swings through more than half a turn, driven or not, falls nowhere.
 TEST(Falling, IsNotSaidOfWhatSwings) {
   const Result r = test::run(R"(
@@ -85,6 +98,21 @@ TEST(Falling, IsSaidOfAWeightThatSaggedAtFirst) {
     ASSERT_TRUE(falls) << late << ' ' << said(r);
     EXPECT_NEAR(*falls->evidence.value, 10 * late - 10 * (5 - 3 * late), 1e-6);
   }
+}
+
+// It falls from 2 s on, is pushed forwards from −10 rad/s by 40 N·m more than it weighs for 0.55 s, to 1 rad/s, and falls on:
+// what it regains, 0.1 of 7.5 rad, makes no swing of it.
+TEST(Falling, IsSaidOfAWeightThatIsPushedUpForAMoment) {
+  const Result r = test::run(R"(
+    line = ["motor", "drum"]
+    motor = { kind = "torque source", torque = "40 N*m", inertia = "1 kg*m2", stop = "1 s" }
+    drum = { kind = "load", torque = "20 N*m", acts = "always", inertia = "1 kg*m2" }
+    push = { kind = "load", on = "drum", torque = "-60 N*m", acts = "always", start = "3 s", stop = "3.55 s" }
+    run = { start = "rest", until = "6 s" }
+  )");
+  const Claim* falls = find(r.claims, Predicate::turns_back, "motor");
+  ASSERT_TRUE(falls) << said(r);
+  EXPECT_NEAR(*falls->evidence.value, 1 - 10 * 2.45, 1e-6);
 }
 
 // The brake's 100 N·m and the weight's 20 N·m stop 2 kg·m² from 10 rad/s within 1/6 s.
@@ -296,19 +324,23 @@ TEST(Holding, IsSaidOfAMotorThatItsLoadBalances) {
 }
 
 // Two masses of 1 kg·m² on 100 N·m/rad: f = √200/2π, each to and fro by half the spring's 0.05 rad.
+// The last quarter of 2.654 s is 1.49 periods long, from one end of the swing to the other.
 TEST(Vibration, HasItsFrequencyAndItsPlaces) {
-  const Result r = test::run(R"(
-    line = ["left", "spring", "right"]
-    left = { kind = "inertia", inertia = "1 kg*m2" }
-    right = { kind = "inertia", inertia = "1 kg*m2" }
-    spring = { kind = "coupling", stiffness = "100 N*m/rad" }
-    effects = { elasticity = true }
-    run = { start = { spring = { twist = "0.05 rad" } }, until = "4 s" }
-  )");
-  const Claim* vibrates = find(r.claims, Predicate::vibrates, "left");
-  ASSERT_TRUE(vibrates) << said(r);
-  EXPECT_NEAR(*vibrates->evidence.value, std::sqrt(200) / (2 * pi), 1e-6);
-  EXPECT_TRUE(has(said(r), "\"left\" vibrates to the end, between ")) << said(r);
+  for (const char* until : {"4 s", "2.654 s"}) {
+    const Result r = test::run(fmt::format(R"(
+      line = ["left", "spring", "right"]
+      left = {{ kind = "inertia", inertia = "1 kg*m2" }}
+      right = {{ kind = "inertia", inertia = "1 kg*m2" }}
+      spring = {{ kind = "coupling", stiffness = "100 N*m/rad" }}
+      effects = {{ elasticity = true }}
+      run = {{ start = {{ spring = {{ twist = "0.05 rad" }} }}, until = "{}" }}
+    )",
+                                           until));
+    const Claim* vibrates = find(r.claims, Predicate::vibrates, "left");
+    ASSERT_TRUE(vibrates) << said(r);
+    EXPECT_NEAR(*vibrates->evidence.value, std::sqrt(200) / (2 * pi), 1e-6);
+    EXPECT_TRUE(has(said(r), "\"left\" vibrates to the end, between ")) << said(r);
+  }
 }
 
 // The same masses with damping c: the twist decays as e^(−δt), δ = c (1/J + 1/J)/2, at ω_d = √(ω² − δ²). The angle of "left"
@@ -337,6 +369,20 @@ TEST(Vibration, ThatDecaysIsSaidWithItsAmplitudes) {
       << vibrates->text;
 }
 
+// A ripple of 5 Hz, ± 31.4/(2π 5)² rad, on a swing of 1 rad/s and ± 0.5 rad: its reversals are the ripple's, and tell nothing
+// of the swing's amplitude.
+TEST(Vibration, OfTwoFrequenciesNeitherGrowsNorDecays) {
+  const Result r = test::run(R"(
+    line = ["source", "arm"]
+    source = { kind = "torque source", torque = "0 N*m", amplitude = "31.4 N*m", frequency = "5 Hz", inertia = "0.5 kg*m2" }
+    arm = { kind = "load", inertia = "0.5 kg*m2", table = { over = "angle", formula = "1 [N*m/rad]*phi - 3 [N*m]" } }
+    run = { start = { angle = "3.5 rad" }, until = "20 s" }
+  )");
+  const Claim* vibrates = find(r.claims, Predicate::vibrates, "source");
+  ASSERT_TRUE(vibrates) << said(r);
+  EXPECT_TRUE(has(vibrates->text, "to the end, between ")) << vibrates->text;
+}
+
 // A screw's force comes from its energy: the conclusion has it.
 TEST(Screw, ConclusionHasTheForceOfTheBlow) {
   const Result r = test::run(test::scene_file("scenes/screw_press.toml"), false);
@@ -349,6 +395,23 @@ TEST(Sticking, IsSaidOfAShaftThatRestsAgainAndAgain) {
   const std::string text = said(r);
   EXPECT_TRUE(has(text, "\"train.out\" sticks and slips: it rests ")) << text;
   EXPECT_TRUE(has(text, "\"drive\" runs steadily at 0.05 rad/s")) << text;
+}
+
+// A governed drive that a compressor shakes loose again and again: the angles at the end are off by turns, speeds by some
+// rad/s; that 147 rad/s are slipped away while the clutch engages is known.
+TEST(Clutches, ThatEngageAreSaidThoughNoAngleIsKnown) {
+  const Result r = test::run(R"(
+    line = ["motor", "flywheel", "clutch", "press"]
+    motor = { kind = "governor", speed = "142.97 rad/s", proportional_gain = "201.63 N*m*s/rad", integral_gain = "469.46 N*m/rad", max_torque = "2162 N*m", inertia = "1.299 kg*m2" }
+    flywheel = { kind = "flywheel", inertia = "2.1178 kg*m2" }
+    clutch = { kind = "clutch", torque = "2187.3 N*m", static_torque = "2217.2 N*m" }
+    press = { kind = "slider-crank", radius = "0.060227 m", rod = "0.24523 m", crank_inertia = "3.031 kg*m2", slider_mass = "127.47 kg", load = { kind = "compressor", bore = "0.14071 m", suction_pressure = "1.0048e+06 Pa", delivery_pressure = "4.0192e+06 Pa", clearance = 0.06 } }
+    sequence = { steps = [{ at = "0 s", set = "clutch", to = 0 }, { at = "1.477 s", set = "clutch", to = 1, over = "0.14907 s" }] }
+    run = { until = "3.51956 s" }
+  )");
+  const Claim* engages = find(r.claims, Predicate::clutch_slips_engaging, "clutch");
+  ASSERT_TRUE(engages) << said(r);
+  EXPECT_NEAR(*engages->evidence.value, 147, 5);
 }
 
 // A limiter that lets go has a rating that does not hold.
@@ -364,6 +427,24 @@ TEST(Limiters, ThatSlipLeaveNoSentenceThatAllHolds) {
   EXPECT_TRUE(find(r.claims, Predicate::limiter_slips, "limiter")) << said(r);
   EXPECT_FALSE(has(said(r), "ratings hold")) << said(r);
   EXPECT_TRUE(has(said(r), "1 of 3 ratings EXCEEDED, worst \"limiter\", holding torque")) << said(r);
+}
+
+// 60 N·m drive; the brake's 100 N·m are among the loads: no remedy is named beside it.
+TEST(Steady, NamesABrakeThatIsOn) {
+  const auto why = [](const std::string& brake) {
+    const Scene scene = test::scene_from(R"(
+      line = ["motor", "mill"]
+      motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "100 rad/s", inertia = "0.1 kg*m2" }
+      mill = { kind = "load", torque = "20 N*m", inertia = "1 kg*m2" }
+    )" + brake);
+    return steady(scene, {scene.effects}, {.start_search = false}).diagnosis;
+  };
+  const std::string braked = why("brake = { kind = \"brake\", on = \"motor\", torque = \"100 N*m\" }"),
+                    heavy = why("more = { kind = \"load\", on = \"motor\", torque = \"100 N*m\" }");
+  EXPECT_TRUE(has(braked, "(120 N·m against 60 N·m at ")) << braked;
+  EXPECT_TRUE(has(braked, "These loads include \"brake\", which is on")) << braked;
+  EXPECT_FALSE(has(braked, "is needed")) << braked;
+  EXPECT_TRUE(has(heavy, "A stronger drive, a higher ratio, or a lighter load is needed")) << heavy;
 }
 
 TEST(Steady, WarnsOfAStartWhoseShaftsDisagree) {

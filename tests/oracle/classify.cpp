@@ -63,8 +63,8 @@ class MotionJudge {
     j["cycle"] = m_.cycle, j["usual_speed"] = usual_, j["usual_torque"] = m_.torque_scale, j["until"] = until_;
     j["begins"] = turns_at(p_.front()) ? "turning" : "at rest";
     j["moves"] = moves(), j["end"] = end(), j["speed_at_end"] = p_.back().speed, j["held_at_end"] = p_.back().held;
-    j["fastest"] = fastest(), j["fastest_late"] = fastest_late(), j["rests_since"] = rests_since(),
-    j["held_since"] = held_since();
+    j["fastest"] = fastest(), j["fastest_late"] = fastest_late(), j["to_and_fro"] = gain_to_and_fro(),
+    j["rests_since"] = rests_since(), j["held_since"] = held_since();
     j["driven_at_end"] = p_.back().driven, j["drives_at_end"] = drives_at_end(), j["drive_at_end"] = p_.back().drive;
     j["load_at_end"] = p_.back().load, j["drives_until"] = drives_until();
     j["pushed_at_end"] = pushed(), j["falls"] = falls();
@@ -133,8 +133,9 @@ class MotionJudge {
   }
   // Null: it is not held at the end.
   json held_since() const {
-    if (!p_.back().held) return {};
-    const auto free = std::find_if(p_.rbegin(), p_.rend(), [](const Moment& m) { return !m.held; });
+    const auto is_free = [](const Moment& m) { return !m.held && m.speed != 0; };  // gears hold without a tie
+    if (is_free(p_.back())) return {};
+    const auto free = std::find_if(p_.rbegin(), p_.rend(), is_free);
     return free == p_.rend() ? 0 : free->t;
   }
   bool drives(const Moment& m) const { return m.driven && acts_at(m.drive); }
@@ -154,18 +155,27 @@ class MotionJudge {
         std::minmax_element(p_.begin(), p_.end(), [](const Moment& a, const Moment& b) { return a.angle < b.angle; });
     return high->angle - low->angle;
   }
-  bool vibrates() const {
+  bool vibrates() const { return gain_to_and_fro() < 0.25; }
+  // Of the way; 1: it does not turn to and fro.
+  double gain_to_and_fro() const {
     const double from = 0.75 * until_;
-    double way = 0;
-    int changes = 0, sense = 0;
+    double way = 0, farthest = 0;
+    std::vector<double> ends;  // angles at which it reversed
+    int sense = 0;
     for (std::size_t k = 1; k < p_.size(); ++k) {
       if (p_[k].t < from) continue;
       way += std::abs(p_[k].angle - p_[k - 1].angle);
       const int now = turns_at(p_[k]) ? (p_[k].speed > 0 ? 1 : -1) : 0;
-      if (now != 0 && sense != 0 && now != sense) ++changes;
-      if (now != 0) sense = now;
+      if (now != 0 && sense != 0 && now != sense) ends.push_back(farthest);
+      if (now != 0 && now != sense) sense = now, farthest = p_[k].angle;
+      if (sense * (p_[k].angle - farthest) > 0) farthest = p_[k].angle;
     }
-    return changes >= 2 && std::abs(path_.angle(until_) - path_.angle(from)) < 0.25 * way;
+    const std::size_t n = ends.size();
+    if (n < 2) return 1;
+    const double gain = std::abs(path_.angle(until_) - path_.angle(from)) / way;
+    return n == 2 ? gain
+                  : std::min(gain, std::abs(ends[n - 1] - ends[n - 3]) /
+                                       (std::abs(ends[n - 1] - ends[n - 2]) + std::abs(ends[n - 2] - ends[n - 3])));
   }
   // At any point of the last 2 % of the time: what is held may tremble.
   bool pushed() const {
@@ -423,6 +433,12 @@ json classify(const Observed& seen, const Observed* later) {
     const double t = later->moments.back().t;
     l["complete"] = later->outcome.complete, l["mean_speed_of_last_tenth"] = judge.mean_speed_of_last_tenth();
     l["fastest_shaft"] = later->fastest_shaft, l["mean_speed_before"] = judge.mean_speed(0.45 * t, 0.5 * t);
+    double drift = 0;
+    for (const MotorSeen& motor : later->motors) {
+      const auto [before, last] = std::pair(std::abs(motor.late_turned[0]), std::abs(motor.late_turned[1]));
+      if (before > turns * motor.rated_speed * 0.125 * t) drift = std::max(drift, std::abs(last / before - 1));
+    }
+    l["drift_of_motors"] = drift;
     j["later"] = l;
   }
   j["contacts"] = json::array();

@@ -9,12 +9,15 @@
 //                             nor for as long as the last two reversals of a vibration lie apart, which stands at its
 //                             turns (the time between the two before is that within a factor of two)
 //               "vibrates":   in the last quarter of the time it turns in both senses, twice at least, and the angle that it
-//                             gained is less than a quarter of the way it went
+//                             gained is less than a quarter of the way it went there, or in the last whole swing: the
+//                             quarter may end at the other end of a swing than it begins
 //               "forwards", "backwards": else, by the sense of the last 2 % of the time
+//   to_and_fro  the smaller one of these two shares of the way; 1: it does not turn to and fro
 //   fastest_late     the speed at the end; of one that vibrates the greatest of its last half swing, or of the last 2 % of the
 //               time
 //   rests_since the last point at which it turned, of one that rests; 0 where it never did
-//   held_since  the last point at which its shaft was not tied to the frame, of one that is at the end
+//   held_since  the last point at which its shaft neither was tied to the frame nor stood (gears hold without a tie), of one
+//               that does so at the end
 //   driven      a source is within its window of time and not told 0;  drives: and gives a torque that acts
 //   pushed      at the end a source whose own shaft stands gives more than 1e-3 of the usual torque, or a clutch, limiter or
 //               belt slips under torque
@@ -40,6 +43,8 @@
 //   stands_within    share of the time of the last p cycles in which the link does not turn
 //   later       the same machine run on to several times the time: its speed in the mean of the last tenth (of whole cycles, as
 //               many as it takes), what it does at the end
+//   drift_of_motors  later: the greatest change of a motor's mean speed from the last eighth but one of the time to the last:
+//               a machine is steady when all of its shafts are, and the link may be so long before
 //   fastest_shaft    at the end, of any shaft over its usual speed
 //   two_periods a torque depends on time and something on the link's angle: nothing need ever come again
 //   contacts    lets_go: slips at a command of 1 that has not changed since it held; engages: slips otherwise while it is told

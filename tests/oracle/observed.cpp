@@ -139,7 +139,12 @@ class Sampler final : public Observer {
     for (std::size_t i = 0; i < m_.motors.size(); ++i) {
       const double torque = m_.motors[i].torque(s);
       seen_.motors[i].squares += weights[k] * length * torque * torque;
-      if (t > 0.75 * until_) seen_.motors[i].late_squares[t > 0.875 * until_] += weights[k] * length * torque * torque;
+      if (t > 0.75 * until_) {
+        const std::size_t node = at(m_.motors[i].node), last = t > 0.875 * until_ ? 1 : 0;
+        seen_.motors[i].late_squares[last] += weights[k] * length * torque * torque;
+        seen_.motors[i].late_turned[last] +=
+            weights[k] * length * m_.gain_of_node[node] * s.now.speed[at(m_.shaft_of_node[node])];
+      }
       seen_.motors[i].greatest = std::max(seen_.motors[i].greatest, std::abs(torque));
     }
   }

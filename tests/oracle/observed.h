@@ -54,6 +54,7 @@ struct MotorSeen {
   double command = 1;            // at the end; 0 also outside of its window
   double squares = 0;            // ∫ M² dt [N²·m²·s]
   double late_squares[2] = {};   // of it in the last eighth of the time but one, in the last
+  double late_turned[2] = {};    // angles turned in these [rad]
   double greatest = 0;           // |M| [N·m]
 };
 

@@ -18,7 +18,7 @@ def motion(**changes):
             "does_not_start": False, "stalls": False, "turns_back": False, "no_round": False, "rounds": 40, "angle_gained": 250.0,
             "switched_last": 0.0, "drive_switched_last": 0.0, "laps": 40, "steady": "yes", "drift": 1e-6, "period": 1, "mean_speed": 30.0, "least_speed": 29.0,
             "greatest_speed": 31.0, "stands_within": 0.0, "run_up": 1.0, "run_up_earliest": 1.0, "run_up_latest": 1.0,
-            "fastest_late": abs(changes.get("speed_at_end", 30.0)), **changes}
+            "fastest_late": abs(changes.get("speed_at_end", 30.0)), "to_and_fro": 1.0, **changes}
 
 
 def contact(kind="clutch", **changes):
@@ -33,7 +33,7 @@ def answer(conclusion='"press" runs steadily at 30 rad/s from 1 s on.', truth=No
     m = motion(**(truth or {}))
     figures = {"mean_speed.press": 30.0, "final_speed.press": m["speed_at_end"], **(figures or {})}
     periods = {"run_up_end": 1.0, "run_down_begin": None, "standstill": None, "steady": True, **(periods or {})}
-    later = {**m, "until": 40.0, "rests_since": 40.0 if m["end"] != "rests" else m["rests_since"], "complete": True, "fastest_shaft": 1.0,
+    later = {**m, "until": 40.0, "rests_since": 40.0 if m["end"] != "rests" else m["rests_since"], "complete": True, "fastest_shaft": 1.0, "drift_of_motors": 0.0,
              "mean_speed_of_last_tenth": m["speed_at_end"], "mean_speed_before": m["speed_at_end"], **(later or {})}
     return {"scene": "x.toml",
             "truth": {"complete": True, "prescribed": False, "fastest_shaft": 1.0, "two_periods": False, "link": "press", "sequence": sequence, "repeats": False, "motion": m, "later": later,
@@ -166,6 +166,12 @@ TRUE = {
     "run-up with a swing that touches the edge": answer(periods={"run_up_end": 3.0}, truth={"run_up_latest": 3.0}),
     "steady": answer(),
     "three laps, the last one as the longer run": answer(truth={"steady": "no", "laps": 3}, later={"steady": "yes"}),
+    "vibrates while it drifts a little": answer('"press" vibrates to the end.', {"steady": "no", "to_and_fro": 0.26}, claims=[("vibrates", "press")],
+                                                periods={"steady": False}),
+    "stalls before it turns": answer('"press" stalls at 1.3° after 2 s: the load can hold the 5 N·m that drive there.', {
+        **REST, "pushed_at_end": True, "load_at_end": -4.0}, held=HELD, steady=NOTHING),
+    "an open clutch ends the stroke": answer('"press" goes through its operating sequence and ends at rest.', {**REST, "no_round": True, "rounds": 0},
+                                             sequence=3, contacts=[contact(command_at_end=0.0, open=2.0, at_end="open")], steady=NOTHING),
     "a motor held while the machine vibrates": answer('"press" vibrates to the end.', {"end": "vibrates", "steady": "no"}, steady=NOTHING, motors=[
         {**MOTOR, "speed": 0.0, "stands": True}], claims=[("vibrates", "press"), ("held_by", "motor")]),
     "rests": answer('"press" is at rest after 10 s.', REST, periods={"standstill": 5.0}, steady=NOTHING),
@@ -178,6 +184,9 @@ TRUE = {
                                    contacts=[contact(lets_go=2, lets_go_at_all=10)]),
     "is settled by its drag": answer('"press" is at 60 rad/s after 10 s.', {"speed_at_end": 60.0, "steady": "unclear"},
                                      later={"mean_speed_of_last_tenth": 500.0, "mean_speed_before": 370.0}),
+    "the link alone settles": answer(later={"drift_of_motors": 0.02}, steady={
+        "complete": False, "conclusion": "No steady cycle (rigid): after 2400 cycles the motion still changes.", "cycles": [
+            {"found": False, "label": "rigid", "effects": "none"}]}),
     "another shaft runs away": answer(later={"fastest_shaft": 3.4}, steady={
         "complete": False, "conclusion": "No steady cycle (rigid): it runs away: …", "cycles": [{"found": False, "label": "rigid", "effects": "none"}]}),
     "the elastic machine alone rests": answer(steady={"complete": False, "conclusion": "No steady cycle (elastic): it slows down.", "cycles": [

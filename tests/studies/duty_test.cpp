@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <tuple>
 
 #include "studies/duty/work_periods.h"
@@ -236,9 +237,11 @@ TEST(SteadyRatings, AreThoseOfTheMotionThatItKeeps) {
   const SteadyStudy s = steady(scene, {scene.effects}, {});
   ASSERT_TRUE(s.cycles.front().found) << s.cycles.front().why;
   const std::vector<Verdict> verdicts = steady_ratings(s.cycles.front());
-  ASSERT_EQ(verdicts.size(), 2u);
+  ASSERT_EQ(verdicts.size(), 3u);
   for (const Verdict& v : verdicts)
-    if (v.component == "belt") {
+    if (!v.assessed) {
+      EXPECT_EQ(v.component + ", " + v.load_case, std::string("belt, ") + load_case::start);
+    } else if (v.component == "belt") {
       EXPECT_NEAR(v.value, 650, 1e-4);
       EXPECT_EQ(v.state(), Compliance::holds);
     } else {
@@ -250,6 +253,30 @@ TEST(SteadyRatings, AreThoseOfTheMotionThatItKeeps) {
   EXPECT_TRUE(f.conclusion().starts_with("\"motor\" gets too hot: the RMS torque of its steady motion is 150 %"))
       << f.conclusion();
   EXPECT_NE(f.conclusion().find("1 of 2 ratings EXCEEDED, worst \"wheel\", rim speed"), std::string::npos);
+}
+
+// No engagement and no start is in the steady motion: their limits are not assessed, and no sentence says that all hold.
+TEST(SteadyRatings, LeaveStartsAndEngagementsToARun) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "clutch", "hub", "belt", "wheel"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "100 rad/s", rated_torque = "20 N*m", inertia = "0.5 kg*m2", duty = "S2", duty_time = "10 min" }
+    clutch = { kind = "clutch", torque = "90 N*m", allowable_heat = "2 kJ", allowable_heat_power = "300 W" }
+    belt = { kind = "belt", diameter_in = "200 mm", diameter_out = "200 mm", pretension = "500 N", friction_coefficient = 0.5, wrap_angle = "180 deg", slip_reserve = 1.1 }
+    hub = { kind = "inertia", inertia = "0.1 kg*m2" }
+    wheel = { kind = "flywheel", inertia = "4 kg*m2", rim_radius = "400 mm", allowable_rim_speed = "90 m/s" }
+    drag = { kind = "load", on = "wheel", damping = "0.6 N*m*s/rad" }
+    run = { until = "30 s", start = { speed = "50 rad/s" } }
+  )");
+  const SteadyStudy s = steady(scene, {scene.effects}, {.start_search = false});
+  ASSERT_TRUE(s.cycles.back().found) << s.cycles.back().why;
+  std::multiset<std::string> left;
+  for (const Verdict& v : steady_ratings(s.cycles.back()))
+    if (v.state() == Compliance::not_assessed) left.insert(v.component + ", " + v.load_case);
+  const std::string run = load_case::run, start = load_case::start;
+  EXPECT_EQ(left, (std::multiset<std::string>{"belt, " + start, "clutch, " + run, "clutch, " + run, "motor, " + run}));
+  const std::string told = findings_of(s).conclusion();
+  EXPECT_NE(told.find("ratings that are assessed hold"), std::string::npos) << told;
+  EXPECT_NE(told.find("not assessed: "), std::string::npos) << told;
 }
 
 // Plots over the angle show the cycle that figures are of: driven up to 1 s, though it turns on to 3 s; what nothing ever

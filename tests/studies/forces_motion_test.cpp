@@ -159,6 +159,24 @@ until = "{} s"
 accuracy = 1e-9
 )";
 
+// A press that makes a stroke each 2 s turns at 30 rpm in the mean, though it stands in none of its positions.
+TEST(ForcesOfTheRegime, CountTheTimeThatStrokesAreApart) {
+  const Forces f = find_forces(test::scene_from(R"(
+    line = ["motor", "gear", "wheel", "clutch", "press"]
+    motor = { kind = "dc shunt motor", stall_torque = "120 N*m", no_load_speed = "1000 rpm", inertia = "0.05 kg*m2" }
+    gear = { kind = "gearbox", stages = [{ teeth = [20, 120], inertia = ["0.001 kg*m2", "0.3 kg*m2"] }] }
+    wheel = { kind = "flywheel", inertia = "60 kg*m2" }
+    clutch = { kind = "clutch", torque = "2500 N*m", static_torque = "2800 N*m" }
+    press = { kind = "slider-crank", radius = "50 mm", rod = "300 mm", crank_inertia = "2 kg*m2", slider_mass = "120 kg" }
+    brake = { kind = "brake", on = "press", torque = "900 N*m" }
+    sequence = { every = "2 s", steps = [{ at = "0 s", set = ["brake"], to = 0 }, { at = "0.02 s", set = ["clutch"], to = 1, over = "40 ms" }, { angle = "140 deg", of = "press", set = ["clutch"], to = 0 }, { angle = "150 deg", of = "press", set = ["brake"], to = 1 }] }
+    run = { start = { angle = "180 deg", wheel = { speed = "160 rpm" } }, until = "10 s" }
+  )"),
+                               {});
+  ASSERT_TRUE(f.simulated);
+  EXPECT_NEAR(f.simulated->mean_speed.value, std::numbers::pi, 0.02);
+}
+
 // What coasts keeps no motion: the cycle before and the ones to come lie within the errors of the one that is shown.
 TEST(ForcesWithoutARegime, HaveAnErrorThatHoldsTheNextCycle) {
   const Forces now = find_forces(test::scene_from(fmt::format(fmt::runtime(coasting), 1.2)), {}),

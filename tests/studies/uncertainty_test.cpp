@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "studies/findings/output.h"
 #include "studies/run/simulate.h"
 #include "tests/support/scenes.h"
 
@@ -247,6 +248,8 @@ TEST(Uncertainty, WhatGradientsDoNotFollowIsToldByItsSamples) {
       << s.conclusion;
   ASSERT_EQ(s.notes.size(), 1u);
   EXPECT_NE(s.notes[0].find("does not follow its gradients"), std::string::npos) << s.notes[0];
+  EXPECT_EQ(terminal_text(findings_of(s)).find("rad/s"), std::string::npos)
+      << "speeds in the scene's unit, in all tables";
   // By 1 % it is linear.
   q.text.replace(q.text.find("0.2 kg"), 3, "0.99"), q.text.replace(q.text.find("1.8 kg"), 3, "1.01");
   const UncertaintyStudy narrow = study_uncertainty(q, options);
