@@ -230,4 +230,30 @@ Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Res
   return ContactJudge(equations, outcome, result, slips).all();
 }
 
+Claims start_claims(const std::shared_ptr<const Model>& model) {
+  constexpr double disagree = 0.1;  // of the usual speed
+  Claims claims;
+  const Model& m = *model;
+  std::set<int> given;
+  for (const auto& [component, start] : m.scene.run.start.components)
+    if (start.speed) given.insert(m.shaft_of_node[at(m.network.ports.at(component).in)]);
+  if (given.empty()) return claims;
+  Equations first(model, false);
+  const std::vector<double> y = first.start(0);
+  const Snapshot& s = first.snapshot(0, y);
+  for (const ElasticJoint& joint : m.elastic) {
+    const double a = joint.gain_a * s.now.speed[joint.shaft_a], b = joint.gain_b * s.now.speed[joint.shaft_b];
+    if (joint.slips || joint.springless || given.count(joint.shaft_a) == given.count(joint.shaft_b)) continue;
+    if (!(std::abs(a - b) > disagree * std::abs(joint.gain_a * m.shafts[at(joint.shaft_a)].speed_scale))) continue;
+    const std::string& name = m.network.joints[at(joint.joint)].component;
+    add(claims,
+        claimed(Predicate::start_shafts_disagree,
+                fmt::format("\"{}\" joins shafts that start at {} and {}: [run] start gives a speed to one side alone, "
+                            "and the start is a blow",
+                            name, m.scene.speed_unit.text(a), m.scene.speed_unit.text(b)),
+                name, {.at = 0, .value = std::abs(a - b), .limit = 0, .unit = "rad/s"}));
+  }
+  return claims;
+}
+
 }  // namespace kurbel

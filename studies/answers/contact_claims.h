@@ -11,4 +11,8 @@ namespace kurbel {
 // command, or overrun. `result` contains the errors of its final state.
 Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips);
 
+// Springs between shafts of which only one has a start speed in the scene, while that of the other differs by more
+// than a tenth of the usual speed.
+Claims start_claims(const std::shared_ptr<const Model>& model);
+
 }  // namespace kurbel

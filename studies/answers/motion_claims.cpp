@@ -22,7 +22,6 @@ namespace {
 constexpr double stands = 1e-3;           // of the usual speed: below it a shaft stands
 constexpr double drives = 1e-6;           // of the usual torque: above it something drives
 constexpr double turns_back_from = 1e-2;  // of the usual speed
-constexpr double disagree = 0.1;          // of the usual speed: shafts that a spring joins start apart
 constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is told
@@ -396,31 +395,6 @@ class Judge {
 };
 
 }  // namespace
-
-Claims start_claims(const std::shared_ptr<const Model>& model) {
-  Claims claims;
-  const Model& m = *model;
-  std::set<int> given;
-  for (const auto& [component, start] : m.scene.run.start.components)
-    if (start.speed) given.insert(m.shaft_of_node[at(m.network.ports.at(component).in)]);
-  if (given.empty()) return claims;
-  Equations first(model, false);
-  const std::vector<double> y = first.start(0);
-  const Snapshot& s = first.snapshot(0, y);
-  for (const ElasticJoint& joint : m.elastic) {
-    const double a = joint.gain_a * s.now.speed[joint.shaft_a], b = joint.gain_b * s.now.speed[joint.shaft_b];
-    if (joint.slips || joint.springless || given.count(joint.shaft_a) == given.count(joint.shaft_b)) continue;
-    if (!(std::abs(a - b) > disagree * std::abs(joint.gain_a * m.shafts[at(joint.shaft_a)].speed_scale))) continue;
-    const std::string& name = m.network.joints[at(joint.joint)].component;
-    add(claims,
-        claimed(Predicate::start_shafts_disagree,
-                fmt::format("\"{}\" joins shafts that start at {} and {}: [run] start gives a speed to one side alone, "
-                            "and the start is a blow",
-                            name, m.scene.speed_unit.text(a), m.scene.speed_unit.text(b)),
-                name, {.at = 0, .value = std::abs(a - b), .limit = 0, .unit = "rad/s"}));
-  }
-  return claims;
-}
 
 Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips,
                      const LinkRecorder& link, const Watch& watch, double budget) {

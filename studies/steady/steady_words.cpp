@@ -8,7 +8,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
-#include "studies/answers/motion_claims.h"
+#include "studies/answers/contact_claims.h"
 #include "studies/answers/run_claims.h"
 #include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
