@@ -18,8 +18,8 @@ namespace kurbel {
 struct ConnectionPorts {
   int id = 0;  // index of the twist
   int shaft_a = 0, shaft_b = 0;
-  int loss_account = 0;
   double gain_a = 1, gain_b = 1;  // θ̇ = gain_a ω_a − gain_b ω_b
+  int loss_account = 0;
 };
 
 // Indices needed by some connections only: modes, internal states, a command, the angle of a.
