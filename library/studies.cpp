@@ -31,7 +31,9 @@ std::vector<std::string> option_names(const std::string& study) {
   return names;
 }
 
-bool needs_machine(const std::string& study) { return question_named(study).of_scene && question_named(study).alone.empty(); }
+bool needs_machine(const std::string& study) {
+  return question_named(study).of_scene && question_named(study).alone.empty();
+}
 
 Study study(const std::string& name, const Machine& machine, const Options& given, const Watcher& watcher) {
   const Question& question = question_named(name);
