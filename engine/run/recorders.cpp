@@ -343,6 +343,7 @@ void EnergyAudit::check(double t, std::span<const double> y, Equations& equation
   kinetic_end = bodies;
   stored_end = stored;
   largest_kinetic = std::max(largest_kinetic, bodies);
+  least_scale_ = 1e-9 * equations.model().torque_scale;
   largest_residual = std::max(largest_residual, std::abs(bodies + stored - start_ - sum));
   equations.snapshot(t, y);
   if (const JointTorques::Open open = equations.open_bodies(); open.part > open_body.part) open_body = open;
@@ -367,7 +368,7 @@ void EnergyAudit::step(StepView& view) {
 }
 
 double EnergyAudit::relative() const {
-  const double scale = std::max(turnover, largest_kinetic);
+  const double scale = std::max({turnover, largest_kinetic, least_scale_});
   return scale > 0 ? largest_residual / scale : 0;
 }
 

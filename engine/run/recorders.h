@@ -168,7 +168,7 @@ class EnergyAudit final : public Observer {
   int checked = 0;
   std::vector<double> work;           // per account at the last check [J]
   JointTorques::Open open_body = {};  // with the largest difference of free bodies
-  // Residual over max(turnover, largest T); 0 for a machine that never had energy.
+  // Residual over max(turnover, largest T, 1e-9 of the rated torque over 1 rad: below it energies are rounding).
   double relative() const;
   // Measure to be compared with an accuracy: the residual, and the difference of free bodies if it exceeds the accuracy.
   double largest(double accuracy) const {
@@ -183,7 +183,7 @@ class EnergyAudit final : public Observer {
   void check(double t, std::span<const double> y, Equations& equations);
   double until_;
   int checks_;
-  double start_ = 0;
+  double start_ = 0, least_scale_ = 0;
 };
 
 }  // namespace kurbel

@@ -26,6 +26,7 @@ constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting 
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is told
 constexpr double short_while = 0.02;      // of the time
+constexpr double dust = 1e-12;            // of the usual speed: rounding
 constexpr double gains = 1.3;             // times its speed: one that few cycles tell of grows
 
 class Judge {
@@ -272,7 +273,8 @@ class Judge {
 
   // By an applied brake, or by friction against the acting torque; a link that never moved is reported as such.
   std::optional<Claim> held(double fastest) const {
-    if (!rests() && (now_.now.speed[shaft_] != 0 || gears_that_hold().empty())) return {};
+    const bool moves = std::abs(speed()) > dust * m_.speed_scale, ever = fastest > dust * m_.speed_scale;
+    if (!rests() && (moves || (ever && gears_that_hold().empty()))) return {};
     const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
     const std::string holders = what_holds();
     std::optional<Claim> claim;
@@ -282,7 +284,7 @@ class Judge {
                   fmt::format("\"{}\" is held by {}{}", link(), holders,
                               anything_acts ? fmt::format(" against the {:.4g} N·m that act", std::abs(acts())) : ""),
                   link(), {.at = rest(), .value = std::abs(acts()), .unit = "N*m"});
-    else if (!moved && (is_held() || fastest == 0))
+    else if (!moved && (is_held() || !ever))
       claim = claimed(Predicate::does_not_move, fmt::format("\"{}\" does not move", link()), link());
     if (claim) claim->in_conclusion = !moved;
     return claim;
