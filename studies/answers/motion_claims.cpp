@@ -26,7 +26,7 @@ constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting 
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is told
 constexpr double short_while = 0.02;      // of the time
-constexpr double dust = 1e-12;            // of the usual speed: rounding
+constexpr double dust = 1e-9;             // of the usual speed: rounding
 constexpr double gains = 1.3;             // times its speed: one that few cycles tell of grows
 
 class Judge {
