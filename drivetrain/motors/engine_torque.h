@@ -56,13 +56,13 @@ class EngineTorque {
         cylinders_(std::move(cylinders)),
         substitute_(std::move(substitute)) {
     std::vector<double> points = edges();
+    if (points.size() == 1) points.push_back(points.front() + 0.5 * cycle());  // one edge needs its event
     points.push_back(points.front() + cycle());
-    edges_ = Curve(points, std::vector<double>(points.size(), 0.0), Curve::Form::linear, cycle());
-    const auto count = edges_.x().size() - 1;
-    for (std::size_t i = 0; i < count; ++i)
+    edges_ = Curve(points, std::vector<double>(points.size(), 0.0), Curve::Form::linear, cycle()).over_angle();
+    for (std::size_t i = 0; i + 1 < edges_.x().size(); ++i)
       for (const Cylinder& c : cylinders_) {
-        const double middle = 0.5 * (edges_.x()[i] + edges_.x()[i + 1]) - c.fires_at;
-        piece_.push_back(diagrams_[c.diagram].piece(middle));
+        const double middle = 0.5 * (edges_.x()[i] + edges_.x()[i + 1]), read = middle - c.fires_at;
+        part_.push_back({diagrams_[c.diagram].piece(read), middle - diagrams_[c.diagram].within(read)});
       }
   }
 
@@ -71,8 +71,10 @@ class EngineTorque {
   T torque(const ShaftState<T>& x) const {
     T sum(0.0);
     const std::size_t n = cylinders_.size();
-    const std::size_t row = std::min(static_cast<std::size_t>(x.mode) * n, piece_.size() - n);
-    for (std::size_t k = 0; k < n; ++k) sum = sum + of_cylinder(k, piece_[row + k], x.angle - cylinders_[k].fires_at);
+    const PieceGuard::Place at = PieceGuard::place(edges_, x.mode, value_of(x.angle));
+    const std::size_t row = std::min(static_cast<std::size_t>(at.piece) * n, part_.size() - n);
+    const T angle = x.angle + (at.x - value_of(x.angle));
+    for (std::size_t k = 0; k < n; ++k) sum = sum + of_cylinder(k, part_[row + k], angle);
     return sum;
   }
   bool uses_time() const { return false; }
@@ -90,12 +92,15 @@ class EngineTorque {
   }
 
  private:
+  // Of a cylinder's diagram between two edges.
+  struct Part {
+    int piece;
+    double begin;  // angle at which the diagram begins [rad]
+  };
   double cycle() const { return diagrams_.front().period(); }
   template <class T>
-  T of_cylinder(std::size_t k, int piece, const T& phi) const {
-    const Curve& diagram = diagrams_[cylinders_[k].diagram];
-    const T read =
-        diagram.value_in(piece, phi + (PieceGuard::near_piece(diagram, piece, value_of(phi)) - value_of(phi)));
+  T of_cylinder(std::size_t k, const Part& part, const T& angle) const {
+    const T phi = angle - part.begin, read = diagrams_[cylinders_[k].diagram].value_in(part.piece, phi);
     return geometry_.area > 0 ? geometry_.torque(read, phi) : read;
   }
   // The points of all cylinders within one cycle; coinciding points count once.
@@ -119,7 +124,7 @@ class EngineTorque {
   std::vector<Cylinder> cylinders_;
   std::string substitute_;
   Curve edges_;
-  std::vector<int> piece_;  // piece of each cylinder's diagram between each two edges
+  std::vector<Part> part_;  // of each cylinder between each two edges
 };
 
 }  // namespace kurbel

@@ -84,7 +84,7 @@ void put_curve(Network& net, int node, const std::string& component, const Torqu
                       "period = \"720 deg\" for two turns",
                       span * 180 / std::numbers::pi, closed.period * 180 / std::numbers::pi));
     try {
-      net.put(node, component, TorqueOverAngle{account, closed.curve(), sign}, window);
+      net.put(node, component, TorqueOverAngle{account, closed.curve().over_angle(), sign}, window);
     } catch (const std::invalid_argument& error) {
       refuse(error.what());
     }

@@ -61,8 +61,7 @@ struct TorqueOverAngle {
 
   template <class T>
   T torque(const ShaftState<T>& x) const {
-    const double moved = PieceGuard::near_piece(curve, x.mode, value_of(x.angle)) - value_of(x.angle);
-    return sign * curve.value_in(x.mode, x.angle + moved);
+    return sign * PieceGuard::value(curve, x.mode, x.angle);
   }
   bool uses_time() const { return false; }
   bool uses_speed() const { return false; }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -230,6 +231,7 @@ Curve::Curve(const std::vector<double>& given_x, const std::vector<double>& give
   x_.push_back(x.back());
   y_.push_back(y.back());
   for (const double v : y) max_abs_ = std::max(max_abs_, std::abs(v));
+  seamless_ = closes_without_kink();
 }
 
 Curve::Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, double period)
@@ -254,6 +256,47 @@ Curve::Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, do
   before_ = y_.front();
   y_.back() = c2_.back();
   programs_ = std::make_shared<const std::vector<FormulaProgram>>(std::move(programs));
+  seamless_ = closes_without_kink();
+}
+
+bool Curve::closes_without_kink() const {
+  if (!(period_ > 0) || pieces() != 1) return false;
+  const double slack = 1e-9 * max_abs_;
+  return std::abs(end_value(0) - y_.front()) <= slack && std::abs(last_slope() - first_slope()) * period_ <= slack;
+}
+
+// Of a formula c1 … c3 are the slope at the begin, the value and the slope at the end.
+Curve Curve::over_angle() const {
+  constexpr double two_turns = 4 * std::numbers::pi;
+  constexpr int most_modes = 100'000'000;
+  Curve made = *this;
+  std::vector<FormulaProgram> programs;
+  const auto insert = [](std::vector<double>& v, std::size_t i, double value) {
+    v.insert(v.begin() + static_cast<std::ptrdiff_t>(i), value);
+  };
+  for (std::size_t i = c1_.size(); i-- > 0;) {
+    if (programs_) programs.push_back((*programs_)[i]);
+    const double half = 0.5 * (x_[i + 1] - x_[i]);
+    if (2 * half <= 0.75 * two_turns) continue;
+    const Dual<1> middle = value_in(static_cast<int>(i), Dual<1>::input(x_[i] + half, 0));
+    insert(made.x_, i + 1, x_[i] + half);
+    insert(made.y_, i + 1, middle.value);
+    insert(made.c1_, i + 1, middle.d[0]);
+    if (programs_) {
+      programs.push_back((*programs_)[i]);
+      insert(made.c2_, i, middle.value);
+      insert(made.c3_, i, middle.d[0]);
+    } else {
+      insert(made.c2_, i + 1, c2_[i] + 3 * c3_[i] * half);
+      insert(made.c3_, i + 1, c3_[i]);
+    }
+  }
+  if (programs_)
+    made.programs_ = std::make_shared<const std::vector<FormulaProgram>>(programs.rbegin(), programs.rend());
+  made.seamless_ = seamless_ && made.pieces() == 1;
+  if (const double periods = std::round(two_turns / period_); !made.seamless_ && periods * made.pieces() < most_modes)
+    made.periods_ = static_cast<int>(periods);
+  return made;
 }
 
 double Curve::area(int piece, double from, double to) const {

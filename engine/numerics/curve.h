@@ -36,6 +36,10 @@ class Curve {
   // a formula is unchanged, as are parts that fewer pieces do not approximate.
   Curve by_fewer_pieces(double within) const;
 
+  // The same law of an angle that is known without whole double turns: its pieces are told apart within two turns, so that
+  // no step leads from a piece to the same one a period later; one longer than three quarters of two turns becomes two.
+  Curve over_angle() const;
+
   // Defines the continuation at both ends; default: undefined, with constant end values.
   void go_on(Beyond before, Beyond after);
   void say(Beyond before, Beyond after) { beyond_first_ = before, beyond_last_ = after; }  // values unchanged
@@ -51,6 +55,9 @@ class Curve {
   bool empty() const { return x_.empty(); }
   Form form() const { return form_; }
   double period() const { return period_; }
+  int pieces() const { return static_cast<int>(x_.size()) - 1; }
+  int periods() const { return periods_; }        // whose pieces are told apart
+  bool is_seamless() const { return seamless_; }  // one piece that goes on without a kink a period later
   const std::vector<double>& x() const { return x_; }
   const std::vector<double>& y() const { return y_; }  // at x, after a jump
   double before() const { return before_; }            // the value up to the first point
@@ -99,6 +106,7 @@ class Curve {
   }
 
  private:
+  bool closes_without_kink() const;
   // Beyond the ends of the piece by the tangent, so that trial steps stay within the domain of the formula.
   template <class T>
   T by_formula(std::size_t i, const T& x) const {
@@ -112,6 +120,8 @@ class Curve {
   std::vector<double> x_, y_, c1_, c2_, c3_;  // c1 … c3 of a formula: slope at the begin, value and slope at the end
   Form form_ = Form::linear;
   double period_ = 0;
+  int periods_ = 1;
+  bool seamless_ = false;
   double before_ = 0, max_abs_ = 0;
   double slope_before_ = 0, slope_after_ = 0;  // beyond the ends
   Beyond beyond_first_ = Beyond::unsaid, beyond_last_ = Beyond::unsaid;

@@ -121,9 +121,8 @@ void RigidMachine::fill_state(double phi, double omega) {
 void RigidMachine::set_modes(double phi, double omega) { look_ahead(phi, omega, ahead); }
 
 void RigidMachine::look_ahead(double phi, double omega, double distance) {
-  const double here = periodic_ ? place_within(phi, cycle_) : phi;
-  const double further = std::copysign(distance * std::max(1.0, std::abs(here)), omega);
-  state_ = equations_.modes_from_scratch(0, here + further, omega);
+  const double further = std::copysign(distance * std::max(1.0, std::abs(phi)), omega);
+  state_ = equations_.modes_from_scratch(0, phi + further, omega);
 }
 
 // M = Σ torques of the equations, which hold −½ I_r′ ω² for the mechanisms.

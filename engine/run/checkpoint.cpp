@@ -49,7 +49,7 @@ void check(const Checkpoint& c, const Equations& equations) {
                      std::all_of(c.observers.begin(), c.observers.end(), all_finite) &&
                      m.next_step <= equations.model().scene.sequence.steps.size();
   const auto pieces = [](const std::vector<int>& list) {
-    constexpr int most = 10'000'000;  // of a table's rows; a starter's pause keeps its begin as a negative number
+    constexpr int most = 100'000'000;  // of a table's rows; a starter's pause keeps its begin as a negative number
     return std::all_of(list.begin(), list.end(), [](int v) { return v <= most; });
   };
   const auto follows = [&](const Command& c) {

@@ -134,7 +134,7 @@ bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& lo
       load.law = std::move(law);
     } else {
       if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
-      load.law = AngleForce{end, data.curve()};
+      load.law = AngleForce{end, data.curve().over_angle()};
     }
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());
@@ -181,7 +181,7 @@ bool put_chamber(const Reading<Cylinder>& s, const CurveData& given, double area
   if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
   data.period = cycle_of(data);
   try {
-    load.law = ChamberOverAngle{{end, data.curve()}, area, s.outside};
+    load.law = ChamberOverAngle{{end, data.curve().over_angle()}, area, s.outside};
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());
   }

@@ -128,8 +128,7 @@ struct AngleForce {
   Curve curve;  // periodic [rad] → [N]
   template <class T>
   T value(const SliderState<T>& s) const {
-    const double moved = PieceGuard::near_piece(curve, s.mode, value_of(s.phi)) - value_of(s.phi);
-    return -static_cast<double>(end.side) * curve.value_in(s.mode, s.phi + moved);
+    return -static_cast<double>(end.side) * PieceGuard::value(curve, s.mode, s.phi);
   }
   bool uses_speed() const { return false; }
   void guard(const SliderState<double>& s, double* g) const {

@@ -127,6 +127,19 @@ double most_off(const Curve& a, const Curve& b) {
   return most;
 }
 
+// A piece of more than three quarters of two turns becomes two; periods are told apart within two turns.
+TEST(Curve, OverAnAngleIsTheSameLawInPiecesThatAreToldApart) {
+  const double turns[] = {4 * M_PI, 2 * M_PI, M_PI / 3};
+  for (const Curve::Form form : {Curve::Form::linear, Curve::Form::smooth})
+    for (const double period : turns) {
+      const Curve given({0.1, 0.1 + 0.02 * period, 0.1 + 0.05 * period}, {3, -2, 5}, form, period);
+      const Curve made = given.over_angle();
+      EXPECT_EQ(made.pieces(), period > 10 ? 4 : 3);
+      EXPECT_NEAR(made.periods() * period, 4 * M_PI, 1e-12);
+      for (double x = -7; x < 20; x += 0.37) EXPECT_NEAR(made.value(x), given.value(x), 1e-12) << x;
+    }
+}
+
 TEST(Curve, FewerPiecesAreNoFartherOffThanTheyMay) {
   std::vector<double> x, y;
   for (int k = 0; k <= 3000; ++k) {

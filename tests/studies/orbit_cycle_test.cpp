@@ -138,7 +138,6 @@ line   = ["motor", "wheel", "work"]
 motor  = {{ kind = "dc shunt motor", stall_torque = "{2} N*m", no_load_speed = "{3} rad/s", inertia = "0.1 kg*m2" }}
 wheel  = {{ kind = "flywheel", inertia = "40 kg*m2" }}
 work   = {{ kind = "load", table = {{ over = "angle", unit = ["rad", "N*m"], points = [[0, {1}], [0.5, {1}], [0.5001, {0}], [1.5, {0}], [1.5001, {1}], [{4}, {1}]], period = "360 deg" }} }}
-run    = {{ start = {{ speed = "20 rad/s" }} }}
 )",
                                        high, low, mean + 20 * 4.0, 20 + mean / 4, test::digits(2 * pi));
   SizeOptions options;
