@@ -26,7 +26,7 @@ std::string conclusion_of(const MachineReduction& r) {
     return fmt::format("Reduced to {}, the machine has {:.5g} {}{}", r.to, least ? least->inertia : 0.0,
                        pretty_unit(names_of(r).inertia_unit),
                        r.turns_back ? " or more, infinite in the dead centres" : "");
-  if (r.basis == CycleBasis::regime)
+  if (r.basis == CycleBasis::steady)
     return fmt::format("Reduced to {}, the machine has {:.5g} … {:.5g} kg·m² along its steady cycle", r.to,
                        least ? least->inertia : 0.0, most ? most->inertia : 0.0);
   return fmt::format(
@@ -260,7 +260,7 @@ void tell_all(Findings& f, const MachineReduction& r) {
   f.tell("speed_ratio", r.to_output ? Value() : Value(r.to_ratio));
   f.tell("speed", Record{{"value", r.speed}, {"unit", "rad/s"}, {"source", r.speed_source}});
   f.tell("units", Record{{"inertia", n.inertia_unit}, {"torque", n.torque_unit}, {"angle", "rad"}});
-  f.tell("basis", r.basis == CycleBasis::classical ? "classical" : "regime");
+  f.tell("basis", r.basis == CycleBasis::classical ? "classical" : "steady");
   f.tell("errors", Record{{"reduced_inertia", r.inertia_error},
                           {"driving_torque", r.drive_error},
                           {"resisting_torque", r.load_error}});

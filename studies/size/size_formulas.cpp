@@ -9,7 +9,7 @@
 
 namespace kurbel {
 std::string basis_of(const Sizing& s) {
-  if (s.basis == CycleBasis::regime)
+  if (s.basis == CycleBasis::steady)
     return s.engine ? "at the torques of its steady cycle"
                     : "at constant driving torque and the loads of its steady cycle";
   return s.engine ? "at torques of the angle alone" : "at constant driving torque";

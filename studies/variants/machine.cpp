@@ -197,7 +197,7 @@ MachineAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   };
   for (const Mode& mode : study.modes) {
     const std::string number = std::to_string(mode.number);
-    frequency(mode.of_own_states ? "internal_frequency." : "natural_frequency.", number, mode.omega, mode.error);
+    frequency(mode.of_internal_states ? "internal_frequency." : "natural_frequency.", number, mode.omega, mode.error);
     if (mode.lambda.imag() <= 0) continue;
     frequency("damped_frequency.", number, mode.lambda.imag(), mode.lambda_error);
     answer.figures.push_back({{mode.ratio}, "damping_ratio." + number});
