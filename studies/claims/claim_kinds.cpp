@@ -96,7 +96,7 @@ constexpr std::array kinds = {
         "run, compare, steady"},
     ClaimKind{
         vibrates, runs, note, anything,
-        "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
+        "the motion repeats, and the link does not turn on average; in a run the link turns to and fro in "
         "its last quarter, and gains less than a quarter of its way there, or in its last whole oscillation; it decays "
         "or grows where the amplitude of "
         "the last two reversals differs by more than a tenth from that of the first two; of a link that is "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
@@ -42,7 +43,7 @@ struct Quantity {
   std::function<double(const ReducedPosition&)> value;
 };
 
-// Values of each position; rounding errors relative to the largest of their kind are set to zero.
+// Values of each position; rounding errors relative to the largest of their unit are set to zero.
 std::vector<Quantity> quantities_of(const MachineReduction& r) {
   const ReducedNames n = names_of(r);
   const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit);
@@ -54,11 +55,13 @@ std::vector<Quantity> quantities_of(const MachineReduction& r) {
                                 {n.torque + "_c", t, &ReducedPosition::load}};
   for (const std::size_t k : acting(r))
     list.push_back({r.accounts[k], {}, [k](const ReducedPosition& p) { return p.share[k]; }});
-  for (Quantity& q : list) {
-    double largest = 0;
+  std::map<std::string, double> of_unit;  // shares are torques
+  for (const Quantity& q : list)
     for (const ReducedPosition& p : r.positions)
-      if (p.singular.empty()) largest = std::max(largest, std::abs(q.value(p)));
-    q.value = [value = q.value, largest](const ReducedPosition& p) {
+      if (double& largest = of_unit[q.unit.value_or(t)]; p.singular.empty())
+        largest = std::max(largest, std::abs(q.value(p)));
+  for (Quantity& q : list) {
+    q.value = [value = q.value, largest = of_unit[q.unit.value_or(t)]](const ReducedPosition& p) {
       const double v = value(p);
       return std::abs(v) < 1e-12 * largest ? 0.0 : v;
     };

@@ -46,7 +46,7 @@ Rows figure_table(const SteadyStudy& s) {
   for (const SteadyCycle& c : s.cycles)
     table.value_and_error(c.label, [&](const std::string& name, int digits) {
       const Figure* f = c.find(name);
-      return f ? figure_cells(*f, f->unit, speed, digits) : FigureCells{"—", "", ""};
+      return f ? figure_cells(without_rounding(*f, f->scale), f->unit, speed, digits) : FigureCells{"—", "", ""};
     });
   return table.only_for_people("unit", [&](const std::string& name) {
     std::string unit;
