@@ -31,7 +31,7 @@ inline constexpr Definition of_one_study[] = {
      "simulated, its error twice the standard error; in the channel's unit"},
     {"thermal_use", "thermal use of a motor", "", "MOTOR", "4", of_both,
      "RMS torque of the steady cycle, or of a run's last whole cycle of a motion that repeats, over the rated torque; "
-     "where commands change the motion, of the heaviest cycle that comes again; beyond 1 the motor gets too hot in "
+     "where commands change the motion, of the heaviest cycle that repeats; beyond 1 the motor gets too hot in "
      "continuous use",
      "M_rms/M_n", "an efficiency"},
     {"breakdown_use", "use of a motor's breakdown torque", "", "MOTOR", "4", "steady",
