@@ -13,6 +13,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "studies/findings/result.h"
 
 namespace kurbel {
 namespace {
@@ -331,6 +332,22 @@ void take_swings_away(SpeedResponse& response) {
     joint = still;
   }
   for (std::vector<Complex>& orders : response.orders) std::fill(orders.begin() + 1, orders.end(), Complex{});
+}
+
+std::vector<Figure> figures_of(const ModesStudy& study) {
+  std::vector<Figure> figures;
+  const auto frequency = [&](const char* name, const std::string& number, double omega, double error) {
+    constexpr double hertz = 0.5 / pi;
+    figures.push_back({{omega * hertz, error * hertz}, name + number, "Hz"});
+  };
+  for (const Mode& mode : study.modes) {
+    const std::string number = std::to_string(mode.number);
+    frequency(mode.of_internal_states ? "internal_frequency." : "natural_frequency.", number, mode.omega, mode.error);
+    if (mode.lambda.imag() <= 0) continue;
+    frequency("damped_frequency.", number, mode.lambda.imag(), mode.lambda_error);
+    figures.push_back({{mode.ratio}, "damping_ratio." + number});
+  }
+  return figures;
 }
 
 }  // namespace kurbel

@@ -189,12 +189,16 @@ std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, co
 // The cases of a scene with these names, {"none"}: none; empty: all. `effects`: if empty, those of each case. Throws
 // std::invalid_argument for an unknown name.
 struct Inquiry;
+struct Figure;
 std::vector<ModesCase> find_cases(const Inquiry& inquiry, const std::vector<std::string>& names,
                                   const std::optional<Effects>& effects, const ModesOptions& options,
                                   const ModesStudy& normal);
 
 // Stresses of the joints that are shafts, with all cylinders firing.
 ShaftStresses stresses_of_sweep(const ModesStudy& study);
+
+// Frequencies [Hz] and damping ratios of the modes by name: "natural_frequency.1", "damped_frequency.1".
+std::vector<Figure> figures_of(const ModesStudy& study);
 
 // Number of modes that are natural frequencies of the drive; those of internal states follow them.
 std::size_t natural_modes(const ModesStudy& study);

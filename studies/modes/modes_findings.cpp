@@ -8,6 +8,7 @@
 
 #include "engine/numerics/index.h"
 #include "studies/findings/figure_text.h"
+#include "studies/findings/result.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/margins/margins_findings.h"
 #include "studies/modes/campbell.h"
@@ -351,6 +352,9 @@ void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
   f.tell("shafts", m.shaft_names);
   f.tell("joints", joint_list(m));
   f.tell("count_of_modes_up_to_the_last", m.undamped.counted_below);
+  f.tell("figures", each(figures_of(m), [](const Figure& x) {
+           return Record{{"name", x.name}, {"value", x.value}, {"unit", x.unit}, {"error", x.error}};
+         }));
   if (m.modes.empty()) return;
   f.draw(in, [&m] { return mode_plots(m); });
   if (!m.rests_at && natural_modes(m) > 0) f.show(in, rayleigh(m));
