@@ -189,7 +189,6 @@ std::vector<Firing> find_misfires(const Scene& scene, const Effects& effects, co
 // The cases of a scene with these names, {"none"}: none; empty: all. `effects`: if empty, those of each case. Throws
 // std::invalid_argument for an unknown name.
 struct Inquiry;
-struct Figure;
 std::vector<ModesCase> find_cases(const Inquiry& inquiry, const std::vector<std::string>& names,
                                   const std::optional<Effects>& effects, const ModesOptions& options,
                                   const ModesStudy& normal);
@@ -198,6 +197,7 @@ std::vector<ModesCase> find_cases(const Inquiry& inquiry, const std::vector<std:
 ShaftStresses stresses_of_sweep(const ModesStudy& study);
 
 // Frequencies [Hz] and damping ratios of the modes by name: "natural_frequency.1", "damped_frequency.1".
+struct Figure;
 std::vector<Figure> figures_of(const ModesStudy& study);
 
 // Number of modes that are natural frequencies of the drive; those of internal states follow them.
