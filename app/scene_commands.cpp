@@ -209,17 +209,16 @@ const Verb figures_verb{{{.place = 130,
                           .help = "list the figures that runs of a scene yield",
                           .does = "names of the figures that runs of the scene yield"},
                          set_up_with_scene<figures>}};
-const Verb new_verb{
-    {{.place = 140,
-      .name = "new",
-      .arguments = "press",
-      .help = "write a commented scene to start from",
-      .does =
-          "writes a commented scene to start from: " + names_of_templates() +
-          "; or the train of a maker's mass–elastic sheet (`--from`); a file that exists is never overwritten. Beside "
-          "it, where there is none, the schema by "
-          "which editors complete and check keys"},
-     set_up_new}};
+const Verb new_verb{{{.place = 140,
+                      .name = "new",
+                      .arguments = "press",
+                      .help = "write a commented scene to start from",
+                      .does = "writes a commented scene to start from: " + names_of_templates() +
+                              "; or the train of a manufacturer's mass–elastic sheet (`--from`); a file that exists is "
+                              "never overwritten. Beside "
+                              "it, where there is none, the schema by "
+                              "which editors complete and check keys"},
+                     set_up_new}};
 const Verb keys_verb{
     {{.place = 150,
       .name = "keys",

@@ -271,7 +271,7 @@ void bind_motion(py::module_& m) {
       .def_property_readonly("state", &Motion::state, "this moment, to come back to")
       .def("restore", &Motion::restore, without_lock, py::arg("state"), "Back to a state of this machine.")
       .def("state_from", &Motion::state_from, py::arg("text"), "A state of this machine from its text.")
-      .def_property_readonly("names", &Motion::names, "of all that can be looked at")
+      .def_property_readonly("names", &Motion::names, "of all that can be read")
       .def_property_readonly("units", &Motion::units, "SI, in the order of the names")
       .def_property_readonly("state_names", &Motion::state_names, "what the entries of State.y are")
       .def_property_readonly("values", &Motion::values, "of all names, now")

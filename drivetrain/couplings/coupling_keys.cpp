@@ -37,11 +37,13 @@ Fields<CouplingLimits> coupling_limit_fields() {
            &Limits::vibratory)
       .add(quantity("dissipated_power", "W", positive, "P_KW, limit for kurbel modes"), &Limits::power)
       .add(application_factor_key(), &Limits::application_factor)
-      .add(defaulted("temperature_factor", "", "1", {.low = 1},
-                     "S_t by its maker's table, for what its rubber loses at its temperature, in kurbel modes"),
+      .add(defaulted(
+               "temperature_factor", "", "1", {.low = 1},
+               "S_t from the manufacturer's table, for the loss of its rubber at its temperature, in kurbel modes"),
            &Limits::temperature_factor)
-      .add(defaulted("start_factor", "", "1", {.low = 1},
-                     "S_z by its maker's table, for the number of starts or blows in an hour, in kurbel modes"),
+      .add(defaulted(
+               "start_factor", "", "1", {.low = 1},
+               "S_z from the manufacturer's table, for the number of starts or shocks in an hour, in kurbel modes"),
            &Limits::start_factor)
       .add(choice("type", "elastomer",
                   "what carries: rubber has S_f and S_t; steel has none, of discs, gear teeth or springs"),

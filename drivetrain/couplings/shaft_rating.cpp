@@ -97,8 +97,9 @@ BarredAround barred_around(double speed_ratio) { return {16 / (18 - speed_ratio)
 
 Fields<ShaftRating> shaft_rating_fields() {
   return Fields<Rating>()
-      .add(quantity("allowable_vibratory_stress", "Pa", positive,
-                    "limit of the stress's amplitude (τ_max − τ_min)/2 by the maker, for kurbel modes, run, steady"),
+      .add(quantity(
+               "allowable_vibratory_stress", "Pa", positive,
+               "limit of the stress's amplitude (τ_max − τ_min)/2 by the manufacturer, for kurbel modes, run, steady"),
            &Rating::vibratory)
       .add(quantity("tensile_strength", "Pa", positive, "σ_B, specified minimum; for Goodman and UR M68"),
            &Rating::tensile)

@@ -1,4 +1,4 @@
-// shaft_rating.h — allowable loads of a coupling; allowable torsional stress of a shaft by its maker, Goodman and
+// shaft_rating.h — allowable loads of a coupling; allowable torsional stress of a shaft by its manufacturer, Goodman and
 // IACS UR M68.
 //
 //     maker:    τ_a ≤ τ_allowable                                      τ_a = (τ_max − τ_min)/2,  τ_m = (τ_max + τ_min)/2
@@ -39,7 +39,7 @@ struct ShaftRating {
   enum class Detail { flange, shrink_fit, tapered_keyway, cylindrical_keyway, radial_hole, slot };
   enum class Steel { carbon, alloy };
 
-  std::optional<double> vibratory;       // τ_allowable of the maker [Pa]
+  std::optional<double> vibratory;       // τ_allowable of the manufacturer [Pa]
   std::optional<double> tensile, yield;  // σ_B, σ_S [Pa]
   std::optional<double> endurance;       // τ_W, of the smooth shaft in reversed torsion [Pa]
   double notch = 1, safety = 1;          // K_f, S

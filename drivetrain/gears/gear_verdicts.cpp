@@ -112,7 +112,7 @@ class Verdicts {
           2 - i, -mm * room, i + 1, remedy);
     else
       add(Finding::warning,
-          "Interference: the tip of wheel {} goes {:.4f} mm past the begin of the flank of wheel {} on the line of "
+          "Interference: the tip of wheel {} goes {:.4f} mm past the start of the flank of wheel {} on the line of "
           "action. The undercut root has room for it{}, but that part of the path of contact is lost; {}.",
           2 - i, mm * lost, i + 1, std::isfinite(room) ? fmt::format(" ({:.4f} mm)", mm * room) : std::string(),
           remedy);

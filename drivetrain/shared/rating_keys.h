@@ -8,7 +8,7 @@
 
 namespace kurbel {
 
-// Rating of a slipping component by its maker; empty: not stated.
+// Rating of a slipping component by its manufacturer; empty: not stated.
 struct HeatRating {
   std::optional<double> engagement;  // allowable heat of one engagement [J]
   std::optional<double> power;       // allowable mean power over a run [W]

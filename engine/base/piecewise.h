@@ -2,7 +2,7 @@
 //
 //     const std::vector<double> edges = {0, 2.1, 6.28};
 //     const Piecewise load = Piecewise::of(edges, [](double phi) { return phi < 2.1 ? 100.0 : 40 * phi; });
-//     const Piecewise work = load.integral();          // ∫ from the begin of the cycle, without quadrature error
+//     const Piecewise work = load.integral();          // ∫ from the start of the cycle, without quadrature error
 //     work.maximum().x                                 // its position, to rounding error: a root of the derivative or an edge
 #pragma once
 

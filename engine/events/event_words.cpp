@@ -141,8 +141,8 @@ std::string words_of(const Contact& contact, const std::string& holders, const H
   const std::string held = fmt::format("\"{}\" is held at the end by {}: ", contact.name, holders);
   if (acts == 0 && holding.forwards <= least && holding.backwards >= -least)
     return held + "no torque acts, and any torque would move it";
-  return fmt::format("{}{} N·m act; {}; {}", held, without_exponent(acts), side(holding.forwards, "forwards"),
-                     side(holding.backwards, "backwards"));
+  return fmt::format("{}the acting torque is {} N·m; {}; {}", held, without_exponent(acts),
+                     side(holding.forwards, "forwards"), side(holding.backwards, "backwards"));
 }
 
 }  // namespace kurbel

@@ -368,7 +368,8 @@ class Search {
     out_.cost -= map->cost();  // counted at the end
     state_ = out_.state;
     const bool nothing_swings = !period_.angle_matters && !period_.by_time && pace().rate <= 100 * still;
-    if (nothing_swings) return end(Orbit::Kind::equilibrium, "all speeds keep: no law depends on an angle or on time");
+    if (nothing_swings)
+      return end(Orbit::Kind::equilibrium, "all speeds are constant: no law depends on an angle or on time");
     end(point.vibrates() ? Orbit::Kind::vibrating : Orbit::Kind::cycle, cycle_words());
   }
   std::string cycle_words() const {

@@ -155,7 +155,7 @@ void read_rounds(const Section& section, Location table, Messages& messages, Seq
   };
   if (sequence.repeats_freely() && std::none_of(sequence.steps.begin(), sequence.steps.end(), waits))
     messages.add(table,
-                 "[sequence]: repeat = true, but no step waits for anything when its turn comes again; give "
+                 "[sequence]: repeat = true, but no step waits for anything in a repetition; give "
                  "one an \"after\" > 0 s, an angle or a speed, or the sequence \"every\"");
 }
 
@@ -163,9 +163,9 @@ void read_rounds(const Section& section, Location table, Messages& messages, Seq
 
 const std::vector<Key>& sequence_keys() {
   static const std::vector<Key> keys = {
-      flag("repeat", "false", "after the last step the first one's turn comes again"),
+      flag("repeat", "false", "after the last step the sequence begins again"),
       quantity("every", "s", positive,
-               "time from the begin of a repetition to the begin of the next one; the sequence repeats"),
+               "time from the start of a repetition to the start of the next one; the sequence repeats"),
       quantity("rate", "1/s", positive, "the same as repetitions per time: strokes per minute as \"30 1/min\""),
   };
   return keys;
@@ -173,11 +173,11 @@ const std::vector<Key>& sequence_keys() {
 
 const std::vector<Key>& sequence_step_keys() {
   static const std::vector<Key> keys = {
-      quantity("at", "s", not_negative, "happens at this time, or once its turn comes"),
-      quantity("after", "s", not_negative, "happens so long after the step before it"),
-      quantity("angle", "rad", any_number, "happens when the component `of` next passes this angle, whatever the turn"),
-      quantity("speed_above", "rad/s", any_number, "happens when the component `of` is faster than this"),
-      quantity("speed_below", "rad/s", any_number, "happens when the component `of` is slower than this"),
+      quantity("at", "s", not_negative, "at this time, or as soon as the steps before it are done"),
+      quantity("after", "s", not_negative, "this long after the step before it"),
+      quantity("angle", "rad", any_number, "when the component `of` next passes this angle, whatever the turn"),
+      quantity("speed_above", "rad/s", any_number, "when the component `of` is faster than this"),
+      quantity("speed_below", "rad/s", any_number, "when the component `of` is slower than this"),
       {.name = "of", .type = KeyType::text, .doc = "the component that is watched"},
       defaulted("to", "", "1", {.low = -1, .high = 10},
                 "1 on, 0 off, between them part (pressure of a clutch, voltage of a motor), −1 a motor reversed"),

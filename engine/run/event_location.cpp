@@ -116,7 +116,7 @@ std::vector<std::size_t> EventLocation::locate() {
     if (below.empty()) return fired;
     const double t0 = stepper_->t_previous(), t1 = stepper_->t();
     // A guard that starts at its root either rises first, and its next root is searched from there; or the mode was wrong
-    // from the begin of the step, which is then discarded.
+    // from the start of the step, which is then discarded.
     fired.clear();
     std::vector<double> from(below.size(), t0), value(below.size());
     for (std::size_t k = 0; k < below.size(); ++k) {

@@ -121,7 +121,7 @@ Rows rung_table(const AccuracyStudy& study) {
   using L = const ModelLevel&;
   const std::size_t rungs = std::min(study.fullest + 1, study.levels.size());
   return table_of("", "", std::vector<ModelLevel>(study.levels.begin(), study.levels.begin() + std::ptrdiff_t(rungs)))
-      .headed(fmt::format("ladder of models, an effect more a rung; error of {} against the last, time of the cheapest "
+      .headed(fmt::format("models, each with one effect more; error of {} against the last, time of the cheapest "
                           "run within {:g} % of its own:",
                           study.figures[study.key].name, 100 * close_enough))
       .text_in(2)

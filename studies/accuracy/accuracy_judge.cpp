@@ -12,12 +12,6 @@ namespace {
 
 std::string percent(double error) { return fmt::format("{:.2g} %", 100 * error); }
 
-std::string duration(double seconds) {
-  return seconds < 1e-3 ? fmt::format("{:.3g} µs", 1e6 * seconds)
-         : seconds < 1  ? fmt::format("{:.3g} ms", 1e3 * seconds)
-                        : fmt::format("{:.3g} s", seconds);
-}
-
 class Judge {
  public:
   explicit Judge(AccuracyStudy& study) : study_(study) {}
@@ -52,7 +46,7 @@ class Judge {
   }
 
   std::string told(const MeasuredSetting& s) const {
-    return fmt::format("{}, {}, measured {}", study_.name_of(s), duration(s.seconds), percent(total(s)));
+    return fmt::format("{}, {}, measured {}", study_.name_of(s), duration_text(s.seconds), percent(total(s)));
   }
 
   // Processor time for each level's key figure.
@@ -153,7 +147,7 @@ class Judge {
                                    percent(off), model_called(full().name), key());
     if (enough)
       text += fmt::format("; {} at {:.0e} ({}) is accurate enough for it", enough->method, enough->tolerance,
-                          duration(enough->seconds));
+                          duration_text(enough->seconds));
     return text;
   }
 
@@ -215,8 +209,9 @@ void judge_accuracy(AccuracyStudy& study, const AccuracyOptions& options) {
   if (options.budget) {
     const MeasuredSetting* s = judge.best_for(*options.budget);
     study.answers.push_back(
-        s ? fmt::format("Most exact for {} of processor time: {}", duration(*options.budget), judge.told(*s))
-          : fmt::format("No setting tried takes less than {}: the cheapest takes longer", duration(*options.budget)));
+        s ? fmt::format("Most exact for {} of processor time: {}", duration_text(*options.budget), judge.told(*s))
+          : fmt::format("No setting tried takes less than {}: the cheapest takes longer",
+                        duration_text(*options.budget)));
   }
 }
 

@@ -249,7 +249,7 @@ Claims start_claims(const std::shared_ptr<const Model>& model) {
     add(claims,
         claimed(Predicate::start_shafts_disagree,
                 fmt::format("\"{}\" joins shafts that start at {} and {}: [run] start gives a speed to one side alone, "
-                            "and the start is a blow",
+                            "and the start is a shock",
                             name, m.scene.speed_unit.text(a), m.scene.speed_unit.text(b)),
                 name, {.at = 0, .value = std::abs(a - b), .limit = 0, .unit = "rad/s"}));
   }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "studies/limits/ratings.h"
 
@@ -69,6 +70,7 @@ int rank_of(const Figure& f, const std::string& link, const std::set<std::string
   if (f.words().starts_with("motor_peak_")) return 9;  // behind what heats it
   if (f.what == quantities::peak_other) return 8;
   if (f.what == quantities::cycle_fluctuation && !(f.value < stands_within_the_cycle)) return never;
+  if (f.what == quantities::final_angle && std::abs(f.value) > 2 * pi) return never;  // counts turns
   for (const Ranked& known : ranks)
     if (f.words() == known.words) return f.of == link ? known.of_link : known.of_others;
   return never;

@@ -87,7 +87,7 @@ constexpr std::array kinds = {
         start_shafts_disagree, runs, warning, above,
         "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
         "value: the difference of speed [rad/s]",
-        "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare, steady"},
+        "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a shock", "run, compare, steady"},
     ClaimKind{
         runs_steadily, runs, note, anything,
         "what the mid speed of the cycle still has to go to its limit, by the last three cycles or more without a "
@@ -96,7 +96,7 @@ constexpr std::array kinds = {
         "run, compare, steady"},
     ClaimKind{
         vibrates, runs, note, anything,
-        "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
+        "the motion repeats, and the link does not turn on average; in a run the link turns to and fro in "
         "its last quarter, and gains less than a quarter of its way there, or in its last whole oscillation; it decays "
         "or grows where the amplitude of "
         "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
@@ -104,7 +104,7 @@ constexpr std::array kinds = {
         "value: frequency [Hz]",
         "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
         "run, compare, steady"},
-    ClaimKind{works_in_strokes, runs, note, anything, "the cycles come again, and the link stands within each",
+    ClaimKind{works_in_strokes, runs, note, anything, "the cycles repeat, and the link stands within each",
               "at: end of the last cycle; value: its time [s]",
               "\"press\" makes single strokes, one every 1.961 s, and rests between them", "run, compare"},
     ClaimKind{goes_through_sequence, runs, note, anything,

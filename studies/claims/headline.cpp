@@ -80,14 +80,15 @@ std::string with_point_moved(std::string_view number, int places) {
 
 // The unit that begins here after a blank, if it takes prefixes: "N·m/rad"; else empty.
 std::string_view prefixed_unit_at(std::string_view text) {
-  constexpr std::string_view units[] = {"N·m·s/rad", "N·m/rad", "N·m·s", "N·m", "N/m", "N", "J", "W", "Pa"};
+  constexpr std::string_view units[] = {"N·m·s/rad", "N·m/rad", "N·m·s", "N·m", "N/m", "N", "J", "W", "Pa", "m", "s"};
   if (!text.starts_with(' ')) return {};
   text.remove_prefix(1);
   for (const std::string_view unit : units) {
     if (!text.starts_with(unit)) continue;
     const std::string_view after = text.substr(unit.size());
-    const bool goes_on = !after.empty() && (is_of_word(after[0]) || after[0] == '/' || after[0] == '*' ||
-                                            after.starts_with("·") || after.starts_with("²"));
+    const bool goes_on =
+        !after.empty() && (is_of_word(after[0]) || after[0] == '/' || after[0] == '*' || after[0] == '^' ||
+                           after.starts_with("·") || after.starts_with("²") || after.starts_with("³"));
     return goes_on ? std::string_view() : unit;
   }
   return {};
@@ -97,8 +98,11 @@ struct Prefix {
   std::string_view name;
   int places = 0;
 };
-Prefix prefix_of(double size) {
-  constexpr double least = 1e4, mega = 2e6, giga = 2e9;
+// Lengths and times have no large ones.
+Prefix prefix_of(double size, std::string_view unit) {
+  constexpr double least = 1e4, mega = 2e6, giga = 2e9, micro = 1e-4, nano = 1e-7, none = 1e-10;
+  if (size < micro) return size >= nano ? Prefix{"µ", -6} : size >= none ? Prefix{"n", -9} : Prefix{};
+  if (unit == "m" || unit == "s") return {};
   return size >= giga ? Prefix{"G", 9} : size >= mega ? Prefix{"M", 6} : size >= least ? Prefix{"k", 3} : Prefix{};
 }
 
@@ -150,9 +154,10 @@ std::string readable(std::string_view text) {
     error = error.substr(0, number_at(error));
     const std::size_t whole = length + (error.empty() ? 0 : plus_minus.size() + error.size());
     const std::string_view unit = prefixed_unit_at(rest.substr(whole));
-    const Prefix prefix = unit.empty() || shares_the_unit(said) ? Prefix{} : prefix_of(value_of(number));
+    const Prefix prefix =
+        unit.empty() || shares_the_unit(said) ? Prefix{} : prefix_of(std::max(value_of(number), value_of(error)), unit);
     const auto shown = [&](std::string_view n) {
-      return prefix.places > 0 ? with_point_moved(n, prefix.places) : without_exponent(n);
+      return prefix.places != 0 ? with_point_moved(n, prefix.places) : without_exponent(n);
     };
     if (value_of(number) == 0) drop_minus(said);
     said += shown(number);

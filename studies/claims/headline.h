@@ -13,8 +13,8 @@ inline constexpr int headline_digits = 4;
 //     "724.8855 ± 1e-06 N·m in \"shaft_10001\""  →  "724.9 N·m in \"shaft_10001\""
 std::string headline(std::string_view text);
 
-// Numbers in a text in readable form, without loss of digits: no exponent between 1e-4 and 1e9, from 1e4 on with a
-// unit prefix where the unit takes one, no minus before zero. Quoted names are unchanged.
+// Numbers in a text in readable form, without loss of digits: no exponent between 1e-4 and 1e9, outside of
+// 1e-4 … 1e4 with a unit prefix where the unit takes one, no minus before zero. Quoted names are unchanged.
 //     "1.155e+05 N·m, 35471600 N·m/rad, 1.3e+02 %, -0.0 J"  →  "115.5 kN·m, 35.4716 MN·m/rad, 130 %, 0.0 J"
 std::string readable(std::string_view text);
 

@@ -62,7 +62,7 @@ CycleBasis MachineOnBasis::choose_basis(const Scene& scene, const Moment& at, st
                                         bool needs_cycle) {
   beyond_ = beyond_the_rigid_machine(scene, at);
   const CycleBasis basis =
-      wanted.value_or(beyond_.empty() || !needs_cycle ? CycleBasis::classical : CycleBasis::regime);
+      wanted.value_or(beyond_.empty() || !needs_cycle ? CycleBasis::classical : CycleBasis::steady);
   if (basis == CycleBasis::classical)
     make_rigid(scene, at);
   else

@@ -25,7 +25,7 @@ std::shared_ptr<const Model> compile_at(const Scene& scene, const Effects& effec
 // Motion from which torques and inertia are taken.
 enum class CycleBasis {
   classical,  // the rigid machine at successive positions, at constant speed
-  regime      // the machine's steady cycle with the scene's effects
+  steady      // the machine's steady cycle with the scene's effects
 };
 
 // The machine of a study of the cycle.

@@ -190,15 +190,16 @@ inline constexpr PageWord of_pages[] = {
     {"in the cycle; in the steady motion; linear − cycle; linear − steady motion; in the nonlinear cycle; linear drive",
      of_trains, "the linear response beside the same of the nonlinear cycle, and the difference of both"},
     {"limit; limit there; limits; use; requirement; load case; load; factors; of the standard; share of the limit; "
-     "allowed there; allowed at *; allowed by its maker; barred because of",
+     "allowed there; allowed at *; allowed by its manufacturer; barred because of",
      "run, modes, report",
      "a component's limit, the load of the load case with its factors, and use = load over limit; barred: range of "
      "speeds "
      "where it is exceeded"},
-    {"T_KN", of_trains, "nominal torque of a coupling by its maker, for the mean torque of steady motion (DIN 740-2)"},
+    {"T_KN", of_trains,
+     "nominal torque of a coupling by its manufacturer, for the mean torque of steady motion (DIN 740-2)"},
     {"T_Kmax; T_K max", of_trains,
-     "maximum torque of a coupling by its maker, for the peaks of starts and blows (DIN 740-2)"},
-    {"T_KW", of_trains, "vibratory torque of a coupling by its maker: lasting amplitude at 10 Hz (DIN 740-2)"},
+     "maximum torque of a coupling by its manufacturer, for the peaks of starts and shocks (DIN 740-2)"},
+    {"T_KW", of_trains, "vibratory torque of a coupling by its manufacturer: lasting amplitude at 10 Hz (DIN 740-2)"},
     {"P_KW; P_W", of_trains, "power that a coupling's damping may take, and that it takes (DIN 740-2)"},
     {"T_N; T_mean; T_S; T_W", of_trains,
      "torques in a coupling: mean; peak above it at a start; largest deviation from the mean in steady motion"},

@@ -140,13 +140,12 @@ inline constexpr Definition of_a_cycle[] = {
      "time after which all angles, speeds and times of the machine repeat: one cycle or several of them", "",
      "the cycle of the reduction link alone: cycle_time"},
     {"vibration_frequency", "frequency of a vibration about a place", "Hz", "", "11.1", "steady, sweep, uncertainty",
-     "of a machine whose reduction link does not turn in the mean but vibrates: how often its motion repeats",
-     "f = 1/T",
+     "of a machine whose reduction link does not turn on average but vibrates: how often its motion repeats", "f = 1/T",
      "a natural frequency, which is natural_frequency.N; the two agree where nothing excites and damping is small"},
     {"vibration_amplitude", "amplitude of a vibration about a place", "rad", "SHAFT", "11.1",
      "steady, sweep, uncertainty",
-     "half the way between the extreme angles of the shaft, of a machine whose reduction link does not turn in the "
-     "mean",
+     "half the way between the extreme angles of the shaft, of a machine whose reduction link does not turn on "
+     "average",
      "½ (φ_max − φ_min)", "the amplitude of one order of the motion; for motion that is not a sine they differ"},
     // the same quantities for one steady cycle
     {"cycle_peak_torque", "peak torque of a steady cycle", "N*m", "COUPLING", "1.2", of_cycles,

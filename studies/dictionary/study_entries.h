@@ -31,7 +31,7 @@ inline constexpr Definition of_one_study[] = {
      "simulated, its error twice the standard error; in the channel's unit"},
     {"thermal_use", "thermal use of a motor", "", "MOTOR", "4", of_both,
      "RMS torque of the steady cycle, or of a run's last whole cycle of a motion that repeats, over the rated torque; "
-     "where commands change the motion, of the heaviest cycle that comes again; beyond 1 the motor gets too hot in "
+     "where commands change the motion, of the heaviest cycle that repeats; beyond 1 the motor gets too hot in "
      "continuous use",
      "M_rms/M_n", "an efficiency"},
     {"breakdown_use", "use of a motor's breakdown torque", "", "MOTOR", "4", "steady",
@@ -106,7 +106,7 @@ inline constexpr Definition of_one_study[] = {
     {"spot_swing", "amplitude at a speed of the range, by the nonlinear cycle", "N*m", "", "12.13", "modes",
      "the greatest departure of a joint's torque from its mean in the nonlinear cycle of the machine whose mean speed "
      "is held there, at the spot check where the linear response is off by most",
-     "", "the motion that the machine keeps: torques proportional to inertia hold the speed"},
+     "", "the steady motion: torques proportional to inertia hold the speed"},
     {"nominal_torque_verdict", "mean torque against T_KN", "N*m", "", "12.9", "modes",
      "K_A S_t times the mean of a joint's torque over a cycle of the steady motion", "K_A S_t |T_mean| ≤ T_KN",
      "a peak, nor the torque of a start"},
@@ -139,7 +139,7 @@ inline constexpr Definition of_one_study[] = {
     // gears
     {"centre_distance", "centre distance", "mm", "", "6", "gears", "between the wheels' axes, as they run"},
     {"contact_ratio", "contact ratio ε_α", "", "", "6", "gears",
-     "length of the path of contact over the base pitch: pairs in mesh in the mean", "ε_α = g_α/p_b",
+     "length of the path of contact over the base pitch: pairs in mesh on average", "ε_α = g_α/p_b",
      "the overlap of helical teeth, which is given beside it"},
     {"specific_sliding", "greatest specific sliding", "", "", "6", "gears",
      "sliding over rolling speed of a flank, at the worse foot"},

@@ -100,7 +100,7 @@ inline constexpr Definition of_symbols[] = {
      "work of the load in a cycle; as a letter of the path of contact its end"},
     {"t_*", "time", "s", "", "3.5", "size", "t_w of work, t_c of a cycle"},
     {"T", "kinetic energy", "J", "", "2", "size, forces", "½ I ω²"},
-    {"Φ", "angle of a cycle", "rad", "", "2.3", "size", "after which all comes again"},
+    {"Φ", "angle of a cycle", "rad", "", "2.3", "size", "after which the motion repeats"},
     {"ψ_*", "angle of a tangent", "rad", "", "3.2", on_sheets,
      "of the energy–mass curve on paper: tan ψ = ½ ω² μ_I/μ_T at the greatest or the least speed"},
     {"k", "stiffness", "N*m/rad", "", "12", "modes, gears",

@@ -118,9 +118,9 @@ Plot plane(const EffectStudy& s) {
 }
 
 std::string full_model(const EffectStudy& s) {
-  return fmt::format("full model: {}; {} states, {} nonzeros, {} guards, {} events, {:.3g} ms of processor time a run",
+  return fmt::format("full model: {}; {} states, {} nonzeros, {} guards, {} event{}, {} of processor time a run",
                      s.full.effects, s.size.states, s.size.nonzeros, s.size.guards, s.full.statistics.events,
-                     1e3 * s.full.statistics.cpu_seconds);
+                     s.full.statistics.events == 1 ? "" : "s", duration_text(s.full.statistics.cpu_seconds));
 }
 
 }  // namespace

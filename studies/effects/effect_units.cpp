@@ -159,7 +159,8 @@ bool makes_machine(const Scene& scene, const Effects& effects) {
 
 ModelSize size_of(const Model& model) {
   Equations equations(std::shared_ptr<const Model>(std::shared_ptr<void>(), &model), false);
-  return {model.state_count(), model.jacobian.pattern.row.size(), equations.guard_count()};
+  return {static_cast<std::ptrdiff_t>(model.state_count()), std::ssize(model.jacobian.pattern.row),
+          static_cast<std::ptrdiff_t>(equations.guard_count())};
 }
 
 std::string with_effects(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& on) {

@@ -45,7 +45,7 @@ bool makes_machine(const Scene& scene, const Effects& effects);                 
 
 // Size of the model with a set of effects.
 struct ModelSize {
-  std::size_t states = 0, nonzeros = 0, guards = 0;
+  std::ptrdiff_t states = 0, nonzeros = 0, guards = 0;  // of a difference, too
 };
 ModelSize size_of(const Model& model);
 

@@ -14,7 +14,7 @@ struct NoOptions {};
 std::string list_of_effects() {
   std::string list =
       "elasticity — couplings and shafts twist; needs: a stiffness; states: a twist and a speed each; matters: where "
-      "an excitation meets a mode, and for starts and blows; unless mentioned: off\n";
+      "an excitation meets a mode, and for starts and shocks; unless mentioned: off\n";
   for (const EffectFlag& effect : effect_flags())
     list += fmt::format("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
                         effect.parameters, effect.states, effect.matters, unsaid_text(effect));

@@ -77,6 +77,7 @@ FigureText figure_text(const Estimate& estimate, int most_digits) {
   const std::optional<double>& error = estimate.error;
   if (!error || !std::isfinite(*error)) return {rounded_number(value, digits_without_error), ""};
   if (*error == 0) return {rounded_number(value, digits_if_exact), "± 0"};
+  if (std::abs(value) <= *error && value != 0) return figure_text({0, *error + std::abs(value)}, most_digits);
   const double size = std::abs(*error);
   int place = last_place_of_error(size);
   int least_place = place;
@@ -117,6 +118,17 @@ std::string told_shortly(double value, const std::string& si_unit, const SpeedUn
   const ReadableUnit unit = readable_unit(value, si_unit, speed);
   const std::string number = headline_number(unit.factor * value);
   return unit.unit.empty() ? number : number + " " + pretty_unit(unit.unit);
+}
+
+Estimate without_rounding(Estimate value, double scale) {
+  if (!value.error && std::abs(value.value) < 1e-12 * scale) value.value = 0;
+  return value;
+}
+
+std::string duration_text(double seconds) {
+  return seconds < 1e-3 ? fmt::format("{:.3g} µs", 1e6 * seconds)
+         : seconds < 1  ? fmt::format("{:.3g} ms", 1e3 * seconds)
+                        : fmt::format("{:.3g} s", seconds);
 }
 
 FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed,

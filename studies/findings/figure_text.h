@@ -4,8 +4,8 @@
 //   0.104382 ± 0.0112      →  "0.104"    "± 0.012"
 //
 // The error is rounded up to one significant digit, to two if the first is a 1. The value ends at the same digit, and
-// its rounding counts as error; or it ends before, after six digits (nine in long forms), and the error is that of
-// the computation alone. Unknown error: six digits. An error of 0 means exact by construction.
+// its rounding counts as error, so that a value below its error is 0; or it ends before, after six digits (nine in long
+// forms), and the error is that of the computation alone. Unknown error: six digits. An error of 0 means exact by construction.
 #pragma once
 
 #include <string>
@@ -45,6 +45,12 @@ struct FigureCells {
 };
 FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed,
                          int most_digits = digits_in_tables);
+
+// A figure of which no error is known: what is 1e-12 of its scale is rounding, 0.
+Estimate without_rounding(Estimate value, double scale);
+
+// "12.3 ms", "1.7 s": processor time, in three digits.
+std::string duration_text(double seconds);
 
 // Text in a column of errors if none was measured.
 std::string error_cell(const Estimate& estimate);

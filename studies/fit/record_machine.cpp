@@ -209,7 +209,7 @@ Response RecordMachine::modes(const Scene& scene) const {
     std::vector<double>& values = response.modes.emplace_back();
     for (const double number : record_->at) {
       const auto mode = std::find_if(study.modes.begin(), study.modes.end(), [&](const Mode& m) {
-        return !m.of_own_states && m.number == std::lround(number);
+        return !m.of_internal_states && m.number == std::lround(number);
       });
       if (mode == study.modes.end())
         return {.failed = fmt::format("has no mode {:.0f}; its modes are 1 … {}", number, study.modes.size())};

@@ -138,7 +138,7 @@ class Study {
   Forces result() {
     std::optional<SimulatedMotion> simulated;
     if (options_.simulate) {
-      options_.watch.say("second problem: the motion that the machine keeps");
+      options_.watch.say("second problem: the steady motion");
       simulated = machine_.solve(loads_, {out_.notes, out_.complete, out_.diagnosis});
     }
     if (simulated) solve_second(*simulated), solve_rigid();

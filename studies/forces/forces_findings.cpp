@@ -44,7 +44,7 @@ Findings begin_findings(const Forces& f, const ForceCycle& front, const std::str
 std::string begin_conclusion(const Forces& f, const ForceCycle& front, const Peak& main_bearing) {
   const double swing = front.greatest_speed.value - front.least_speed.value;
   const std::string moving = fmt::format("{} at {}{}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4),
-                                         swing > 1e-4 * std::abs(front.mean_speed.value) ? " in the mean" : "");
+                                         swing > 1e-4 * std::abs(front.mean_speed.value) ? " on average" : "");
   if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
   return fmt::format("{}: the main bearing carries up to {} (at {})", moving, in_words(main_bearing, "N"),
                      at_angle(main_bearing));

@@ -263,8 +263,7 @@ MachineMotion::Window MachineMotion::round_of(const ReturnMap& map, const Eigen:
   const double cycles = std::abs(window.way) / cycle;
   if (cycles < 0.5) throw std::invalid_argument("the crank does not turn fully in the steady motion");
   if (std::abs(cycles - std::round(cycles)) > 1e-6 || cycles * cycle / turn > most_turns + 0.5)
-    throw std::invalid_argument(
-        fmt::format("what the machine keeps doing comes again after {:.6g} cycles of the crank", cycles));
+    throw std::invalid_argument(fmt::format("the steady motion repeats after {:.6g} cycles of the crank", cycles));
   return window;
 }
 

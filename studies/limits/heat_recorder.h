@@ -8,7 +8,7 @@
 
 namespace kurbel {
 
-// An engagement lasts from the begin of heat generation in a component to its end by locking, standstill or release.
+// An engagement lasts from the start of heat generation in a component to its end by locking, standstill or release.
 // Its heat is the component's harmful work, with no separate model. Only for named components.
 class HeatRecorder final : public Observer {
  public:

@@ -26,14 +26,16 @@ Tone tone_of(Compliance state) {
                                              : Tone::fair;
 }
 
-// The load without its factors, with its error if visible.
+// The load without its factors, with its error if visible beside it or beside a thousandth of the limit.
 std::string load_text(const Verdict& v) {
   if (!v.assessed) return "—";
   const ReadableUnit unit = readable_unit(v.limit, v.unit);
-  const std::string value = read_as(unit.factor * v.load(), {.digits = 5, .otherwise = "unbounded"});
+  const double error = v.known_error();
+  const double load = std::abs(v.value) > error ? v.load() : 0;
+  const std::string value = read_as(unit.factor * load, {.digits = 5, .otherwise = "unbounded"});
   if (v.bound) return fmt::format("≤ {} {}", value, unit.unit);
-  if (!(v.known_error() > 1e-4 * std::abs(v.value))) return fmt::format("{} {}", value, unit.unit);
-  return fmt::format("{} ± {} {}", value, read_as(unit.factor * v.known_error() / v.factor, {.digits = 2}), unit.unit);
+  if (!(error > 1e-4 * std::max(std::abs(v.value), 1e-3 * v.limit))) return fmt::format("{} {}", value, unit.unit);
+  return fmt::format("{} ± {} {}", value, read_as(unit.factor * error / v.factor, {.digits = 2}), unit.unit);
 }
 
 // A rule that bars all speeds gives no range to avoid; it is in the notes.

@@ -73,10 +73,10 @@ class Search {
     }
     const SteadyLoads there = steady_loads(made_, machine_, joints_);
     if (!there.found || std::abs(there.speed - loads_.speed) > same_motion * std::abs(loads_.speed)) {
-      none(there.found ? fmt::format("from rest the machine does not come to this motion: its mean speed would be "
+      none(there.found ? fmt::format("from rest the machine does not reach this motion: its mean speed would be "
                                      "{}, not {}",
                                      speed_text(there.speed), speed_text(loads_.speed))
-                       : "from rest the machine does not come to this motion: " + made_.words);
+                       : "from rest the machine does not reach this motion: " + made_.words);
       return false;
     }
     out_.until = std::max(out_.until, made_.state.t + 2 * loads_.round);
@@ -112,7 +112,7 @@ class Search {
       watch_.at("run-up from rest", 0.1);
       const RunOutcome outcome = integrate(equations, run, {});
       if (!outcome.stopped)
-        return none(fmt::format("from rest the machine does not come to {} within {:.4g} s{}{}",
+        return none(fmt::format("from rest the machine does not reach {} within {:.4g} s{}{}",
                                 speed_text(loads_.slowest), outcome.t, outcome.diagnosis.empty() ? "" : ": ",
                                 outcome.diagnosis)),
                false;

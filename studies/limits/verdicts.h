@@ -4,7 +4,7 @@
 //     S_t (T_N + S_z T_S) ≤ T_Kmax                 T_N + T_S: largest torque from rest to the steady motion
 //     S_t S_f T_W ≤ T_KW,   P_W ≤ P_KW             alternating part of the steady motion
 //     K_A |T|/W_p ≤ τ_allowable                    largest torque of the steady motion; without K_A of the run-up
-//     a shaft's alternating stress by its maker, Goodman, yield, UR M68: drivetrain/couplings/shaft_rating.h
+//     a shaft's alternating stress by its manufacturer, Goodman, yield, UR M68: drivetrain/couplings/shaft_rating.h
 //                                                                               (theory 12.9, 12.10, 12.14 … 12.16)
 #pragma once
 

@@ -121,8 +121,8 @@ void find_response(const std::vector<CrossingResponse>& responses, double slowes
   row.not_assessed = row.response                              ? row.response->not_assessed
                      : !line.in_scene                          ? "the scene has no such torque"
                      : !(mode.ratio < 1)                       ? "the mode is damped away"
-                     : row.crossing && *row.crossing < slowest ? "slower than the speeds looked at"
-                     : row.crossing && *row.crossing > fastest ? "faster than the speeds looked at"
+                     : row.crossing && *row.crossing < slowest ? "below the speeds examined"
+                     : row.crossing && *row.crossing > fastest ? "above the speeds examined"
                                                                : "no response was computed there";
 }
 

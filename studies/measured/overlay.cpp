@@ -94,7 +94,7 @@ std::string other_speed(const SteadyCycle& c, const Measurement& m, const Alignm
     if (!(std::abs(here - record) > alike * std::abs(record))) continue;
     const SpeedUnit& unit = c.model->scene.speed_unit;
     return fmt::format(
-        "{} model: its {} is {} in the mean, the record's {}: torques and fluctuations are those of another "
+        "{} model: its {} is {} on average, the record's {}: torques and fluctuations are those of another "
         "speed; --mean-speed finds the cycle at that of the record",
         c.label, m.signals[k].channel, unit.text(here, 4), unit.text(record, 4));
   }

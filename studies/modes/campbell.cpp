@@ -248,7 +248,7 @@ std::string moving_parts(const ModesStudy& m, const Mode& mode) {
 }  // namespace
 
 std::string name_of(const ModesStudy& m, const Mode& mode) {
-  if (!mode.of_own_states) return moving_parts(m, mode);
+  if (!mode.of_internal_states) return moving_parts(m, mode);
   for (const EnergyStore& store : energy_stores(m, mode))
     if (store.name.find(" of ") != std::string::npos)
       return mode.energy.in_own() > mostly ? store.name : fmt::format("{} and {}", store.name, moving_parts(m, mode));

@@ -102,7 +102,7 @@ class OrderCurve {
 
 double frequency_of_resonance(const LinearDrive& drive, const Mode& mode) {
   constexpr double twisted = 0.01;  // share of the mode's twist energy
-  if (drive.own_states() == 0 || mode.of_own_states) return mode.omega;
+  if (drive.own_states() == 0 || mode.of_internal_states) return mode.omega;
   for (std::size_t j = 0; j < mode.shares.joint.size(); ++j)
     if (mode.shares.joint[j] > twisted && drive.joint_by_own.row(static_cast<Eigen::Index>(j)).norm() > 0)
       return mode.magnitude();
@@ -186,7 +186,7 @@ void find_zones(ModesStudy& found) {
                                      [](const Network::ShaftElement& e) { return e.element->cycle > 0; }))
     return;
   for (const Mode& mode : found.modes) {
-    if (mode.of_own_states) continue;  // no spring holds it
+    if (mode.of_internal_states) continue;  // no spring holds it
     const std::vector<double> variation = inertia_variation(found.drive, mode.shape, found.excitations.harmonics);
     for (std::size_t r = 1; r < variation.size(); ++r) {
       ParametricZone zone{.mode = mode.number, .harmonic = r};
@@ -269,7 +269,7 @@ std::vector<CrossingResponse> responses_of(const ModesStudy& found) {
   for (const auto& [omega, forcing] : laws) {
     const std::vector<FrequencyResponse::JointSwing> swings = response.swings(omega, forcing);
     for (const Mode& mode : found.modes)
-      if (const std::size_t j = joint_of(mode); !mode.of_own_states)
+      if (const std::size_t j = joint_of(mode); !mode.of_internal_states)
         all.push_back({.mode = mode.number,
                        .fixed = omega,
                        .joint = found.joint_names[j],
@@ -309,7 +309,7 @@ std::vector<double> frequencies_with(const Tolerance& t, double value, Scene sce
                           .start = false};
   try {
     for (const Mode& mode : find_modes(scene, effects, same).modes)
-      if (!mode.of_own_states) omega.push_back(mode.omega);
+      if (!mode.of_internal_states) omega.push_back(mode.omega);
   } catch (const std::runtime_error&) {  // no machine, or no modes, with that value
   } catch (const std::logic_error&) {
   }
@@ -325,7 +325,7 @@ void find_margins(const Scene& scene, const Effects& effects, const ModesOptions
   m.lines = excitation_lines(*found.drive.model, found.excitations, speed,
                              by_shaft ? found.shaft_names : std::vector<std::string>{}, found.notes);
   for (const Mode& mode : found.modes)
-    if (!mode.of_own_states)
+    if (!mode.of_internal_states)
       m.modes.push_back(
           {.number = mode.number,
            .omega = frequency_of_resonance(found.drive, mode),

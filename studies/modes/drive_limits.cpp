@@ -108,8 +108,7 @@ void judge_limits(const MachineAndOrbit& here, const std::optional<MachineAndOrb
       if (at_orbit) loads.words += "; " + kept.words;
       loads.joints = loads_of(found.here), loads.speed = found.drive.at.speed;
     } else {
-      loads.words = fmt::format("the motion that the machine keeps, at {}: {}", found.speed_unit.text(kept.speed, 5),
-                                orbit.words);
+      loads.words = fmt::format("the steady motion, at {}: {}", found.speed_unit.text(kept.speed, 5), orbit.words);
     }
     found.verdicts = judge(found.limited, loads, run_up, passing_of(found), found.speed_unit);
   }

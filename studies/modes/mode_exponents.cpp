@@ -166,8 +166,8 @@ class Exponents {
   void tell_those_that_fade() {
     for (Mode& mode : found_.modes) {
       if (mode.periodic.empty() || mode.greatest - mode.least < varies_much * mode.omega) continue;
-      mode.fades_within_round = -mode.periodic.front().exponent.real() * spectrum_.time > fades;
-      if (mode.fades_within_round)
+      mode.fades_within_cycle = -mode.periodic.front().exponent.real() * spectrum_.time > fades;
+      if (mode.fades_within_cycle)
         found_.notes.push_back(fmt::format(
             "mode {} decays long before the end of a cycle: a vibration that starts at one angle has the frequency of "
             "the drive held there, between {:.4g} and {:.4g} Hz (undamped); {:.4g} Hz is the mean over the cycle",

@@ -13,6 +13,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "studies/findings/result.h"
 
 namespace kurbel {
 namespace {
@@ -106,7 +107,7 @@ void number_in_order(std::vector<Mode>& modes) {
 // Modes by internal states of elements, and modes of springs and internal states together that correspond to no
 // undamped mode. By |λ|, like damped modes. Those above all listed ones are ignored, unless internal states have
 // energy in them.
-void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStudy& found) {
+void add_modes_of_internal_states(int count, const std::vector<char>& used, ModesStudy& found) {
   const std::size_t most = found.modes.size() + at(count);
   const double highest = found.modes.empty() ? HUGE_VAL : found.modes.back().omega;
   for (std::size_t i = 0; i < found.damped.size(); ++i) {
@@ -119,7 +120,7 @@ void add_swings_of_own_states(int count, const std::vector<char>& used, ModesStu
     mode.ratio = std::abs(d.lambda.real()) > d.error ? d.ratio() : 0;
     mode.error = mode.lambda_error = d.error;
     mode.energy = d.energy;
-    mode.of_own_states = true;
+    mode.of_internal_states = true;
     mode.least = mode.greatest = mode.omega;
     mode.shape = principal_shape(found.drive, d.shape);
     mode.shares = energy_shares(found.drive, d.shape.cwiseAbs());  // parts swing in different phases
@@ -152,7 +153,7 @@ std::optional<double> distance_of_wave_mode(const ModesStudy& found, const Mode&
 void add_wave_errors(ModesStudy& found) {
   constexpr Eigen::Index most_confirmed = 120, most_counted = 300;  // coordinates
   const bool springs_alone =
-      std::none_of(found.modes.begin(), found.modes.end(), [](const Mode& mode) { return mode.of_own_states; });
+      std::none_of(found.modes.begin(), found.modes.end(), [](const Mode& mode) { return mode.of_internal_states; });
   const bool countable = springs_alone && found.drive.is_symmetric();
   std::vector<Mode> kept;
   for (Mode& mode : found.modes) {
@@ -187,7 +188,7 @@ void list_modes(int count, ModesStudy& found) {
   found.modes = held_at_rest ? modes_at_rest(found) : modes_of_springs(found);
   const std::vector<char> used = pair_damped(found);
   if (found.modes.size() > at(count)) found.modes.resize(at(count));
-  add_swings_of_own_states(count, used, found);
+  add_modes_of_internal_states(count, used, found);
   if (found.drive.model->has_continuous_shafts()) add_wave_errors(found);
   for (const DampedMode& d : found.damped)
     if (d.lambda.real() > 1e-9 * std::abs(d.lambda) && d.lambda.real() > 0) {
@@ -210,7 +211,7 @@ void find_frozen_range(int count, ModesStudy& found) {
   const double cycle = cycle_of(m).angle;
   std::vector<Mode*> springs;
   for (Mode& mode : found.modes)
-    if (!mode.of_own_states) springs.push_back(&mode);
+    if (!mode.of_internal_states) springs.push_back(&mode);
   for (int i = 0; i < frozen_angles; ++i) {
     LinearisationPoint point = found.drive.at;
     point.angle = cycle * (i + 0.5) / frozen_angles;
@@ -314,7 +315,7 @@ Eigen::VectorXd shaft_shape(const ModesStudy& study, const Mode& mode) { return 
 
 std::size_t natural_modes(const ModesStudy& study) {
   return static_cast<std::size_t>(
-      std::count_if(study.modes.begin(), study.modes.end(), [](const Mode& mode) { return !mode.of_own_states; }));
+      std::count_if(study.modes.begin(), study.modes.end(), [](const Mode& mode) { return !mode.of_internal_states; }));
 }
 
 Effects effects_of_modes(const Scene& scene) {
@@ -331,6 +332,22 @@ void take_swings_away(SpeedResponse& response) {
     joint = still;
   }
   for (std::vector<Complex>& orders : response.orders) std::fill(orders.begin() + 1, orders.end(), Complex{});
+}
+
+std::vector<Figure> figures_of(const ModesStudy& study) {
+  std::vector<Figure> figures;
+  const auto frequency = [&](const char* name, const std::string& number, double omega, double error) {
+    constexpr double hertz = 0.5 / pi;
+    figures.push_back({{omega * hertz, error * hertz}, name + number, "Hz"});
+  };
+  for (const Mode& mode : study.modes) {
+    const std::string number = std::to_string(mode.number);
+    frequency(mode.of_internal_states ? "internal_frequency." : "natural_frequency.", number, mode.omega, mode.error);
+    if (mode.lambda.imag() <= 0) continue;
+    frequency("damped_frequency.", number, mode.lambda.imag(), mode.lambda_error);
+    figures.push_back({{mode.ratio}, "damping_ratio." + number});
+  }
+  return figures;
 }
 
 }  // namespace kurbel

@@ -312,7 +312,7 @@ class Study {
     found_.here = respond(found_.drive, excitations);
     found_.excitations = std::move(excitations);
     for (const std::string& note : found_.excitations.notes) found_.notes.push_back(note);
-    if (found_.excitations.by_order.empty() && found_.excitations.by_frequency.empty())
+    if (found_.excitations.none())
       found_.notes.push_back(
           "nothing in the scene excites the drive by order or frequency: no torque depends on an angle or oscillates "
           "over time");
@@ -341,7 +341,7 @@ class Study {
     const Excitations& x = found_.excitations;
     const bool limited = any_limits(limited_joints(*model_));
     // Vibrations at fixed frequencies load the joints at every speed, too.
-    if (found_.joint_names.empty() || (x.by_order.empty() && x.by_frequency.empty() && !limited)) return;
+    if (found_.joint_names.empty() || (x.none() && !limited)) return;
     const std::vector<double> speeds = sweep_speeds(found_);
     found_.keeps_its_speed = !grows(found_.drive) && found_.here.speed_swing < std::abs(found_.drive.at.speed);
     for (std::size_t i = 0; i < speeds.size(); ++i) {
@@ -376,6 +376,7 @@ class Study {
 
   void check_spots_of_range() {
     if (options_.spot_checks == 0 && options_.spots.empty()) return;
+    if (found_.excitations.none()) return;
     const Network network = network_as_of(scene_, options_.at);
     check_spots(
         {network, scene_, effects_, samples_ ? &*orbit_ : nullptr},

@@ -59,12 +59,12 @@ struct Mode {
   double omega = 0;       // ω_n of K v = ω_n² M v, undamped [rad/s]; for a mode of internal states |λ|
   Eigen::VectorXd shape;  // per coordinate, M-orthonormal
   EnergyShares shares;
-  std::complex<double> lambda;  // of the corresponding damped mode; 0 if none was found
-  double ratio = 1;             // ζ; 1: does not oscillate
-  double error = 0;             // of ω [rad/s]
-  double lambda_error = 0;      // of λ [1/s]
-  EnergyParts energy = {};      // of the damped mode
-  bool of_own_states = false;   // has no corresponding undamped mode: windings, controllers, slopes of motors
+  std::complex<double> lambda;      // of the corresponding damped mode; 0 if none was found
+  double ratio = 1;                 // ζ; 1: does not oscillate
+  double error = 0;                 // of ω [rad/s]
+  double lambda_error = 0;          // of λ [1/s]
+  EnergyParts energy = {};          // of the damped mode
+  bool of_internal_states = false;  // has no corresponding undamped mode: windings, controllers, slopes of motors
   // Of ω with the link held at angles of the cycle; equal if nothing depends on the angle.
   double least = 0, greatest = 0;
   // Of the periodic system, if coefficients or contacts change within the period: the difference to λ is the error of
@@ -72,7 +72,7 @@ struct Mode {
   std::vector<PeriodicSwing> periodic = {};
   // It decays within one period: a measured ring-down shows the frequency at the angle where it starts, between
   // `least` and `greatest`; the exponent's frequency is the mean over the period.
-  bool fades_within_round = false;
+  bool fades_within_cycle = false;
   bool only_of_mean = false;  // no vibration of the periodic system corresponds: contacts within the period remove it
   double magnitude() const { return lambda.imag() > 0 ? std::abs(lambda) : omega; }  // |λ| [rad/s]
 };
@@ -195,6 +195,10 @@ std::vector<ModesCase> find_cases(const Inquiry& inquiry, const std::vector<std:
 
 // Stresses of the joints that are shafts, with all cylinders firing.
 ShaftStresses stresses_of_sweep(const ModesStudy& study);
+
+// Frequencies [Hz] and damping ratios of the modes by name: "natural_frequency.1", "damped_frequency.1".
+struct Figure;
+std::vector<Figure> figures_of(const ModesStudy& study);
 
 // Number of modes that are natural frequencies of the drive; those of internal states follow them.
 std::size_t natural_modes(const ModesStudy& study);

@@ -106,11 +106,11 @@ std::string energy_text(const ModesStudy& m, const Mode& mode) {
 std::string nature_of(const ModesStudy& m, const Mode& mode) {
   double share[3] = {};
   for (const EnergyStore& store : energy_stores(m, mode)) share[static_cast<int>(store.kind)] += store.share;
-  std::string text = mode.of_own_states                          ? ""
+  std::string text = mode.of_internal_states                     ? ""
                      : m.drive.at.angle && m.drive.at.speed == 0 ? "about the rest"
                                                                  : "torsional";
   static const char* const words[] = {"mechanical", "electrical", "of control"};
-  for (int kind = mode.of_own_states ? 0 : 1; kind < 3; ++kind)
+  for (int kind = mode.of_internal_states ? 0 : 1; kind < 3; ++kind)
     if (share[kind] >= of_weight) text += fmt::format("{}{}", text.empty() ? "" : " and ", words[kind]);
   return text.empty() ? "of internal states" : text;
 }

@@ -8,6 +8,7 @@
 
 #include "engine/numerics/index.h"
 #include "studies/findings/figure_text.h"
+#include "studies/findings/result.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/margins/margins_findings.h"
 #include "studies/modes/campbell.h"
@@ -86,7 +87,7 @@ Rows mode_table(const ModesStudy& m) {
                          })
       .only_for_programs("natural_frequency", [](const Mode& mode) { return hertz(mode.omega); })
       .only_for_programs("error", [](const Mode& mode) { return hertz(mode.error); })
-      .only_for_programs("of_own_states", &Mode::of_own_states)
+      .only_for_programs("of_internal_states", &Mode::of_internal_states)
       .only_for_programs("nature", [&](const Mode& mode) { return nature_of(m, mode); })
       .only_for_programs("energy", [&](const Mode& mode) { return energy_list(m, mode); })
       .only_for_programs("held",
@@ -111,7 +112,7 @@ Rows mode_table(const ModesStudy& m) {
                   [](const Mode& mode) { return mode.only_of_mean || !mode.periodic.empty(); }))
     table.only_for_people("periodic system [Hz], ζ", periodic_text)
         .only_for_programs("periodic", periodic_list)
-        .only_for_programs("fades_within_round", &Mode::fades_within_round)
+        .only_for_programs("fades_within_cycle", &Mode::fades_within_cycle)
         .only_for_programs("only_of_mean", &Mode::only_of_mean);
   if (m.drive.size() <= static_cast<Eigen::Index>(most_for_programs))
     table
@@ -239,7 +240,7 @@ Record operating_point(const ModesStudy& m) {
   return {{"speed", m.drive.at.speed},
           {"link", m.link},
           {"mode_set", m.drive.mode_set},
-          {"regime", m.orbit},
+          {"steady_motion", m.orbit},
           {"torque_left_over", m.drive.mean_torque}};
 }
 
@@ -298,10 +299,10 @@ std::optional<double> swing_error(const ModesStudy& m, std::size_t j) {
 void add_key_figures(Findings& f, const ModesStudy& m) {
   for (std::size_t k = 0; k < m.modes.size() && k < 4; ++k) {
     const Mode& mode = m.modes[k];
-    std::string note = mode.of_own_states ? nature_of(m, mode) : "";
+    std::string note = mode.of_internal_states ? nature_of(m, mode) : "";
     if (mode.lambda.imag() > 0) note += fmt::format("{}ζ = {:.3g}", note.empty() ? "" : ", ", mode.ratio);
     f.key(fmt::format("mode {}", mode.number), {hertz(mode.omega), hertz(mode.error)},
-          mode.of_own_states ? "internal_frequency" : "natural_frequency", note, 6);
+          mode.of_internal_states ? "internal_frequency" : "natural_frequency", note, 6);
   }
   if (!is_forced(m)) return;
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
@@ -351,6 +352,9 @@ void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
   f.tell("shafts", m.shaft_names);
   f.tell("joints", joint_list(m));
   f.tell("count_of_modes_up_to_the_last", m.undamped.counted_below);
+  f.tell("figures", each(figures_of(m), [](const Figure& x) {
+           return Record{{"name", x.name}, {"value", x.value}, {"unit", x.unit}, {"error", x.error}};
+         }));
   if (m.modes.empty()) return;
   f.draw(in, [&m] { return mode_plots(m); });
   if (!m.rests_at && natural_modes(m) > 0) f.show(in, rayleigh(m));

@@ -347,7 +347,7 @@ class Reducer : MachineOnBasis {
         r_.notes.push_back(
             fmt::format("\"{}\" turns backwards: torques count along its motion, M_d > 0 drives it on", r_.link));
       if (r_.mean_drive.value < -r_.mean_drive.error.value_or(rounding * std::abs(r_.mean_drive.value)))
-        r_.notes.push_back(fmt::format("the drive brakes in the mean: it takes {} from the machine",
+        r_.notes.push_back(fmt::format("the drive brakes on average: it takes {} from the machine",
                                        with_unit(-r_.mean_drive.value * along_->cycle().mean_speed(), "W", 4)));
       return;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
@@ -26,7 +27,7 @@ std::string conclusion_of(const MachineReduction& r) {
     return fmt::format("Reduced to {}, the machine has {:.5g} {}{}", r.to, least ? least->inertia : 0.0,
                        pretty_unit(names_of(r).inertia_unit),
                        r.turns_back ? " or more, infinite in the dead centres" : "");
-  if (r.basis == CycleBasis::regime)
+  if (r.basis == CycleBasis::steady)
     return fmt::format("Reduced to {}, the machine has {:.5g} … {:.5g} kg·m² along its steady cycle", r.to,
                        least ? least->inertia : 0.0, most ? most->inertia : 0.0);
   return fmt::format(
@@ -42,7 +43,7 @@ struct Quantity {
   std::function<double(const ReducedPosition&)> value;
 };
 
-// Values of each position; rounding errors relative to the largest of their kind are set to zero.
+// Values of each position; rounding errors relative to the largest of their unit are set to zero.
 std::vector<Quantity> quantities_of(const MachineReduction& r) {
   const ReducedNames n = names_of(r);
   const std::string i = pretty_unit(n.inertia_unit), t = pretty_unit(n.torque_unit);
@@ -54,11 +55,13 @@ std::vector<Quantity> quantities_of(const MachineReduction& r) {
                                 {n.torque + "_c", t, &ReducedPosition::load}};
   for (const std::size_t k : acting(r))
     list.push_back({r.accounts[k], {}, [k](const ReducedPosition& p) { return p.share[k]; }});
-  for (Quantity& q : list) {
-    double largest = 0;
+  std::map<std::string, double> of_unit;  // shares are torques
+  for (const Quantity& q : list)
     for (const ReducedPosition& p : r.positions)
-      if (p.singular.empty()) largest = std::max(largest, std::abs(q.value(p)));
-    q.value = [value = q.value, largest](const ReducedPosition& p) {
+      if (double& largest = of_unit[q.unit.value_or(t)]; p.singular.empty())
+        largest = std::max(largest, std::abs(q.value(p)));
+  for (Quantity& q : list) {
+    q.value = [value = q.value, largest = of_unit[q.unit.value_or(t)]](const ReducedPosition& p) {
       const double v = value(p);
       return std::abs(v) < 1e-12 * largest ? 0.0 : v;
     };
@@ -260,7 +263,7 @@ void tell_all(Findings& f, const MachineReduction& r) {
   f.tell("speed_ratio", r.to_output ? Value() : Value(r.to_ratio));
   f.tell("speed", Record{{"value", r.speed}, {"unit", "rad/s"}, {"source", r.speed_source}});
   f.tell("units", Record{{"inertia", n.inertia_unit}, {"torque", n.torque_unit}, {"angle", "rad"}});
-  f.tell("basis", r.basis == CycleBasis::classical ? "classical" : "regime");
+  f.tell("basis", r.basis == CycleBasis::classical ? "classical" : "steady");
   f.tell("errors", Record{{"reduced_inertia", r.inertia_error},
                           {"driving_torque", r.drive_error},
                           {"resisting_torque", r.load_error}});

@@ -31,7 +31,7 @@
   }
   const letters = text => text.replace(/<.*?>/g, '').length;
   const needsPower = v => v !== 0 && (Math.abs(v) < 1e-4 || Math.abs(v) >= 1e6);
-  const shortNumber = v => needsPower(v) ? withPower(v, 3) : `${+v.toPrecision(3)}`.replace('-', '−');
+  const shortNumber = v => needsPower(v) ? withPower(v, 4) : `${+v.toPrecision(4)}`.replace('-', '−');
 
   // --- plots ---------------------------------------------------------------------------------------------------------
   const plots = [];
@@ -136,7 +136,7 @@
       ...points, type: 'scatter', mode: 'markers', name: m.name, showlegend: false,
       marker: {
         color: points.x.map((_, i) => i ? low : high), cmin: low, cmax: high, opacity: 0, size: 8, showscale: true, colorscale: viridis.map((c, i) => [i / (viridis.length - 1), `rgb(${c})`]),
-        colorbar: {title: {text: m.unit ? `${m.name} [${m.unit}]` : m.name, side: 'right', font: {size: 12}}, thickness: 12, outlinewidth: 0, tickfont: {size: 11}, exponentformat: 'power'},
+        colorbar: {title: {text: m.unit ? `${m.name} [${m.unit}]` : m.name, side: 'right', font: {size: 12}}, thickness: 12, outlinewidth: 0, tickfont: {size: 11}, exponentformat: 'power', minexponent: 5},
       },
       hovertemplate: `${plot.x.label} %{x:.4~g} ${plot.x.unit}<br>${plot.y.label} %{y:.4~g} ${plot.y.unit}<br>%{text}<extra></extra>`,
     };
@@ -261,7 +261,7 @@
   function layoutOf(plot) {
     const axis = (given, along) => ({
       title: {text: plain(broken(withUnit(given), lengthOf(plot, along) / 6.8)), font: {size: 13}, standoff: 6}, type: given.log ? 'log' : 'linear', gridcolor: colour('grid'), zerolinecolor: colour('line'),
-      linecolor: colour('line'), ticks: 'outside', tickcolor: colour('line'), automargin: true, exponentformat: 'power', hoverformat: '.6~g', ...ticksOf(plot, given, along),
+      linecolor: colour('line'), ticks: 'outside', tickcolor: colour('line'), automargin: true, exponentformat: 'power', minexponent: 5, hoverformat: '.6~g', ...ticksOf(plot, given, along),
     });
     const layout = {
       paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},

@@ -67,6 +67,7 @@ struct Excitations {
   double misfit = 0;  // relative error of the interpolation, over the largest amplitude
   std::vector<std::string> notes;
 
+  bool none() const { return by_order.empty() && by_frequency.empty(); }
   bool is_looked_at(std::size_t harmonic) const { return counts.empty() || counts[harmonic]; }
   double order(std::size_t harmonic) const { return fundamental * static_cast<double>(harmonic); }
   const std::vector<OrderSource>& at_speed(double w) const { return w == speed && !here.empty() ? here : by_order; }

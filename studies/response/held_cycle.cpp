@@ -150,7 +150,7 @@ class CycleSearch {
     } catch (const OutOfTime& out) {
       if (out.budget() != options_.seconds) throw;
       out_.found = false;
-      out_.why = "the search took more time than it may" + on_the_way();
+      out_.why = "the search exceeded its time limit" + on_the_way();
     }
     out_.cost = motion_.cost;
     return std::move(out_);

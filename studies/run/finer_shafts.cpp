@@ -26,9 +26,10 @@ double add_shaft_errors(std::vector<Figure>& figures, std::vector<Figure>& state
 std::vector<std::string> shaft_error_notes(double change, double accuracy, const std::string& why) {
   if (!why.empty()) return {"what the cut of continuous shafts leaves open is not in the errors: " + why};
   if (change <= accuracy) return {};
-  return {fmt::format(
-      "how continuous shafts are cut is worth up to {:.1e} of the figures' scales; their errors have it in them",
-      change)};
+  return {
+      fmt::format("the number of segments of continuous shafts changes figures by up to {:.1e} of their scales; the "
+                  "errors include it",
+                  change)};
 }
 
 }  // namespace kurbel

@@ -22,18 +22,13 @@ KeyFigure key_of(const Figure& f, const std::string& note, const SpeedUnit& spee
   return {f / speed.size, in_words(f), speed.name, note, 0, f.name};
 }
 
-std::string processor_time_in_words(const Result& r) {
-  const double seconds = r.statistics.cpu_seconds;
-  return seconds < 1 ? with_unit(1e3 * seconds, "ms", 3) : with_unit(seconds, "s", 3);
-}
-
 // --- one run ---
 
 Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_terminal) {
   using F = const Figure&;
   std::erase_if(figures, [&](F f) { return !is_told(f, r); });
   const SpeedUnit speed = speed_unit_of(r);
-  const auto cells = [&](F f, int digits) { return figure_cells(f, f.unit, speed, digits); };
+  const auto cells = [&](F f, int digits) { return figure_cells(without_rounding(f, f.scale), f.unit, speed, digits); };
   auto table = table_of("", fmt::format("All figures, {} model, with their measured errors (theory 15.1)", r.label),
                         std::move(figures))
                    .always()
@@ -204,7 +199,7 @@ std::vector<KeyFigure> key_figures_of(const Result& r) {
     figures.push_back(key_of(f, f.what == quantities::peak_torque ? at_time(f) : "", speed_unit_of(r)));
   }
   figures.push_back(key_figure("coordinates", {static_cast<double>(r.coordinates)}, "coordinates",
-                               processor_time_in_words(r) + " of processor time a run"));
+                               duration_text(r.statistics.cpu_seconds) + " of processor time a run"));
   return figures;
 }
 
@@ -230,7 +225,7 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
   const bool short_run = c.b.statistics.cpu_seconds < 1;
   const Estimate time{(short_run ? 1e3 : 1) * c.b.statistics.cpu_seconds};
   figures.push_back({time, "processor time of a run", short_run ? "ms" : "s",
-                     fmt::format("{}: {}", c.a.label, processor_time_in_words(c.a)), 3, "processor_time"});
+                     fmt::format("{}: {}", c.a.label, duration_text(c.a.statistics.cpu_seconds)), 3, "processor_time"});
   return figures;
 }
 

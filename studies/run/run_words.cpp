@@ -121,8 +121,8 @@ std::vector<std::string> model_words(const Result& r) {
   std::vector<std::string> lines = {
       fmt::format("{}: {} coordinate{}, {} — {}", r.label, r.coordinates, r.coordinates == 1 ? "" : "s",
                   r.effects == "none" ? "no effects on" : "effects: " + r.effects, r.statistics.method),
-      fmt::format("  {}; {} steps, {:.3g} ms of processor time a run, {} run{}", r.statistics.reason,
-                  r.statistics.stepper.steps, 1e3 * r.statistics.cpu_seconds, r.runs, r.runs == 1 ? "" : "s")};
+      fmt::format("  {}; {} steps, {} of processor time a run, {} run{}", r.statistics.reason,
+                  r.statistics.stepper.steps, duration_text(r.statistics.cpu_seconds), r.runs, r.runs == 1 ? "" : "s")};
   if (const std::string limits = told(r.statistics.limits); !limits.empty())
     lines.push_back("  what kept the steps short: " + limits);
   if (!r.complete) lines.push_back("  INCOMPLETE: " + r.diagnosis);

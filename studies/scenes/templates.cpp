@@ -83,7 +83,7 @@ const std::vector<SceneTemplate>& scene_templates() {
       {"axle", "driven axle: cardan shaft at an angle, differential", axle()},
       {"gears", "spur gears with varying tooth stiffness, run up through resonance", gears()},
       {"rig", "back-to-back gear rig: a closed loop of shafts with locked-in torque", rig()},
-      {"screw", "screw press: flywheel on the spindle, a blow that spends its energy", screw()},
+      {"screw", "screw press: flywheel on the spindle, a stroke that spends its energy", screw()},
       {"jack", "screw jack whose thread locks itself", jack()},
       {"steam", "double-acting steam engine: a cylinder drives the slider, no motor turns", steam()},
       {"unloader", "double-acting compressor: started unloaded, its ends loaded one by one, emergency stop",

@@ -50,7 +50,7 @@ std::vector<std::size_t> judged_shafts(const std::vector<LimitedJoint>& joints);
 // For a joint that is a shaft: τ_a and τ_r at one speed [Pa].
 double summed_stress(const LimitedJoint& joint, const JointResponse& response);
 double order_stress(const LimitedJoint& joint, Complex order);
-// The smaller of the maker's limit and τ_C, at a speed of the link; infinite without limits.
+// The smaller of the manufacturer's limit and τ_C, at a speed of the link; infinite without limits.
 double allowed_amplitude(const LimitedJoint& joint, double speed);
 
 // Per shaft the sum of all orders, then the orders that reach 1 % of it at some speed, the strongest first.

@@ -99,7 +99,7 @@ void draw_limits(const ShaftStresses& s, std::size_t j, Plot& plot) {
     plot.series.push_back(dashed(curve_of(s, s.normal, name, role, value)));
   };
   if (shaft.vibratory)
-    limit("allowed by its maker", Role::vermillion, [&](const SpeedResponse&) { return *shaft.vibratory; });
+    limit("allowed by its manufacturer", Role::vermillion, [&](const SpeedResponse&) { return *shaft.vibratory; });
   if (!shaft.is_of_propulsion()) return;
   limit("τ_C, continuous (UR M68)", Role::vermillion,
         [&](const SpeedResponse& r) { return joint.continuous(r.speed); });

@@ -110,7 +110,7 @@ class Reach {
       take(orbit, as, by, sized_by);
       meet_if_missed(as, by, orbit, effects);
     } else if ((s_.operating && !(orbit.stops && as == SizedModel::rigid)) ||
-               (s_.basis == CycleBasis::regime && !s_.held)) {
+               (s_.basis == CycleBasis::steady && !s_.held)) {
       s_.complete = false;
       s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, orbit.why);
     } else {
@@ -127,7 +127,7 @@ class Reach {
     const double off = orbit.crank.value / s_.delta - 1;
     constexpr double missed = 0.01, far_smoother = -0.5;
     const bool heavier = off > missed;
-    const bool lighter = s_.basis == CycleBasis::regime && off < -missed && off > far_smoother;
+    const bool lighter = s_.basis == CycleBasis::steady && off < -missed && off > far_smoother;
     if ((by == SizedBy::constant_drive || s_.stalls) && last && !s_.meeting && (heavier || lighter))
       meet(as, orbit, effects);
   }

@@ -273,7 +273,7 @@ Record punch_record(const PunchPress& p) {
 
 void tell_basis(Findings& f, const Sizing& s) {
   f.tell("link", s.link);
-  f.tell("basis", s.basis == CycleBasis::classical ? "classical" : "regime");
+  f.tell("basis", s.basis == CycleBasis::classical ? "classical" : "steady");
   f.tell("delta", Record{{"demanded", s.delta}, {"source", s.delta_source}});
   f.tell("mid_speed", Record{{"value", s.mid_speed}, {"unit", "rad/s"}, {"source", s.mid_speed_source}});
   f.tell("flywheel", Record{{"component", s.flywheel},
@@ -284,7 +284,7 @@ void tell_basis(Findings& f, const Sizing& s) {
                             {"in_scene", s.flywheel_now},
                             {"speed_ratio", s.flywheel_ratio},
                             {"delta_in_scene", s.delta_now},
-                            {"delta_of_regime_in_scene", s.delta_of_orbit}});
+                            {"delta_of_steady_cycle_in_scene", s.delta_of_orbit}});
   f.tell("work_diagram", Record{{"work", s.diagram.work},
                                 {"mean_torque", s.diagram.mean_torque()},
                                 {"fluctuation", s.diagram.fluctuation()},

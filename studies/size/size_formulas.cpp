@@ -9,7 +9,7 @@
 
 namespace kurbel {
 std::string basis_of(const Sizing& s) {
-  if (s.basis == CycleBasis::regime)
+  if (s.basis == CycleBasis::steady)
     return s.engine ? "at the torques of its steady cycle"
                     : "at constant driving torque and the loads of its steady cycle";
   return s.engine ? "at torques of the angle alone" : "at constant driving torque";
@@ -104,7 +104,7 @@ Formulas dimension_formulas(const FlywheelDimensions& d) {
 Formulas motor_formulas(const Sizing& s) {
   Formulas list;
   if (s.with_motor)
-    list.add(s.operating->drive_slope < 0 ? "The drive gives way: its torque rises as the speed falls"
+    list.add(s.operating->drive_slope < 0 ? "The drive's speed yields: its torque rises as the speed falls"
                                           : "The drive does not give way: what holds the speed is the load",
              "d(½ I ω²)/dφ = M_d − M_c,   ω(Φ) = ω(0)", "δ = {:.6g} instead of {:g}, at a mid speed of {:.6g} rad/s",
              s.with_motor->crank.value, s.delta, s.with_motor->mid_speed)

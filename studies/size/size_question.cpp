@@ -32,10 +32,10 @@ OptionsOf<SizeOptions> options() {
            &Asked::mid_speed)
       .add(
           {.name = "basis",
-           .doc = "classical (constant drive torque, loads of the rigid machine at constant speed) or regime (loads of "
+           .doc = "classical (constant drive torque, loads of the rigid machine at constant speed) or steady (loads of "
                   "the steady cycle with the scene's effects; default where the classical one omits an effect)"},
           &Asked::basis,
-          std::vector{std::pair("classical", CycleBasis::classical), std::pair("regime", CycleBasis::regime)})
+          std::vector{std::pair("classical", CycleBasis::classical), std::pair("steady", CycleBasis::steady)})
       .add({.name = "flywheel", .doc = "component to size (default: the scene's flywheel, else one on the crank)"},
            &Asked::flywheel)
       .add({.name = "form", .doc = "rim (on spokes; default) or disc"}, &Asked::form,

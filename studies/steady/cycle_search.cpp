@@ -193,7 +193,7 @@ class Search {
         motion.last.end != ReturnMap::End::returned ? trial_ended(motion.newton, out_.why) : out_.why;
     out_.end = ReturnMap::End::failed;
     const std::string asked =
-        fmt::format("with which \"{}\" turns at {} in the mean", out_.model->node_label(out_.model->reduction_node),
+        fmt::format("with which \"{}\" turns at {} on average", out_.model->node_label(out_.model->reduction_node),
                     out_.model->scene.speed_unit.text(speed, 5));
     out_.why = options_.hold_by.empty()
                    ? fmt::format(

@@ -119,7 +119,7 @@ List orders_for_programs(const SteadyCycle& c) {
     return Record{{"name", of.channel.text},
                   {"unit", of.unit},
                   {"mean", of.mean},
-                  {"captured_of_swing", told.empty() ? Value() : Value(of.captured(told))},  // of rounding: nothing
+                  {"captured_of_amplitude", told.empty() ? Value() : Value(of.captured(told))},  // of rounding: nothing
                   {"orders", each(told, [](const Order& o) {
                      const std::optional<Estimate> phase = o.phase();
                      return Record{{"order", o.order},

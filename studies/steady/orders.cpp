@@ -233,7 +233,7 @@ OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, do
   const std::optional<double> lowest = lowest_order(turned);
   if (!lowest)
     return {.none = fmt::format("no orders: in the period of the motion \"{}\" turns {:.6g} times, which is no whole "
-                                "number, so that what comes again is at another angle each time",
+                                "number, so that what repeats is at another angle each time",
                                 link, std::abs(turned) / turn)};
   const std::vector<OrderChannel> channels = channels_with_orders(m);
   OrderIntegrals integrals(m, channels, *lowest, turned, vibration);

@@ -4,7 +4,7 @@
 //     x(φ) = x̄ + Σ a_r cos(r φ − ψ_r),   a_r e^(−iψ_r) = (2/Φ) ∫ x(φ) e^(−irφ) dφ                    (theory 11.10)
 // φ: the link's angle; Φ: its angle per period; r: multiples of 2π/Φ, halves for two turns. The integrals are evaluated
 // on the solution itself, by Gauss points within every step. For a vibration about a fixed position with the period T,
-// φ is 2π t/T, from the begin of the period if no law defines it; and there are orders of the shafts' angles.
+// φ is 2π t/T, from the start of the period if no law defines it; and there are orders of the shafts' angles.
 #pragma once
 
 #include <complex>

@@ -218,7 +218,7 @@ class Study {
     if (const std::string none = out_.diagram->why_none(out_.link); !none.empty()) return none;
     const OperatingPoint* p = out_.diagram->working_point();
     if (p && cycle.kind == Orbit::Kind::at_rest)
-      return fmt::format("stall: in the mean the drive would hold {} ({}), but from the scene's own start {}",
+      return fmt::format("stall: on average the drive would hold {} ({}), but from the scene's own start {}",
                          scene_.speed_unit.text(p->speed.value, 5), with_unit(p->torque.value, "N*m", 4), cycle.why);
     return cycle.why;
   }

@@ -46,7 +46,7 @@ Rows figure_table(const SteadyStudy& s) {
   for (const SteadyCycle& c : s.cycles)
     table.value_and_error(c.label, [&](const std::string& name, int digits) {
       const Figure* f = c.find(name);
-      return f ? figure_cells(*f, f->unit, speed, digits) : FigureCells{"—", "", ""};
+      return f ? figure_cells(without_rounding(*f, f->scale), f->unit, speed, digits) : FigureCells{"—", "", ""};
     });
   return table.only_for_people("unit", [&](const std::string& name) {
     std::string unit;
@@ -113,7 +113,7 @@ List drive_list(const SteadyCycle& c) {
 Record cycle_record(const SteadyCycle& c) {
   Record r = {{"label", c.label}, {"effects", c.effects}, {"found", c.found}};
   if (!c.orbit.empty())
-    r.push_back({"regime", Record{{"kind", name_of(c.kind)}, {"words", c.orbit}, {"rounds", c.rounds}}});
+    r.push_back({"steady_motion", Record{{"kind", name_of(c.kind)}, {"words", c.orbit}, {"cycles", c.rounds}}});
   const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   if (!c.found) {
     tell("why", c.why);
@@ -135,7 +135,7 @@ Record cycle_record(const SteadyCycle& c) {
                                  {"unit", c.held_quantity->unit}});
   tell("statistics", Record{{"unknowns", c.unknowns},
                             {"section", c.section},
-                            {"rounds", c.point.rounds},
+                            {"iterations", c.point.rounds},
                             {"derivatives", c.point.derivatives},
                             {"cost_in_cycles", c.cost},
                             {"cost_allowed", c.cost_limit},

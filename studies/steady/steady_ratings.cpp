@@ -38,7 +38,7 @@ void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
 void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
   if (!c.loads.found) return;
   RunUp none;
-  none.words = "kurbel modes judges the start, and kurbel run what it runs through";
+  none.words = "kurbel modes judges the start, kurbel run the load cases of its run";
   const std::vector<LimitedJoint> joints = limited_joints(*c.model);
   const auto head = [](const Verdict& v) { return v.requirement.substr(0, v.requirement.find(':')); };
   for (Verdict& v : judge(joints, c.loads, none, {}, c.model->scene.speed_unit)) {

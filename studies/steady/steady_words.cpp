@@ -16,13 +16,13 @@
 namespace kurbel {
 namespace {
 
-std::string number(double value, int digits = 6) { return fmt::format("{:.{}g}", value, digits); }
+std::string number(double value, int digits = headline_digits) { return fmt::format("{:.{}g}", value, digits); }
 
 std::string percent(double part) { return fmt::format("{:.4g} %", 100 * part); }
 
 // Rounding errors relative to the other slope are set to zero.
 std::string beside(double value, double other) {
-  return number(std::abs(value) < 1e-9 * std::abs(other) ? 0.0 : value, 4);
+  return number(std::abs(value) < 1e-9 * std::abs(other) ? 0.0 : value);
 }
 
 }  // namespace
@@ -46,20 +46,23 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   if (!c.orbit.empty()) words.push_back(fmt::format("{}: {}", name_of(c.kind), c.orbit));
   words.push_back(fmt::format(
       "{} unknown{} on the section at {:.4g}°; {}{} cycle{} of Newton's method ({} with derivative), cost {:.3g} "
-      "cycles (target {:.0f}{}), {:.3g} ms; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
-      c.unknowns, c.unknowns == 1 ? "" : "s", c.section * in_degrees,
+      "cycles (target {:.0f}{}), {}; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
+      c.unknowns, c.unknowns == 1 ? "" : "s", std::abs(c.section) < 1e-9 ? 0 : c.section * in_degrees,
       c.rounds > 0 ? fmt::format("a run of {} cycle{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
       c.point.rounds, c.point.rounds == 1 ? "" : "s", c.point.derivatives, c.cost, c.cost_limit,
-      c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; mostly the run-up" : "", 1e3 * c.cpu_seconds,
+      c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; mostly the run-up" : "", duration_text(c.cpu_seconds),
       c.point.residual, c.work_residual));
   if (c.point.grazed)
     words.push_back("an event is only just touched on the way: there the multipliers depend on the side");
+  const auto torque = [&c](double of_motor) {
+    return told_shortly(without_rounding({of_motor}, c.model->torque_scale).value, "N*m");
+  };
   for (const MotorUse& m : c.motors)
-    words.push_back(fmt::format("drive \"{}\": torque {} in the mean, {} RMS, {} at most{}", m.component,
-                                with_unit(m.mean, "N*m", 5), with_unit(m.rms, "N*m", 5), with_unit(m.peak, "N*m", 5),
-                                m.rated ? fmt::format("; thermal use RMS/rated = {} of {}", percent(*m.thermal()),
-                                                      with_unit(*m.rated, "N*m", 5))
-                                        : ""));
+    words.push_back(fmt::format(
+        "drive \"{}\": mean torque {}, RMS {}, peak {}{}", m.component, torque(m.mean), torque(m.rms), torque(m.peak),
+        m.rated
+            ? fmt::format("; thermal use RMS/rated = {} of {}", percent(*m.thermal()), told_shortly(*m.rated, "N*m"))
+            : ""));
   if (!c.added_at.empty())
     words.push_back(fmt::format("the demanded speed needs {} N·m beside the scene's drive at \"{}\"{}",
                                 number(c.added_torque), c.added_at,
@@ -106,17 +109,17 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   std::vector<std::string> words;
   const OperatingDiagram& d = *s.diagram;
   for (const OperatingPoint& p : d.points)
-    words.push_back(fmt::format("Operating point {}{} at {}, {}: dM_d/dω = {} {} dM_c/dω = {} N·m·s/rad",
-                                d.estimate ? "about " : "", with_error(p.speed / d.speed_unit.size, d.speed_unit.name),
-                                with_error(p.torque, "N*m"), p.stable() ? "stable" : "unstable",
-                                beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥",
-                                beside(p.load_slope, p.drive_slope)));
+    words.push_back(headline(
+        fmt::format("Operating point {}{} at {}, {}: dM_d/dω = {} N·m·s/rad {} dM_c/dω = {} N·m·s/rad",
+                    d.estimate ? "about " : "", with_error(p.speed / d.speed_unit.size, d.speed_unit.name),
+                    with_error(p.torque, "N*m"), p.stable() ? "stable" : "unstable",
+                    beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope))));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p).value > 1 + 1e-6)
-    words.push_back(fmt::format("Margin: the drive gives at most {} in the mean (at {}), {}",
-                                with_unit(d.strongest.value, "N*m", 5), d.speed_unit.text(d.strongest_at, 5),
-                                std::isfinite(d.margin(*p).value)
-                                    ? with_error(d.margin(*p), "") + " times what it needs"
-                                    : "and it needs nothing"));
+    words.push_back(headline(
+        fmt::format("Margin: the drive's mean torque is at most {} (at {}), {}", with_unit(d.strongest.value, "N*m"),
+                    std::abs(d.strongest_at) < 1e-4 * p->speed.value ? "standstill" : d.speed_unit.text(d.strongest_at),
+                    std::isfinite(d.margin(*p).value) ? with_error(d.margin(*p), "") + " times what it needs"
+                                                      : "and it needs nothing")));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;
 }
@@ -130,14 +133,14 @@ std::vector<std::string> words_of_start(const SteadyStudy& s) {
   std::vector<std::string> words;
   if (s.start)
     words.push_back(s.start->reached ? fmt::format("Start: from rest to 95 % of the steady speed in {}",
-                                                   with_error(s.start->time, "s"))
+                                                   headline(with_error(s.start->time, "s")))
                                      : "Start: " + s.start->why);
   for (const RatioSearch& r : s.ratios)
     words.push_back(fmt::format(
-        "Fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best, 5), r.gearbox,
-        r.at_bound ? " (the end of what was tried)" : "", with_unit(r.best_time, "s", 5),
-        r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present, 5), with_unit(r.present_time, "s", 5))
-                           : fmt::format("with its ratio of {} the machine does not start", number(r.present, 5))));
+        "Fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best), r.gearbox,
+        r.at_bound ? " (the end of what was tried)" : "", told_shortly(r.best_time, "s"),
+        r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present), told_shortly(r.present_time, "s"))
+                           : fmt::format("with its ratio of {} the machine does not start", number(r.present))));
   return words;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -191,17 +190,7 @@ MachineAnswer answer_of_modes(const MachineQuestion& q, const Scene& scene) {
   if (!study.complete) return {RowState::failed, study.diagnosis, {}};
   MachineAnswer answer;
   if (study.start_unknown) answer.state = RowState::unconfirmed, answer.diagnosis = study.orbit;
-  const auto frequency = [&](const char* name, const std::string& number, double omega, double error) {
-    constexpr double hertz = 0.5 / std::numbers::pi;
-    answer.figures.push_back({{omega * hertz, error * hertz}, name + number, "Hz"});
-  };
-  for (const Mode& mode : study.modes) {
-    const std::string number = std::to_string(mode.number);
-    frequency(mode.of_own_states ? "internal_frequency." : "natural_frequency.", number, mode.omega, mode.error);
-    if (mode.lambda.imag() <= 0) continue;
-    frequency("damped_frequency.", number, mode.lambda.imag(), mode.lambda_error);
-    answer.figures.push_back({{mode.ratio}, "damping_ratio." + number});
-  }
+  answer.figures = figures_of(study);
   return answer;
 }
 

@@ -40,10 +40,10 @@ OptionsOf<ReduceAsked> options() {
             .domain = positive},
            &ReduceOptions::speed)
       .add({.name = "basis",
-            .doc = "classical (rigid machine at constant speed) or regime (the steady cycle with the scene's effects; "
+            .doc = "classical (rigid machine at constant speed) or steady (the steady cycle with the scene's effects; "
                    "default where the classical one omits an effect)"},
            &ReduceOptions::basis,
-           std::vector{std::pair("classical", CycleBasis::classical), std::pair("regime", CycleBasis::regime)})
+           std::vector{std::pair("classical", CycleBasis::classical), std::pair("steady", CycleBasis::steady)})
       .add({.name = "orders", .doc = "harmonics up to this order (default: 12)", .domain = {.low = 1, .high = 1000}},
            &ReduceOptions::orders)
       .add(sheet_options(), &ReduceAsked::sheet)

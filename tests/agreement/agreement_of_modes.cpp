@@ -47,7 +47,7 @@ std::vector<ToldSwing> swings_told(const ModesStudy& study) {
     if (mode != study.modes.end() && !mode->periodic.empty()) {
       for (const PeriodicSwing& s : mode->periodic) {
         told = {s.exponent.imag(), -s.exponent.real(), s.error};
-        if (mode->fades_within_round)
+        if (mode->fades_within_cycle)
           told.least = mode->least / mode->omega, told.greatest = mode->greatest / mode->omega;
         list.push_back(told);
       }

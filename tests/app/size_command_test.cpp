@@ -44,6 +44,14 @@ class Folder {
   fs::path path_;
 };
 
+TEST(SizeCommand, AnotherBasisIsRefusedWithThoseThatAre) {
+  for (const std::string command : {"size", "reduce"}) {
+    const Said said = kurbel(command + " " + press + " --basis regime");
+    EXPECT_EQ(said.code, 2);
+    EXPECT_NE(said.text.find("--basis \"regime\": must be classical or steady"), std::string::npos) << said.text;
+  }
+}
+
 TEST(SizeCommand, WritesAReportWithEveryFormulaAndEndsWithZero) {
   const Folder folder;
   const Said said = kurbel("size " + press + " --delta 0.08 --diagram '240 mm'" + folder.option());

@@ -229,7 +229,7 @@ TEST(BeyondTables, ReducedTorquesFromOutsideHaveNoErrors) {
     EXPECT_EQ(says_outside(conclusion(output_of(r))), outside) << conclusion(output_of(r));
   }
   ReduceOptions options;
-  options.basis = CycleBasis::regime;
+  options.basis = CycleBasis::steady;
   const MachineReduction r = reduce(press_known_over(part, shunt), options);
   EXPECT_FALSE(r.mean_load.error || r.inertia_error);
   EXPECT_TRUE(says_outside(conclusion(output_of(r))));

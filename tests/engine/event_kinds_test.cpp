@@ -104,15 +104,16 @@ TEST(WordsOfWhatIsHeld, TellWhatActsWithoutExponents) {
   };
   EXPECT_EQ(words(-1.022e-10, 0, 0),
             "\"gear\" is held at the end by gear: no torque acts, and any torque would move it");
-  EXPECT_EQ(
-      words(1e-9, -3e-9, 12),
-      "\"gear\" is held at the end by gear: 0 N·m act; forwards: up to 12 N·m are held, 12 N·m more would move it; "
-      "backwards: any torque would move it");
-  EXPECT_EQ(
-      words(-14700, -50000, 36250.4),
-      "\"gear\" is held at the end by gear: -14700 N·m act; forwards: up to 36250 N·m are held, 50950 N·m more would "
-      "move it; backwards: up to -50000 N·m are held, 35300 N·m more would move it");
-  EXPECT_NE(words(2.5e-5, -1e-4, 1.5).find(": 0.000025 N·m act; forwards: up to 1.5 N·m"), std::string::npos);
+  EXPECT_EQ(words(1e-9, -3e-9, 12),
+            "\"gear\" is held at the end by gear: the acting torque is 0 N·m; forwards: up to 12 N·m are held, 12 N·m "
+            "more would move it; "
+            "backwards: any torque would move it");
+  EXPECT_EQ(words(-14700, -50000, 36250.4),
+            "\"gear\" is held at the end by gear: the acting torque is -14700 N·m; forwards: up to 36250 N·m are held, "
+            "50950 N·m more would "
+            "move it; backwards: up to -50000 N·m are held, 35300 N·m more would move it");
+  EXPECT_NE(words(2.5e-5, -1e-4, 1.5).find(": the acting torque is 0.000025 N·m; forwards: up to 1.5 N·m"),
+            std::string::npos);
 }
 
 }  // namespace

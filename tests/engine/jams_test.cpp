@@ -234,10 +234,10 @@ TEST(Jams, ARestSaysWhatHoldsItAndWhatIsMissing) {
       "static_torque = \"15 N*m\" }\nrun = { until = \"1 s\" }\n",
       false);
   ASSERT_TRUE(r.complete) << r.diagnosis;
-  EXPECT_TRUE(
-      has_note(r,
-               "held at the end by bearing: 9 N·m act; forwards: up to 15 N·m are held, 6 N·m more would move it; "
-               "backwards: up to -15 N·m are held, 24 N·m more would move it"))
+  EXPECT_TRUE(has_note(r,
+                       "held at the end by bearing: the acting torque is 9 N·m; forwards: up to 15 N·m are held, 6 N·m "
+                       "more would move it; "
+                       "backwards: up to -15 N·m are held, 24 N·m more would move it"))
       << (r.notes.empty() ? "no notes" : r.notes.front());
 }
 

@@ -50,7 +50,7 @@ REST = {"end": "rests", "speed_at_end": 0.0, "steady": "no", "held_at_end": True
         "drives_at_end": False}
 NEVER = {**REST, "moves": False, "fastest": 0.0, "rests_since": 0.0}
 NOTHING = {"complete": True, "conclusion": "", "cycles": []}
-HELD = ['"press" is held at the end by brake: -8.8 N·m act; forwards: up to 12 N·m are held, 21 N·m more would move it']
+HELD = ['"press" is held at the end by brake: the acting torque is -8.8 N·m; forwards: up to 12 N·m are held, 21 N·m more would move it']
 HOT = {"component": "clutch", "what": "heat", "value": 12.0, "limit": 10.0, "unit": "J"}
 TELLS = {"component": "clutch", "requirement": "heat of an engagement: W ≤ W_allowable", "value": 12.0, "limit": 10.0, "verdict": "exceeded"}
 MOTOR = {"component": "motor", "kind": "induction motor", "rated_torque": 20.0, "rated_speed": 30.0, "torque": 12.0, "speed": 30.0, "command": 1.0,

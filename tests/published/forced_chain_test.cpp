@@ -101,7 +101,7 @@ std::string periodic_start(const std::vector<std::string>& names, const Eigen::V
   return text + " }";
 }
 
-TEST(GearedForcedChain, PeriodicRegimeHasTheAmplitudesOfTheClosedForm) {
+TEST(GearedForcedChain, SteadyMotionHasTheAmplitudesOfTheClosedForm) {
   const Validation is(Against::closed_form,
                       "Chain of motor, gear and two inertias under a harmonic torque: complex amplitudes (case el04)");
   const double omega = two_pi * 5, geared = 0.1 * 10 * 10 + 2;  // motor's inertia counts with i²

@@ -22,6 +22,8 @@ TEST(FigureText, EndsWhereTheErrorBegins) {
   EXPECT_EQ(shown(-19.6, 3), "-20 ± 4");
   EXPECT_EQ(shown(7, 0), "7 ± 0");
   EXPECT_EQ(shown(1e-3, 0.3), "0.0 ± 0.4");
+  EXPECT_EQ(shown(1, 14), "0 ± 15");
+  EXPECT_EQ(shown(1e-13, 1.1e-12), "0 ± 1.2e-12");
   EXPECT_EQ(shown(1.23456e-7, 3e-11), "1.2346e-07 ± 4e-11");
 }
 

@@ -23,7 +23,7 @@ constexpr double same_physics = 1e-10;  // of the largest torque: what tables of
 
 // Reactions and crank torque of the steady motion are those of a long settled run, within their errors: friction of bearings,
 // losses of gears, currents, elastic shafts, slipping brakes, and a rod that bends.
-TEST(ForcesOfTheRegime, AreThoseOfALongSettledRun) {
+TEST(ForcesOfTheSteadyMotion, AreThoseOfALongSettledRun) {
   for (const char* name : {"exact_bearing", "dc_with_current", "slender_rod_small", "swings/drag_and_bearing",
                            "swings/worm_losses_shaft", "swings/two_axis_motor_shaft"}) {
     const agreement::Row row =
@@ -36,7 +36,7 @@ TEST(ForcesOfTheRegime, AreThoseOfALongSettledRun) {
 }
 
 // The steady motion does not know for how long the scene would have run.
-TEST(ForcesOfTheRegime, DoNotDependOnTheLengthOfTheRun) {
+TEST(ForcesOfTheSteadyMotion, DoNotDependOnTheLengthOfTheRun) {
   Scene scene = test::scene_file("tests/agreement/exact_bearing.toml");
   const Forces a = find_forces(scene, {});
   scene.run.until = 0.01;
@@ -66,7 +66,7 @@ TEST(SpeedRange, IsThatOfTheMotionBetweenSamples) {
 
 // And they are those of the steady cycle, within both errors; so are the works of the loads, where a joint with clearance
 // moves otherwise than the ideal one that forces are found for.
-TEST(ForcesOfTheRegime, HaveTheSpeedsAndWorksOfTheSteadyCycle) {
+TEST(ForcesOfTheSteadyMotion, HaveTheSpeedsAndWorksOfTheSteadyCycle) {
   const auto expect_steady = [](const std::string& name, const ForceCycle& forces, const std::string& link) {
     const Scene scene = test::scene_file(name);
     const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
@@ -91,7 +91,7 @@ TEST(ForcesOfTheRegime, HaveTheSpeedsAndWorksOfTheSteadyCycle) {
 }
 
 // Behind an elastic machine's curves stand those of the rigid one: what the study says of it alone, to the last bit.
-TEST(ForcesOfTheRegime, OfTheRigidMachineStandBehind) {
+TEST(ForcesOfTheSteadyMotion, OfTheRigidMachineStandBehind) {
   const Scene scene = test::scene_file("tests/agreement/swings/worm_losses_shaft.toml");
   ForcesOptions options;
   options.rigid_behind = true;
@@ -160,7 +160,7 @@ accuracy = 1e-9
 )";
 
 // A press that makes a stroke each 2 s turns at 30 rpm in the mean, though it stands in none of its positions.
-TEST(ForcesOfTheRegime, CountTheTimeThatStrokesAreApart) {
+TEST(ForcesOfTheSteadyMotion, CountTheTimeThatStrokesAreApart) {
   const Forces f = find_forces(test::scene_from(R"(
     line = ["motor", "gear", "wheel", "clutch", "press"]
     motor = { kind = "dc shunt motor", stall_torque = "120 N*m", no_load_speed = "1000 rpm", inertia = "0.05 kg*m2" }
@@ -178,7 +178,7 @@ TEST(ForcesOfTheRegime, CountTheTimeThatStrokesAreApart) {
 }
 
 // What coasts keeps no motion: the cycle before and the ones to come lie within the errors of the one that is shown.
-TEST(ForcesWithoutARegime, HaveAnErrorThatHoldsTheNextCycle) {
+TEST(ForcesWithoutASteadyMotion, HaveAnErrorThatHoldsTheNextCycle) {
   const Forces now = find_forces(test::scene_from(fmt::format(fmt::runtime(coasting), 1.2)), {}),
                later = find_forces(test::scene_from(fmt::format(fmt::runtime(coasting), 1.5)), {});
   ASSERT_TRUE(now.simulated && later.simulated);
@@ -197,7 +197,7 @@ TEST(ForcesWithoutARegime, HaveAnErrorThatHoldsTheNextCycle) {
 }
 
 // Two cranks, one at twice the speed: the machine comes again after two cycles of the fast one, which its peaks know.
-TEST(ForcesOfTheRegime, GoOnUntilTheWholeMachineComesAgain) {
+TEST(ForcesOfTheSteadyMotion, GoOnUntilTheWholeMachineComesAgain) {
   const Scene scene = test::scene_from(R"(
 line = ["motor", "fast", "gear", "slow"]
 [motor]
@@ -241,7 +241,7 @@ until = "1 s"
 }
 
 // --positions chooses rows of a table and nothing else, in the simulated motion of every mechanism.
-TEST(ForcesOfTheRegime, HavePeaksThatNoPositionsMove) {
+TEST(ForcesOfTheSteadyMotion, HavePeaksThatNoPositionsMove) {
   for (const char* name : {"four_bar_small", "knuckle_small", "whitworth_small"}) {
     const Scene scene = test::scene_file(fmt::format("tests/agreement/{}.toml", name));
     ForcesOptions coarse, fine;

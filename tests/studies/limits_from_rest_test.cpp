@@ -207,7 +207,7 @@ TEST(LimitsFromRest, VerdictIsUndecidedWhereItsLimitLiesWithinTheError) {
 // --- the alternating part ---
 
 // DIN 740-2: T_W = T_Ai V_f J_L/(J_A + J_L), V_f² = (1 + (ψ/2π)²)/((1 − (f/f_e)²)² + (ψ/2π)²); P_W = ½ c (ω θ)².
-TEST(LimitsInTheRegime, AlternatingTorqueIsTheAmplificationOfTheStandard) {
+TEST(LimitsInSteadyMotion, AlternatingTorqueIsTheAmplificationOfTheStandard) {
   constexpr double damping = 3, amplitude = 10, temperature = 1.2;
   for (const double ratio : {0.5, 1.0, 1.4}) {
     const double natural = 80 / (2 * pi), f = ratio * natural;

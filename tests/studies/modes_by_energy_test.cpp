@@ -49,9 +49,9 @@ TEST(ModesByEnergy, AnElectricalModeBelowTheFirstTorsionalOneIsNoNaturalFrequenc
   ASSERT_EQ(natural_modes(m), 1u);
   const Mode &spring = m.modes[0], &winding = m.modes[1];
   EXPECT_NEAR(spring.omega, torsional(900), 1e-9 * spring.omega);
-  EXPECT_FALSE(spring.of_own_states);
+  EXPECT_FALSE(spring.of_internal_states);
   EXPECT_EQ(modes::nature_of(m, spring), "torsional");
-  EXPECT_TRUE(winding.of_own_states);
+  EXPECT_TRUE(winding.of_internal_states);
   EXPECT_LT(winding.omega, 0.2 * spring.omega);
   EXPECT_EQ(modes::nature_of(m, winding), "mechanical and electrical");
   EXPECT_EQ(spring.number, 1);

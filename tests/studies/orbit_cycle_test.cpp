@@ -36,7 +36,7 @@ fan     = { kind = "load", quadratic = "0.05 N*m*s2/rad2", inertia = "0.6 kg*m2"
 // The motor: 60 (1 − ω/40) = 9, the fan: 0.05 ω² = 9.
 TEST(OrbitCycle, LoadBehindASlippingLimiterIsItsLimit) {
   const MachineReduction r = reduce(test::scene_from(slipping), {});
-  EXPECT_EQ(r.basis, CycleBasis::regime);
+  EXPECT_EQ(r.basis, CycleBasis::steady);
   const double motor = 34, fan = std::sqrt(9 / 0.05);
   EXPECT_NEAR(r.speed, motor, 1e-9 * motor);
   EXPECT_NEAR(r.mean_drive.value, 9, 1e-9);
@@ -141,9 +141,9 @@ work   = {{ kind = "load", table = {{ over = "angle", unit = ["rad", "N*m"], poi
 )",
                                        high, low, mean + 20 * 4.0, 20 + mean / 4, test::digits(2 * pi));
   SizeOptions options;
-  options.delta = 0.05, options.simulate = false, options.basis = CycleBasis::regime;
+  options.delta = 0.05, options.simulate = false, options.basis = CycleBasis::steady;
   const Sizing s = size_flywheel(test::scene_from(text), options);
-  EXPECT_EQ(s.basis, CycleBasis::regime);
+  EXPECT_EQ(s.basis, CycleBasis::steady);
   const double area = (high - mean) * part;
   EXPECT_NEAR(s.diagram.fluctuation(), area, 3e-4 * area);
   EXPECT_NEAR(s.exact.inertia, area / (s.mid_speed * s.mid_speed * 0.05), 3e-4 * s.exact.inertia);
@@ -152,7 +152,7 @@ work   = {{ kind = "load", table = {{ over = "angle", unit = ["rad", "N*m"], poi
 }
 
 // What is said to meet the demanded δ has it: the steady motion of the scene with that flywheel, from the scene's own start.
-TEST(OrbitCycle, FlywheelThatMeetsTheDemandHasItInTheRegime) {
+TEST(OrbitCycle, FlywheelThatMeetsTheDemandHasItInTheSteadyCycle) {
   for (const char* name : {"gearbox_losses_crank", "rubber_branches_crank", "governor_crank"}) {
     const Scene scene = test::scene_file(fmt::format("tests/agreement/{}.toml", name));
     SizeOptions options;
@@ -237,12 +237,12 @@ TEST(OrbitCycle, PressWithItsClutchInIsSizedAsItIsThen) {
   sizing.at.after_step = 3;
   const Sizing s = size_flywheel(scene, sizing);
   EXPECT_EQ(s.methods.front().flywheel, by_itself.methods.front().flywheel);
-  EXPECT_EQ(s.basis, CycleBasis::regime);
+  EXPECT_EQ(s.basis, CycleBasis::steady);
   EXPECT_TRUE(s.needed);
   ReduceOptions reducing;
   reducing.at.after_step = 3;
   const MachineReduction r = reduce(scene, reducing);
-  EXPECT_EQ(r.basis, CycleBasis::regime);
+  EXPECT_EQ(r.basis, CycleBasis::steady);
   EXPECT_NEAR(r.mean_drive.value, r.mean_load.value, 1e-6 * r.mean_load.value);
 }
 
@@ -253,7 +253,7 @@ TEST(OrbitCycle, RefusalsAreOfPhysics) {
       test::scene_from(test::with(held, "torque = \"10 N*m\", slipping_part = 0.9", "torque = \"90 N*m\""));
   SizeOptions options;
   options.delta = 0.05;
-  options.basis = CycleBasis::regime;
+  options.basis = CycleBasis::steady;
   // It turns steadily, and a smooth load needs no flywheel.
   EXPECT_FALSE(size_flywheel(stands, options).needed);
   const Scene stalled = test::scene_from(test::with(

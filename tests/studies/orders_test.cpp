@@ -101,7 +101,7 @@ TEST(Orders, OfWhatDoesNotVibrateContainNothing) {
   const auto json = nlohmann::json::parse(output_of(steady(scene, {scene.effects}, {})).json());
   int still = 0;
   for (const auto& of : json.at("cycles").at(0).at("orders")) {
-    EXPECT_EQ(of.at("captured_of_swing").is_null(), of.at("orders").empty()) << of.at("name");
+    EXPECT_EQ(of.at("captured_of_amplitude").is_null(), of.at("orders").empty()) << of.at("name");
     still += of.at("orders").empty() ? 1 : 0;
   }
   EXPECT_GE(still, 1);

@@ -84,7 +84,7 @@ run = { start = "rest", until = "20 s" }
       0, -2.1 / 0.06, 0, -0.8 / 0.06;
   expect_eigenvalues(m, a, 1e-9);
   ASSERT_EQ(m.modes.size(), 2u);
-  EXPECT_EQ(std::count_if(m.modes.begin(), m.modes.end(), [](const Mode& x) { return x.of_own_states; }), 1);
+  EXPECT_EQ(std::count_if(m.modes.begin(), m.modes.end(), [](const Mode& x) { return x.of_internal_states; }), 1);
 }
 
 // The base of a spring whose speed swings by A: τ = s X/(1 − s/(J ω²)), X = A/(iω), s = k + iωc.
@@ -167,7 +167,7 @@ line = ["ring_shaft", "film"]
 
 // The same torque on two inertias: the mode lies where it does whatever the stuck clutch stands between, and a slipping one
 // parts them.
-TEST(SmallMotions, ClutchThatSlipsInTheRegimePartsTheDrive) {
+TEST(SmallMotions, ClutchThatSlipsInTheSteadyMotionPartsTheDrive) {
   const auto scene = [](const char* torque) {
     return fmt::format(R"(
 line = ["motor", "clutch", "disc", "coupling", "brake"]

@@ -163,7 +163,7 @@ TEST(Steady, MemberOfTheFreeCranksFamilyKeepsItsEnergy) {
   EXPECT_NEAR(c.point.largest(), 1, 1e-8);
 }
 
-// 2 kN over 100 mm a turn take 200 J/2π = 31.831 N·m in the mean; the source gives 20.
+// 2 kN over 100 mm a turn take 200 J/2π = 31.831 N·m on average; the source gives 20.
 TEST(Steady, DemandedSpeedOfAFamilyNeedsTheMeanLoadTorque) {
   const Scene scene =
       scene_from("line = [\"source\", \"crank\"]\nsource = { kind = \"torque source\", torque = \"20 N*m\" }\n" +
@@ -223,7 +223,7 @@ TEST(Steady, PeakLoadThatStopsALightMachineIsAStallWithinTheCycle) {
       crank + press_load);
   const SteadyStudy study = steady(scene, {Effects{}}, {});
   EXPECT_FALSE(study.complete);
-  EXPECT_TRUE(has(study.diagnosis, "stall: in the mean the drive would hold")) << study.diagnosis;
+  EXPECT_TRUE(has(study.diagnosis, "stall: on average the drive would hold")) << study.diagnosis;
   EXPECT_TRUE(has(study.diagnosis, "comes to rest at")) << study.diagnosis;
 }
 

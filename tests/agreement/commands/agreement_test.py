@@ -39,7 +39,7 @@ def cycle(label, effects, kind="cycle", **changes):
                "cycle_max_speed.crank": 31.0, "cycle_min_speed.crank": 29.0, "cycle_peak_torque.coupling": 40.0,
                "driving_work_per_cycle": 30.0, "work_per_cycle.motor (driving)": 30.0, "work_per_cycle.crank.load (useful)": -28.0,
                "cycle_motor_power.motor": 150.0, "cycle_rms_torque.coupling": 12.0, "rms_drive_torque.motor": 10.0}
-    return {"label": label, "effects": effects, "found": True, "stable": True, "regime": {"kind": kind, "words": "comes again"},
+    return {"label": label, "effects": effects, "found": True, "stable": True, "steady_motion": {"kind": kind, "words": "comes again"},
             "multipliers": [{"magnitude": 0.1, "error": 1e-9}], "figures": [f(n, v) for n, v in {**figures, **changes}.items()],
             "drives": [{"component": "motor", "rated_torque": 20.0, "thermal_use": 0.5}]}
 
@@ -71,7 +71,7 @@ SUMMARIES = {
     "steady": STEADY,
     "size": {"link": "crank", "basis": "classical", "mid_speed": {"value": 30.5, "source": "operating speed of the motor"},
              "work_diagram": {"mean_torque": 5.0}, "flywheel": {"component": "flywheel", "added": False, "needed": True,
-                                                               "delta_of_regime_in_scene": 0.05},
+                                                               "delta_of_steady_cycle_in_scene": 0.05},
              "reached": [{"model": "elastic, simulated", "sized_by": "Wittenbauer", "flywheel": 7.0, "settled": True,
                           "delta_crank": 0.05, "delta_crank_error": 1e-9, "mid_speed": SPEED}]},
     "steady resized 1": STEADY,
@@ -87,13 +87,13 @@ SUMMARIES = {
 # Where a pair asks for another kind of machine than the one above.
 EQUILIBRIUM = {**SUMMARIES, "steady": {**STEADY, "cycles": [cycle("elastic", FULL, "equilibrium")]}, "modes": {
     **SUMMARIES["modes"], "modes": [{"number": 1, "error": 1e-9, "damped": {"real": math.log(0.1) / PERIOD, "imaginary": 40.0}}]}}
-OF_REGIME = {**SUMMARIES, "reduce": {**SUMMARIES["reduce"], "basis": "regime", "harmonics": [{"name": "driving torque M_d", "orders": [
+OF_CYCLE = {**SUMMARIES, "reduce": {**SUMMARIES["reduce"], "basis": "steady", "harmonics": [{"name": "driving torque M_d", "orders": [
     {"order": 0.0, "amplitude": 30.0 / (SPEED * PERIOD), "phase": 0.0, "error": 1e-9}]}], "speed": {
         "value": SPEED, "source": "along the steady cycle that the scene's own start leads to: its mid speed"}}}
 AT_REST = {**run(), "conclusion": "rests at 9 s", "periods": {**run()["periods"], "standstill": 9.0}}
 RESTS = {**SUMMARIES, "run": AT_REST, "compare": {"models": {"elastic": AT_REST}, "conclusion": ""}, "steady": {
     **STEADY, "cycles": [{"label": "elastic", "effects": FULL, "found": False, "why": "the machine comes to rest at 9 s and stays there",
-                          "regime": {"kind": "at rest", "words": ""}, "figures": []}]}}
+                          "steady_motion": {"kind": "at rest", "words": ""}, "figures": []}]}}
 
 
 def told_of(summaries):
@@ -148,14 +148,14 @@ def found(told, of=("contradictions",)):
 
 class PlantedValues(unittest.TestCase):
     def test_where_all_agree_nothing_is_found(self):
-        for summaries in (SUMMARIES, EQUILIBRIUM, OF_REGIME, RESTS):
+        for summaries in (SUMMARIES, EQUILIBRIUM, OF_CYCLE, RESTS):
             judged = judge(told_of(summaries))
             self.assertEqual([str(c) for c in (*judged.contradictions, *judged.without_error)], [])
             self.assertGreater(sum(judged.compared.values()), 10)
 
     def test_every_pair_finds_one(self):
         seen = set()
-        for summaries in (SUMMARIES, EQUILIBRIUM, OF_REGIME, RESTS):
+        for summaries in (SUMMARIES, EQUILIBRIUM, OF_CYCLE, RESTS):
             told = told_of(summaries)
             for path, value in list(leaves(told.cells)):
                 wrong = planted(value, path)

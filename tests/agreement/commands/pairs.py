@@ -305,7 +305,7 @@ def settled_and_steady(told):
             x, y = works[0].get(component, 0), works[1][component]
             yield Same(f"work of {component}", Value(y, error + more * abs(y - x), f"run settled work_by_component.{component}", turnover(cycle)),
                        Value(sum_, error, f"steady work_per_cycle.{component}", turnover(cycle)))
-    yield Words("the machine that is run on is steady", f"run settled: {runs[1]['conclusion'][:160]}", f"steady: {cycle['regime']['words']}",
+    yield Words("the machine that is run on is steady", f"run settled: {runs[1]['conclusion'][:160]}", f"steady: {cycle['steady_motion']['words']}",
                 not re.search(r"runs away|stalls|does not start|comes to rest|rests at", runs[1]["conclusion"]))
 
 
@@ -340,10 +340,10 @@ def size_and_present(told):
     if not size or not steady:
         return
     # The work equation is an estimate; that of the motion is `steady`'s of the scene's effects.
-    value, link = size["flywheel"].get("delta_of_regime_in_scene"), size["link"]
+    value, link = size["flywheel"].get("delta_of_steady_cycle_in_scene"), size["link"]
     cycle = steady["cycles"][-1]
     if number(value) and cycle.get("found") and (other := cycle_values(cycle).get(f"delta.{link}")):
-        yield Same("δ as the scene is", Value(value, None, "size flywheel.delta_of_regime_in_scene"), other)
+        yield Same("δ as the scene is", Value(value, None, "size flywheel.delta_of_steady_cycle_in_scene"), other)
 
 
 def operating_speeds(told):
@@ -380,7 +380,7 @@ def order_of(reduced, name, order):
 def reduce_and_steady(told):
     """Along the steady cycle `reduce` has its speed, and its torques' means are the works over the angle."""
     reduced, pair = told.get("reduce"), same_effects(told.answers)
-    if not reduced or not pair or not pair[0].get("found") or reduced["basis"] != "regime" or reduced["reduced_to"] != reduced["link"]:
+    if not reduced or not pair or not pair[0].get("found") or reduced["basis"] != "steady" or reduced["reduced_to"] != reduced["link"]:
         return
     cycle, link = cycle_values(pair[0]), reduced["link"]
     speed = cycle.get(f"mid_speed.{link}" if "mid speed" in reduced["speed"]["source"] else f"mean_speed.{link}")
@@ -456,14 +456,14 @@ def modes_and_steady(told):
             reach = abs(abs(r["mean"]) - r["cycle_peak"]), abs(r["mean"]) + r["cycle_peak"]
             yield Same(f"peak torque in {r['joint']}, within {reach[0]:.6g} … {reach[1]:.6g}", Value(
                 min(max(abs(peak.value), reach[0]), reach[1]), None, "modes response mean, cycle_peak"), absolute(peak))
-        elif rms and number(r["mean"]) and not r["cycle_peak"] and pair[0]["regime"]["kind"] == "equilibrium":
+        elif rms and number(r["mean"]) and not r["cycle_peak"] and pair[0]["steady_motion"]["kind"] == "equilibrium":
             yield Same(f"mean torque in {r['joint']}", Value(abs(r["mean"]), None, "modes response mean"), rms)
 
 
 def modes_and_multipliers(told):
     """At an equilibrium a period leaves e^(λT) of a deviation by mode λ."""
     modes, pair = told.get("modes"), same_effects(told.answers)
-    if not modes or not pair or not pair[0].get("found") or pair[0]["regime"]["kind"] != "equilibrium":
+    if not modes or not pair or not pair[0].get("found") or pair[0]["steady_motion"]["kind"] != "equilibrium":
         return
     cycle = pair[0]
     period, multipliers = figure(cycle["figures"], "period"), cycle.get("multipliers") or ()
