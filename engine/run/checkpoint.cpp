@@ -15,13 +15,13 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, on_si
                                    next_step, armed_time, armed_angle, last_step_time, round_began)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory::Recent, time, fired)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory, implicit, last_event, last_jam, events_here, jams_here, shortened,
-                                   last_step, recent, held_needed)
+                                   last_step, recent, held_needed, explicit_step)
 
 namespace {
 
 using Json = nlohmann::json;
 
-const char* const kind = "kurbel checkpoint 4";
+const char* const kind = "kurbel checkpoint 5";
 
 std::vector<std::string> names_of(const Equations& equations) {
   std::vector<std::string> names;

@@ -46,7 +46,7 @@ class MethodChoice {
   std::string reason_;
   int changes_ = 0;
   int held_ = 0, implicit_steps_ = 0;
-  double explicit_step_ = 0, trial_begin_ = 0;
+  double implicit_since_ = 0, window_begin_ = 0;  // [s]
 };
 
 // Methods of SUNDIALS.

@@ -30,7 +30,8 @@ struct LoopMemory {
   int events_here = 0, jams_here = 0;     // at one instant
   double shortened = 0, last_step = 0;    // [s]
   std::deque<Recent> recent;              // events, to detect chattering
-  int held_needed = 200;                  // explicit steps limited by stability before implicit ones are tried
+  int held_needed = 20;                   // explicit steps limited by stability before implicit ones are tried
+  double explicit_step = 0;               // length at which stability held them [s]
   bool operator==(const LoopMemory&) const = default;
 };
 

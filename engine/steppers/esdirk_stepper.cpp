@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/steppers/sundials_common.h"
 #include "engine/steppers/sundials_stepper.h"
@@ -18,6 +19,8 @@ struct ReleaseArkstep {
 class EsdirkStepper final : public SundialsStepper {
  public:
   EsdirkStepper(int order, OdeSystem& system, const ErrorControl& control);
+  void interpolate(double t, std::span<double> y) override;
+  double interpolate(double t, std::size_t state) override;
 
  private:
   int reinit(double t, N_Vector y, double first_step) override;
@@ -29,10 +32,14 @@ class EsdirkStepper final : public SundialsStepper {
   int shorten_to(double t) override;
   static int converged(SUNNonlinearSolver newton, N_Vector y, N_Vector correction, double part, N_Vector weights,
                        void* self) noexcept;
+  void prepare_dense_output();
+  double between(double t, std::size_t state) const;
 
   Owned<SUNNonlinearSolver> newton_;
   std::unique_ptr<void, ReleaseArkstep> memory_;
   double last_correction_ = 0;
+  std::vector<double> slope_begin_, slope_end_;  // of the library's cubic through the last step
+  bool dense_is_ready_ = false;
 };
 
 // The library's own test, but for corrections within the round-off of their state: there the iteration has found what
@@ -106,6 +113,7 @@ int EsdirkStepper::reinit(double t, N_Vector y, double first_step) {
 }
 
 int EsdirkStepper::evolve(double t_stop, N_Vector y, double& t) {
+  dense_is_ready_ = false;
   const int flag = ARKStepSetStopTime(memory_.get(), t_stop);
   return flag < 0 ? flag : ARKStepEvolve(memory_.get(), t_stop, y, &t, ARK_ONE_STEP);
 }
@@ -126,6 +134,34 @@ int EsdirkStepper::shorten_to(double t) {
   if (flag >= 0) flag = evolve(t, state_.get(), reached);
   const int back = ARKStepSetFixedStep(m, 0.0);
   return flag < 0 ? flag : back;
+}
+
+// The library's cubic, by its slopes at both ends: asked for them once in a step, it is evaluated here state by state.
+void EsdirkStepper::prepare_dense_output() {
+  if (std::exchange(dense_is_ready_, true)) return;
+  for (auto [t, slope] : {std::pair{t_previous_, &slope_begin_}, std::pair{t_, &slope_end_}}) {
+    check(ARKStepGetDky(memory_.get(), t, 1, scratch_.get()));
+    *slope = scratch_values_;
+  }
+}
+
+double EsdirkStepper::between(double t, std::size_t i) const {
+  const double h = t_ - t_previous_, x = (t - t_previous_) / h, rise = y_[i] - y_previous_[i];
+  const double first = h * slope_begin_[i], last = h * slope_end_[i];
+  return y_previous_[i] + x * (rise + (1 - x) * (first - rise + x * (2 * rise - first - last)));
+}
+
+void EsdirkStepper::interpolate(double t, std::span<double> y) {
+  if (t >= t_ || t <= t_previous_ || !has_dense_output_) return SundialsStepper::interpolate(t, y);
+  prepare_dense_output();
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = between(t, i);
+}
+
+double EsdirkStepper::interpolate(double t, std::size_t state) {
+  if (t >= t_) return y_[state];
+  if (t <= t_previous_ || !has_dense_output_) return y_previous_[state];
+  prepare_dense_output();
+  return between(t, state);
 }
 
 }  // namespace

@@ -100,6 +100,7 @@ class SundialsStepper : public Stepper {
   double step_end_ = 0;  // of the last step as it was accepted
   bool restart_ = true;  // t_ and y_ must be passed to the library before it continues
   double good_step_ = 0;
+  bool has_dense_output_ = false;
   double rate_of_convergence_ = 1;  // of Newton's iteration, since its matrix was made
 
  private:
@@ -122,7 +123,6 @@ class SundialsStepper : public Stepper {
   mutable Slope slope_, slope_previous_;               // evaluated on demand
   std::int64_t& flow_calls_ = statistics_.flow_calls;  // includes these evaluations
 
-  bool has_dense_output_ = false;
   bool cut_ = false;  // the last step was shorter than needed by accuracy
   bool started_ = false;
   long failed_attempts_ = 0;
