@@ -64,18 +64,21 @@ class Decomposer {
   }
 
  private:
-  // The smallest set that adds no freedom; where that is part of one with more joints than it needs, this one.
+  // The smallest set that adds no freedom, no part of which is held too often; where that is part of one with more joints
+  // than it needs, this one.
   std::optional<Links> next_group(Links left, Links known) const {
     std::vector<Links> subsets;
     for (Links sub = left; sub; sub = (sub - 1) & left) subsets.push_back(sub);
     std::stable_sort(subsets.begin(), subsets.end(), [](Links a, Links b) { return count_of(a) < count_of(b); });
-    std::optional<Links> exact, over;
+    std::optional<Links> exact;
+    std::vector<Links> over;
     for (const Links sub : subsets) {
       const int freedom = 3 * count_of(sub) - 2 * joints(sub, known);
-      if (freedom == 0 && !exact) exact = sub;
-      if (freedom < 0 && !over) over = sub;
+      const auto within = [sub](Links part) { return (part & ~sub) == 0; };
+      if (freedom == 0 && !exact && std::none_of(over.begin(), over.end(), within)) exact = sub;
+      if (freedom < 0) over.push_back(sub);
     }
-    if (over && (!exact || (*exact & ~*over) == 0)) return over;
+    if (!over.empty() && (!exact || (*exact & ~over.front()) == 0)) return over.front();
     return exact;
   }
 
@@ -205,10 +208,12 @@ void tell_left_over(const LinkageSketch& s, const Decomposer& parts, Links left,
   const int actual = 3 * n - closure_rank(out);
   std::string count = fmt::format("degrees of freedom: 3·{} − 2·{} = {}", n, p, out.freedom);
   if (actual != out.freedom) count += fmt::format(", in this position {}", actual);
-  faults.push_back(
-      {"links", fmt::format("{}; must be 1. The driving link {} does not determine: {}; pin or guide one of "
-                            "them once more for each degree of freedom too many",
-                            count, s.links[index_of(s.driver)].name, names_of(left, s))});
+  for (const AssurGroup& g : out.groups)
+    if (g.superfluous > 0) count += fmt::format("; the links {} have {}", links_of(g, s), superfluous_of(g));
+  if (out.freedom != 1) count += "; must be 1";
+  faults.push_back({"links", fmt::format("{}. The driving link {} does not determine: {}; pin or guide one of "
+                                         "them once more for each degree of freedom too many",
+                                         count, s.links[index_of(s.driver)].name, names_of(left, s))});
 }
 
 }  // namespace

@@ -524,6 +524,35 @@ TEST(Linkage, WhatDoesNotMoveAsItShouldIsSaidInWords) {
   EXPECT_NE(fault_of(change).find("a change point"), std::string::npos) << fault_of(change);
 }
 
+// A rod between two points whose distance changes locks the linkage: whichever two, the closure too many is said, and what
+// needs it; no group is made of a link that is held too often and one that is held too rarely.
+TEST(Linkage, ARodTooManyIsSaidWhereverItIs) {
+  for (const SketchOf& linkage : {test::stephenson(), test::peaucellier()}) {
+    ASSERT_EQ(fault_of(linkage), "");
+    const int points = static_cast<int>(linkage.s.points.size());
+    int tried = 0;
+    for (int a = 0; a < points; ++a)
+      for (int b = 0; b < a; ++b) {
+        bool together = linkage.s.has(LinkageSketch::frame, a) && linkage.s.has(LinkageSketch::frame, b);
+        for (int k = 0; k < static_cast<int>(linkage.s.links.size()); ++k)
+          together = together || (linkage.s.has(k, a) && linkage.s.has(k, b));
+        if (together) continue;
+        SketchOf locked = linkage;
+        locked.s.links.insert(locked.s.links.end() - 1, {.name = "extra", .points = {a, b}});
+        ++locked.s.output.link;
+        const std::string fault = fault_of(locked);
+        EXPECT_NE(fault.find("1 closure more than they need"), std::string::npos) << a << " " << b << ": " << fault;
+        EXPECT_NE(fault.find("extra"), std::string::npos) << a << " " << b << ": " << fault;
+        ++tried;
+        SketchOf loose = locked;  // the count is right again, the linkage is not
+        loose.point('Z', 2, 1).s.links.push_back({.name = "tail", .points = {a, points}});
+        EXPECT_NE(fault_of(loose).find("does not determine: tail"), std::string::npos) << fault_of(loose);
+        EXPECT_EQ(fault_of(loose).find("= 1; must be 1"), std::string::npos) << fault_of(loose);
+      }
+    EXPECT_GT(tried, 5);
+  }
+}
+
 TEST(Linkage, ACrankThatLocksRocksWithinItsArc) {
   SketchOf of;
   of.point('O', 0, 0).point('A', 0, 0.3).point('B', 0.3, 0.35).point('C', 0.4, 0).frame("OC");
