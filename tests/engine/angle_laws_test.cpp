@@ -108,5 +108,36 @@ run = {{ until = "3 s", start = {{ speed = "20 rad/s", angle = "1 rad" }} }}
   }
 }
 
+// A pulse by a formula, in time or over the angle: J Δω = ∫ M dt = √π M₀ τ, and J (ω² − ω₀²)/2 = n √π M₀ σ after n pulses.
+TEST(Formulas, NarrowPulsesAreSeenByEveryMethod) {
+  struct Law {
+    const char *text, *extra;
+    double momentum, work;  // of all pulses within 60 rad [N·m·s], [N·m]
+  };
+  const double root = std::sqrt(pi);
+  for (const Law& law :
+       {Law{"5000 [N*m]*exp(-((t - 1.2345 [s])/0.001 [s])^2)", ", over = \"time\", range = [\"0 s\", \"3 s\"]",
+            root * 5, 0},
+        Law{"500 [N*m]*exp(-((angle - 1 [rad])/0.01 [rad])^2)", ", over = \"angle\"", 0, 10 * root * 5},
+        Law{"500 [N*m]*exp(-((angle - 5 [rad])/0.05 [rad])^2)", ", over = \"angle\"", 0, 9 * root * 25}})
+    for (const char* method : {"dopri5", "dop853", "esdirk5", "bdf"}) {
+      const Scene scene = test::scene_from(fmt::format(R"(
+line = ["wheel"]
+wheel = {{ kind = "flywheel", inertia = "400 kg*m2" }}
+push = {{ kind = "torque source", on = "wheel", table = {{ formula = "{}"{} }} }}
+run = {{ until = "3 s", start = {{ speed = "20 rad/s", angle = "0.1 rad" }} }}
+)",
+                                                       law.text, law.extra));
+      Equations equations(compile(scene, scene.effects), false);
+      RunOptions options;
+      options.tolerance = 1e-8, options.method = method, options.until = 3;
+      const RunOutcome out = integrate(equations, options, {});
+      ASSERT_TRUE(out.complete) << out.diagnosis;
+      const double speed = out.state[equations.speed_index(0)];
+      const double exact = law.work > 0 ? std::sqrt(400 + 2 * law.work / 400) : 20 + law.momentum / 400;
+      EXPECT_NEAR(speed, exact, 1e-6) << law.text << ", " << method;
+    }
+}
+
 }  // namespace
 }  // namespace kurbel::angle_laws_test
