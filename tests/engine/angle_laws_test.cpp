@@ -130,7 +130,7 @@ run = {{ until = "3 s", start = {{ speed = "20 rad/s", angle = "0.1 rad" }} }}
                                                        law.text, law.extra));
       Equations equations(compile(scene, scene.effects), false);
       RunOptions options;
-      options.tolerance = 1e-8, options.method = method, options.until = 3;
+      options.tolerance = 1e-10, options.method = method, options.until = 3;
       const RunOutcome out = integrate(equations, options, {});
       ASSERT_TRUE(out.complete) << out.diagnosis;
       const double speed = out.state[equations.speed_index(0)];
