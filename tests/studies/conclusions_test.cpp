@@ -349,6 +349,9 @@ TEST(KeyFigures, HoldWhatIsJudgedAndWhatTheMotorGives) {
     EXPECT_TRUE(has(drive, name)) << name;
   for (const char* name : {"delta.press", "mean_speed.press", "thermal_use.motor", "peak_torque.main_coupling"})
     EXPECT_TRUE(has(press, name)) << name;
+  // An angle is one within a turn; beyond it counts turns.
+  EXPECT_FALSE(has(chosen("hydraulic_winch"), "final_angle.motor"));
+  EXPECT_TRUE(has(chosen("pendulum_balance"), "final_angle.pendulum"));
 }
 
 }  // namespace
