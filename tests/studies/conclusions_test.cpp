@@ -319,7 +319,7 @@ TEST(Conclusion, AnIncompleteRunIsHeadlinedAsSuch) {
 }
 
 // An effect that is off and moves a key figure by two per cent or more stands in the conclusion, behind what runs.
-TEST(Conclusion, TellsWhichEffectThatIsOffWouldChangeTheAnswer) {
+TEST(Conclusion, ReportsWhichEffectThatIsOffWouldChangeTheAnswer) {
   const Scene scene = test::scene_file("scenes/crank_press.toml");
   SimulateOptions options;
   options.measure_error = false;
