@@ -5,6 +5,7 @@
 #include <string>
 
 #include "studies/findings/output.h"
+#include "studies/forces/forces_findings.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/modes/modes.h"
 #include "studies/reduce/reduce.h"
@@ -59,6 +60,15 @@ TEST(RoundingShown, IsZeroInAReducedMachine) {
   EXPECT_EQ(rounding_in(output_of(r).text()), "") << output_of(r).text();
   const std::string numbers = "M_r = −0.000401786 + 0.00133929 − 0.0009375 = 0 N·m";
   EXPECT_NE(html_of(output_of(r).report()).find(numbers), std::string::npos);
+}
+
+// In dead centres neither torque nor the guide's reaction is left of forces of kN.
+TEST(RoundingShown, IsZeroInDeadCentres) {
+  ForcesOptions options;
+  options.simulate = false;
+  const std::string text = output_of(find_forces(test::scene_file("docs/tasks/flywheel_sheet.toml"), options)).text();
+  EXPECT_EQ(rounding_in(text), "") << text;
+  EXPECT_EQ(text.find("e-08 "), std::string::npos) << text;
 }
 
 // A constant load excites nothing: there is no response to check.
