@@ -42,7 +42,7 @@ class RunWords {
       return claimed(
           Predicate::not_steady_yet,
           fmt::format(
-              "\"{}\" has not come to a steady motion by {}: {}{}", link(),
+              "\"{}\" has not reached a steady motion by {}: {}{}", link(),
               p_.run_down_begin ? seconds(*p_.run_down_begin) + ", where it begins to run down" : seconds(r_.until),
               p_.verdict, p_.standstill ? fmt::format("; it rests at {}{}", seconds(*p_.standstill), held()) : ""),
           link(), {.at = p_.run_down_begin.value_or(r_.until), .value = p_.remaining, .unit = "rad/s"});

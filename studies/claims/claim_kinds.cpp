@@ -59,7 +59,7 @@ constexpr std::array kinds = {
         "where it comes to 1.3 times the speed",
         "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
         "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
-        "changes by +6.5 % a sixteenth of the time, and that does not shrink",
+        "changes by +6.5 % per sixteenth of the time, and this change does not decrease",
         "run, compare"},
     ClaimKind{
         does_not_get_round, runs, fault, above,
@@ -120,7 +120,7 @@ constexpr std::array kinds = {
               "run, compare, steady"},
     ClaimKind{not_steady_yet, runs, note, anything, "the mid speed still has more than 0.1 % to go",
               "at: end of the run; value: what remains of the mid speed [rad/s]",
-              "\"motor\" has not come to a steady motion by 8 s: the mean speed is only within 0.852 % of its limit",
+              "\"motor\" has not reached a steady motion by 8 s: the mean speed is only within 0.852 % of its limit",
               "run, compare"},
     ClaimKind{moves, runs, note, anything,
               "the run is too short for any other claim; beyond 1.5 times the usual speed that is said",

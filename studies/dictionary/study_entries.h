@@ -100,10 +100,10 @@ inline constexpr Definition of_one_study[] = {
      "share of critical damping with which a mode dies out, by its eigenvalue at the operating point: what is left "
      "after a cycle is exp(−2πζ/√(1 − ζ²)); given for modes that oscillate",
      "ζ = −Re λ/|λ|", "the damping ratio that a coupling is given, which is of that coupling alone"},
-    {"largest_swing", "largest amplitude at that speed", "N*m", "", "12.7", "modes",
+    {"largest_amplitude", "largest amplitude at that speed", "N*m", "", "12.7", "modes",
      "the greatest of all joints' torque peaks above its mean in the steady forced motion of the linearised drive", "",
      "a peak torque: the mean is not in it, nor is anything not linear"},
-    {"spot_swing", "amplitude at a speed of the range, by the nonlinear cycle", "N*m", "", "12.13", "modes",
+    {"spot_amplitude", "amplitude at a speed of the range, by the nonlinear cycle", "N*m", "", "12.13", "modes",
      "the greatest departure of a joint's torque from its mean in the nonlinear cycle of the machine whose mean speed "
      "is held there, at the spot check where the linear response is off by most",
      "", "the steady motion: torques proportional to inertia hold the speed"},

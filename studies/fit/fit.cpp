@@ -333,7 +333,7 @@ class FitWork {
                                                         "machine lacks an effect, or the record errs",
                                                         std::sqrt(study_.chi_squared))
                                                   : ", as much as the scatter of cycles explains";
-    if (!study_.converged) study_.notes.push_back("the fit has not come to its end; give further starts (--starts 8)");
+    if (!study_.converged) study_.notes.push_back("the fit did not converge; give further starts (--starts 8)");
     double longest = 1;
     for (const ChannelResidual& r : study_.residuals) longest = std::max(longest, r.correlation_length);
     if (longest > 3)

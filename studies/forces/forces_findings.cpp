@@ -181,18 +181,23 @@ bool is_given(const Forces& f, const JointForces& j) {
 Rows position_table(const Forces& f, const ForceCycle& c) {
   auto table = table_of("", fmt::format("{}: {}", c.label, c.description), c.rows);
   table.headed(fmt::format("{}: {}", c.label, c.description)).text_in(0).always();
+  // A dead centre is located within rounding of its angle.
+  const auto or_nothing = [](double value, double peak) {
+    return std::abs(value) < 1e-9 * std::abs(peak) ? 0.0 : value;
+  };
   table.only_for_people("φ [°]", [](P p) { return degrees(p.forces.state.phi); }, {.digits = 5})
       .only_for_people("ω [rad/s]", [](P p) { return p.forces.state.omega; })
-      .only_for_people("M [N·m]", [&](P p) { return or_zero(p.forces.torque, c.torque.value); });
+      .only_for_people("M [N·m]", [&, or_nothing](P p) { return or_nothing(p.forces.torque, c.torque.value); });
   const double largest = heaviest(c).peak.value;
   for (std::size_t k = 0; k < c.rows.front().forces.joints.size(); ++k) {
     const JointForces& j = c.rows.front().forces.joints[k];
     table.only_for_people(fmt::format("{} [N]", j.name),
-                          [k, largest](P p) { return or_zero(force_of(p.forces.joints[k]), largest); });
+                          [k, largest, or_nothing](P p) { return or_nothing(force_of(p.forces.joints[k]), largest); });
     if (j.slides && is_given(f, j))
       table.only_for_people("at [mm]", [k](P p) { return p.forces.joints[k].point(); }, {.factor = 1e3, .digits = 4});
   }
-  table.only_for_people("shaking [N]", [&](P p) { return or_zero(p.forces.shaking_force.magnitude(), largest); });
+  table.only_for_people("shaking [N]",
+                        [&, or_nothing](P p) { return or_nothing(p.forces.shaking_force.magnitude(), largest); });
   if (f.friction)
     table.only_for_people("η", [](P p) {
       return p.power.efficiency() ? fmt::format("{:.4f}", *p.power.efficiency()) : std::string("—");

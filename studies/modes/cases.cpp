@@ -160,7 +160,7 @@ constexpr std::size_t curves_drawn = 6;
 struct LargestSwing {
   double peak = std::nan(""), speed = 0;
 };
-LargestSwing largest_swing(const ModesStudy& m, const std::string& joint) {
+LargestSwing largest_amplitude(const ModesStudy& m, const std::string& joint) {
   LargestSwing most;
   const auto place = std::find(m.joint_names.begin(), m.joint_names.end(), joint);
   const auto j = static_cast<std::size_t>(place - m.joint_names.begin());
@@ -222,7 +222,7 @@ Rows swing_table(const ModesStudy& m) {
     const std::string& joint = m.joint_names[j];
     std::vector<std::string>& line = lines.emplace_back(std::vector<std::string>{joint});
     for (const auto& [name, study] : variants_of(m)) {
-      const LargestSwing most = largest_swing(*study, joint);
+      const LargestSwing most = largest_amplitude(*study, joint);
       line.push_back(std::isnan(most.peak)
                          ? "—"
                          : fmt::format("{} at {}", torque_text(most.peak), m.speed_unit.text(most.speed, 4)));

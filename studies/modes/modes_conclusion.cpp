@@ -37,7 +37,7 @@ EnergyStore::Kind kind_of(const OwnState& state) {
 
 // The joint with the highest utilisation; without limits the one with the largest amplitude.
 std::size_t joint_to_tell(const ModesStudy& m, const SpeedResponse& said) {
-  std::size_t joint = joint_with_largest_swing(said);
+  std::size_t joint = joint_with_largest_amplitude(said);
   double most = 0;
   for (std::size_t j = 0; j < said.joints.size() && j < m.limited.size(); ++j) {
     if (!m.limited[j].limits.any()) continue;

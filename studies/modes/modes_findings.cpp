@@ -306,10 +306,10 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
   }
   if (!is_forced(m)) return;
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
-  const std::size_t j = joint_with_largest_swing(said);
+  const std::size_t j = joint_with_largest_amplitude(said);
   if (std::isfinite(said.joints[j].peak))
     f.key(fmt::format("largest amplitude at {}", m.speed_unit.text(std::abs(m.drive.at.speed), 4)),
-          {said.joints[j].peak, swing_error(m, j)}, "largest_swing", m.joint_names[j], 5);
+          {said.joints[j].peak, swing_error(m, j)}, "largest_amplitude", m.joint_names[j], 5);
 }
 
 Formulas rayleigh(const ModesStudy& m) {

@@ -146,7 +146,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
 }
 
 Plot order_plot(const ModesStudy& m) {
-  const std::size_t j = joint_with_largest_swing(m.here);
+  const std::size_t j = joint_with_largest_amplitude(m.here);
   Plot plot{.title = fmt::format("Orders of the torque in {} at {}", m.joint_names[j],
                                  m.speed_unit.text(std::abs(m.drive.at.speed), 5)),
             .x = {"order of the turn of " + m.link, ""},
@@ -202,7 +202,7 @@ std::string torque_text(double value) {
   return fmt::format("{:.5g} {}", unit.factor * value, unit.unit);
 }
 
-std::size_t joint_with_largest_swing(const SpeedResponse& s) {
+std::size_t joint_with_largest_amplitude(const SpeedResponse& s) {
   const auto less = [](const JointResponse& a, const JointResponse& b) { return a.peak < b.peak; };
   return static_cast<std::size_t>(std::max_element(s.joints.begin(), s.joints.end(), less) - s.joints.begin());
 }

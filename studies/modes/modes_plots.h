@@ -14,7 +14,7 @@ namespace kurbel::modes {
 inline double hertz(double omega) { return omega / (2 * std::numbers::pi); }
 // "12.3 kN·m"
 std::string torque_text(double value);
-std::size_t joint_with_largest_swing(const SpeedResponse& response);
+std::size_t joint_with_largest_amplitude(const SpeedResponse& response);
 // One joint per component, that with the largest amplitude in the range: a continuous shaft has "shaft.1", "shaft.2", …
 std::vector<std::size_t> joints_drawn(const ModesStudy& study);
 // A little above the highest visible mode [Hz].

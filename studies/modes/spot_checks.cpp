@@ -71,7 +71,7 @@ void look_at(const HeldMachine& machine, const LinearDrive& drive, const HeldCyc
              const ModesStudy& found, SpotCheck& spot) {
   spot.linear = respond(drive, found.excitations);
   spot.linear.speed = spot.speed;
-  if (!spot.share) spot.joint = joint_with_largest_swing(spot.linear);
+  if (!spot.share) spot.joint = joint_with_largest_amplitude(spot.linear);
   if (!(options.seconds > 0)) {
     spot.why = fmt::format("checks before it took the {:g} s that all may take", most_seconds);
     return;

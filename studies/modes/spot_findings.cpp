@@ -134,7 +134,7 @@ void say_spots(Findings& f, Chapter in, const ModesStudy& m) {
   f.tell("spot_checks", each(m.spots, [&m](const SpotCheck& spot) { return spot_record(m, spot); }));
   if (const SpotCheck* spot = to_tell(m))
     f.key(fmt::format("amplitude at {}, nonlinear", m.speed_unit.text(spot->speed, 5)),
-          {really(*spot, spot->joint).peak, spot->error(spot->joint)}, "spot_swing",
+          {really(*spot, spot->joint).peak, spot->error(spot->joint)}, "spot_amplitude",
           fmt::format("{}; linear {}", m.joint_names[spot->joint], difference_text(*spot, spot->joint)), 5);
 }
 

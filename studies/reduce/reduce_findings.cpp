@@ -27,12 +27,13 @@ std::string conclusion_of(const MachineReduction& r) {
     return fmt::format("Reduced to {}, the machine has {:.5g} {}{}", r.to, least ? least->inertia : 0.0,
                        pretty_unit(names_of(r).inertia_unit),
                        r.turns_back ? " or more, infinite in the dead centres" : "");
+  const std::string low = fmt::format("{:.5g}", least ? least->inertia : 0.0),
+                    high = fmt::format("{:.5g}", most ? most->inertia : 0.0),
+                    range = low == high ? low : low + " … " + high;
   if (r.basis == CycleBasis::steady)
-    return fmt::format("Reduced to {}, the machine has {:.5g} … {:.5g} kg·m² along its steady cycle", r.to,
-                       least ? least->inertia : 0.0, most ? most->inertia : 0.0);
-  return fmt::format(
-      "Reduced to {}, the machine has {:.5g} … {:.5g} kg·m², of which {:.5g} kg·m² turn at constant ratio", r.to,
-      least ? least->inertia : 0.0, most ? most->inertia : 0.0, r.constant_inertia);
+    return fmt::format("Reduced to {}, the machine has {} kg·m² along its steady cycle", r.to, range);
+  return fmt::format("Reduced to {}, the machine has {} kg·m², of which {:.5g} kg·m² turn at constant ratio", r.to,
+                     range, r.constant_inertia);
 }
 
 // --- tables ---
@@ -239,9 +240,15 @@ Formulas formulas_of(const MachineReduction& r) {
            p->drive_inertia, p->mechanism_inertia, p->inertia)
       .note(where);
   std::string sum;
-  for (const std::size_t k : acting(r)) sum += fmt::format("{}{:.6g}", sum.empty() ? "" : " + ", p->share[k]);
+  for (const std::size_t k : acting(r, above_rounding))
+    sum += fmt::format("{}{:.6g}",
+                       sum.empty()       ? (p->share[k] < 0 ? "−" : "")
+                       : p->share[k] < 0 ? " − "
+                                         : " + ",
+                       std::abs(p->share[k]));
+  const double net = p->drive - p->load;
   list.add("Reduced torque (theory 2.2)", "M_r = Σ [F·v + M·ω]/ω = M_d − M_c", "M_r = {} = {:.6g} N·m",
-           sum.empty() ? "0" : sum, p->drive - p->load)
+           sum.empty() ? "0" : sum, std::abs(net) > above_rounding * std::abs(p->drive) ? net : 0)
       .note(where);
   return list;
 }

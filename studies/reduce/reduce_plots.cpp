@@ -73,12 +73,15 @@ ReducedNames names_of(const MachineReduction& r) {
   return {"I", "kg*m2", "kg*m2/rad", "M", "N*m"};
 }
 
-std::vector<std::size_t> acting(const MachineReduction& r) {
+std::vector<std::size_t> acting(const MachineReduction& r, double least) {
+  std::vector<double> greatest(r.accounts.size());
+  for (const ReducedPosition& p : r.curve)
+    for (std::size_t k = 0; k < std::min(greatest.size(), p.share.size()); ++k)
+      greatest[k] = std::max(greatest[k], std::abs(p.share[k]));
+  const double largest = greatest.empty() ? 0 : *std::max_element(greatest.begin(), greatest.end());
   std::vector<std::size_t> list;
-  for (std::size_t k = 0; k < r.accounts.size(); ++k)
-    if (std::any_of(r.curve.begin(), r.curve.end(),
-                    [&](const ReducedPosition& p) { return k < p.share.size() && p.share[k] != 0; }))
-      list.push_back(k);
+  for (std::size_t k = 0; k < greatest.size(); ++k)
+    if (greatest[k] > least * largest) list.push_back(k);
   return list;
 }
 
@@ -119,7 +122,7 @@ std::vector<Plot> motion_plots(const MachineReduction& r) {
   Plot shares{.title = "Share of each force, positive when it drives",
               .x = {angle, "°"},
               .y = {n.torque, pretty_unit(n.torque_unit)}};
-  for (const std::size_t k : acting(r))
+  for (const std::size_t k : acting(r, above_rounding))
     shares.series.push_back(over_angle(r, r.accounts[k], further_role(shares.series.size()),
                                        [k](const ReducedPosition& p) { return p.share[k]; }));
   plots.push_back(std::move(inertia));

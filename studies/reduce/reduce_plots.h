@@ -14,8 +14,9 @@ struct ReducedNames {
   std::string inertia, inertia_unit, slope_unit, torque, torque_unit;
 };
 ReducedNames names_of(const MachineReduction& reduction);
-// Accounts with a non-zero share.
-std::vector<std::size_t> acting(const MachineReduction& reduction);
+// Accounts with a share above `least` times the largest one: by default with any, for people above rounding.
+inline constexpr double above_rounding = 1e-12;
+std::vector<std::size_t> acting(const MachineReduction& reduction, double least = 0);
 // Whether it is a rounding error of the sums.
 bool is_dust(const Harmonic& harmonic, const Spectrum& spectrum);
 // The speed at which the torques are taken.

@@ -264,13 +264,15 @@
       linecolor: colour('line'), ticks: 'outside', tickcolor: colour('line'), automargin: true, exponentformat: 'power', minexponent: 5, hoverformat: '.6~g', ...ticksOf(plot, given, along),
     });
     const layout = {
-      paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
+      separators: '.\u2009', paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
       margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: isLocus(plot) || plot.map || plot.series.some(s => s.sizes) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
       legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0 && !(plot.bars && plot.x.names && plot.series.every(s => s.x.length === 1)),
       xaxis: {...axis(plot.x, 'x'), ...rangeOf(plot)}, yaxis: {...axis(plot.y, 'y'), ...(plot.y.names ? placesOf(plot.y.names) : {})}, dragmode: narrow() ? false : 'zoom',
     };
     if (plot.equalAxes) Object.assign(layout.yaxis, {scaleanchor: 'x', scaleratio: 1});
+    const [low, high] = extent(plot.series.flatMap(s => s.y)), size = Math.max(Math.abs(low), Math.abs(high));
     if (plot.y.least !== undefined && plot.y.greatest !== undefined) layout.yaxis.range = [plot.y.least, plot.y.greatest];
+    else if (!plot.y.log && !plot.y.names && size > 0 && size < Infinity && high - low <= 1e-9 * size) layout.yaxis.range = low < 0 ? [1.2 * low, 0] : [0, 1.2 * high];  // a constant
     if (plot.bars && !plot.x.names) Object.assign(layout.xaxis, {dtick: stepOfBars(plot)});
     if (plot.x.unit === '°' && !isLocus(plot)) Object.assign(layout.xaxis, {dtick: (narrow() ? 90 : 45) * (plot.series.some(s => s.x[s.x.length - 1] > 400) ? 2 : 1)});
     if (plot.map) {

@@ -136,7 +136,7 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   periods.without_limit = !approach.remaining || *approach.remaining > nowhere * scale;
   if (periods.without_limit)
     periods.verdict =
-        fmt::format("the {} speed changes by {:+.2g} % a {}, and that does not shrink", speed, change, unit);
+        fmt::format("the {} speed changes by {:+.2g} % per {}, and this change does not decrease", speed, change, unit);
   else if (*approach.remaining > scale)
     periods.verdict = fmt::format("the {} speed is still to change by more than itself", speed);
   else

@@ -154,7 +154,7 @@ class TrainReport {
     const std::size_t most = f.figures.empty() ? 3 : 2;
     std::size_t number = 0;
     for (const KeyFigure& figure : part.output.figures)
-      if (figure.means == "largest_swing" || (number < most && figure.means != "processor_time"))
+      if (figure.means == "largest_amplitude" || (number < most && figure.means != "processor_time"))
         f.figures.push_back(figure), ++number;
   }
 

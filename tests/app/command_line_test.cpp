@@ -100,7 +100,7 @@ class CommandLine : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(CommandLine, SoundRunEndsWithZeroAndWritesItsFiles) {
+TEST_F(CommandLine, ValidRunEndsWithZeroAndWritesItsFiles) {
   const Ended r = kurbel({"run", scene("until = \"1 s\"\n"), "--out", "out"});
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_TRUE(r.err.empty()) << r.err;
@@ -429,7 +429,7 @@ TEST_F(CommandLine, RunawayEndsWithThreeAnEventAndADiagnosis) {
 }
 
 // A clearance that no pin has: the motion loses its values at the first contact. Nothing of that is told as a figure.
-TEST_F(CommandLine, FiguresWithoutAValueAreLeftOutOfAnIncompleteRun) {
+TEST_F(CommandLine, FiguresWithoutAValueAreOmittedOfAnIncompleteRun) {
   std::string text = text_of(std::string(KURBEL_SOURCE_DIR) + "/scenes/worn_crank_pin.toml");
   const auto put = [&](const std::string& old, const std::string& value) {
     const std::size_t at = text.find(old);
@@ -471,7 +471,7 @@ TEST_F(CommandLine, ColoursWarnOnATerminalOnly) {
 }
 
 // Figures that are not sure to what was asked for: told in the conclusion, in JSON, in the page, and by the exit code.
-TEST_F(CommandLine, AnAccuracyThatWasNotConfirmedIsToldEverywhereAndEndsWithThree) {
+TEST_F(CommandLine, AnAccuracyThatWasNotConfirmedIsReportedEverywhereAndEndsWithThree) {
   const std::string chain = std::string(KURBEL_SOURCE_DIR) + "/scenes/six_inertia_chain.toml";
   const Ended quiet = kurbel({"run", chain, "--accuracy", "1e-12", "--quiet", "--out", "out"});
   EXPECT_EQ(quiet.code, 3);

@@ -63,7 +63,7 @@ TEST_F(CrashInputs, AnEmptyListIsRefusedByEveryCommand) {
                    ":3:194: ", "dc shunt motor \"motor\": switch_times = []; must hold one value at least");
 }
 
-TEST_F(CrashInputs, AStartToldAtWhatAScrewMovesIsRefused) {
+TEST_F(CrashInputs, AStartGivenAtWhatAScrewMovesIsRefused) {
   for (const char* verb : {"check", "run", "steady", "reduce"})
     expect_refused(verb, "slide_before_it_is_compiled.toml", ":4:24: ",
                    "start: on = \"engine.slider\": \"engine\" has no slider; allowed: \"engine\", its shaft");

@@ -44,7 +44,7 @@ TEST(Explain, MeanAndMidSpeedAreTwo) {
   EXPECT_TRUE(explain("mid_speed.press").has("½ (ω_max + ω_min)"));
 }
 
-TEST(Explain, APeakOfAnElementsOwnIsToldToBeOne) {
+TEST(Explain, APeakOfAnElementsOwnIsStatedToBeOne) {
   const Said said = explain("peak_current.motor");
   EXPECT_EQ(said.code, 0) << said.text;
   EXPECT_TRUE(said.has("greatest magnitude in a whole run")) << said.text;

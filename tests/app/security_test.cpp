@@ -320,7 +320,7 @@ TEST_F(Security, TitleIsNoCommandOfGnuplotOrOfAShell) {
   EXPECT_TRUE(fs::exists(folder_ / "scene/out/plots"));
 }
 
-TEST_F(Security, TellsTheTerminalNothingButText) {
+TEST_F(Security, ReportsTheTerminalNothingButText) {
   const std::string evil = "\033]0;owned\007\033[2J\u009B31m\u202E\r\x7F";
   const std::string name = "s\033[31m\xFF\n.toml";
   scene(name, evil);

@@ -71,7 +71,7 @@ class Streams : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Streams, LossOfWhatWasSaidIsToldAndNoSuccess) {
+TEST_F(Streams, LossOfWhatWasSaidIsReportedAndNoSuccess) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"--version"},
                                                                                      {"--help"},
                                                                                      {"run", "--help"},

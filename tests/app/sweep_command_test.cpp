@@ -72,7 +72,7 @@ class SweepCommand : public ::testing::Test {
 
 const std::string varied = "--vary 'spring.stiffness=3..5 kN*m/rad' --vary 'mass.inertia=1,1.5,2 kg*m2' ";
 
-TEST_F(SweepCommand, WrongOptionsAreToldBeforeAnythingIsWritten) {
+TEST_F(SweepCommand, WrongOptionsAreReportedBeforeAnythingIsWritten) {
   const struct {
     std::string options, told;
   } cases[] = {

@@ -36,7 +36,7 @@ TEST(MotorBehindAGear, DrivesTheLinkByItsTorqueTimesTheRatio) {
 }
 
 // Below its breakdown speed of some 120 rad/s a viscous load holds it, which takes three times its speed on the crank.
-TEST(MotorBehindAGear, HangsAtASpeedOfItsOwn) {
+TEST(MotorBehindAGear, StaysAtASpeedOfItsOwn) {
   const Result r = test::run(R"(
     line = ["motor", "gear", "crank"]
     motor = { kind = "induction motor", rated_power = "4 kW", rated_speed = "1440 rpm", synchronous_speed = "1500 rpm", breakdown_ratio = 2.8, inertia = "0.02 kg*m2" }
@@ -92,7 +92,7 @@ TEST(Slip, IsTheDifferenceOfBothSides) {
 
 // Wheels of 1 kg·m² on a belt that passes on M: a blow of 200 N·m for 50 ms opens a slip at 200 − 2 M, which closes at 2 M.
 // Each lasts 50 ms · 200/2M; between them they turn together.
-TEST(Slip, OfSeveralSpellsIsToldByTheirSum) {
+TEST(Slip, OfSeveralSpellsIsReportedByTheirSum) {
   const double carried = 0.08 * eytelwein_force(500, 0.3, 160 * M_PI / 180);
   const Result r = test::run(R"(
     line = ["wheel", "belt", "mill"]
@@ -145,7 +145,7 @@ TEST(Strokes, AreThoseOfALinkThatStopsInItsCycle) {
 }
 
 // Rests between motions of one sense; a shaft that swings to and fro rests where it turns back.
-TEST(Sticking, IsNotSaidOfAShaftThatSwings) {
+TEST(Sticking, IsNotSaidOfAShaftThatOscillates) {
   Result r = steady_run();
   const auto sticks = [&](double first, double second) {
     r.events.clear();

@@ -73,7 +73,7 @@ TEST(Falling, IsNotSaidOfWhatADriveLeftTurningFaster) {
 }
 
 // What swings through more than half a turn, driven or not, falls nowhere.
-TEST(Falling, IsNotSaidOfWhatSwings) {
+TEST(Falling, IsNotSaidOfWhatOscillates) {
   const Result r = test::run(R"(
     line = ["source", "wheel"]
     source = { kind = "torque source", torque = "0 N*m", amplitude = "100 N*m", frequency = "0.25 Hz", inertia = "1 kg*m2" }
@@ -156,7 +156,7 @@ TEST(Brakes, ThatComeOnInTimeAndAreTooWeakAreSaid) {
 
 // The brake's 60 N·m stop a crank of 0.5 rad/s within its first cycle against the motor's 50: on from the start it is in the
 // way, put on at 1 ms it is meant to stop it.
-TEST(Brakes, ThatAreOnFromTheStartLetItNotGetRound) {
+TEST(Brakes, ThatAreOnFromTheStartLetItNotCompleteACycle) {
   const auto crank = [](const std::string& brake) {
     return test::run(R"(
       line = ["motor", "crank"]
@@ -384,7 +384,7 @@ TEST(Vibration, OfTwoFrequenciesNeitherGrowsNorDecays) {
 }
 
 // A screw's force comes from its energy: the conclusion has it.
-TEST(Screw, ConclusionHasTheForceOfTheBlow) {
+TEST(Screw, ConclusionHasTheForceOfTheStroke) {
   const Result r = test::run(test::scene_file("scenes/screw_press.toml"), false);
   EXPECT_TRUE(has(said(r), "the force on \"screw\" reaches 285.3 kN at 0.9082 s")) << said(r);
   EXPECT_TRUE(has(said(r), "the vibration decays")) << said(r);

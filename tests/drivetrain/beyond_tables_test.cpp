@@ -193,7 +193,7 @@ run = {{ until = "5 s", start = {{ speed = "9 rad/s" }} }}
 }
 
 // The motor's table ends below the speed that the machine keeps: the crank's given motion does not ask it.
-TEST(BeyondTables, ForcesOfAGivenMotionHangOnNoMotor) {
+TEST(BeyondTables, ForcesOfAGivenMotionDependOnNoMotor) {
   const Scene scene = press_known_over(
       held_on,
       R"("motor", inertia = "20 kg*m2", torque = { over = "speed", unit = ["rad/s", "N*m"], points = [[0, 200], [8, 100]] })");
@@ -245,7 +245,7 @@ TEST(BeyondTables, ReducedTorquesFromOutsideHaveNoErrors) {
 
 // A law of the operating sequence that has ended, as the brake that gives way along it, is taken from outside: by the run from
 // there on, and by the steady motion that follows. One that is followed by another step is not.
-TEST(BeyondTables, ALawOfTheSequenceThatHasEndedIsTold) {
+TEST(BeyondTables, ALawOfTheSequenceThatHasEndedIsReported) {
   const auto scene = [](const std::string& how, const std::string& more = "") {
     return scene_from(fmt::format(R"(
 line = ["motor", "brake"]
@@ -284,7 +284,7 @@ steps = [{{ at = "0.5 s", set = "brake", law = {{ over = "time", unit = ["s", "1
 }
 
 // Random drives and loads by table over speed and time, against what the trajectory itself shows.
-TEST(BeyondTables, OfRandomMachinesEachLeavingIsToldAndNoOther) {
+TEST(BeyondTables, OfRandomMachinesEachLeavingIsReportedAndNoOther) {
   std::mt19937 random(41);
   std::uniform_real_distribution<double> part(0.2, 1);
   int left = 0;
@@ -311,7 +311,7 @@ run = {{ until = "5 s", accuracy = 1e-6 }}
 }
 
 // Every scene of the tree: a table that its trajectory leaves is told of.
-TEST(BeyondTables, OfAllScenesEachLeavingIsTold) {
+TEST(BeyondTables, OfAllScenesEachLeavingIsReported) {
   int watched = 0;
   for (const auto& entry : fs::directory_iterator(source_path("scenes"))) {
     if (entry.path().extension() != ".toml") continue;

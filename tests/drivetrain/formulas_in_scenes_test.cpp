@@ -202,7 +202,7 @@ TEST(TableUsedByName, OwnKeysStandBeforeThoseOfTheTable) {
   EXPECT_NEAR(end_speed(run(text)), 6, 1e-9);
 }
 
-TEST(TableUsedByName, ThatIsNotThereIsToldWithTheNearest) {
+TEST(TableUsedByName, ThatIsNotThereIsReportedWithTheNearest) {
   const std::string text =
       message_of(flywheel_under("table = { use = \"table.psuh\" }", std::string("[table.push]\nover = \"time\"\n")));
   EXPECT_NE(text.find("did you mean \"table.push\"?"), std::string::npos) << text;

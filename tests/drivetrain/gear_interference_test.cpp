@@ -85,7 +85,7 @@ bool says(const GearPair& p, const std::string& words) {
   return false;
 }
 
-TEST(GearInterference, IsToldWhereTheTipLeavesTheInvoluteUndercutOrNot) {
+TEST(GearInterference, IsReportedWhereTheTipLeavesTheInvoluteUndercutOrNot) {
   std::mt19937 random(217714);
   int judged = 0, both = 0, undercut_alone = 0, interfering_alone = 0;
   for (int k = 0; k < 400 && judged < 120; ++k) {

@@ -37,7 +37,7 @@ support_damping = "5 N*m*s/rad"
 )" + more;
 }
 
-TEST(GearboxHousing, SwingsOnItsSupportAsPublished) {
+TEST(GearboxHousing, OscillatesOnItsSupportAsPublished) {
   const Validation is(Against::published, "Modelica.Mechanics.Rotational.Examples.ElasticBearing (case el04)");
   const Result r = run(elastic_bearing("[effects]\nelasticity = true\n"));
   ASSERT_TRUE(r.complete) << r.diagnosis;
@@ -165,7 +165,7 @@ run = {{ until = "0.01 s" }}
 }
 
 // Natural frequency of two wheels with flanks of stiffness k: ω² = k (1/J₁ + i²/J₂), i² on the far side as 9/J₂.
-TEST(ElasticMesh, SwingsAtItsFrequency) {
+TEST(ElasticMesh, OscillatesAtItsFrequency) {
   const std::string scene = R"(
 line = ["motor", "gear", "load"]
 motor = { kind = "flywheel", inertia = "0.1 kg*m2" }

@@ -83,7 +83,7 @@ class SmallSwings {
 };
 
 // What drivetrain/induction/lagging_motor.h says of it, over the slope at the synchronous speed.
-TEST(LaggingMotor, FollowsSwingsOfTheSpeedAsTheTwoAxisModelDoes) {
+TEST(LaggingMotor, FollowsOscillationsOfTheSpeedAsTheTwoAxisModelDoes) {
   for (const EquivalentCircuit& circuit : {small, middle, large, ideal}) {
     const double sb = breakdown_slip(circuit), usual = std::abs(SmallSwings(circuit, 0).slope());
     for (const double part : {-0.25, 0.0, 0.1, 0.25, 0.5}) {

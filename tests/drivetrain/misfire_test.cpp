@@ -218,7 +218,7 @@ crank_inertia = "0.025 kg*m2"
 }
 
 // Phases of a four-cylinder's pins: 0, 180, 180 and 0 deg; one that is given must be the same crank.
-TEST(FiringOrder, GivesThePhaseAndTellsOneThatIsAnother) {
+TEST(FiringOrder, GivesThePhaseAndReportsOneThatIsAnother) {
   const auto scene = [](const std::string& more) {
     return "line = [\"drive\", \"c\"]\ndrive = { kind = \"prescribed speed\", speed = \"10 rad/s\" }\n[c]\nkind = "
            "\"slider-crank\"\nradius = \"40 mm\"\nrod = \"140 mm\"\ncrank_inertia = \"1 kg*m2\"\n" +

@@ -106,7 +106,7 @@ TEST(TwoAxisMotor, ElectricalPowerIsHeatFieldAndShaft) {
 
 // Switched on with the rotor held the circuit is linear: L di/dt = A i + u, solved by its eigenvalues. The torque
 // swings with the frequency of the mains, to a first peak far above the steady starting torque.
-TEST(TwoAxisMotor, SwitchedOnItsTorqueSwingsWithTheMains) {
+TEST(TwoAxisMotor, SwitchedOnItsTorqueOscillatesWithTheMains) {
   const Result r =
       run(krause_scene("[drum]\nkind = \"prescribed speed\"\non = \"motor\"\nspeed = \"0 rad/s\"\n[run]\nuntil "
                        "= \"0.2 s\"\nsamples = 2001\naccuracy = 1e-10\n"));

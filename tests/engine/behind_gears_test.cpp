@@ -107,7 +107,7 @@ TEST(BehindGears, AnElasticMeshPassesItsTorqueOnTimesItsRatio) {
 
 // With losses of the rolling against the carrier, in steady motion: M_r = −i₀ η₀ M_s, and the carrier has the rest,
 // M_c = (1 − i₀ η₀) M_s (VDI 2157).
-TEST(BehindGears, ACarrierBearsWhatSunAndRingDo) {
+TEST(BehindGears, ACarrierCarriesWhatSunAndRingDo) {
   const double i0 = -74.0 / 24;
   const Result r = run(R"(
 line = ["drive", "gear", "c", "out"]

@@ -191,7 +191,7 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-TEST(ClosedLoop, RatiosThatClashAreToldWithBothWays) {
+TEST(ClosedLoop, RatiosThatClashAreReportedWithBothWays) {
   std::string text = split;
   text.replace(text.rfind("teeth = [20, 60]"), 16, "teeth = [100, 301]");
   const std::string told = refusal(text);
@@ -215,7 +215,7 @@ TEST(ClosedLoop, RatiosThatClashAreToldWithBothWays) {
   }
 }
 
-TEST(ClosedLoop, GearsAloneAllRoundLeaveTheirShareOpen) {
+TEST(ClosedLoop, GearsAloneAllAroundLeaveTheirShareOpen) {
   std::string text = with(split, "\"stage_a\", \"shaft_a\", \"bull\"", "\"stage_a\", \"bull\"");
   text = with(text, "line = [\"stage_b\", \"shaft_b\"]", "line = [\"stage_b\"]");
   for (const char* shaft : {"[shaft_a]\nkind = \"coupling\"\nstiffness = \"20 kN*m/rad\"\ndamping = \"20 N*m*s/rad\"\n",

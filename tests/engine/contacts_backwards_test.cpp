@@ -178,7 +178,7 @@ TEST(ContactsBackwards, WithoutEventsInBalanceItMovesOnAsItGoes) {
 // --- reactions and squares -------------------------------------------------------------------------------------------
 
 // With its sun held: M_ring of the input, (z_s + z_r)/z_r of it at the carrier, and the sun bears the difference.
-TEST(Reactions, AHeldSunBearsTheDifferenceOfRingAndCarrier) {
+TEST(Reactions, AHeldSunCarriesTheDifferenceOfRingAndCarrier) {
   const Result r = run(R"(
 line = ["drive", "gear", "fan"]
 drive = { kind = "torque source", torque = "8 N*m", inertia = "0.1 kg*m2" }

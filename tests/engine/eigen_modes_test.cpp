@@ -72,7 +72,7 @@ LinearDrive random_tree(int n, std::mt19937_64& random) {
   return hand.drive();
 }
 
-TEST(UndampedModes, TwoMassesSwingAtRootOfStiffnessOverReducedInertia) {
+TEST(UndampedModes, TwoMassesOscillateAtRootOfStiffnessOverReducedInertia) {
   Hand hand;
   const int a = hand.inertia(2.5), b = hand.inertia(0.4);
   const UndampedModes m = undamped_modes(hand.spring(a, b, 3000).drive());

@@ -95,7 +95,7 @@ TEST(EventKinds, HaveANameEach) {
 }
 
 // A torque that is rounding of the usual one is none, whatever could hold it; numbers in sentences have no exponents.
-TEST(WordsOfWhatIsHeld, TellWhatActsWithoutExponents) {
+TEST(WordsOfWhatIsHeld, ReportWhatActsWithoutExponents) {
   Contact gear;
   gear.kind = Contact::Kind::loss, gear.torque_scale = 100, gear.name = "gear";
   const auto words = [&](double acts, double backwards, double forwards) {

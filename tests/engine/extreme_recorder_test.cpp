@@ -86,7 +86,7 @@ Watched watch(ExtremeOf wanted, double from, double length, int steps) {
 }
 
 // 1 − e^{−t}: its greatest value is the last one, and no step has a turn.
-TEST(ExtremeRecorder, AsksForNothingWithinStepsOfWhatRunsStraight) {
+TEST(ExtremeRecorder, NeedsNothingWithinStepsOfWhatRunsStraight) {
   const auto slope = [](const Snapshot& s) { return std::exp(-s.now.t); };
   const Watched w = watch({.name = {quantities::other, "", "rise"},
                            .unit = "1",

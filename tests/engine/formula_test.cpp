@@ -306,7 +306,7 @@ TEST(Formula, ABranchThatIsNotTakenNeedNoValue) {
   EXPECT_NEAR(curve_of("if(x >= 1, log(x), 0)", -5, 5).value(std::numbers::e), 1, 1e-15);
 }
 
-TEST(Formula, LeavingItsDomainIsToldBeforeAnyRun) {
+TEST(Formula, LeavingItsDomainIsReportedBeforeAnyRun) {
   EXPECT_NE(fault_of("1/x", -1, 1).find("division by 0"), std::string::npos);
   EXPECT_NE(fault_of("max(x - 1, x/x)", -2, 2).find("division by 0"), std::string::npos);  // at the middle of its range
   EXPECT_EQ(fault_of("if(x > 0, 1/x, 0)", -2, 2), "");                                     // not on the branch taken
@@ -437,7 +437,7 @@ const Wrong wrong_ones[] = {
     {"((((((((((((((((((((((((((((((((((x))))))))))))))))))))))))))))))))))", 33, "nested more than 32 deep"},
 };
 
-TEST(Formula, SixtyWrongOnesAreToldWithTheirColumn) {
+TEST(Formula, SixtyWrongOnesAreReportedWithTheirColumn) {
   EXPECT_GE(std::size(wrong_ones), 60u);
   for (const Wrong& wrong : wrong_ones) {
     UnitError error;

@@ -101,7 +101,7 @@ TEST(Jams, JointsDoNotJamWhereATrialStepIsTooLong) {
   EXPECT_EQ(orderly(r, 3), "");
 }
 
-TEST(Jams, APumpStartedBackwardsTurnsRound) {
+TEST(Jams, APumpStartedBackwardsReverses) {
   std::string text = scene_text("piston_pump.toml");
   text = with(text, "speed = \"301 rpm\"", "speed = \"-301 rpm\"");
   text = with(text, "equilibrium = true", "equilibrium = false");

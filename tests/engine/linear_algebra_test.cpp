@@ -10,7 +10,7 @@ namespace kurbel::linear_algebra_test {
 namespace {
 
 // [[0, 1], [−ω², −2ζω]]: λ = −ζω ± i ω √(1 − ζ²).
-TEST(Eigenpairs, OfADampedSwingAreItsClosedForm) {
+TEST(Eigenpairs, OfADampedOscillationAreItsClosedForm) {
   const double omega = 7, zeta = 0.2;
   Eigen::MatrixXd a(2, 2);
   a << 0, 1, -omega * omega, -2 * zeta * omega;

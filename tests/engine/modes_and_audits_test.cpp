@@ -166,7 +166,7 @@ TEST(Creep, OfAOneWayClutchKnowsBothItsLimitsAndItsLoss) {
 // --- scales ----------------------------------------------------------------------------------------------------------
 
 // Forty times as fast with 1600 times the torque is the same motion over the angle: by the same steps.
-TEST(WorkStepper, StepsDoNotHangOnTheUnitOfTime) {
+TEST(WorkStepper, StepsDoNotDependOnTheUnitOfTime) {
   std::int64_t steps[2];
   for (const double faster : {1.0, 40.0}) {
     const Scene scene = scene_from(fmt::format(

@@ -278,7 +278,7 @@ TEST(Orbit, TheStartDecidesWhatIsKept) {
 }
 
 // Every example scene: what is found comes again, and the run does not leave it.
-TEST(Orbit, OfExampleScenesComesAgain) {
+TEST(Orbit, OfExampleScenesRepeats) {
   for (const char* name : {"crank_press", "compressor", "single_cylinder_engine", "piston_pump"}) {
     SCOPED_TRACE(name);
     const Scene scene = scene_file(std::string("scenes/") + name + ".toml");
@@ -306,7 +306,7 @@ TEST(Orbit, IsTheSameFromDifferentStarts) {
 }
 
 // Rubber's branches are states: their creep is among the unknowns, with the multiplier that a disturbed round has.
-TEST(Orbit, OwnStatesAreAmongTheUnknowns) {
+TEST(Orbit, InternalStatesAreAmongTheUnknowns) {
   const Scene scene = scene_from(std::string("line = [\"motor\", \"rubber\", \"crank\"]\n") + dc_motor +
                                  "rubber = { kind = \"rubber coupling\", stiffness = \"2 kN*m/rad\", branches = [{ "
                                  "stiffness = \"0.8 kN*m/rad\", relaxation_time = \"20 ms\" }] }\n"
@@ -346,7 +346,7 @@ TEST(Orbit, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
 
 // However many events a round holds: a brake of 5 N·m grips 150 times a round of 3.1 s, 10 ms on, 10 ms off, and 0.1 s
 // off at its end. A DC motor behind it is linear, so its periodic speed is a sum of exponentials.
-TEST(Orbit, ASequenceOfManyStepsComesAgain) {
+TEST(Orbit, ASequenceOfManyStepsRepeats) {
   constexpr int strokes = 150;
   constexpr double pulse = 0.01, pause = 0.1, fades = 60.0 / 40 / 6, gripped = 40 * (1 - 5 / 60.0);
   std::string steps;

@@ -314,7 +314,7 @@ TEST(ReturnMap, InterruptedSearchSaysSo) {
   EXPECT_EQ(map.approach(6).end, ReturnMap::End::interrupted);
 }
 
-TEST(ReturnMap, MachineThatStopsUnderItsLoadIsToldWithTheAngle) {
+TEST(ReturnMap, MachineThatStopsUnderItsLoadIsReportedWithTheAngle) {
   // R2stick: from 10 rad/s the crank stops at 2.01784108852116 rad, for ever.
   ReturnMap map(model_of_scene("driven_slider_crank", false), {});
   const ReturnMap::Image image = map.approach(10);

@@ -158,7 +158,7 @@ class Explicit final : public OdeSystem {
 };
 
 // What holds the steps does not hang on the unit of time.
-TEST(ExplicitRungeKutta, TellsStabilityFromAccuracyInAnyUnitOfTime) {
+TEST(ExplicitRungeKutta, DistinguishesStabilityFromAccuracyInAnyUnitOfTime) {
   for (const double unit : {1e-3, 1.0, 1e3}) {
     Explicit stiff([unit](double t, auto y, auto f) {
       f[0] = -1e4 * (y[0] - std::cos(t / unit)) / unit;

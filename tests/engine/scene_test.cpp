@@ -74,7 +74,7 @@ TEST(Scene, RunAndTitleAreRead) {
 }
 
 // People are told speeds as the scene's first one is written.
-TEST(Scene, SpeedsAreToldInTheUnitOfTheFirst) {
+TEST(Scene, SpeedsAreReportedInTheUnitOfTheFirst) {
   const auto unit = [](const std::string& first, const std::string& start) {
     std::string text = base;
     text.replace(text.find("1500 rpm"), std::string("1500 rpm").size(), first);
@@ -110,7 +110,7 @@ TEST(Scene, OnIsABranchOfOneComponent) {
   EXPECT_EQ(order_of(a), order_of(b));
 }
 
-TEST(Scene, BranchesOfBranchesFollowWhatTheyHangOn) {
+TEST(Scene, BranchesOfBranchesFollowWhatTheyBranchFrom) {
   const Scene scene = test::scene_from(base + flywheel("a", "on = \"b\"\n") + flywheel("b", "on = \"c\"\n") +
                                        flywheel("c", "on = \"coupling.out\"\n") + flywheel("d", "on = \"a\"\n"));
   EXPECT_EQ(order_of(scene), (Texts{"motor", "coupling", "wheel", "c", "b", "a", "d"}));

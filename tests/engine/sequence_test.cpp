@@ -196,7 +196,7 @@ TEST(Sequence, RampWithinNoTimeIsAJump) {
 }
 
 // Steps that wait for nothing, again and again: the run says so.
-TEST(Sequence, ThatNeverPausesIsToldAndEndsTheRun) {
+TEST(Sequence, ThatNeverPausesIsReportedAndEndsTheRun) {
   for (const char* pause : {"1e-30 s", "1e-20 s"}) {
     const std::string steps = fmt::format(
         "{{ at = \"1 s\", set = \"motor\", to = 0.5 }}, {{ after = \"{0}\", set = \"motor\", to = 0.25 }}, "

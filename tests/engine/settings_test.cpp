@@ -109,7 +109,7 @@ TEST(Settings, ThatLeadNowhereSayWhereAndWhatIsThere) {
 }
 
 // Units, domains and names are checked as in a file; the place is the one within the setting.
-TEST(Settings, FaultsAreToldAtTheirPlaceInTheSetting) {
+TEST(Settings, FaultsAreReportedAtTheirPlaceInTheSetting) {
   const auto expect = [](const std::string& setting, int column, const std::string& words) {
     const std::vector<Message> found = faults(machine, {setting});
     ASSERT_EQ(found.size(), 1u) << setting;

@@ -413,7 +413,7 @@ struct OpposesWithoutHold : Pieces {
 };
 static_assert(SoundLoad<Pieces> && !SoundLoad<ForgottenTurn> && !SoundLoad<OpposesWithoutHold>);
 
-TEST(SoundElements, AMisspeltMemberIsRefusedWhenItIsCompiled) {
+TEST(ValidElements, AMisspeltMemberIsRefusedWhenItIsCompiled) {
   EXPECT_TRUE(SoundConnection<Clutch>);
   EXPECT_FALSE(SoundConnection<MisspeltCapacity>);
 }

@@ -94,7 +94,7 @@ TEST_F(Spreadsheet, BadCellsHaveTheNamesOfTheSheet) {
   EXPECT_EQ(cell_name(1, 16384), "XFD1");
 }
 
-TEST_F(Spreadsheet, WhatIsMissingOrBrokenIsTold) {
+TEST_F(Spreadsheet, WhatIsMissingOrBrokenIsReported) {
   write(book(rows));
   EXPECT_EQ(refusal("Kurve"),
             "0:0: has no sheet \"Kurve\" — did you mean \"Curve\"?; there are \"Notes\" and \"Curve\"");

@@ -139,7 +139,7 @@ void expect_no_memory(const Scene& scene, const std::string& what) {
   EXPECT_EQ(rates, first.rates);
 }
 
-TEST(State, AnswersDoNotHangOnWhatWasAskedBefore) {
+TEST(State, AnswersDoNotDependOnWhatWasAskedBefore) {
   for (const std::string& name : coverage::scene_names())
     expect_no_memory(test::scene_file("scenes/" + name + ".toml"), name);
   for (const char* effects : {"joint_friction", "all"}) {

@@ -72,7 +72,7 @@ TEST(StepLimits, OfACircuitAndOfASteepMotorAreTheirs) {
 }
 
 // Load edges end the steps of a drive that is smooth otherwise.
-TEST(StepLimits, OfEventsAndEdgesAreTold) {
+TEST(StepLimits, OfEventsAndEdgesAreReported) {
   const Result r = test::run(
       "line = [\"disc\"]\ndisc = { kind = \"inertia\", inertia = \"1 kg*m2\" }\n"
       "push = { on = \"disc\", kind = \"torque source\", table = { over = \"time\", unit = [\"s\", \"N*m\"], period = "

@@ -197,7 +197,7 @@ TEST(WorkEquation, DrivenSliderCrankMatchesItsReferenceToElevenDigits) {
             28);
 }
 
-TEST(WorkEquation, TooSlowTheCrankStopsUnderTheLoadAndTheStallIsTold) {
+TEST(WorkEquation, TooSlowTheCrankStopsUnderTheLoadAndTheStallIsReported) {
   const Result r = test::run(with(with(project_text("scenes/driven_slider_crank.toml"), "\"20 rad/s\"", "\"10 rad/s\""),
                                   "accuracy = 1e-7", "accuracy = 1e-9\nmethod = \"work\""));
   ASSERT_TRUE(r.complete) << r.diagnosis;

@@ -297,7 +297,7 @@ TEST(Inputs, ATorqueTurnsAWheelAsItsClosedFormSays) {
 }
 
 // A parallelogram's rocker turns as its crank does, whole turns included.
-TEST(Outputs, AnOutputThatGoesRoundCountsItsTurns) {
+TEST(Outputs, AnOutputThatRotatesCountsItsTurns) {
   const Folder folder;
   const std::string file = written(folder, R"(
 title = "Parallelogram"

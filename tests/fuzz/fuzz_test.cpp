@@ -132,7 +132,7 @@ TEST(Fuzz, ASceneWrittenFromItsTreeIsTheSameScene) {
 }
 
 // Mutations neither leave all scenes sound nor break all of them: both paths are taken.
-TEST(Fuzz, SomeInputsAreSoundAndSomeAreNot) {
+TEST(Fuzz, SomeInputsAreValidAndSomeAreNot) {
   int sound = 0;
   constexpr int n = 200;
   for (std::uint64_t number = 1; number <= n; ++number) try {

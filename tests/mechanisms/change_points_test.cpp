@@ -120,7 +120,7 @@ void expect_followed(const FourBarData& d, int turns, double wound) {
   }
 }
 
-TEST(DragLink, CrankAndRockerGoRoundTogether) {
+TEST(DragLink, CrankAndRockerRotateTogether) {
   expect_followed(four_bar(0.14, 0.16, 0.15, 0.05), 1, 1);
   FourBarData crossed = four_bar(0.14, 0.16, 0.15, 0.05);
   crossed.crossed = true;
@@ -151,7 +151,7 @@ TEST(ChangePoint, AntiparallelogramTurnsItsRockerAgainstItsCrank) {
 }
 
 // Over ten turns, to both sides, with a phase: after eight a run takes whole turns out of its angle.
-TEST(WholeTurns, OfAnOutputThatGoesRoundAreInItsPosition) {
+TEST(WholeTurns, OfAnOutputThatRotatesAreInItsPosition) {
   const auto bars = [](const FourBarData& d, double speed) {
     return test::run(test::scene_from(
         fmt::format("line = [\"wheel\", \"bars\"]\nwheel = {{ kind = \"flywheel\", inertia = \"5 kg*m2\" }}\n[bars]\n"
@@ -211,7 +211,7 @@ TEST(ChangePoint, OneLineOnceATurnMakesACycleOfTwo) {
   expect_followed(four_bar(0.2, 0.25, 0.35, 0.1), 2, 1);  // the ground is the shortest
 }
 
-TEST(FourBar, LoopThatCannotBeClosedIsTold) {
+TEST(FourBar, LoopThatCannotBeClosedIsReported) {
   const DataFaults faults = faults_of(four_bar(0.2, 0.15, 0.1, 0.48));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_NE(faults[0].text.find("must be < 450 mm, the three other links together"), std::string::npos)
@@ -289,7 +289,7 @@ SlottedLeverData slotted_lever(double crank, double ground) {
   return d;
 }
 
-TEST(SlottedLever, RocksGoesRoundOrTakesTwoTurns) {
+TEST(SlottedLever, RocksRotatesOrTakesTwoTurns) {
   const struct {
     double crank, ground;
     int turns;

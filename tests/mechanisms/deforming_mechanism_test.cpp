@@ -218,7 +218,7 @@ TEST_P(InEachJoint, OffLeavesNoTrace) {
                       crank("", sixty));
 }
 
-TEST(JointClearance, TellsWhatItCannotBeHadWith) {
+TEST(JointClearance, ReportsWhatItCannotBeHadWith) {
   const auto message = [](const std::string& text) -> std::string {
     try {
       const Scene scene = scene_from(text);
@@ -395,7 +395,7 @@ TEST(FlexibleRod, StandsStillWhereItStartsInEquilibrium) {
   for (const double q : series(r, "bending_1.crank")) EXPECT_NEAR(q, rod.still, 1e-9 * std::fabs(rod.still));
 }
 
-TEST(FlexibleRod, ARodWithoutMassIsTold) {
+TEST(FlexibleRod, ARodWithoutMassIsReported) {
   const std::string text = crank(flexible, sixty), mass = "rod_mass = \"0.3 kg\"";
   try {
     const Scene scene = scene_from(with(text, mass, "rod_mass = \"0 kg\""));

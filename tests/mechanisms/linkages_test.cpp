@@ -272,7 +272,7 @@ TEST(QuickReturn, PivotOnTheCrankAxisLeavesASliderCrank) {
   }
 }
 
-TEST(QuickReturn, LinkPointsWhereItIsTold) {
+TEST(QuickReturn, LinkPointsWhereItIsReported) {
   QuickReturnData d = shaper();
   const auto ahead = MechanismData(d).places(1.0);
   d.backward = true;

@@ -134,7 +134,7 @@ TEST(MultibodyRun, TroubleInATorqueReachesTheCaller) {
 }
 
 // Simbody's integrators try a shorter step where one throws; trouble told once is trouble all the same.
-TEST(MultibodyRun, TroubleThatIsToldOnlyOnceReachesTheCallerByEveryIntegrator) {
+TEST(MultibodyRun, TroubleThatIsReportedOnlyOnceReachesTheCallerByEveryIntegrator) {
   MultibodyProblem p;
   p.mechanism = MechanismData(reference_mechanism()).bodies_of();
   p.omega0 = 10;

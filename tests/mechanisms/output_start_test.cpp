@@ -33,7 +33,7 @@ double slope(double phi) {
 }
 
 // Each stroke, each sense, each way of telling it; the phase is the shaft's.
-TEST(OutputStart, SliderTellsAngleAndSpeedOfItsCrank) {
+TEST(OutputStart, SliderGivesAngleAndSpeedOfItsCrank) {
   const double extended = std::asin(e / (l + r)), folded = pi + std::asin(e / (l - r));
   for (const double shift : {0.0, 50.0})
     for (const double phi : {0.4, 1.7, 2.9, 3.6, 4.4, 6.1})
@@ -65,7 +65,7 @@ TEST(OutputStart, SliderStandsAtItsDeadCentre) {
 }
 
 // The rocker of a crank–rocker: cosine theorems over the diagonal from crank pin to rocker bearing.
-TEST(OutputStart, RockerTellsAngleAndSpeedOfItsCrank) {
+TEST(OutputStart, RockerGivesAngleAndSpeedOfItsCrank) {
   const double a = 0.06, b = 0.24, c = 0.18, d = 0.25;
   const auto rocker = [&](double phi) {
     const double x = d - a * std::cos(phi), y = -a * std::sin(phi), diagonal = std::hypot(x, y);

@@ -139,7 +139,7 @@ FourBarData data_of(const Linkage& l) {
   return d;
 }
 
-TEST(RockingCrank, SwingsWithinItsArcAsThreeAnglesWithMultipliersDo) {
+TEST(RockingCrank, OscillatesWithinItsArcAsThreeAnglesWithMultipliersDo) {
   for (const Linkage& l : {outside, both, inside}) {
     SCOPED_TRACE(static_cast<double>(l.ground));
     const CrankArc arc = *data_of(l).loop().arc();
@@ -161,7 +161,7 @@ TEST(RockingCrank, SwingsWithinItsArcAsThreeAnglesWithMultipliersDo) {
 }
 
 // The reference goes on through the end of the arc; the run ends there, at its time, and says where and what to do.
-TEST(RockingCrank, EndOfItsArcEndsTheRunToldWithTimeAndAngle) {
+TEST(RockingCrank, EndOfItsArcEndsTheRunReportedWithTimeAndAngle) {
   for (const double way : {1.0, -1.0}) {
     const CrankArc arc = *data_of(both).loop().arc();
     State y = both.at(arc.middle, way * 12);

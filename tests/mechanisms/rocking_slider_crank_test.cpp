@@ -115,7 +115,7 @@ accuracy = 1e-10
 const Swing both, folded{.folds = true, .elevation = -1.75L, .rod_mass = 0.3L, .slider_mass = 0.1L},
     below{.rod = 0.25L, .offset = 0.1L, .elevation = 3.0L}, above{.rod = 0.25L, .offset = -0.1L, .elevation = 0.1L};
 
-TEST(RockingSliderCrank, SwingsWithinItsArcAsTwoAnglesWithAMultiplierDo) {
+TEST(RockingSliderCrank, OscillatesWithinItsArcAsTwoAnglesWithAMultiplierDo) {
   for (const Swing& l : {both, folded, below, above}) {
     SCOPED_TRACE(fmt::format("offset {}, folds {}", static_cast<double>(l.offset), l.folds));
     const CrankArc arc = l.arc();
@@ -161,7 +161,7 @@ TEST(RockingSliderCrank, ArcEndsWhereTheRodStandsSquareToTheLine) {
 }
 
 // The reference goes on through the end of the arc; the run ends there, at its time, and says where and what to do.
-TEST(RockingSliderCrank, EndOfItsArcEndsTheRunToldWithTimeAndAngle) {
+TEST(RockingSliderCrank, EndOfItsArcEndsTheRunReportedWithTimeAndAngle) {
   for (const Swing& l : {both, below}) {
     const CrankArc arc = l.arc();
     State y = l.at(arc.middle, 25);

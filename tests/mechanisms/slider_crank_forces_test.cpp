@@ -248,7 +248,7 @@ TEST(JointFriction, SteepRodOnARoughGuideJams) {
 }
 
 // Reaction beyond the guide: two edge forces with N = N₁ + N₂ and their moment; the friction grows accordingly.
-TEST(JointFriction, ReactionBeyondTheGuideBearsOnBothEdges) {
+TEST(JointFriction, ReactionBeyondTheGuidePressesOnBothEdges) {
   SliderCrankData d = reference_mechanism();
   SliderCrankJoints j;
   j.guide.length = 0.1;

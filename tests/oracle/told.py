@@ -21,7 +21,7 @@ SENTENCES = {
     "slips at times": r'"([^"]+)" slips (once|twice|\d+ times), first',
     "steady": r'"([^"]+)" runs steadily at ',
     "sequence done": r'"([^"]+)" goes through its operating sequence',
-    "not steady": r'"([^"]+)" has not come to a steady motion',
+    "not steady": r'"([^"]+)" has not reached a steady motion',
     "ends": r'"([^"]+)" is (at rest|nearly at rest|at )',
     "too hot": r'"([^"]+)" gets too hot',
 }

@@ -64,7 +64,7 @@ TEST(FrictionOscillator, SticksAndSlipsWithThePeriodOfTheClosedForm) {
 }
 
 // J = 0.02 kg·m², k = 8 N·m/rad, dry friction 0.4 N·m, released at 0.53 rad: each half-swing loses 2 M_f/k = 0.1 rad.
-TEST(FrictionOscillator, PendulumLosesTheSameEachSwingAndStopsOffTheMiddle) {
+TEST(FrictionOscillator, PendulumLosesTheSameEachOscillationAndStopsOffTheMiddle) {
   const Validation is(Against::closed_form, "Torsional pendulum with dry friction (case el03)");
   const Result r = run(R"(
 line = ["pendulum", "spring", "frame"]

@@ -169,7 +169,7 @@ TEST(SliderCrankAtPrescribedSpeed, SliderMovesAsTheClosedFormSays) {
 }
 
 // The drive's work is the change of the kinetic energy, ½ Ω² (I_r(Ω t) − I_r(0)).
-TEST(SliderCrankAtPrescribedSpeed, DriveDoesTheWorkThatTheReducedInertiaAsksFor) {
+TEST(SliderCrankAtPrescribedSpeed, DriveDoesTheWorkThatTheReducedInertiaNeeds) {
   const Validation is(Against::closed_form,
                       "Slider-crank at a prescribed speed: work of the drive = ½ Ω² (I_r(φ) − I_r(0))");
   const test::InlineSliderCrank m{.r = 0.15,

@@ -110,7 +110,7 @@ TEST(MarineTurbineSet, FrequenciesAreThePublishedOnes) {
 }
 
 // Holzer's way from the propeller to both turbines, at the frequency found.
-TEST(MarineTurbineSet, FirstModeSwingsThePropellerAgainstAllElse) {
+TEST(MarineTurbineSet, FirstModeMovesThePropellerAgainstAllElse) {
   const Validation is(Against::closed_form,
                       "Marine turbines: first mode by Holzer's way from the propeller to both turbines");
   const ModesStudy study = marine_study();
@@ -298,7 +298,7 @@ class DieselCrankshaft : public ::testing::TestWithParam<double> {};
 // The source's figures are followed where its indicator diagram holds; what is left is reading and, in the small torque
 // of the pulley, the diagram's finer orders. Against the source's own procedure with the same data the difference is
 // that of viscous and hysteretic damping away from the first mode's frequency.
-TEST_P(DieselCrankshaft, SwingsByThePublishedTorques) {
+TEST_P(DieselCrankshaft, OscillatesByThePublishedTorques) {
   const Validation is(Against::published,
                       "Mendes, Meirelles, Zampieri (2008): crankshaft of a six-cylinder diesel engine (case tv02)");
   const double n = GetParam();

@@ -98,7 +98,7 @@ TEST(Accuracy, ReferencesAgreeWithPublishedDigitsAndStateAnHonestAgreement) {
   EXPECT_NEAR(std::abs(chain.levels[chain.fullest].value[0]), 290.808843395416, 1e-10 * 290.8);
 }
 
-TEST(Accuracy, AnswersHoldAndTheModelsErrorIsTold) {
+TEST(Accuracy, AnswersHoldAndTheModelsErrorIsReported) {
   AccuracyOptions options = coarse();
   options.within = 0.03;
   options.budget = 1e3;

@@ -145,7 +145,7 @@ TEST(Agreement, SteadySpeaksOfClutchesFilmsAndLimitersThatSlip) {
     expect_agreement(name, steady_alone);
 }
 // Its steps wait for angles, its motor for seconds: hundreds of events pass before it comes again.
-TEST(Agreement, SteadySpeaksOfASequenceThatGoesRoundByAngles) { expect_agreement("press_every_third", steady_alone); }
+TEST(Agreement, SteadySpeaksOfASequenceThatRepeatsByAngles) { expect_agreement("press_every_third", steady_alone); }
 TEST(Agreement, SteadySpeaksOfTheMachineThatItsSequenceLeaves) {
   for (const char* name : {"brake_released", "voltage_in_steps", "load_window", "starting_motor_off"})
     expect_agreement(name, steady_alone);
@@ -176,7 +176,7 @@ TEST(Agreement, ReducedInertiaHoldsTheKineticEnergyOfTheRun) {
   for (const char* name : {"soft_start", "air_motor_crank", "load_over_angle", "clutch_slips_always"})
     expect_agreement(name, reduce_alone);
 }
-TEST(Agreement, SizedMachineHasTheFluctuationThatIsTold) {
+TEST(Agreement, SizedMachineHasTheFluctuationThatIsReported) {
   for (const char* name :
        {"air_motor_crank", "gearbox_losses_crank", "limiter_slips_at_the_blow", "fluid_coupling_crank"})
     expect_agreement(name, size_alone);

@@ -42,7 +42,7 @@ std::vector<std::string> faults_of(const std::string& text) {
   return lines;
 }
 
-TEST(Cases, FaultsAreToldWhereTheyStand) {
+TEST(Cases, FaultsAreReportedWhereTheyStand) {
   const int begin = static_cast<int>(std::count(two_discs.begin(), two_discs.end(), '\n'));
   const auto expect = [&](const std::string& more, int line, int column, const std::string& words) {
     SCOPED_TRACE(more);

@@ -127,7 +127,7 @@ std::string blows(const std::string& clutch, const std::string& until) {
                      clutch, until);
 }
 
-TEST(ContactClaims, AClutchThatSlipsAtEveryBlowIsBadNewsAndNoSentenceSaysThatAllHolds) {
+TEST(ContactClaims, AClutchThatSlipsAtEveryStrokeIsBadNewsAndNoSentenceSaysThatAllHolds) {
   const Result r = test::run(blows("", "2 s"));
   const Claim* slips = find(r.claims, Predicate::clutch_slips_closed, "clutch");
   ASSERT_TRUE(slips) << said(r);

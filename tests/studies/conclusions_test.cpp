@@ -319,7 +319,7 @@ TEST(Conclusion, AnIncompleteRunIsHeadlinedAsSuch) {
 }
 
 // An effect that is off and moves a key figure by two per cent or more stands in the conclusion, behind what runs.
-TEST(Conclusion, TellsWhichEffectThatIsOffWouldChangeTheAnswer) {
+TEST(Conclusion, ReportsWhichEffectThatIsOffWouldChangeTheAnswer) {
   const Scene scene = test::scene_file("scenes/crank_press.toml");
   SimulateOptions options;
   options.measure_error = false;
@@ -349,6 +349,9 @@ TEST(KeyFigures, HoldWhatIsJudgedAndWhatTheMotorGives) {
     EXPECT_TRUE(has(drive, name)) << name;
   for (const char* name : {"delta.press", "mean_speed.press", "thermal_use.motor", "peak_torque.main_coupling"})
     EXPECT_TRUE(has(press, name)) << name;
+  // An angle is one within a turn; beyond it counts turns.
+  EXPECT_FALSE(has(chosen("hydraulic_winch"), "final_angle.motor"));
+  EXPECT_TRUE(has(chosen("pendulum_balance"), "final_angle.pendulum"));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ ModesStudy study_over(const std::string& text, double slowest, double fastest) {
 
 // What a joint with ζ passes on: √((1 + (2ζr)²)/((1 − r²)² + (2ζr)²)) times the rigid torque, r = ω/ω₀, greatest at
 // r² = (√(1 + 8ζ²) − 1)/(4ζ²) (Den Hartog, Mechanical Vibrations, section 2.12).
-TEST(CriticalSpeeds, SwingMostWhereTheClosedFormDoes) {
+TEST(CriticalSpeeds, OscillateMostWhereTheClosedFormDoes) {
   for (const double ratio : {0.02, 0.2, 0.4}) {
     SCOPED_TRACE(ratio);
     const double r2 = (std::sqrt(1 + 8 * ratio * ratio) - 1) / (4 * ratio * ratio), damper = 4 * ratio * ratio * r2;
@@ -82,7 +82,7 @@ TEST(CriticalSpeeds, SwingMostWhereTheClosedFormDoes) {
 
 // A stiff shaft of small torque before a soft one with a large damping: told is what the soft one does, which the mode
 // twists, and not the slope of the other; its peak is that of the closed form.
-TEST(CriticalSpeeds, AreTheSwingOfTheJointThatTheModeTwists) {
+TEST(CriticalSpeeds, AreTheAmplitudeOfTheJointThatTheModeTwists) {
   const ModesStudy study = study_over(R"~(
 line    = ["motor", "stiff", "wheel", "soft", "fan"]
 motor   = { kind = "dc shunt motor", stall_torque = "1e-6 N*m", no_load_speed = "100 rad/s", inertia = "40 kg*m2" }
@@ -155,7 +155,7 @@ TEST(KeptSpeeds, StretchesAreWhole) {
 }
 
 // A rigid shaft pair under M cos φ on a wheel J: the speed swings by M/(J ω), at low speeds by more than itself.
-TEST(KeptSpeeds, SwingOfTheSpeedIsThatOfTheClosedForm) {
+TEST(KeptSpeeds, OscillationOfTheSpeedIsThatOfTheClosedForm) {
   const Scene scene = scene_from(R"~(
 line    = ["motor", "shaft", "wheel"]
 motor   = { kind = "dc shunt motor", stall_torque = "0.001 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }

@@ -127,7 +127,7 @@ TEST(Dictionary, EquationsItCitesStandInTheTheory) {
   }
 }
 
-TEST(Dictionary, WhatRunsOfAllScenesTellIsExplained) {
+TEST(Dictionary, WhatRunsOfAllScenesReportIsExplained) {
   for (const auto& [scene, told] : told_by_scenes()) {
     for (const Figure& f : told.figures) {
       const Definition* d = definition_of(name_of(f));
@@ -153,7 +153,7 @@ TEST(Dictionary, UnitsAreThoseOfTheFigures) {
     }
 }
 
-TEST(Dictionary, WhatItSaysThatRunsTellIsToldByOne) {
+TEST(Dictionary, WhatItSaysThatRunsReportIsReportedByOne) {
   std::set<std::string_view> told;
   for (const auto& [scene, of] : told_by_scenes()) {
     for (const Figure& f : of.figures) told.insert(definition_of(name_of(f))->name);
@@ -171,7 +171,7 @@ TEST(Dictionary, WhatItSaysThatRunsTellIsToldByOne) {
   }
 }
 
-TEST(Dictionary, ARunTellsNothingThatIsNotListed) {
+TEST(Dictionary, ARunReportsNothingThatIsNotListed) {
   for (const char* name : {"dc_hoist", "press_drive", "worm_hoist"}) {
     Scene scene = test::scene_file(std::string("scenes/") + name + ".toml");
     std::set<std::string> listed;

@@ -78,7 +78,7 @@ TEST(MotorFigures, HeatOfATwoAxisStartIsTheKineticEnergyButForItsFields) {
 }
 
 // ω falls by (500 − 100) N·m · 0.1 s/4 kg·m² = 10 rad/s from 100 rad/s, and gives ½ · 4 · (100² − 90²) J.
-TEST(Flywheel, FallsAndGivesWhatTheBlowTakesBeyondTheDrive) {
+TEST(Flywheel, FallsAndGivesWhatTheStrokeTakesBeyondTheDrive) {
   const Result r = test::run(R"(
     line = ["motor", "wheel"]
     motor = { kind = "torque source", torque = "100 N*m" }

@@ -108,7 +108,7 @@ TEST(MotorFigures, PowerTimesTimeIsWorkAndRunAgreesWithSteady) {
 // With both ends at work the compressor asks its motor for 55 % and more, with one 29 %: its heat is by the heavier, and so
 // is the verdict, though the run ends with the lighter; also where the motor slips out of the band about the last speed.
 // Neither the start counts, nor what a switching leaves behind.
-TEST(MotorFigures, ThermalUseIsThatOfTheHeaviestCycleThatComesAgain) {
+TEST(MotorFigures, ThermalUseIsThatOfTheHeaviestCycleThatRepeats) {
   for (const auto& [bore, until, use] : {std::tuple("146 mm", "9 s", 0.5455), std::tuple("240 mm", "9 s", 0.992),
                                          std::tuple("146 mm", "6.9 s", 0.5455), std::tuple("260 mm", "9 s", 1.115)}) {
     SCOPED_TRACE(std::string(bore) + ", " + until);
@@ -321,7 +321,7 @@ TEST(WorksByPeriod, CloseAndAddUpToTheRun) {
 
 // Works of periods by hand: run-up ends and the drive goes off within a cycle; energy there is that at the cycle's begin and
 // what was done since.
-TEST(WorksByPeriod, AreThoseBetweenTheBordersThatAreTold) {
+TEST(WorksByPeriod, AreThoseBetweenTheBordersThatAreReported) {
   const auto model = compile(test::scene_file("scenes/driven_slider_crank.toml"), {});
   std::vector<CycleRecord> cycles;
   std::vector<double> before(model->accounts.size(), 0.0);

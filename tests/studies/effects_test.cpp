@@ -107,8 +107,8 @@ TEST(Effects, EachIsRankedByWhatItChanges) {
   ASSERT_TRUE(study.full.complete);
   ASSERT_EQ(study.left_out.size(), 2u);
   EXPECT_EQ(study.left_out[0].effect.name, "elasticity:pump_shaft");
-  EXPECT_EQ(study.left_out[0].saved.states, 2u);  // a twist and a speed
-  EXPECT_GT(study.left_out[0].saved.nonzeros, 0u);
+  EXPECT_EQ(study.left_out[0].saved.states, 2);  // a twist and a speed
+  EXPECT_GT(study.left_out[0].saved.nonzeros, 0);
   // By their own size the RMS and the peak are missed alike; both come before all else.
   const auto peak = std::find_if(study.left_out[0].changes.begin(), study.left_out[0].changes.end(),
                                  [](const auto& change) { return change.figure == "peak_torque.pump_shaft"; });

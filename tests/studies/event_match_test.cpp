@@ -18,7 +18,7 @@ TEST(EventMatch, PairsByKindInOrderThoughTheOrderOfKindsDiffers) {
   EXPECT_EQ(match.only_in_fine + match.only_in_coarse, 0u);
 }
 
-TEST(EventMatch, TellsWhatOneRunAloneHas) {
+TEST(EventMatch, ReportsWhatOneRunAloneHas) {
   const std::vector<Event> coarse = {{1.0, "gear", "touches", "in flight"}, {3.0, "gear", "touches", "in flight"}};
   const std::vector<Event> fine = {{1.1, "gear", "touches", "in flight"},
                                    {1.2, "gear", "touches", "in flight"},

@@ -45,6 +45,19 @@ TEST(FigureText, InWordsHasAnErrorThatMatters) {
   EXPECT_EQ(with_error({7, 0}, "s"), "7 s");
 }
 
+// Of an unknown error: by the scale.
+TEST(FigureText, RoundingOfAScaleIsZero) {
+  EXPECT_EQ(without_rounding({-2e-7}, 1e6).value, 0);
+  EXPECT_EQ(without_rounding({-2e-5}, 1e6).value, -2e-5);
+  EXPECT_EQ(without_rounding({2e-7, 1e-9}, 1e6).value, 2e-7);
+}
+
+TEST(FigureText, DurationsHaveTheUnitOfTheirSize) {
+  EXPECT_EQ(duration_text(1.7004), "1.7 s");
+  EXPECT_EQ(duration_text(0.0123), "12.3 ms");
+  EXPECT_EQ(duration_text(6.85e-4), "685 µs");
+}
+
 TEST(FigureText, WithoutAnErrorHasSixDigitsAtMostAndSaysSo) {
   EXPECT_EQ(with_error({724.88551234}, "N*m"), "724.886 N·m");
   EXPECT_EQ(error_cell({724.88551234}), "not measured");

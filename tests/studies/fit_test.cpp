@@ -91,7 +91,7 @@ TEST_F(Fit, OfACoastingRotorFindsItsDragWithItsError) {
 }
 
 // b and J: b/J alone is seen. Moved together by their ratio nothing changes.
-TEST_F(Fit, NamesWhatARecordCannotTellApart) {
+TEST_F(Fit, NamesWhatARecordCannotDistinguish) {
   const FitStudy found =
       fit_machine(asked(coasting, file("pair.csv", coasting_record(0.1, 61, 3)), Over::time, {"n=speed.rotor"},
                         {"drag.damping=0.05..0.6 N*m*s/rad", "rotor.inertia=0.2..1 kg*m2"}));

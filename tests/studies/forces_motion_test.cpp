@@ -133,7 +133,7 @@ TEST(CompiledMachine, TurnsTheCrankWithTheTorqueThatItsLinksNeed) {
 }
 
 // A rod that bends counts as rigid: told with its size, and the error holds the torque that the machine really takes.
-TEST(CompiledMachine, TellsWhatABendingRodChanges) {
+TEST(CompiledMachine, ReportsWhatABendingRodChanges) {
   const Forces f = find_forces(test::scene_file("tests/agreement/slender_rod_small.toml"), {});
   ASSERT_TRUE(f.simulated);
   ASSERT_EQ(f.notes.size(), 1U);
@@ -197,7 +197,7 @@ TEST(ForcesWithoutASteadyMotion, HaveAnErrorThatHoldsTheNextCycle) {
 }
 
 // Two cranks, one at twice the speed: the machine comes again after two cycles of the fast one, which its peaks know.
-TEST(ForcesOfTheSteadyMotion, GoOnUntilTheWholeMachineComesAgain) {
+TEST(ForcesOfTheSteadyMotion, GoOnUntilTheWholeMachineRepeats) {
   const Scene scene = test::scene_from(R"(
 line = ["motor", "fast", "gear", "slow"]
 [motor]

@@ -247,7 +247,7 @@ accuracy = 1e-9
   }
 }
 
-TEST(SimulatedForces, AreLeftOutInWordsWhereTheCrankDoesNotTurnRound) {
+TEST(SimulatedForces, AreOmittedInWordsWhereTheCrankDoesNotRotate) {
   std::string stopped = slider_alone;  // 200 J against 5 kN
   stopped.replace(stopped.find("[run]"), 5, "load = { kind = \"opposing\", force = \"5 kN\" }\n[run]");
   const Forces f = forces_of(stopped);

@@ -119,7 +119,7 @@ crank = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inerti
 // --- forced response ---
 
 // Two orders and a fixed frequency on two inertias: τ = s f/J₁/(s/J − ω²), s = k + iωc, each by itself.
-TEST(ForcedResponse, PeaksLieOnTheSideOfTheDeeperSwing) {
+TEST(ForcedResponse, PeaksLieOnTheSideOfTheLargerAmplitude) {
   const Scene scene = test::scene_from(R"(
 line = ["a", "c", "b"]
 a = { kind = "inertia", inertia = "0.3 kg*m2" }

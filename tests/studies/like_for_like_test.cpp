@@ -149,7 +149,7 @@ TEST(Compare, LabelsAndSharedEffectsAreThoseOfTheModels) {
 }
 
 // Two couplings with nothing between them: elastic both, the shaft between would have no inertia. One is a model.
-TEST(Accuracy, ARungThatMakesNoMachineIsToldAndLeftOut) {
+TEST(Accuracy, ARungThatMakesNoMachineIsReportedAndOmitted) {
   const Scene scene = test::scene_from(R"(
 line = ["motor", "c1", "c2", "disc"]
 motor = { kind = "dc shunt motor", stall_torque = "400 N*m", no_load_speed = "160 rad/s", inertia = "2 kg*m2" }

@@ -164,7 +164,7 @@ std::string shaken_table(double mean, double swing) {
 }
 
 // The resonance at 80 rad/s is run through: more than the shock of the start, less than the steady swing at it.
-TEST(LimitsFromRest, ResonanceRunThroughStaysBelowTheSteadySwingAtIt) {
+TEST(LimitsFromRest, ResonanceRunThroughStaysBelowTheSteadyAmplitudeAtIt) {
   const std::string text = fan(60, 1, "maximum_torque = \"150 N*m\"", shaken_table(0, 20));
   const ModesStudy m = modes_of(text, {.fastest = 120});
   const Verdict& v = verdict_on(m, "maximum");
@@ -283,7 +283,7 @@ TEST(BarredRanges, RuleDoesNotBreakWhereTheMeanTorqueVanishes) {
   EXPECT_TRUE(barred_ranges(joint, resonance(81, 80), 1).empty());
 }
 
-TEST(BarredRanges, JointBeyondItsLimitEverywhereIsBarredEverywhereAndTold) {
+TEST(BarredRanges, JointBeyondItsLimitEverywhereIsBarredEverywhereAndReported) {
   DriveLimits limits;
   limits.maximum = 30;
   const std::vector<LimitedJoint> joints = {joint_of(limits)};
@@ -300,7 +300,7 @@ TEST(BarredRanges, JointBeyondItsLimitEverywhereIsBarredEverywhereAndTold) {
 }
 
 // A frequency of its own excites, no order does: the coupling is barred at every speed all the same.
-TEST(BarredRanges, SwingAtAFrequencyOfItsOwnIsBarredAtEverySpeed) {
+TEST(BarredRanges, OscillationAtAFrequencyOfItsOwnIsBarredAtEverySpeed) {
   const ModesStudy m = modes_of(R"(
 line = ["source", "k1", "disc"]
 source = { kind = "torque source", torque = "40 N*m", amplitude = "30 N*m", frequency = "12 Hz", inertia = "0.5 kg*m2" }
@@ -349,7 +349,7 @@ TEST(BarredRanges, EveryLimitBars) {
 }
 
 // Where halves may part and the torque changes sign they hammer, however small the swing: told apart from the size of it.
-TEST(BarredRanges, HammeringIsToldApart) {
+TEST(BarredRanges, HammeringIsReportedSeparately) {
   DriveLimits wide;
   wide.maximum = 1000;
   const auto ranges = barred_ranges({joint_of(wide, 40, true)}, resonance(10, 20), 1);

@@ -79,7 +79,7 @@ const Verdict& verdict_on(const ModesStudy& m, const std::string& what) {
 }
 
 // DIN 740: S_f = √(f/10 Hz) above 10 Hz, of a swing by the order as of one by a frequency of its own.
-TEST(Limits, SwingsAboveTenHertzCountWithTheRootOfTheirFrequency) {
+TEST(Limits, AmplitudesAboveTenHertzCountWithTheRootOfTheirFrequency) {
   const std::string limits = "vibratory_torque = \"30 N*m\"";
   const ModesStudy by_order = modes_of(two_masses(1, limits));
   const double f = speed / (2 * pi);  // 15.9 Hz

@@ -96,7 +96,7 @@ TEST(ForcesInALinkage, GoThroughChangePointsWithTheMachine) {
 
 // The crank turns evenly: ω_i of the rocker over its sweep. Its swing has no mean, its greatest speeds are those of the
 // geometry; a link of the mechanism that turns with the shaft has its speed.
-TEST(ForcesInALinkage, TellsSpeedsOfTheLinks) {
+TEST(ForcesInALinkage, GivesSpeedsOfTheLinks) {
   ForcesOptions options;
   options.simulate = false;
   options.speed = 10;

@@ -48,7 +48,7 @@ TEST(Margins, SpeedsAreThoseOfTheLink) {
 }
 
 // Below its breakdown the motor does not stay; the shaft crosses there all the same: ω = √(k (1/J₁ + 1/J₂)).
-TEST(Margins, DoNotHangOnTheSlopeOfAMotorsCurve) {
+TEST(Margins, DoNotDependOnTheSlopeOfAMotorsCurve) {
   const double omega = std::sqrt(1400 * (1 / 0.1 + 1 / 0.8));
   Scene scene = test::scene_file("tests/cases/reports/crossing_below_breakdown.toml");
   for (const double ratio : {2.8, 1.6}) {

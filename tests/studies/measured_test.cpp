@@ -199,7 +199,7 @@ TEST_F(Measured, ASteadyCycleTakesTheTimeModuloItsPeriod) {
 }
 
 // In the run's own plots, in its figures, in JSON, on the terminal in short and at length.
-TEST_F(Measured, ARunTellsItEverywhere) {
+TEST_F(Measured, ARunReportsItEverywhere) {
   Result r = ringing(101);
   const std::string path = file("time [s],T1 [N*m]\n0,1\n0.1,2\n0.2,3\n0.3,2\n");
   const Overlay o = lay_over(read_measurement({path, {"T1=torque.shaft"}, "", {}}, channels_of_run(*r.model)), r);
@@ -227,7 +227,7 @@ TEST_F(Measured, ARunTellsItEverywhere) {
 
 // --- what is wrong with it: place, what, what would be right ---
 
-TEST_F(Measured, FaultsAreToldAtTheirPlaces) {
+TEST_F(Measured, FaultsAreReportedAtTheirPlaces) {
   const std::string good = "time [s],T1 [N*m],w [rpm]\n0,1,2\n1,2,3\n2,3,4\n3,4,5\n";
   const std::string path = file(good);
   const struct {

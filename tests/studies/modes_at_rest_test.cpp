@@ -46,7 +46,7 @@ ModesStudy modes_of(const std::string& scene, const ModesOptions& options = {}) 
 }
 
 // ω² = m g l/J, from the rest itself and from where it swings without end.
-TEST(ModesAtRest, PendulumSwingsBySqrtOfMglOverJ) {
+TEST(ModesAtRest, PendulumOscillatesBySqrtOfMglOverJ) {
   const double omega = std::sqrt(1 * g * 2 / 4.1);
   for (const double from : {0.0, 90.0, -40.0}) {
     const ModesStudy m = modes_of(pendulum(from));
@@ -88,7 +88,7 @@ TEST(ModesAtRest, DampingOfTheRockerDampsByItsRatioSquared) {
 
 // r = 0.2, l = 0.12 along the vertical: x″ = −r − r²/l and β′ = −r/l at φ = 0, so that
 //     K = g (m_c c + m_s (r + r²/l)),   I = I_c + I_rod r²/l²
-TEST(ModesAtRest, SliderOfARockingCrankHangsOnItsAccelerationRatio) {
+TEST(ModesAtRest, SliderOfARockingCrankDependsOnItsAccelerationRatio) {
   const double k = g * (5 * 0.08 + 0.3 * (0.2 + 0.04 / 0.12)), inertia = 0.06 + 0.002 * 0.04 / 0.0144;
   const ModesStudy m = modes_of(R"(
 line = ["swing"]
@@ -160,7 +160,7 @@ TEST(ModesAtRest, WhatFrictionHoldsHasItsNaturalFrequencies) {
 }
 
 // Upside down it falls: λ = +√(m g l/J), told, and no frequency is made of it.
-TEST(ModesAtRest, RestUpsideDownIsToldToGrow) {
+TEST(ModesAtRest, RestUpsideDownIsStatedToGrow) {
   const ModesStudy m = modes_of(pendulum(0), [] {
     ModesOptions held;
     held.angle = 140 * pi / 180;
@@ -173,7 +173,7 @@ TEST(ModesAtRest, RestUpsideDownIsToldToGrow) {
 }
 
 // Without weights nothing brings it back: where it stands it does not swing, and pushed it comes to the end of its arc.
-TEST(ModesAtRest, WithoutWeightsThereIsNothingToSwingBy) {
+TEST(ModesAtRest, WithoutWeightsThereIsNothingToOscillateBy) {
   std::string light = pendulum(10);
   light.erase(light.find("gravity"), light.find("ground_angle") - light.find("gravity"));
   EXPECT_TRUE(modes_of(light).modes.empty());

@@ -102,7 +102,7 @@ TEST(ModesByEnergy, AWindingAndAnInertiaShareTheirEnergyInHalves) {
       << modes::energy_text(m, winding);
 }
 
-TEST(ModesByEnergy, FiguresOfASweepTellThemApart) {
+TEST(ModesByEnergy, FiguresOfASweepDistinguishThem) {
   MachineQuestion question;
   question.text = fan_drive(900, 0.7, 1.1), question.file = "fan.toml", question.of = SweepStudy::modes;
   const MachineAnswer answer = answer_of(question);

@@ -472,7 +472,7 @@ TEST(ModesStudy, PressGivesAReportWithASimulatedTorque) {
   EXPECT_NE(page.find("Waterfall"), std::string::npos);
 }
 
-TEST(ModesStudy, RefusesAnUnknownTorqueAndRangesTheWrongWayRound) {
+TEST(ModesStudy, RefusesAnUnknownTorqueAndReversedRanges) {
   const Scene scene = test::scene_from(shaken);
   EXPECT_THROW(find_modes(scene, scene.effects, {.torque = "nothing"}), std::invalid_argument);
   EXPECT_THROW(find_modes(scene, scene.effects, {.slowest = 30, .fastest = 20}), std::invalid_argument);

@@ -221,7 +221,7 @@ run = {{ start = {{ speed = "{} rpm", angle = "{} deg" }}, until = "{} s" }}
 }
 
 // What an error hides is not nothing.
-TEST(Edges, WhatIsNotToldFromZeroIsNotCalledNothing) {
+TEST(Edges, WhatIsNotReportedFromZeroIsNotCalledNothing) {
   Peak p{{300, 400}};
   p.scale = 1000;
   EXPECT_FALSE(is_nothing(p));
@@ -249,7 +249,7 @@ TEST(FailedSearches, OfTheLossyPunchFindItsCycle) {
 }
 
 // Too little inertia to come through the stroke at 20 rpm: no cycle is found, and the words are those of a search.
-TEST(FailedSearches, AreNotToldAsMotions) {
+TEST(FailedSearches, AreNotReportedAsMotions) {
   const Scene scene = report("lossy_geared_punch");
   const SteadyStudy study = steady(scene, {scene.effects}, {.mid_speed = 20 * rpm, .start_search = false});
   EXPECT_FALSE(study.complete);
@@ -372,7 +372,7 @@ run = {{ until = "80 s" }}
 }
 
 // A vibration about zero is a steady motion: |φ| = M/√((k − Jω²)² + (cω)²), of which the speed is ω times as much.
-TEST(SwingsAboutZero, AreASteadyMotion) {
+TEST(OscillationsAboutZero, AreASteadyMotion) {
   const Scene scene = report("swings_about_zero");
   const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
   EXPECT_TRUE(study.complete) << study.diagnosis;
@@ -397,7 +397,7 @@ TEST(SwingsAboutZero, AreASteadyMotion) {
 }
 
 // Without damping nothing asks for a period: the disc vibrates at ω = √(k/J) with the amplitude ω₀/ω of its start.
-TEST(SwingsAboutZero, ByThemselvesKeepTheEnergyOfTheirStart) {
+TEST(OscillationsAboutZero, ByThemselvesKeepTheEnergyOfTheirStart) {
   std::mt19937 random(7);
   for (int k = 0; k < 3; ++k) {
     const double stiffness = uniform(random, 2e3, 5e4), inertia = uniform(random, 0.2, 5),

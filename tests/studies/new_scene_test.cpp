@@ -73,7 +73,7 @@ TEST_F(NewScene, MistypedKindIsGuessed) {
   EXPECT_EQ(kurbel("new press missing/press.toml").code, 2);
 }
 
-TEST_F(NewScene, EveryOneIsSound) {
+TEST_F(NewScene, EveryOneIsValid) {
   for (const SceneTemplate& scene : scene_templates()) {
     EXPECT_EQ(kurbel("new " + scene.name).code, 0);
     const Said said = kurbel("check " + scene.name + ".toml");

@@ -119,7 +119,7 @@ TEST(OilFilm, MoreOilOrLessRoughnessMakesItFluidAndNoneDry) {
 }
 
 // The shaft and the crank pin turn, the slider's pin rocks.
-TEST(OilFilm, CompressorsPinsAreToldByWhatIsInTheirScene) {
+TEST(OilFilm, CompressorsPinsAreReportedByWhatIsInTheirScene) {
   const Forces f = find_forces(test::scene_file("scenes/compressor.toml"), {});
   ASSERT_EQ(f.films.size(), 3u);
   EXPECT_EQ(f.films[0].words(), "fluid");

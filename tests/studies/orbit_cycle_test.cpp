@@ -192,7 +192,7 @@ TEST(OrbitCycle, FlywheelThatOnlyTheElasticMachineNeedsIsProposed) {
 }
 
 // A crank far behind a soft shaft swings however heavy the flywheel at the motor is.
-TEST(OrbitCycle, DemandThatNoFlywheelMeetsIsToldWithTheLeast) {
+TEST(OrbitCycle, DemandThatNoFlywheelMeetsIsReportedWithTheLeast) {
   Scene scene = test::scene_from(R"(
 line  = ["motor", "wheel", "shaft", "press"]
 motor = { kind = "dc shunt motor", stall_torque = "1200 N*m", no_load_speed = "9 rad/s", inertia = "2 kg*m2" }

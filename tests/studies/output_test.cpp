@@ -98,7 +98,7 @@ TEST(Trajectory, NamesUnitsAndEndsAtTheEnd) {
 }
 
 // A run that broke off because its motion had lost all values: none of them is told, anywhere.
-TEST(Output, WhatHasNoValueInARunThatBrokeOffIsLeftOut) {
+TEST(Output, WhatHasNoValueInARunThatBrokeOffIsOmitted) {
   Result r = run(press_at_speed(), false);
   const std::string lost = r.figures.front().name, kept = r.figures.back().name;
   for (const double none : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {

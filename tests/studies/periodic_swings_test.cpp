@@ -32,13 +32,13 @@ void expect_swings_of_the_run(const std::string& file) {
 }
 
 // A governor's slow swing: 0.2402 Hz, ζ = 0.691; its mode has little of the motion's states beside those of the coupling.
-TEST(PeriodicSwings, SlowSwingOfAGovernorIsNotTakenForOneOfTheCoupling) {
+TEST(PeriodicOscillations, SlowOscillationOfAGovernorIsNotTakenForOneOfTheCoupling) {
   expect_swings_of_the_run("tests/agreement/governor_crank.toml");
 }
 
 // A limiter that slips once a round: both multipliers of the swing are real, of two signs, and their turns in a round are
 // a matter of counting.
-TEST(PeriodicSwings, SwingBehindALimiterIsLockedToTheRound) {
+TEST(PeriodicOscillations, OscillationBehindALimiterIsLockedToTheCycle) {
   expect_swings_of_the_run("tests/agreement/swings/limiter_slips_with_shaft.toml");
   const ModesStudy study = modes_of("tests/agreement/swings/limiter_slips_with_shaft.toml");
   ASSERT_EQ(study.modes.front().periodic.size(), 2u);
@@ -49,14 +49,14 @@ TEST(PeriodicSwings, SwingBehindALimiterIsLockedToTheRound) {
 }
 
 // The pin lies on its bush all round; at the mean of its place it hangs in the gap and would swing at 0.9 Hz.
-TEST(PeriodicSwings, RodThatHangsInTheGapOfTheMeanDoesNotSwing) {
+TEST(PeriodicOscillations, RodThatFloatsInTheGapOfTheMeanDoesNotOscillate) {
   expect_swings_of_the_run("tests/agreement/swings/worn_pin_shaft.toml");
   const ModesStudy study = modes_of("tests/agreement/swings/worn_pin_shaft.toml");
   EXPECT_TRUE(std::any_of(study.modes.begin(), study.modes.end(), [](const Mode& mode) { return mode.only_of_mean; }));
 }
 
 // A table that sticks once a round has forgotten how it swung before: its multiplier is 0.
-TEST(PeriodicSwings, WhatSticksOnceARoundDoesNotSwingOn) {
+TEST(PeriodicOscillations, WhatSticksOnceACycleDoesNotOscillateOn) {
   const ModesStudy study = modes_of("tests/agreement/slow_stick_slip.toml");
   ASSERT_EQ(study.modes.size(), 1u);
   EXPECT_TRUE(study.modes.front().only_of_mean);

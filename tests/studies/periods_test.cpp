@@ -168,7 +168,7 @@ TEST(Periods, ARunawayIsNeverSteady) {
   EXPECT_FALSE(r.periods.steady) << r.periods.verdict;
   EXPECT_FALSE(r.periods.remaining);
   EXPECT_EQ(r.find("steady_speed.crank"), nullptr);
-  EXPECT_NE(r.periods.verdict.find("does not shrink"), std::string::npos) << r.periods.verdict;
+  EXPECT_NE(r.periods.verdict.find("does not decrease"), std::string::npos) << r.periods.verdict;
   const Result series = run(R"(
 line = ["motor", "rotor"]
 [motor]
@@ -200,7 +200,7 @@ TEST(Periods, AMachineThatBeginsSteadyIsSteadyAndHasNoRunUp) {
 
 // Dry friction stops the rotor behind the coupling at once; the pendulum crank swings on: its turning points are no
 // rest.
-TEST(Periods, AMachineThatSwingsIsNotAtRestWhereItTurnsBack) {
+TEST(Periods, AMachineThatOscillatesIsNotAtRestWhereItTurnsBack) {
   const Result r = run(R"(
 line = ["motor", "crank"]
 [motor]
@@ -227,7 +227,7 @@ accuracy = 1e-7
 
 // A compressor swings about its dead centre, slower and slower, and is held for a moment where it turns: below 0.1 % for good
 // before the last such turn, which is no rest.
-TEST(Periods, AHoldThatEndsASwingIsNoRest) {
+TEST(Periods, AHoldThatEndsAnOscillationIsNoRest) {
   const Result r = run(R"(
 line = ["motor", "coupling", "flywheel", "machine"]
 [motor]
@@ -269,7 +269,7 @@ until = "40 s"
 
 // Braked on the motor's side, the press swings on behind its coupling: at the end it passes through rest at less than 1 % of
 // its usual 170 rad/s, and was at 27 rad/s within the same swing.
-TEST(Periods, ASwingIsNotNearlyAtRestWhereItTurns) {
+TEST(Periods, AnOscillationIsNotNearlyAtRestWhereItTurns) {
   const Result r = run(R"(
 line = ["motor", "brake", "coupling", "machine"]
 [motor]

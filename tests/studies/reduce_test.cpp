@@ -103,7 +103,7 @@ TEST(Reduce, SliderAndCrankHaveTheSameKineticEnergyAndPower) {
   }
 }
 
-TEST(Reduce, DeadCentresOfTheSliderAreLeftOutWithTheReason) {
+TEST(Reduce, DeadCentresOfTheSliderAreOmittedWithTheReason) {
   const MachineReduction r = reduce(test::scene_file("scenes/crank_press.toml"), options_of(12, "press.slider", 6));
   ASSERT_EQ(r.positions.size(), 12U);
   for (const ReducedPosition& p : r.positions) EXPECT_EQ(!p.singular.empty(), p.number == 0 || p.number == 6);

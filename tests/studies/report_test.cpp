@@ -166,7 +166,7 @@ TEST(Report, HoldsBothModelsAndTheMachine) {
   EXPECT_GE(plots, 4);
 }
 
-TEST(Trace, PlotsReachThePeaksThatTheFiguresTell) {
+TEST(Trace, PlotsReachThePeaksThatTheFiguresReport) {
   const Comparison c = compared(geared_train);
   const Trace* torque = c.b.traces->find("torque.shaft");
   ASSERT_TRUE(torque);
@@ -323,7 +323,7 @@ TEST(Report, TilesTakeUnitPrefixes) {
 }
 
 // The first screen rounds as the conclusion does; what is known stands below.
-TEST(Report, TilesRoundAndTellWhatIsKnown) {
+TEST(Report, TilesRoundAndReportWhatIsKnown) {
   const TileText peak = tile_text({8874.28314, 0.0021}), drop = tile_text({0.104382, 0.0112}),
                  exact = tile_text({10, 0.0});
   EXPECT_EQ(peak.value + "|" + peak.known + "|" + peak.error, "8874|8874.28|");

@@ -225,7 +225,7 @@ TEST(ShaftStress, ResonanceNearTheRatedSpeedIsNotAllowed) {
 }
 
 // S (K_f τ_a + τ_W τ_m/(0.67 σ_B)) against τ_W, S |τ| against 0.577 σ_S, the amplitude against the maker's.
-TEST(ShaftStress, GoodmanYieldAndTheMakersLimitOfTheSteadyMotion) {
+TEST(ShaftStress, GoodmanYieldAndTheManufacturersLimitOfTheSteadyMotion) {
   const ModesStudy m = modes_of(
       two_masses(8,
                  "tensile_strength = \"600 MPa\"\nyield_strength = \"350 MPa\"\nendurance_limit = \"150 MPa\"\n"
@@ -244,7 +244,7 @@ TEST(ShaftStress, GoodmanYieldAndTheMakersLimitOfTheSteadyMotion) {
 }
 
 // A torque put on at once swings between none and twice its mean: τ_a = τ_m = 300 N·m/W_p in `run`.
-TEST(Ratings, WidestCycleOfAShaftAfterABlow) {
+TEST(Ratings, WidestCycleOfAShaftAfterAShock) {
   const Result r = test::run(R"(
     line = ["a", "shaft", "b"]
     a = { kind = "inertia", inertia = "0.5 kg*m2" }

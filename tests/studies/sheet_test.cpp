@@ -116,7 +116,7 @@ TEST(Sheet, KinematicsOfAnOffsetSliderCrankMatchTheClosedForm) {
 }
 
 // The blow lies between positions 11 and 0: where the travel to the dead centre is 6, 5.5, 2 and 1.8 mm.
-TEST(Sheet, ABlowBetweenTwoPositionsIsNotSkipped) {
+TEST(Sheet, AShockBetweenTwoPositionsIsNotSkipped) {
   const ReduceSheet& sheet = sheet_of_offset_press();
   const SliderCrankGeometry geometry = offset_geometry();
   std::vector<double> travels;

@@ -95,7 +95,7 @@ struct TwoDiscs {
 
 // Beside the resonance that the mean stiffness gives, the joint's swing crosses its kink: the linear response is off by
 // many per cent, and the cycle is where an integration of the two discs comes to rest.
-TEST(SpotChecks, ProgressiveCouplingSwingsAsAnIndependentIntegrationSays) {
+TEST(SpotChecks, ProgressiveCouplingOscillatesAsAnIndependentIntegrationSays) {
   const double top = 40;
   const Scene scene = machine(progressive, top);
   const ModesStudy m = modes_of(scene, {.fastest = 90, .spot_checks = 2, .spots = {50}});
@@ -127,7 +127,7 @@ TEST(SpotChecks, ProgressiveCouplingSwingsAsAnIndependentIntegrationSays) {
 }
 
 // The range's peak is looked at first, and nothing near the operating speed.
-TEST(SpotChecks, LieWhereTheJointBearsMost) {
+TEST(SpotChecks, LieWhereTheJointCarriesMost) {
   const ModesStudy m = modes_of(machine(spring, 40), {.fastest = 90, .spot_checks = 1});
   ASSERT_EQ(m.spots.size(), 1u);
   double most = 0, speed = 0;

@@ -131,7 +131,7 @@ TEST(Steady, RmsOfAMotorUnderConstantLoadIsTheLoadAndItsThermalUseTheRatio) {
   EXPECT_NEAR(*motor.thermal(), 0.75, 1e-11);
 }
 
-TEST(Steady, StabilityIsToldInCyclesOfHalving) {
+TEST(Steady, StabilityIsReportedInCyclesOfHalving) {
   std::optional<double> halving;
   EXPECT_TRUE(has(stability_text({{0.5, 0}}, &halving, 1e-9), "stable: the slowest deviation halves in 1 cycles"));
   EXPECT_NEAR(*halving, 1, 1e-12);
@@ -142,7 +142,7 @@ TEST(Steady, StabilityIsToldInCyclesOfHalving) {
 
 // --- families ---
 
-TEST(Steady, FamilyAsksForTheMeanSpeedAndSaysWhy) {
+TEST(Steady, FamilyNeedsTheMeanSpeedAndSaysWhy) {
   const std::string why = thrown_by(scene_file("scenes/free_slider_crank.toml"));
   EXPECT_TRUE(has(why, "--mid-speed")) << why;
   EXPECT_TRUE(has(why, "depends on the speed")) << why;

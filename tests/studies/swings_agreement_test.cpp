@@ -77,7 +77,7 @@ damping = "3 N*m*s/rad"
 
 // --- free swings ---
 
-TEST(FreeSwing, OfTwoInertiasHasTheirEigenvalues) {
+TEST(FreeOscillation, OfTwoInertiasHasTheirEigenvalues) {
   Eigen::MatrixXd a(3, 3);                     // twist, speeds
   a << 0, 1, -1,                               //
       -6000 / 0.5, -(3 + 1.5) / 0.5, 3 / 0.5,  //
@@ -86,7 +86,7 @@ TEST(FreeSwing, OfTwoInertiasHasTheirEigenvalues) {
 }
 
 // A branch k₁ in series with k₁ T₁ beside the spring: its torque is a state, τ̇₁ = k₁ θ̇ − τ₁/T₁.
-TEST(FreeSwing, OfRubberHasItsBranchAsAState) {
+TEST(FreeOscillation, OfRubberHasItsBranchAsAState) {
   Eigen::MatrixXd a(4, 4);                               // twist, branch, speeds
   a << 0, 0, 1, -1,                                      //
       0, -1 / 0.01, 3000, -3000,                         //
@@ -103,7 +103,7 @@ branches = [{ stiffness = "3 kN*m/rad", relaxation_time = "10 ms" }]
 }
 
 // A clutch that slips for good hands on 12 N·m whatever the speeds: the motor takes no part.
-TEST(FreeSwing, BehindAClutchThatSlipsIsThatOfWhatIsBehindIt) {
+TEST(FreeOscillation, BehindAClutchThatSlipsIsThatOfWhatIsBehindIt) {
   Eigen::MatrixXd a(3, 3);
   a << 0, 1, -1,                       //
       -6000 / 0.2, -3 / 0.2, 3 / 0.2,  //
@@ -119,7 +119,7 @@ inertia_out = "0.2 kg*m2"
 }
 
 // A ring of 0.15 kg·m² on a film: neither locked to the drum nor free of it.
-TEST(FreeSwing, OfAViscousDamperHasItsRingAsABodyOfItsOwn) {
+TEST(FreeOscillation, OfAViscousDamperHasItsRingAsABodyOfItsOwn) {
   for (const double film : {0.05, 2.2, 150.0}) {
     SCOPED_TRACE(film);
     Eigen::MatrixXd a(4, 4);                                        // twist, motor, drum, ring
@@ -140,7 +140,7 @@ damping = "{} N*m*s/rad"
 }
 
 // The crank's inertia varies: the swing is a Floquet solution, and its decay over a turn that of one run beside another.
-TEST(FreeSwing, OfACrankIsWhatALongRingDownShows) {
+TEST(FreeOscillation, OfACrankIsWhatALongRingDownShows) {
   const Scene scene = swing_scene("light_flywheel");
   const SettledRun run = settled(scene);
   const FreeSwings found = free_swings_of(run);
@@ -155,7 +155,7 @@ TEST(FreeSwing, OfACrankIsWhatALongRingDownShows) {
 // --- forced swings ---
 
 // 5 sin(2π 11 t) N·m on the drum: the coupling's torque is (k + iωc) θ of the linear drive.
-TEST(ForcedSwing, OfASineIsTheComplexResponse) {
+TEST(ForcedOscillation, OfASineIsTheComplexResponse) {
   const SettledRun run = settled(test::scene_from(drive(std::string(spring) + R"([shaker]
 kind = "torque source"
 on = "drum"
@@ -179,7 +179,7 @@ frequency = "11 Hz"
 // --- the machines ---
 
 // Kinds that join, drive, load or move: each swings, or is forced, in some machine of the matrix.
-TEST(AgreementOfSwings, EveryKindOccursInSomeMachine) {
+TEST(AgreementOfOscillations, EveryKindOccursInSomeMachine) {
   std::string all;
   for (const char* folder : {"scenes", "tests/agreement", "tests/agreement/swings"})
     for (const std::string& file : scene_files(test::source_path(folder))) {
@@ -217,23 +217,23 @@ void expect_agreement(const Row& row, const std::string& name) {
   EXPECT_TRUE(wrong.empty()) << name << "\n" << wrong;
 }
 
-TEST(AgreementOfSwings, ModesSpeakOfDrivesWhoseInertiaIsConstant) {
+TEST(AgreementOfOscillations, ModesSpeakOfDrivesWhoseInertiaIsConstant) {
   for (const char* name : {"backlash_closed", "limiter_holds", "one_way_clutch_drives", "brake_drags_shaft"})
     expect_agreement(compare_modes(swing_scene(name)), name);
 }
 // Locked, a belt that slips swung at 18.0 Hz for 42.1, a clutch at 15.3 for 22.5, a damper of 0.05 and of 150 N·m·s/rad
 // alike; rubber without its branches had ζ 0.280 for 0.180.
-TEST(AgreementOfSwings, ModesSpeakOfWhatSlipsAndOfWhatRelaxes) {
+TEST(AgreementOfOscillations, ModesSpeakOfWhatSlipsAndOfWhatRelaxes) {
   for (const char* name : {"belt_slips", "clutch_slips", "damper_loose", "damper_tuned", "damper_tight",
                            "fluid_coupling_shaft", "rubber_stiff_branch", "one_way_clutch_overruns"})
     expect_agreement(compare_modes(swing_scene(name)), name);
 }
 // A universal joint's order 2 was 0 for 21 N·m; these gears were refused.
-TEST(AgreementOfSwings, ModesSpeakOfUniversalJointsAndOfGearsThatTieShafts) {
+TEST(AgreementOfOscillations, ModesSpeakOfUniversalJointsAndOfGearsThatTieShafts) {
   for (const char* name : {"hooke_joint_crank", "housing_support_fan", "planetary_free"})
     expect_agreement(compare_modes(swing_scene(name)), name);
 }
-TEST(AgreementOfSwings, ForcesSpeakOfTheTorqueThatTheCouplingHandsOn) {
+TEST(AgreementOfOscillations, ForcesSpeakOfTheTorqueThatTheCouplingHandsOn) {
   for (const char* name : {"light_flywheel"}) expect_agreement(compare_forces(swing_scene(name)), name);
 }
 

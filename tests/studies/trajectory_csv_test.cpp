@@ -80,7 +80,7 @@ TEST(TrajectoryCsv, HoldsThePeakBetweenItsRows) {
   EXPECT_EQ(csv.rows.back()[0], 0.5);
 }
 
-TEST(TrajectoryCsv, CoarseRowsAreTold) {
+TEST(TrajectoryCsv, CoarseRowsAreReported) {
   const auto told = [](const Result& r) {
     return std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& note) {
       return note.find("are too coarse for the motion") != std::string::npos;

@@ -22,7 +22,7 @@ void expect_first(const std::string& scene, const std::string& sentence) {
 }
 
 // Kloss with M_b = 100 N·m at s_b = 0.2 gives 58.57 N·m at 60 rad/s, where c ω² takes as much.
-TEST(Troubles, AMotorThatHangsBelowItsBreakdownSpeedDoesNotComeUpToSpeed) {
+TEST(Troubles, AMotorThatStaysBelowItsBreakdownSpeedDoesNotComeUpToSpeed) {
   const double s = 1 - 60 / 157.07963267948966, torque = 200 / (s / 0.2 + 0.2 / s);
   const std::string text = R"(
     line = ["motor", "fan"]

@@ -71,7 +71,7 @@ TEST(Uncertainty, OfATwoMassResonanceIsItsClosedFormDistribution) {
 }
 
 // Beyond either end of 95 % lies one of 40: fewer tell no ends.
-TEST(Uncertainty, FewSamplesTellNoEndsOfTheirDistribution) {
+TEST(Uncertainty, FewSamplesReportNoEndsOfTheirDistribution) {
   for (const std::size_t samples : {39u, 40u}) {
     UncertaintyOptions options;
     options.samples = samples;
@@ -138,7 +138,7 @@ TEST(Uncertainty, ARunTakesTheValueOfATolerance) {
   EXPECT_EQ(a.find("mass")->number("inertia"), b.find("mass")->number("inertia"));
 }
 
-TEST(Uncertainty, WrongTolerancesAreToldInTheirPlace) {
+TEST(Uncertainty, WrongTolerancesAreReportedInTheirPlace) {
   const std::pair<const char*, const char*> cases[] = {
       {"{ value = \"1.5 kg*m2\", tolerance = \"3 kg\" }", "is a mass"},
       {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", distribution = \"normall\" }", "did you mean \"normal\""},
@@ -224,7 +224,7 @@ TEST(Uncertainty, NoiseFloorsFollowFromTheErrorsOfTheRuns) {
 }
 
 // ω = M t/J over J = 0.2 … 1.8 of its value: E[1/x] = ln 9/1.6, E[1/x²] = (5 − 5/9)/1.6, against gradients' 0.8/√3.
-TEST(Uncertainty, WhatGradientsDoNotFollowIsToldByItsSamples) {
+TEST(Uncertainty, WhatGradientsDoNotFollowIsReportedByItsSamples) {
   MachineQuestion q;
   q.text =
       "line = [\"wheel\"]\nwheel = { kind = \"inertia\", inertia = { value = \"1 kg*m2\", from = \"0.2 kg*m2\", to = "

@@ -147,7 +147,7 @@ TEST(TablesAndFormulas, DescribeOneMachine) {
 // --- later -----------------------------------------------------------------------------------------------------------
 
 // At rest and without torque until Δt, then all that is told by time Δt later: the same machine Δt later.
-TEST(TimeShift, EverythingThatIsToldByTimeHappensThatMuchLater) {
+TEST(TimeShift, EverythingThatIsReportedByTimeHappensThatMuchLater) {
   const auto text = [](double shift) {
     const auto at = [&](double t) { return fmt::format("\"{:.17g} s\"", t + shift); };
     return fmt::format(R"(
