@@ -11,7 +11,6 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/link_speeds.h"
-#include "engine/orbit/sequence_ahead.h"
 #include "engine/orbit/settling.h"
 #include "engine/return_map/family.h"
 #include "engine/run/speed_history.h"

@@ -8,7 +8,7 @@
 #include "engine/scene/messages.h"
 #include "studies/files/whole_file.h"
 #include "studies/fit/fit.h"
-#include "studies/question/option_values.h"
+#include "studies/question/option.h"
 #include "studies/question/question.h"
 #include "studies/variants/in_threads.h"
 

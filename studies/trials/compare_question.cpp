@@ -1,7 +1,7 @@
 // compare_question.cpp — kurbel compare: the rigid against the elastic model, or any two sets of effects.
 #include "studies/run/compare.h"
 #include "studies/run/run_findings.h"
-#include "studies/trials/run_options.h"
+#include "studies/trials/run_question.h"
 #include "studies/trials/trials_findings.h"
 
 namespace kurbel {

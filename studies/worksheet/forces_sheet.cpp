@@ -15,7 +15,6 @@
 #include "studies/forces/crank_motion.h"
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/table.h"
-#include "studies/worksheet/force_polygons.h"
 #include "studies/worksheet/motion_plans.h"
 
 namespace kurbel {
