@@ -16,22 +16,20 @@ constexpr std::array kinds = {
     ClaimKind{incomplete, runs, fault, anything,
               "the computation ended before its end: budget, interrupt, a motion that cannot go on", "none",
               "INCOMPLETE: the budget of 300 s of processor time is spent", "every command"},
-    ClaimKind{
-        stalls, runs, fault, above,
-        "the link moved, rests at the end and is held, itself or behind springs, and something drives it; no brake "
-        "that is on holds it",
-        "at: of its rest; value: the torque that drives, on the link [N·m]",
-        "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
-        "holds them to the end",
-        "run, compare"},
+    ClaimKind{stalls, runs, fault, above,
+              "the link moved, rests at the end and is held, itself or behind springs, and something drives it; no "
+              "brake that is on holds it",
+              "at: of its rest; value: the torque that drives, on the link [N·m]",
+              "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
+              "holds them to the end",
+              "run, compare"},
     ClaimKind{does_not_start, runs, fault, above,
               "the link never moved although something drives it; no brake that is on holds it",
               "value: the torque that drives, on the link [N·m]",
               "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
     ClaimKind{brake_does_not_stop, runs, fault, above,
               "a brake that was put on slips at the end, and at the deceleration there it never stops its shaft within "
-              "the time "
-              "of the run",
+              "the time of the run",
               "at: it was put on; value: speed of its shaft [rad/s]",
               "\"brake\" does not stop it: it slips at 120 rpm after 2.5 s; its 40 N·m are too weak for what drives",
               "run, compare"},
@@ -49,25 +47,22 @@ constexpr std::array kinds = {
               "\"motor\" does not come up to speed: it stays at 320 rpm, below the 1280 rpm of its breakdown torque; "
               "its loads take all its torque there",
               "run, compare"},
-    ClaimKind{
-        runs_away, runs, fault, above,
-        "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
-        "higher speed (up to a hundred times) do loads and drag hold what drives; a trial that goes on to eight "
-        "times the time sees it gain by no less from each doubling to the next, or ends before: by the budget, by ten "
-        "times the run's evaluations in one doubling, or by a fault; of fewer than three cycles by a whole trial "
-        "alone, "
-        "where it comes to 1.3 times the speed",
-        "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
-        "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
-        "changes by +6.5 % a sixteenth of the time, and that does not shrink",
-        "run, compare"},
-    ClaimKind{
-        does_not_get_round, runs, fault, above,
-        "no whole cycle, at the end a fifth of the largest speed at most, and something drives; no brake that was "
-        "put on meanwhile holds it",
-        "value: the torque that drives, on the link [N·m]",
-        "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
-        "run, compare"},
+    ClaimKind{runs_away, runs, fault, above,
+              "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
+              "higher speed (up to a hundred times) do loads and drag hold what drives; a trial that goes on to eight "
+              "times the time sees it gain by no less from each doubling to the next, or ends before: by the budget, "
+              "by ten times the run's evaluations in one doubling, or by a fault; of fewer than three cycles by a "
+              "whole trial alone, where it comes to 1.3 times the speed",
+              "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
+              "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed changes "
+              "by +6.5 % a sixteenth of the time, and that does not shrink",
+              "run, compare"},
+    ClaimKind{does_not_get_round, runs, fault, above,
+              "no whole cycle, at the end a fifth of the largest speed at most, and something drives; no brake that "
+              "was put on meanwhile holds it",
+              "value: the torque that drives, on the link [N·m]",
+              "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
+              "run, compare"},
     ClaimKind{slips_to_the_end, runs, warning, above,
               "a closed clutch, limiter or belt slips at the end under torque, or a brake that is on from the start",
               "value: the speed of slip [rad/s]",
@@ -88,19 +83,17 @@ constexpr std::array kinds = {
         "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
         "value: the difference of speed [rad/s]",
         "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a blow", "run, compare, steady"},
-    ClaimKind{
-        runs_steadily, runs, note, anything,
-        "what the mid speed of the cycle still has to go to its limit, by the last three cycles or more without a "
-        "command, is at most 0.1 % of it, and the link does not stand within the cycle",
-        "at: end of the run-up; value: mean speed [rad/s]", "\"press\" runs steadily at 59.77 rpm from 0.9627 s on",
-        "run, compare, steady"},
+    ClaimKind{runs_steadily, runs, note, anything,
+              "what the mid speed of the cycle still has to go to its limit, by the last three cycles or more without "
+              "a command, is at most 0.1 % of it, and the link does not stand within the cycle",
+              "at: end of the run-up; value: mean speed [rad/s]",
+              "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
     ClaimKind{
         vibrates, runs, note, anything,
-        "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in "
-        "its last quarter, and gains less than a quarter of its way there, or in its last whole oscillation; it decays "
-        "or grows where the amplitude of "
-        "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
-        "slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
+        "the motion repeats, and the link does not turn in the mean; in a run the link turns to and fro in its last "
+        "quarter, and gains less than a quarter of its way there, or in its last whole oscillation; it decays or grows "
+        "where the amplitude of the last two reversals differs by more than a tenth from that of the first two; of a "
+        "link that is slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
         "value: frequency [Hz]",
         "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
         "run, compare, steady"},
@@ -128,13 +121,12 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{starts, runs, note, anything, "the link stands at the start and moves later on, driven",
               "at: end of the run-up, where there is one", "\"motor\" starts from rest", "run, compare"},
-    ClaimKind{
-        held_by, runs, note, anything,
-        "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
-        "brought to rest by it; while the link moves, a motor that gives a tenth of its rated torque is held by a "
-        "brake on its own shaft, or, where the link vibrates or creeps below 1 % of its usual speed, by what stands or "
-        "by loads that balance it",
-        "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
+    ClaimKind{held_by, runs, note, anything,
+              "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
+              "brought to rest by it; while the link moves, a motor that gives a tenth of its rated torque is held by "
+              "a brake on its own shaft, or, where the link vibrates or creeps below 1 % of its usual speed, by what "
+              "stands or by loads that balance it",
+              "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
     ClaimKind{sticks_and_slips, runs, note, above,
               "while the link turns, another shaft comes to rest and moves on in the same sense, three times at least",
               "at: of its first rest; value: how often; limit: 2",
@@ -151,8 +143,8 @@ constexpr std::array kinds = {
     ClaimKind{limit_exceeded, bears, fault, above,
               "a limit of the scene is exceeded by more than the error of what it is held against",
               "value, limit: as the requirement has them",
-              "1 of 3 ratings EXCEEDED, worst \"belts\", reserve against slip (run): 120 % of the limit, 194.3 "
-              "N·m of 161.9 N·m",
+              "1 of 3 ratings EXCEEDED, worst \"belts\", reserve against slip (run): 120 % of the limit, 194.3 N·m of "
+              "161.9 N·m",
               "run, compare, steady, modes"},
     ClaimKind{motor_overloaded, bears, fault, above,
               "RMS torque or current of a steady cycle is above the rated one, of a motor that states no duty",
@@ -193,12 +185,11 @@ constexpr std::array kinds = {
               "value, limit: as the requirement has them",
               "All 5 ratings assessed hold, the nearest \"clutch\", heat of an engagement (run): 69 % of the limit",
               "run, compare, steady, modes"},
-    ClaimKind{
-        not_assessed, bears, note, anything,
-        "a limit that the scene states is of a load case that this command does not compute, or that the run does "
-        "not reach",
-        "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
-        "run, compare, steady, modes"},
+    ClaimKind{not_assessed, bears, note, anything,
+              "a limit that the scene states is of a load case that this command does not compute, or that the run "
+              "does not reach",
+              "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
+              "run, compare, steady, modes"},
     ClaimKind{
         margin_kept, bears, note, above,
         "at the operating speeds of the scene every natural frequency keeps the margin wanted from every excitation",

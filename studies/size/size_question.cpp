@@ -21,8 +21,8 @@ OptionsOf<SizeOptions> options() {
       .add({.name = "machine", .doc = "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …"},
            &Asked::machine)
       .add({.name = "at",
-            .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
-                   "speed such as \"60 rpm\""},
+            .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid speed "
+                   "such as \"60 rpm\""},
            OptionForm::one, [](Asked& asked, const OptionValues& given) { asked.at = given.moment(asked.mid_speed); })
       .add({.name = "mid_speed",
             .doc = "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\" (default: where drive and mean load balance)",
@@ -30,12 +30,11 @@ OptionsOf<SizeOptions> options() {
             .what = "a speed > 0",
             .domain = positive},
            &Asked::mid_speed)
-      .add(
-          {.name = "basis",
-           .doc = "classical (constant drive torque, loads of the rigid machine at constant speed) or regime (loads of "
-                  "the steady cycle with the scene's effects; default where the classical one omits an effect)"},
-          &Asked::basis,
-          std::vector{std::pair("classical", CycleBasis::classical), std::pair("regime", CycleBasis::regime)})
+      .add({.name = "basis",
+            .doc = "classical (constant drive torque, loads of the rigid machine at constant speed) or regime (loads "
+                   "of the steady cycle with the scene's effects; default where the classical one omits an effect)"},
+           &Asked::basis,
+           std::vector{std::pair("classical", CycleBasis::classical), std::pair("regime", CycleBasis::regime)})
       .add({.name = "flywheel", .doc = "component to size (default: the scene's flywheel, else one on the crank)"},
            &Asked::flywheel)
       .add({.name = "form", .doc = "rim (on spokes; default) or disc"}, &Asked::form,
@@ -68,14 +67,13 @@ OptionsOf<SizeOptions> options() {
 }  // namespace
 
 Question size_question() {
-  return make_question(
-      {.place = 40,
-       .name = "size",
-       .arguments = "scene.toml --delta 0.05",
-       .help = "the flywheel that keeps the speed's fluctuation δ within bounds",
-       .does = "flywheel for a demanded δ by three methods and with the motor's slope, its dimensions; "
-               "δ reached rigid and elastic"},
-      options(), sized);
+  return make_question({.place = 40,
+                        .name = "size",
+                        .arguments = "scene.toml --delta 0.05",
+                        .help = "the flywheel that keeps the speed's fluctuation δ within bounds",
+                        .does = "flywheel for a demanded δ by three methods and with the motor's slope, its "
+                                "dimensions; δ reached rigid and elastic"},
+                       options(), sized);
 }
 
 }  // namespace kurbel
