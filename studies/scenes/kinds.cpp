@@ -15,7 +15,6 @@
 #include "engine/scene/units.h"
 #include "mechanisms/kinds/kinds.h"
 #include "studies/data/named.h"
-#include "studies/scenes/add_kind.h"
 
 namespace kurbel {
 namespace {
