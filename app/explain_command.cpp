@@ -39,14 +39,13 @@ void set_up(OptionList& command, int& code) {
   command.action([&code, wanted] { code = explain(wanted->figure, wanted->names, wanted->claims); });
 }
 
-const Verb verb{
-    {{.place = 135,
-      .name = "explain",
-      .arguments = "delta",
-      .help = "what a figure means: definition, formula, unit, what it is not",
-      .does = "what a figure means: definition, formula, unit, what it is not, which commands give it; without "
-              "a name all figures"},
-     set_up}};
+const Verb verb{{{.place = 135,
+                  .name = "explain",
+                  .arguments = "delta",
+                  .help = "what a figure means: definition, formula, unit, what it is not",
+                  .does = "what a figure means: definition, formula, unit, what it is not, which commands give it; "
+                          "without a name all figures"},
+                 set_up}};
 
 }  // namespace
 }  // namespace kurbel::app::explain_command

@@ -66,14 +66,13 @@ int write_scene(std::string_view text, const std::string& doc, const fs::path& p
   const std::string word = as_word(path.string());
   say(fmt::format("wrote {} — {}\n", path.string(), doc));
   if (fresh) say(fmt::format("wrote {} — editors complete and check keys by it\n", schema.string()));
-  say(
-      fmt::format("next:\n{2}"
-                  "  kurbel compare {0}    the rigid against the elastic machine: is the rigid model sufficient?\n"
-                  "  kurbel run {0}        the machine as the scene says\n"
-                  "  kurbel check {0}      after a change: is the scene valid?\n"
-                  "  kurbel keys coupling{1}    what a component may hold; `kurbel keys` without a kind: everything\n",
-                  word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' '),
-                  first.empty() ? "" : fmt::format("  kurbel modes {}    {}\n", word, first)));
+  say(fmt::format(
+      "next:\n{2}  kurbel compare {0}    the rigid against the elastic machine: is the rigid model sufficient?\n"
+      "  kurbel run {0}        the machine as the scene says\n"
+      "  kurbel check {0}      after a change: is the scene valid?\n"
+      "  kurbel keys coupling{1}    what a component may hold; `kurbel keys` without a kind: everything\n",
+      word, std::string(word.size() > 5 ? word.size() - 5 : 0, ' '),
+      first.empty() ? "" : fmt::format("  kurbel modes {}    {}\n", word, first)));
   return exit_done;
 }
 
@@ -145,10 +144,9 @@ void set_up_new(OptionList& command, int& code) {
   command.add_option("kind", wanted->kind, names_of_templates());
   command.add_option("file", wanted->file, "file to write (default: KIND.toml); one that exists is never overwritten");
   command.add_flag("--list", wanted->list, "only the names of the kinds, a line each");
-  command.add_option(
-      "--from", wanted->sheet,
-      "mass–elastic sheet of a train, .csv or .xlsx: station, inertia, stiffness, speed ratio, diameter; a "
-      "list of discs and shafts with a column \"to\". In place of the kind");
+  command.add_option("--from", wanted->sheet,
+                     "mass–elastic sheet of a train, .csv or .xlsx: station, inertia, stiffness, speed ratio, "
+                     "diameter; a list of discs and shafts with a column \"to\". In place of the kind");
   command.action([&code, wanted] {
     code = exit_done;
     if (!wanted->sheet.empty() && !wanted->file.empty())

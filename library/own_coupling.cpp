@@ -11,7 +11,7 @@
 #include "engine/numerics/roots.h"
 #include "engine/scene/units.h"
 #include "library/own_elements.h"
-#include "studies/scenes/add_kind.h"
+#include "studies/scenes/kinds.h"
 
 namespace kurbel {
 namespace {

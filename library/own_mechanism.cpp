@@ -13,7 +13,7 @@
 #include "library/own_elements.h"
 #include "mechanisms/kinds/kinds.h"
 #include "mechanisms/kinds/mechanism_keys.h"
-#include "studies/scenes/add_kind.h"
+#include "studies/scenes/kinds.h"
 
 namespace kurbel {
 namespace {

@@ -23,7 +23,7 @@ namespace {
 FigureValues figures_of(const Result& result) {
   std::vector<FigureValue> all;
   for (const Figure& f : result.figures)
-    if (is_told(f, result)) all.push_back({f.name, f.value, f.unit, f.error, f.at});
+    if (is_told(f, result)) all.push_back({f, f.name, f.unit, f.at});
   return FigureValues(std::move(all));
 }
 

@@ -66,7 +66,7 @@ Study diff(const Machine& a, const Machine& b, const Options& given, const Watch
 std::vector<FigureValue> Study::figures() const {
   std::vector<FigureValue> all;
   for (FigureRow& row : summary_tables(summary_of(parts_->output)).figures)
-    all.push_back({std::move(row.name), row.value, std::move(row.unit), row.error, row.at, std::move(row.of)});
+    all.push_back({row, std::move(row.name), std::move(row.unit), row.at, std::move(row.of)});
   return all;
 }
 

@@ -137,7 +137,7 @@ SweepAnswer answer(const Machine& machine, const std::string& of, bool no_error,
     const MachineAnswer found =
         answer_of(question_of(inquiry_of(machine.parts(), watcher), {.of = of, .measure_error = !no_error}));
     std::vector<FigureValue> figures;
-    for (const Figure& f : found.figures) figures.push_back({f.name, f.value, f.unit, f.error, f.at});
+    for (const Figure& f : found.figures) figures.push_back({f, f.name, f.unit, f.at});
     return SweepAnswer{name_of(found.state), found.diagnosis, FigureValues(std::move(figures))};
   });
 }

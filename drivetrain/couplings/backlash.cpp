@@ -15,13 +15,12 @@ std::string Backlash::describe() const {
   switch (law) {
     case ContactLaw::no_pulling:
       return fmt::format(
-          "gap {:.4g}° between the flanks; law of contact: spring and damper, the damper never above the "
-          "spring and never pulling",
+          "gap {:.4g}° between the flanks; law of contact: spring and damper, the damper never above the spring and "
+          "never pulling",
           degrees);
     case ContactLaw::hunt_crossley:
       return fmt::format(
-          "gap {:.4g}° between the flanks; law of contact: Hunt–Crossley, exponent {:.4g}, damping "
-          "{:.4g} s/rad",
+          "gap {:.4g}° between the flanks; law of contact: Hunt–Crossley, exponent {:.4g}, damping {:.4g} s/rad",
           degrees, exponent, damping);
     case ContactLaw::clipped:
       break;

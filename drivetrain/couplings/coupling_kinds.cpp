@@ -98,10 +98,9 @@ void check_shaft(const Reading<ShaftKeys>& shaft) {
   } else if (shaft.judges_stress() && !shaft.diameter) {
     check_stress_without_diameter(shaft);
   } else if (shaft.stiffness && shaft.diameter && !shaft.judges_stress()) {
-    shaft.refuse(
-        &ShaftKeys::diameter,
-        "\"diameter\" beside \"stiffness\" is for stresses alone, and none is judged; drop it, or give a limit, "
-        "e.g. \"allowable_shear_stress\"");
+    shaft.refuse(&ShaftKeys::diameter,
+                 "\"diameter\" beside \"stiffness\" is for stresses alone, and none is judged; drop it, or give a "
+                 "limit, e.g. \"allowable_shear_stress\"");
   } else if (!shaft.drop_without(&ShaftKeys::diameter, &ShaftKeys::bore)) {
     return;
   } else if (shaft.diameter && shaft.bore >= *shaft.diameter) {

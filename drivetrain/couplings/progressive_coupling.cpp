@@ -55,14 +55,14 @@ ProgressiveCoupling::ProgressiveCoupling(const std::vector<double>& twist, const
   for (std::size_t i = 1; i < x.size(); ++i)
     if (x[i] == x[i - 1])
       throw std::invalid_argument(
-          fmt::format("the torque jumps at point {}; no twist belongs to a torque within the "
-                      "jump (a preload is a coupling with \"contact\")",
+          fmt::format("the torque jumps at point {}; no twist belongs to a torque within the jump (a preload is a "
+                      "coupling with \"contact\")",
                       i + 1));
   for (std::size_t i = 1; i < x.size(); ++i)
     if (!(y[i] > y[i - 1]))
       throw std::invalid_argument(
-          fmt::format("the torque does not rise from point {} to point {}; it must, or no "
-                      "twist belongs to a torque (a gap is \"backlash\" of a coupling)",
+          fmt::format("the torque does not rise from point {} to point {}; it must, or no twist belongs to a torque (a "
+                      "gap is \"backlash\" of a coupling)",
                       i, i + 1));
   if (x.front() < 0 && x.back() <= 0)
     throw std::invalid_argument("the table ends at the origin; give the side of positive twist");
@@ -168,8 +168,7 @@ double ProgressiveCoupling::twist_at(double torque) const {
 
 std::string ProgressiveCoupling::describe() const {
   return fmt::format(
-      "progressive by a {} up to {:.4g}°, {:.6g} N·m; beyond it straight on; stiffness {:.6g} N·m/rad "
-      "at zero twist",
+      "progressive by a {} up to {:.4g}°, {:.6g} N·m; beyond it straight on; stiffness {:.6g} N·m/rad at zero twist",
       curve_.form() == Curve::Form::formula ? "formula" : "table", given_twist_ * 180 / std::numbers::pi, given_torque_,
       rest_stiffness_);
 }

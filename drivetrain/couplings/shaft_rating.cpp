@@ -111,8 +111,8 @@ Fields<ShaftRating> shaft_rating_fields() {
       .add(defaulted("notch_factor", "", "1", {.low = 1}, "K_f in torsion, for Goodman"), &Rating::notch)
       .add(defaulted("safety", "", "1", {.low = 1}, "S that Goodman and yield must leave"), &Rating::safety)
       .add({.name = "role",
-            .doc = "in a ship's propulsion: judged by IACS UR M68, continuous, passing, barred ranges; crankshafts "
-                   "and shafts of gears, motors, generators, turbines have no role there"},
+            .doc = "in a ship's propulsion: judged by IACS UR M68, continuous, passing, barred ranges; crankshafts and "
+                   "shafts of gears, motors, generators, turbines have no role there"},
            &Rating::role,
            {{"intermediate shaft", Rating::Role::intermediate},
             {"thrust shaft", Rating::Role::thrust},
@@ -127,8 +127,7 @@ Fields<ShaftRating> shaft_rating_fields() {
             {"radial hole", Rating::Detail::radial_hole},
             {"longitudinal slot", Rating::Detail::slot}})
       .add(choice("steel", "carbon",
-                  "how much of σ_B counts in UR M68: up to 600 MPa; of alloy steel forward of the stern tube 800 "
-                  "MPa"),
+                  "how much of σ_B counts in UR M68: up to 600 MPa; of alloy steel forward of the stern tube 800 MPa"),
            &Rating::steel, {{"carbon", Rating::Steel::carbon}, {"alloy", Rating::Steel::alloy}})
       .add(quantity("design_factor", "", {.low = 0, .high = 1, .low_open = true},
                     "c_K in place of that of role and detail"),

@@ -93,9 +93,8 @@ bool fits(const Reading<BeltKeys>& b) {
   if (!b.stiffness && !b.axial_stiffness)
     for (const std::string& key : b.given_keys(&Keys::damping))
       if (key != "damping_frequency")
-        return b.refuse(key, fmt::format("\"{}\" needs the belt's elasticity; give \"stiffness\" or "
-                                         "\"axial_stiffness\"",
-                                         key));
+        return b.refuse(
+            key, fmt::format("\"{}\" needs the belt's elasticity; give \"stiffness\" or \"axial_stiffness\"", key));
   return true;
 }
 

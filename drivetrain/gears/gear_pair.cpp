@@ -35,8 +35,7 @@ void check(const GearPairData& d) {
                     d.teeth[0], d.teeth[1]));
   if (std::abs(d.teeth[1]) < 5 || (d.teeth[1] < 0 && -d.teeth[1] <= d.teeth[0]))
     refuse(
-        fmt::format("teeth = [{}, {}]; wheel 2 must have 5 teeth or more, an internal one (negative) more than "
-                    "wheel 1",
+        fmt::format("teeth = [{}, {}]; wheel 2 must have 5 teeth or more, an internal one (negative) more than wheel 1",
                     d.teeth[0], d.teeth[1]));
   if (!(std::abs(d.helix) <= pi / 3)) refuse(fmt::format("helix = {:g} deg; must be −60 … 60 deg", d.helix / degree));
   if (!(d.rack.pressure_angle >= 10 * degree && d.rack.pressure_angle <= 35 * degree))
@@ -138,11 +137,9 @@ void add_wheels_in_mesh(GearPair& p) {
     w.bore = p.data.bore[at(i)];
     if (w.internal() && w.bore == 0) w.bore = -w.root_diameter + 2 * 3.5 * p.data.module;
     if (w.internal() ? !(w.bore > -w.root_diameter) : !(w.bore >= 0 && w.bore < w.root_diameter))
-      throw std::invalid_argument(
-          fmt::format("bore = {:g} mm of the wheel with z = {}; must be {} its root diameter, "
-                      "{:.4f} mm",
-                      1e3 * w.bore, w.teeth, w.internal() ? "(as the rim's outer diameter) above" : "below",
-                      1e3 * std::abs(w.root_diameter)));
+      throw std::invalid_argument(fmt::format(
+          "bore = {:g} mm of the wheel with z = {}; must be {} its root diameter, {:.4f} mm", 1e3 * w.bore, w.teeth,
+          w.internal() ? "(as the rim's outer diameter) above" : "below", 1e3 * std::abs(w.root_diameter)));
     w.inertia = w.width > 0 ? wheel_inertia(w, w.width, p.data.density, w.bore) : 0;
   }
   p.wheel[0].reached_diameter = 2 * p.radius(std::max(p.tip_start, p.limit_start))[0];

@@ -58,9 +58,8 @@ class Verdicts {
     const MeshedWheel &w = p_.wheel[static_cast<std::size_t>(i)], &mate = p_.wheel[static_cast<std::size_t>(1 - i)];
     if (w.undercut)
       add(Finding::warning,
-          "Wheel {} (z = {}) is undercut: x = {:.4f} is less than {:.4f}; its flank begins at {:.4f} "
-          "mm.",
-          i + 1, w.teeth, w.generating_shift, w.least_shift_generated(), mm * w.form_diameter);
+          "Wheel {} (z = {}) is undercut: x = {:.4f} is less than {:.4f}; its flank begins at {:.4f} mm.", i + 1,
+          w.teeth, w.generating_shift, w.least_shift_generated(), mm * w.form_diameter);
     interfering(i, w, mate);
     const double tip = w.tip_thickness() / p_.data.module;
     if (tip <= 0)
@@ -68,8 +67,7 @@ class Verdicts {
           i + 1, mm * w.pointed_diameter(), mm * w.tip_diameter);
     else if (tip < least_tip)
       add(Finding::warning,
-          "Tips of wheel {} are nearly pointed: s_an = {:.3f} m_n; at least {:.1f} (hardened {:.1f}) is "
-          "customary.",
+          "Tips of wheel {} are nearly pointed: s_an = {:.3f} m_n; at least {:.1f} (hardened {:.1f}) is customary.",
           i + 1, tip, least_tip, hardened_tip);
     else if (tip < hardened_tip)
       add(Finding::note, "Tips of wheel {} have s_an = {:.3f} m_n, too thin for hardened teeth (0.4).", i + 1, tip);
@@ -89,13 +87,13 @@ class Verdicts {
       after_undercut(i, w, mate);
     } else if (found.beyond_base_circle) {
       add(Finding::fault,
-          "Interference: the tip of wheel {} would touch wheel {} beyond the end of the line of action "
-          "on its base circle; its tip diameter must be at {} {:.4f} mm.",
+          "Interference: the tip of wheel {} would touch wheel {} beyond the end of the line of action on its base "
+          "circle; its tip diameter must be at {} {:.4f} mm.",
           2 - i, i + 1, mate.internal() ? "least" : "most", mm * mate.greatest_tip_diameter);
     } else {
       add(Finding::fault,
-          "Interference: the tip of wheel {} reaches {:.4f} mm on wheel {}, whose flank ends in the "
-          "fillet at {:.4f} mm.",
+          "Interference: the tip of wheel {} reaches {:.4f} mm on wheel {}, whose flank ends in the fillet at {:.4f} "
+          "mm.",
           2 - i, mm * w.reached_diameter, i + 1, mm * std::abs(w.form_diameter));
     }
   }
@@ -122,8 +120,8 @@ class Verdicts {
     const double fouling = tip_fouling_margin(p_), assembly = radial_assembly_margin(p_);
     if (fouling < 0)
       add(Finding::fault,
-          "Tip fouling: the tips overlap outside the path of contact (margin {:.4f} rad); take more "
-          "difference of teeth or shorter tips.",
+          "Tip fouling: the tips overlap outside the path of contact (margin {:.4f} rad); take more difference of "
+          "teeth or shorter tips.",
           fouling);
     if (assembly < 0)
       add(Finding::note, "Wheel 1 cannot be put in radially (margin {:.4f} rad): assemble along the axis.", assembly);
@@ -140,8 +138,7 @@ class Verdicts {
   void wear() {
     if (std::gcd(p_.data.teeth[0], p_.data.teeth[1]) > 1)
       add(Finding::note,
-          "Teeth {} and {} have the common divisor {}: the same teeth meet again every {} turns of wheel "
-          "1.",
+          "Teeth {} and {} have the common divisor {}: the same teeth meet again every {} turns of wheel 1.",
           p_.data.teeth[0], std::abs(p_.data.teeth[1]), std::gcd(p_.data.teeth[0], p_.data.teeth[1]),
           std::lcm(p_.data.teeth[0], p_.data.teeth[1]) / p_.data.teeth[0]);
   }

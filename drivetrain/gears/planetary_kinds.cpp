@@ -98,8 +98,7 @@ bool place_planets(const Reading<PlanetaryKeys>& g, Network& net, const std::arr
   const double distance = g.planet_distance ? *g.planet_distance : g.module ? 0.5 * *g.module * (sun + planet) : 0;
   if (g.given(&Keys::planet_mass) && distance == 0)
     return g.refuse(&Keys::planet_mass,
-                    "\"planet_mass\" needs the distance of the planets from the axis; give module or "
-                    "planet_distance");
+                    "\"planet_mass\" needs the distance of the planets from the axis; give module or planet_distance");
   if (g.given(&Keys::planet_inertia) && planet != std::floor(planet))
     return g.refuse(&Keys::planet_inertia,
                     fmt::format("ring − sun = {:g} teeth is odd; say how many teeth a planet has", ring - sun));
@@ -110,11 +109,12 @@ bool place_planets(const Reading<PlanetaryKeys>& g, Network& net, const std::arr
   for (std::size_t k = 0; k < 3; ++k) net.nodes[static_cast<std::size_t>(nodes[k])].inertia += inertia[k];
   const double carrier = net.nodes[static_cast<std::size_t>(nodes[2])].inertia;
   if (carrier < 0)
-    return g.refuse(&Keys::planet_inertia,
-                    fmt::format("the planets' {:g} kg·m² about their own axes is more than their mass can have: "
-                                "carrier_inertia with planet_mass · distance² for each planet must be ≥ {:g} kg·m²; "
-                                "give carrier_inertia or planet_mass",
-                                own, -share.carrier * own * count));
+    return g.refuse(
+        &Keys::planet_inertia,
+        fmt::format(
+            "the planets' {:g} kg·m² about their own axes is more than their mass can have: carrier_inertia with "
+            "planet_mass · distance² for each planet must be ≥ {:g} kg·m²; give carrier_inertia or planet_mass",
+            own, -share.carrier * own * count));
   return true;
 }
 
@@ -132,8 +132,7 @@ bool fits(const Reading<PlanetaryKeys>& g) {
     return g.refuse(&Keys::ring, fmt::format("ring = {} teeth; must be more than the sun's {}", g.ring, g.sun));
   if (g.second_planet && !g.planet)
     return g.refuse(&Keys::second_planet,
-                    "\"second_planet\" meshes with the ring; give \"planet\" too, which meshes with the "
-                    "sun");
+                    "\"second_planet\" meshes with the ring; give \"planet\" too, which meshes with the sun");
   if (g.second_teeth() >= g.ring)
     return g.refuse(g.second_planet ? &Keys::second_planet : &Keys::planet,
                     fmt::format("a planet with {:g} teeth does not fit into a ring with {}", g.second_teeth(), g.ring));
@@ -245,11 +244,9 @@ void build_worm(const Section& s, const Reading<WormKeys>& g, Network& net) {
   if (g.lead_angle) pair.worm_diameter = pair.starts * pair.module / std::tan(*g.lead_angle);
   const double angle = pair.lead_angle();
   if (g.friction && angle + pair.friction_angle() >= 0.5 * std::numbers::pi)
-    return refuse(
-        &Keys::friction,
-        fmt::format("a lead angle of {:.4g} deg with friction {:g} lets the worm drive nothing; they must add "
-                    "up to less than 90 deg",
-                    angle * 180 / std::numbers::pi, pair.friction));
+    return refuse(&Keys::friction, fmt::format("a lead angle of {:.4g} deg with friction {:g} lets the worm drive "
+                                               "nothing; they must add up to less than 90 deg",
+                                               angle * 180 / std::numbers::pi, pair.friction));
   try {
     check(pair);
   } catch (const std::invalid_argument& error) {
@@ -276,12 +273,11 @@ std::vector<Kind> planetary_kinds() {
               "sun, planets on a carrier, ring; all three central shafts are free unless one is fixed. A branch may "
               "begin at \"NAME.ring\" (sun, carrier). The three count the same sense of rotation as positive"),
           central_shafts()),
-      with_further(
-          kind_of<differential_fields, build_differential>(
-              between_shafts, "differential",
-              "divides the torque of its cage between two output shafts that may turn at different speeds; the second "
-              "branch begins at \"NAME.second\""),
-          {"second"}),
+      with_further(kind_of<differential_fields, build_differential>(
+                       between_shafts, "differential",
+                       "divides the torque of its cage between two output shafts that may turn at different speeds; "
+                       "the second branch begins at \"NAME.second\""),
+                   {"second"}),
       kind_of<worm_fields, build_worm>(
           between_shafts, "worm gear",
           "worm and wheel; with a friction coefficient its efficiencies follow, and whether it locks itself"),

@@ -28,9 +28,9 @@ Fields<Keys> catalogue_fields() {
            &Keys::resistance_ratio)
       .add(defaulted("voltage_factor", "", "1.0", positive, "voltage over rated voltage; torque goes with its square"),
            &Keys::voltage_factor)
-      .add(quantity("starting_ratio", "", positive,
-                    "locked-rotor over rated torque; with it a smooth curve through the catalogue's points replaces "
-                    "Kloss'"),
+      .add(quantity(
+               "starting_ratio", "", positive,
+               "locked-rotor over rated torque; with it a smooth curve through the catalogue's points replaces Kloss'"),
            &Keys::starting_ratio)
       .add(quantity("pull_up_ratio", "", positive, "least torque before breakdown over the rated one"),
            &Keys::pull_up_ratio)
@@ -52,10 +52,9 @@ void add_nameplate(Fields<Keys>& fields) {
       .add(quantity("efficiency", "", {.low = 0, .high = 1, .low_open = true, .high_open = true},
                     "η at rated power: P_n/η = √3 U I_n cos φ"),
            &Keys::efficiency)
-      .add(defaulted(
-               "stator_loss_share", "", "0.5", {.low = 0, .high = 1, .low_open = true},
-               "estimate: the stator's copper has this share of all losses but the rotor's; the rest, iron, air and "
-               "bearings, is in no circuit"),
+      .add(defaulted("stator_loss_share", "", "0.5", {.low = 0, .high = 1, .low_open = true},
+                     "estimate: the stator's copper has this share of all losses but the rotor's; the rest, iron, air "
+                     "and bearings, is in no circuit"),
            &Keys::stator_share);
 }
 
@@ -66,8 +65,7 @@ void add_circuit(Fields<Keys>& fields) {
   fields
       .add(quantity("frequency", "Hz", positive,
                     "of the mains; with it the motor is its two-axis circuit, currents as states; without it the "
-                    "circuit's steady "
-                    "characteristic",
+                    "circuit's steady characteristic",
                     "transients"),
            &Keys::frequency)
       .add(defaulted("magnetising_ratio", "", "30", {.low = 3, .high = 1000},

@@ -157,9 +157,8 @@ std::vector<Kind> induction_kinds() {
       kind_of<induction_fields, build_induction>(
           on_a_shaft, "induction motor",
           "induction motor from its catalogue or nameplate: after Kloss (theory 4.1), or through its starting, "
-          "pull-up, "
-          "breakdown and rated points; with its frequency, its nameplate's currents or its circuit by the two-axis "
-          "model"),
+          "pull-up, breakdown and rated points; with its frequency, its nameplate's currents or its circuit by the "
+          "two-axis model"),
   };
 }
 

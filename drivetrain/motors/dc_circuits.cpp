@@ -1,4 +1,5 @@
-// dc_circuits.cpp — what becomes of a series motor's current; the static laws without the effect "transients".
+// dc_circuits.cpp — what becomes of a series motor's current; the static laws without the effect "transients", also of
+// a weakened field and on a rheostat.
 #include "drivetrain/motors/dc_circuits.h"
 
 #include <fmt/format.h>
@@ -6,7 +7,10 @@
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
+#include <type_traits>
 
+#include "drivetrain/motors/field_weakening.h"
+#include "drivetrain/motors/rheostat.h"
 #include "engine/elements/any_shaft_element.h"
 #include "engine/scene/effects.h"
 
@@ -22,6 +26,28 @@ ShaftForm under(const DcShuntCircuit& circuit, const Effects& effects) {
 ShaftForm under(const DcSeriesCircuit& circuit, const Effects& effects) {
   return effects.transients ? nullptr : shaft_form(circuit.line);
 }
+
+template <FieldOver over>
+ShaftForm under(const WeakenedShuntCircuit<over>& circuit, const Effects& effects) {
+  return effects.transients ? nullptr : shaft_form(circuit.line);
+}
+
+template ShaftForm under(const WeakenedShuntCircuit<FieldOver::time>&, const Effects&);
+template ShaftForm under(const WeakenedShuntCircuit<FieldOver::speed>&, const Effects&);
+
+template <class Circuit, CutOut when>
+ShaftForm under(const OnRheostat<Circuit, when>& motor, const Effects& effects) requires(Circuit::is.states > 0) {
+  if (under(motor.stages.back(), effects) == nullptr) return nullptr;
+  OnRheostat<std::remove_cvref_t<decltype(motor.stages.back().line)>, when> line;
+  for (const Circuit& stage : motor.stages) line.stages.push_back(stage.line);
+  line.switch_current = motor.switch_current, line.times = motor.times;
+  return shaft_form(line);
+}
+
+template ShaftForm under(const OnRheostat<DcShuntCircuit, CutOut::by_current>&, const Effects&);
+template ShaftForm under(const OnRheostat<DcShuntCircuit, CutOut::by_time>&, const Effects&);
+template ShaftForm under(const OnRheostat<DcSeriesCircuit, CutOut::by_current>&, const Effects&);
+template ShaftForm under(const OnRheostat<DcSeriesCircuit, CutOut::by_time>&, const Effects&);
 
 void DcSeriesCircuit::guard(const ShaftState<double>& x, double* g) const {
   constexpr double zero = 1e-9;  // of the command

@@ -68,18 +68,17 @@ struct DcSeriesMotor {
   int next_mode(const ShaftState<double>& x, int which) const {
     constexpr double rpm = 30 / std::numbers::pi;
     if (which == 1)
-      throw std::runtime_error(fmt::format(
-          "series motor \"{}\" is driven backwards at {:.6g} rpm, half the speed at which its current grows without "
-          "bound (−R/κ); give it a lighter load, or more resistance",
-          name, least_speed() * rpm));
+      throw std::runtime_error(
+          fmt::format("series motor \"{}\" is driven backwards at {:.6g} rpm, half the speed at which its current "
+                      "grows without bound (−R/κ); give it a lighter load, or more resistance",
+                      name, least_speed() * rpm));
     if (x.mode != 0) say_it_ran_away();
     return 1;
   }
   [[noreturn]] void say_it_ran_away() const {
     throw std::runtime_error(fmt::format(
-        "series motor \"{}\" ran away: its speed passed max_speed = {:.6g} rpm{}. Nothing on its shaft held it "
-        "below, and its own torque reaches zero at no speed; load it more, or raise max_speed if the machine can bear "
-        "it",
+        "series motor \"{}\" ran away: its speed passed max_speed = {:.6g} rpm{}. Nothing on its shaft held it below, "
+        "and its own torque reaches zero at no speed; load it more, or raise max_speed if the machine can bear it",
         name, max_speed * 30 / std::numbers::pi, limit_by.empty() ? "" : " (" + limit_by + ")"));
   }
   std::string mode_name(int mode) const { return mode == 0 ? "" : "ran away: passed its max_speed"; }

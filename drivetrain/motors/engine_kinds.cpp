@@ -51,8 +51,8 @@ Fields<EngineKeys> engine_fields() {
       .add(choice("strokes", "four", "of a cycle: four take two turns, two take one"), &Keys::strokes,
            {{"four", 4}, {"two", 2}})
       .add(choice("zero", "firing",
-                  "top dead centre that the diagrams count from. Where it is not given, diagrams are refused "
-                  "whose peak or whose work speaks against it"),
+                  "top dead centre that the diagrams count from. Where it is not given, diagrams are refused whose "
+                  "peak or whose work speaks against it"),
            &Keys::zero, {{"firing", Zero::firing}, {"gas exchange", Zero::gas_exchange}})
       .add(curve("torque", {"angle"}, "N*m",
                  "of one cylinder over the crank angle, from `zero` on: tangential force times radius"),
@@ -65,8 +65,8 @@ Fields<EngineKeys> engine_fields() {
                  "of a cylinder that does not fire; default: its compression, mirrored about top dead centre"),
            &Keys::motored_torque)
       .add(curve("motored_pressure", {"angle"}, "Pa",
-                 "of a cylinder that does not fire, with pressure; default: its compression, mirrored about top "
-                 "dead centre"),
+                 "of a cylinder that does not fire, with pressure; default: its compression, mirrored about top dead "
+                 "centre"),
            &Keys::motored_pressure)
       .add(quantity("bore", "m", positive, "diameter of a piston, with pressure"), &Keys::bore)
       .add(quantity("radius", "m", positive, "of the crank, with pressure"), &Keys::radius)
@@ -91,21 +91,17 @@ std::vector<double> firing_angles(const Reading<EngineKeys>& e) {
   for (std::size_t k = 0; k < n; ++k)
     if (sorted[k] != static_cast<int>(k + 1))
       return refuse(&Keys::firing_order,
-                    fmt::format("firing_order must name each cylinder from 1 to {} once, e.g. [1, 3, 4, "
-                                "2]",
-                                n));
+                    fmt::format("firing_order must name each cylinder from 1 to {} once, e.g. [1, 3, 4, 2]", n));
   const std::vector<double> intervals =
       e.firing_intervals.value_or(std::vector<double>(n, cycle / static_cast<double>(n)));
   if (intervals.size() != n)
     return refuse(&Keys::firing_intervals,
-                  fmt::format("{} firing_intervals for {} cylinders; give one from each firing to "
-                              "the next",
+                  fmt::format("{} firing_intervals for {} cylinders; give one from each firing to the next",
                               intervals.size(), n));
   const double sum = std::accumulate(intervals.begin(), intervals.end(), 0.0);
   if (e.firing_intervals && std::abs(sum - cycle) > 1e-9 * cycle)
     return refuse(&Keys::firing_intervals,
-                  fmt::format("firing_intervals add up to {:.6g} deg; must be the cycle of {:.6g} "
-                              "deg",
+                  fmt::format("firing_intervals add up to {:.6g} deg; must be the cycle of {:.6g} deg",
                               sum * in_degrees, cycle * in_degrees));
   std::vector<double> angles = {e.phase};
   for (std::size_t k = 0; k + 1 < n; ++k) angles.push_back(angles.back() + intervals[k]);
@@ -165,15 +161,13 @@ bool shows_its_zero(const Reading<EngineKeys>& e, Diagram key, const Curve& diag
                   (peak < 0 ? peak + cycle : peak) * in_degrees);
   const bool motored = key != &EngineKeys::pressure && key != &EngineKeys::torque;
   if (e.strokes == 4 && from_firing > 0.25 * cycle)
-    return e.refuse(key,
-                    fmt::format("{}, as where 0 deg is the dead centre of gas exchange; say zero = \"gas exchange\", "
-                                "or zero = \"firing\" where 0 deg is firing all the same",
-                                seen));
+    return e.refuse(key, fmt::format("{}, as where 0 deg is the dead centre of gas exchange; say zero = \"gas "
+                                     "exchange\", or zero = \"firing\" where 0 deg is firing all the same",
+                                     seen));
   if (e.pressure && std::abs(peak) > 0.5 * std::numbers::pi)
-    return e.refuse(key,
-                    fmt::format("{}, near no top dead centre; bring it there by a shift, e.g. shift = \"180 deg\", or "
-                                "say zero = \"firing\" where 0 deg is firing all the same",
-                                seen));
+    return e.refuse(key, fmt::format("{}, near no top dead centre; bring it there by a shift, e.g. shift = \"180 "
+                                     "deg\", or say zero = \"firing\" where 0 deg is firing all the same",
+                                     seen));
   if (motored) return true;
   constexpr int samples = 1440;
   double work = 0, size = 0;
@@ -184,10 +178,10 @@ bool shows_its_zero(const Reading<EngineKeys>& e, Diagram key, const Curve& diag
   }
   return work >= -1e-3 * size ||
          e.refuse(key,
-                  fmt::format("over a cycle it takes {:.4g} J, as where its angle counts backwards or from another "
-                              "dead centre; reverse it, or give zero = \"firing\" or \"gas exchange\" where it "
-                              "brakes all the same",
-                              -work));
+                  fmt::format(
+                      "over a cycle it takes {:.4g} J, as where its angle counts backwards or from another dead "
+                      "centre; reverse it, or give zero = \"firing\" or \"gas exchange\" where it brakes all the same",
+                      -work));
 }
 
 // Adds a diagram over the cycle, counted from firing; false, with a message, where it does not fit.
@@ -251,10 +245,10 @@ void build_engine(const Section& s, const Reading<EngineKeys>& e, Network& net) 
   const auto fired = e.pressure ? &EngineKeys::pressure : &EngineKeys::torque;
   std::vector<Curve> diagrams;
   if (e.zero == Zero::gas_exchange && e.strokes != 4)
-    return static_cast<void>(e.refuse(&EngineKeys::zero,
-                                      "a two-stroke engine exchanges its gas at bottom dead centre, 180 deg from "
-                                      "firing; say \"firing\", with `shift` "
-                                      "in the diagram where its angle counts from elsewhere"));
+    return static_cast<void>(
+        e.refuse(&EngineKeys::zero,
+                 "a two-stroke engine exchanges its gas at bottom dead centre, 180 deg from firing; say \"firing\", "
+                 "with `shift` in the diagram where its angle counts from elsewhere"));
   if (!put_diagram(e, fired, *(e.*fired), *geometry, diagrams)) return;
   std::vector<EngineTorque::Cylinder> cylinders;
   for (std::size_t k = 0; k < angles.size(); ++k) cylinders.push_back({angles[k], 0});
@@ -270,10 +264,9 @@ void build_engine(const Section& s, const Reading<EngineKeys>& e, Network& net) 
 
 std::vector<Kind> engine_kinds() {
   return {
-      kind_of<engine_fields, build_engine>(
-          on_a_shaft, "engine",
-          "piston engine of equal cylinders on a rigid crankshaft, from the diagram of one cylinder and the firing "
-          "order"),
+      kind_of<engine_fields, build_engine>(on_a_shaft, "engine",
+                                           "piston engine of equal cylinders on a rigid crankshaft, from the diagram "
+                                           "of one cylinder and the firing order"),
   };
 }
 

@@ -70,8 +70,8 @@ void build_pneumatic(const Section& s, const Reading<PneumaticKeys>& motor, Netw
   if (number < least || number > most) {
     motor.refuse(
         &PneumaticKeys::stall_torque,
-        fmt::format("stall_torque = {:.4g} N·m; must be {:.4g} … {:.4g} N·m for this power and free speed (a "
-                    "straight line has {:.4g} N·m)",
+        fmt::format("stall_torque = {:.4g} N·m; must be {:.4g} … {:.4g} N·m for this power and free speed (a straight "
+                    "line has {:.4g} N·m)",
                     stall, power / (most * free_speed), power / (least * free_speed), motor.straight_stall_torque()));
     return;
   }
@@ -83,10 +83,9 @@ void build_pneumatic(const Section& s, const Reading<PneumaticKeys>& motor, Netw
 
 std::vector<Kind> fluid_motor_kinds() {
   return {
-      kind_of<hydraulic_fields, build_hydraulic>(
-          on_a_shaft, "hydraulic motor",
-          "hydraulic motor on a pump of constant flow with a relief valve: constant torque up to the flow-limited "
-          "speed, then falling"),
+      kind_of<hydraulic_fields, build_hydraulic>(on_a_shaft, "hydraulic motor",
+                                                 "hydraulic motor on a pump of constant flow with a relief valve: "
+                                                 "constant torque up to the flow-limited speed, then falling"),
       kind_of<pneumatic_fields, build_pneumatic>(
           on_a_shaft, "pneumatic motor",
           "air motor at constant supply pressure: nearly straight from stall torque to free speed"),

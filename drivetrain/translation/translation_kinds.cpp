@@ -58,16 +58,15 @@ void check_screw(const Reading<ScrewKeys>& g) {
                fmt::format("\"{}\" and friction_coefficient both given; keep one: friction gives the efficiency", key));
   if (!g.diameter) {
     g.refuse(&Keys::friction,
-             "\"friction_coefficient\" needs \"mean_diameter\": the lead angle is that of the thread "
-             "on it, tan γ = lead/(π d₂)");
+             "\"friction_coefficient\" needs \"mean_diameter\": the lead angle is that of the thread on it, tan γ = "
+             "lead/(π d₂)");
     return;
   }
   const InclinedPlane thread = g.thread();
   if (thread.efficiency() <= 0)
-    g.refuse(&Keys::friction,
-             fmt::format("a lead angle of {:.4g} deg with a friction angle of {:.4g} deg lets the spindle drive "
-                         "nothing; they must add up to less than 90 deg",
-                         degrees(thread.angle), degrees(thread.friction_angle)));
+    g.refuse(&Keys::friction, fmt::format("a lead angle of {:.4g} deg with a friction angle of {:.4g} deg lets the "
+                                          "spindle drive nothing; they must add up to less than 90 deg",
+                                          degrees(thread.angle), degrees(thread.friction_angle)));
 }
 
 Fields<ScrewKeys> screw_fields() {
@@ -79,8 +78,8 @@ Fields<ScrewKeys> screw_fields() {
                      "between the flanks: 30 deg trapezoidal, 60 deg metric, 0 square"),
            &Keys::thread_angle)
       .add(quantity("friction_coefficient", "", {.low = 0, .high = 10},
-                    "μ of the flanks: tan ρ′ = μ/cos(thread_angle/2), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ; "
-                    "in place of efficiencies",
+                    "μ of the flanks: tan ρ′ = μ/cos(thread_angle/2), η = tan γ/tan(γ + ρ′) and tan(γ − ρ′)/tan γ; in "
+                    "place of efficiencies",
                     "gear_losses"),
            &Keys::friction)
       .add(quantity("collar_diameter", "m", positive, "mean diameter of the thrust collar, with collar_friction",
@@ -127,11 +126,10 @@ void check_wedge(const Reading<WedgeKeys>& g) {
   g.drop_without(&Keys::friction, &Keys::base, &Keys::guide);
   const InclinedPlane plane = g.plane();
   if (g.friction && plane.efficiency() <= 0)
-    g.refuse(
-        &Keys::friction,
-        fmt::format("a wedge of {:.4g} deg with a friction angle of {:.4g} deg{} lifts nothing, however hard it is "
-                    "pushed; make it flatter or smoother",
-                    degrees(plane.angle), degrees(plane.friction_angle), plane.guide > 0 ? " and that guide" : ""));
+    g.refuse(&Keys::friction, fmt::format("a wedge of {:.4g} deg with a friction angle of {:.4g} deg{} lifts nothing, "
+                                          "however hard it is pushed; make it flatter or smoother",
+                                          degrees(plane.angle), degrees(plane.friction_angle),
+                                          plane.guide > 0 ? " and that guide" : ""));
 }
 
 Fields<WedgeKeys> wedge_fields() {
@@ -192,14 +190,12 @@ void build_rack(const Section& s, const Reading<RackKeys>& g, Network& net) {
 
 std::vector<Kind> translation_kinds() {
   return {
-      kind_of<screw_fields, build_screw>(
-          on_a_shaft, "screw",
-          "spindle and nut (jack, spindle press, lead screw): turns into travel, with the friction of thread and "
-          "collar; mass and forces of what the nut moves"),
-      kind_of<wedge_fields, build_wedge>(
-          on_a_shaft, "wedge",
-          "a wedge that a pinion pushes under a slide: friction on slope, base and guide; mass and forces of the "
-          "slide"),
+      kind_of<screw_fields, build_screw>(on_a_shaft, "screw",
+                                         "spindle and nut (jack, spindle press, lead screw): turns into travel, with "
+                                         "the friction of thread and collar; mass and forces of what the nut moves"),
+      kind_of<wedge_fields, build_wedge>(on_a_shaft, "wedge",
+                                         "a wedge that a pinion pushes under a slide: friction on slope, base and "
+                                         "guide; mass and forces of the slide"),
       kind_of<rack_fields, build_rack>(on_a_shaft, "slide",
                                        "a body on a line, level or inclined, that a pinion, chain or drum moves"),
   };

@@ -32,8 +32,7 @@ double torque_at(const std::shared_ptr<const Model>& model, double angle) {
 [[noreturn]] void refuse(const Model& model, const std::string& why) {
   throw std::invalid_argument(
       fmt::format("the crank rocks, so that modes are small vibrations about a position of rest, and {} from the start "
-                  "of \"{}\" on; "
-                  "start it nearer to its rest, or give one with --angle",
+                  "of \"{}\" on; start it nearer to its rest, or give one with --angle",
                   why, model.node_label(model.reduction_node)));
 }
 

@@ -53,8 +53,8 @@ std::string node_words(const Network& net, int node) {
   for (const Network::Joint& joint : net.joints)
     if (is_firm(joint) && !closes(joint, speed)) {
       text = fmt::format(
-          "a closed loop of shafts cannot turn: \"{}\" would turn {:.6g} times as fast as \"{}\" by one "
-          "way round and {:.6g} times by the other",
+          "a closed loop of shafts cannot turn: \"{}\" would turn {:.6g} times as fast as \"{}\" by one way round and "
+          "{:.6g} times by the other",
           node_words(net, joint.a), speed[at(joint.a)] / speed[at(joint.b)], node_words(net, joint.b), joint.ratio);
       break;
     }
@@ -67,10 +67,11 @@ std::vector<double> allowed_motion(const Compilation& c, const Network& net, con
   constexpr int most_parts = 3000;
   const Merging parts = merge(net, is_firm);
   if (parts.groups > most_parts)
-    throw SceneError({{c.messages.file(), place_of_loop(c),
-                       fmt::format("a closed loop with planetary gears or gears with losses, in a machine of {} parts; "
-                                   "must be at most {}",
-                                   parts.groups, most_parts)}});
+    throw SceneError(
+        {{c.messages.file(), place_of_loop(c),
+          fmt::format(
+              "a closed loop with planetary gears or gears with losses, in a machine of {} parts; must be at most {}",
+              parts.groups, most_parts)}});
   std::vector<Eigen::RowVectorXd> rows;
   const auto add = [&](std::initializer_list<std::pair<int, double>> terms) {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(parts.groups);
@@ -126,20 +127,18 @@ void check_rigid_loops(Compilation& c, const Merging& merging) {
   for (const Network::Joint& joint : net.joints) {
     rigid += !joint.elastic;
     if (joint.elastic || is_firm(joint) || closes(joint, m.node_ratio)) continue;
-    c.refuse(
-        joint.component,
-        fmt::format("\"{}\" counts as locked here, but it closes a loop in which its sides usually turn at {:.6g} : "
-                    "{:.6g}; this study takes every clutch as locked, and the machine cannot turn so",
-                    joint.component, m.node_ratio[at(joint.a)], m.node_ratio[at(joint.b)]));
+    c.refuse(joint.component,
+             fmt::format("\"{}\" counts as locked here, but it closes a loop in which its sides usually turn at {:.6g} "
+                         ": {:.6g}; this study takes every clutch as locked, and the machine cannot turn so",
+                         joint.component, m.node_ratio[at(joint.a)], m.node_ratio[at(joint.b)]));
     c.messages.throw_if_any();
   }
   if (!relations_are_independent(net, merging.group, merging.gain))
-    throw SceneError(
-        {{c.messages.file(), place_of_loop(c),
-          "a closed loop of shafts with a gear that has losses, or a planetary gear, is rigid all round: how it "
-          "shares its torque is not determined, for friction in its teeth keeps whatever share it was loaded with; let "
-          "a shaft or a coupling of the loop be elastic, or leave the losses of its gears out (--effects none; "
-          "kurbel compare --against none)"}});
+    throw SceneError({{c.messages.file(), place_of_loop(c),
+                       "a closed loop of shafts with a gear that has losses, or a planetary gear, is rigid all round: "
+                       "how it shares its torque is not determined, for friction in its teeth keeps whatever share it "
+                       "was loaded with; let a shaft or a coupling of the loop be elastic, or leave the losses of its "
+                       "gears out (--effects none; kurbel compare --against none)"}});
   if (rigid + at(merging.groups) == net.nodes.size()) return;
   std::vector<LoadLink> links;
   std::vector<const Network::Joint*> joints;
@@ -161,10 +160,9 @@ void check_rigid_loops(Compilation& c, const Merging& merging) {
                        fmt::format("the loop that is closed at \"{}\" is rigid all round: how it shares its torque is "
                                    "not determined; put a shaft or a coupling with a stiffness into it",
                                    node_words(net, joints[at(loops.undetermined())]->b))}});
-  m.merged.push_back(
-      fmt::format("{} closed {} all round: what is passed each way goes by the stiffnesses that are given "
-                  "(least energy)",
-                  loops.size(), loops.size() == 1 ? "loop is rigid" : "loops are rigid"));
+  m.merged.push_back(fmt::format(
+      "{} closed {} all round: what is passed each way goes by the stiffnesses that are given (least energy)",
+      loops.size(), loops.size() == 1 ? "loop is rigid" : "loops are rigid"));
 }
 
 }  // namespace kurbel

@@ -169,8 +169,7 @@ std::string fault_of(const SequenceStep& step, const std::string& component, con
   if (!is.any && !is.why_not.empty()) return is.why_not;
   if (!is.any)
     return fmt::format(
-        "\"{}\" has nothing that can be set; name a motor, a load, a mechanism with loads, a clutch or "
-        "a brake",
+        "\"{}\" has nothing that can be set; name a motor, a load, a mechanism with loads, a clutch or a brake",
         component);
   if (is.switched && !step.law.empty())
     return fmt::format("\"{}\" is on or off and can follow no law; give its torque over time in its own table",
@@ -180,13 +179,13 @@ std::string fault_of(const SequenceStep& step, const std::string& component, con
                        component, step.to);
   if (is.switched && step.to != 0 && step.to != 1)
     return fmt::format(
-        "\"{}\" is on or off, to = {:g}; must be 0 or 1 (clutches, brakes and electric motors without a "
-        "starter can be set in part)",
+        "\"{}\" is on or off, to = {:g}; must be 0 or 1 (clutches, brakes and electric motors without a starter can be "
+        "set in part)",
         component, step.to);
   if (is.switched && step.over > 0)
     return fmt::format(
-        "\"{}\" is on or off and goes through no ramp, over = {:g} s; leave \"over\" out, or give its "
-        "torque over time in its own table",
+        "\"{}\" is on or off and goes through no ramp, over = {:g} s; leave \"over\" out, or give its torque over time "
+        "in its own table",
         component, step.over);
   return {};
 }

@@ -76,10 +76,9 @@ void check_scales(Compilation& c, double speed, double torque) {
     const double size = std::max(std::abs(rated.torque), std::abs(rated.speed));
     if (size > most) most = size, largest = e.component;
   }
-  c.refuse(largest,
-           fmt::format("the machine's torques reach {:.3g} N·m and its speeds {:.3g} rad/s; both must be below "
-                       "{:g}; check the values and units of \"{}\"",
-                       torque, speed, beyond_reason, largest));
+  c.refuse(largest, fmt::format("the machine's torques reach {:.3g} N·m and its speeds {:.3g} rad/s; both must be "
+                                "below {:g}; check the values and units of \"{}\"",
+                                torque, speed, beyond_reason, largest));
   c.messages.throw_if_any();
 }
 

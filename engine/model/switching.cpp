@@ -25,11 +25,9 @@ void refuse_undefined_damping(Compilation& c, const std::string& component, doub
                      : fmt::format("on its {} side there is no inertia at all", a > 0   ? "driven"
                                                                                 : b > 0 ? "driving"
                                                                                         : "driving and driven");
-  c.refuse(
-      component,
-      fmt::format("\"{}\": its damping is given in relation to the natural frequency of the inertias that it joins, "
-                  "and {}; give damping in N*m*s/rad, or damping_frequency besides",
-                  component, why));
+  c.refuse(component, fmt::format("\"{}\": its damping is given in relation to the natural frequency of the inertias "
+                                  "that it joins, and {}; give damping in N*m*s/rad, or damping_frequency besides",
+                                  component, why));
 }
 
 // Joints that stay elastic, and the descriptions of the others.

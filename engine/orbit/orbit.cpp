@@ -11,7 +11,6 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/link_speeds.h"
-#include "engine/orbit/sequence_ahead.h"
 #include "engine/orbit/settling.h"
 #include "engine/return_map/family.h"
 #include "engine/run/speed_history.h"
@@ -171,10 +170,9 @@ class Search {
     return text;
   }
   void run_away(double speed) {
-    end(Orbit::Kind::runaway,
-        fmt::format("it runs away: at {:.4g} s a shaft turns at {:.3g} times its rated speed, and nothing ends the "
-                    "acceleration",
-                    state_.t, speed));
+    end(Orbit::Kind::runaway, fmt::format("it runs away: at {:.4g} s a shaft turns at {:.3g} times its rated speed, "
+                                          "and nothing ends the acceleration",
+                                          state_.t, speed));
   }
 
   // A period without switching: its change, and whether it is small enough.
@@ -394,14 +392,14 @@ class Search {
     if (period_.by_time && angle_changes_most_)
       return end(
           Orbit::Kind::drifting,
-          where + fmt::format("nothing has repeated: what repeats after {:.6g} s and what depends on the {} have no "
-                              "common period",
-                              period_.time, changes_most_));
+          where +
+              fmt::format(
+                  "nothing has repeated: what repeats after {:.6g} s and what depends on the {} have no common period",
+                  period_.time, changes_most_));
     end(Orbit::Kind::drifting,
-        where +
-            fmt::format("the motion still changes by {:.2g} of the rated values from cycle to cycle, most of all the "
-                        "{}{}",
-                        out_.still_changes, changes_most_, why_not_.empty() ? "" : ": " + why_not_));
+        where + fmt::format(
+                    "the motion still changes by {:.2g} of the rated values from cycle to cycle, most of all the {}{}",
+                    out_.still_changes, changes_most_, why_not_.empty() ? "" : ": " + why_not_));
   }
   // Speeds increase over the second half of all periods, in its second half as much as in its first.
   bool grows() const {

@@ -1,8 +1,11 @@
-// settling.h — remaining switching before a motion can be periodic, and its rate of change.
+// settling.h — what is still to be switched before a motion can be periodic, or in the one found; its rate of change.
 #pragma once
+
+#include <Eigen/Core>
 
 #include "engine/events/equations.h"
 #include "engine/return_map/periodicity.h"
+#include "engine/return_map/return_map.h"
 
 namespace kurbel {
 
@@ -18,5 +21,9 @@ struct Pace {
   double speed = 0, rate = 0;
 };
 Pace pace_of(Equations& equations, const State& state);
+
+// A step that waits for a time or an angle is executed; a step that waits for a speed, if it is reached within a period or
+// already. False for a repeated sequence.
+bool sequence_goes_on(const ReturnMap& map, const Eigen::VectorXd& z);
 
 }  // namespace kurbel

@@ -141,8 +141,7 @@ void check_ends(SceneReading& r, const Line& line, const std::vector<std::string
   if (line.to.empty()) return;
   if (std::count(line.names.begin(), line.names.end(), component_of(line.to)))
     r.refuse(line.to_at,
-             fmt::format("the branch ends at \"{0}\", which it holds itself; end it at a component of another "
-                         "line",
+             fmt::format("the branch ends at \"{0}\", which it holds itself; end it at a component of another line",
                          component_of(line.to)));
   else
     check_port(r, line.to, line.to_at, names, placed);

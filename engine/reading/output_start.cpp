@@ -153,9 +153,10 @@ void place_by_output(SceneReading& r) {
                                                   : output.rocks() ? fmt::format("\"{}.rocker\" or ", start.on)
                                                                    : fmt::format("\"{}.slider\" or ", start.on)));
   if (!output.turns())
-    return refuse(given.on->value.at, fmt::format("the crank of \"{}\" cannot turn; give the angle of the crank within "
-                                                  "its arc, on = \"{}\"",
-                                                  start.on, start.on));
+    return refuse(
+        given.on->value.at,
+        fmt::format("the crank of \"{}\" cannot turn; give the angle of the crank within its arc, on = \"{}\"",
+                    start.on, start.on));
   const std::optional<Told> told = read_told(r, output.rocks());
   if (!told) return;
   const Way way = way_of(output);
@@ -170,20 +171,17 @@ void place_by_output(SceneReading& r) {
                               way.greatest / unit, output.rocks() ? "deg" : "mm from the crank's axis"));
   }
   if (places.size() > 1)
-    return refuse(
-        given.position->value.at,
-        fmt::format("it passes position = {} {} times on such strokes in a cycle of the crank; give angle and "
-                    "speed of the crank, on = \"{}\"",
-                    said, places.size(), start.on));
+    return refuse(given.position->value.at, fmt::format("it passes position = {} {} times on such strokes in a cycle "
+                                                        "of the crank; give angle and speed of the crank, on = \"{}\"",
+                                                        said, places.size(), start.on));
   start.angle = places.front();
   if (told->velocity == 0) return;
   const double slope = output.slope(start.angle);
   if (std::abs(slope) <= 1e-6 * (way.greatest - way.least))
-    return refuse(
-        given.velocity->value.at,
-        fmt::format("velocity = {}: there it stands at a dead centre whatever the crank does (v = x' ω with x' "
-                    "= 0); leave it out, or give angle and speed of the crank, on = \"{}\"",
-                    given.velocity->value.describe(), start.on));
+    return refuse(given.velocity->value.at,
+                  fmt::format("velocity = {}: there it stands at a dead centre whatever the crank does (v = x' ω with "
+                              "x' = 0); leave it out, or give angle and speed of the crank, on = \"{}\"",
+                              given.velocity->value.describe(), start.on));
   start.speed = told->velocity / slope;
 }
 

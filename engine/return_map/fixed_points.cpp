@@ -87,10 +87,9 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
     out.why = trial_ended(newton, image.why);
   } else {
     out.end = ReturnMap::End::failed;
-    out.why =
-        newton.why +
-        ": there may be no steady cycle of this period near the guess. Try another start speed, --periods 2, or a "
-        "long kurbel run";
+    out.why = newton.why +
+              ": there may be no steady cycle of this period near the guess. Try another start speed, --periods 2, or "
+              "a long kurbel run";
   }
   return out;
 }

@@ -92,8 +92,7 @@ void ReturnMap::take_period(const Periodicity& periodicity) {
   if (const std::size_t unknowns = m.state_count() - m.angle_count(); unknowns > most_unknowns)
     throw std::invalid_argument(
         fmt::format("a steady cycle is sought for up to {} twists, speeds and internal states; this model has {}. "
-                    "Switch elasticity off "
-                    "where it matters least (--effects), or simulate with kurbel run",
+                    "Switch elasticity off where it matters least (--effects), or simulate with kurbel run",
                     most_unknowns, unknowns));
   periodicity_ = periodicity;
   // The Jacobian of joints with friction is accurate enough for steps, not for derivatives.

@@ -12,8 +12,8 @@ namespace kurbel {
 std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
   if (!model->elastic.empty())
     return fmt::format(
-        "the machine is elastic ({} coordinates; effects: {}), and the work equation is that of one angle; "
-        "switch the elasticity off or choose another method",
+        "the machine is elastic ({} coordinates; effects: {}), and the work equation is that of one angle; switch the "
+        "elasticity off or choose another method",
         model->free_shafts + model->twist_count(), model->effects.describe());
   if (!model->relations.empty())
     return fmt::format("\"{}\" ties shafts only while the machine runs; choose another method",
@@ -22,8 +22,7 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
     return "a prescribed speed leaves no coordinate free; replace it by a motor or choose another method";
   if (!model->own_states.empty())
     return fmt::format(
-        "the {} of \"{}\" is a state besides angle and speed; switch that effect off or choose another "
-        "method",
+        "the {} of \"{}\" is a state besides angle and speed; switch that effect off or choose another method",
         model->own_states.front().state.name, model->own_states.front().component);
   if (!model->scene.sequence.steps.empty())
     return "the operating sequence switches at times or events, which over the angle nobody knows beforehand; choose "
@@ -35,8 +34,8 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
   for (const Network::ShaftElement& e : model->network.elements)
     if (e.element->uses_time || e.window.start > Window{}.start || e.window.stop < Window{}.stop)
       return fmt::format(
-          "the torque of \"{}\" depends on time, and over the angle nobody knows the time of an edge; choose "
-          "another method",
+          "the torque of \"{}\" depends on time, and over the angle nobody knows the time of an edge; choose another "
+          "method",
           e.component);
   for (const auto& pool : model->pools)
     if (pool->reacts())

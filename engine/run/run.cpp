@@ -266,13 +266,12 @@ class Loop {
     }
     if (memory_.events_here > most_events_at_once) {
       const std::string owner = fired.front() < equations_.guard_count() ? equations_.guard_owner(fired.front()) : "";
-      broken_ = {
-          .kind = Breakdown::Kind::restless,
-          .t = time,
-          .why = fmt::format("\"{}\" can neither stay as it is nor change: no set of pieces and senses of motion "
-                             "fits its laws here. Smooth the load's edge (rise) or its friction",
-                             owner),
-          .element = owner};
+      broken_ = {.kind = Breakdown::Kind::restless,
+                 .t = time,
+                 .why = fmt::format("\"{}\" can neither stay as it is nor change: no set of pieces and senses of "
+                                    "motion fits its laws here. Smooth the load's edge (rise) or its friction",
+                                    owner),
+                 .element = owner};
       return false;
     }
     if (options_.extension) options_.extension->before_event(time, y, fired);

@@ -433,11 +433,10 @@ void ExplicitRungeKutta::fail(double h, double error) const {
                                   table_.name, t_previous_, state, slope_[stage][state]),
                       t_previous_, state, true);
   }
-  throw StepFailure(
-      fmt::format("{}: at t = {:.17g} s the step had to shrink to {:.2g} s, and the error of state {} was "
-                  "still {:.3g} times the tolerance; is there a jump in the equations?",
-                  table_.name, t_previous_, h, worst_, error),
-      t_previous_, worst_, false);
+  throw StepFailure(fmt::format("{}: at t = {:.17g} s the step had to shrink to {:.2g} s, and the error of state {} "
+                                "was still {:.3g} times the tolerance; is there a jump in the equations?",
+                                table_.name, t_previous_, h, worst_, error),
+                    t_previous_, worst_, false);
 }
 
 }  // namespace kurbel

@@ -303,10 +303,9 @@ void TableFile::find_decimal_sign(char said) {
     refuse(*comma, fmt::format("{} with a comma, and {} in line {} with a point; write all decimals with one sign",
                                in_quotes(comma_cell), in_quotes(point_cell), point->number));
   if (comma && !settled)
-    refuse(*comma,
-           fmt::format("{} may be decimals or thousands, as all numbers of the file with a comma; say decimal = "
-                       "\",\", or write them without commas",
-                       in_quotes(comma_cell)));
+    refuse(*comma, fmt::format("{} may be decimals or thousands, as all numbers of the file with a comma; say decimal "
+                               "= \",\", or write them without commas",
+                               in_quotes(comma_cell)));
   decimal_ = comma ? ',' : '.';
 }
 

@@ -266,8 +266,8 @@ class CurveReader {
           fmt::format("the point [{}, {}] is too large; in SI units both must be within ± {:g}", x, y, greatest_size);
     else if (!all_x.empty() && x_si != all_x.back() && !(x_si - all_x.back() > least_size))
       wrong = fmt::format(
-          "x = {} lies so near to the point before it that no slope can be computed between them; set "
-          "them farther apart",
+          "x = {} lies so near to the point before it that no slope can be computed between them; set them farther "
+          "apart",
           x);
     else if (all_x.size() >= most_points)
       wrong = fmt::format("more than {} points; thin them out", most_points);
@@ -340,10 +340,9 @@ class CurveReader {
       return is_number_of_one(v) || (v.type == Type::text && !v.computed);
     };
     if (given->value.type != Type::list || items.size() != 2 || !is_column(items[0]) || !is_column(items[1]))
-      return refuse(given->value.at,
-                    fmt::format("columns = {}; must be two columns, by numbers from 1 or by names, e.g. [1, 2] or "
-                                "[\"speed\", \"torque\"]",
-                                given->value.describe()));
+      return refuse(given->value.at, fmt::format("columns = {}; must be two columns, by numbers from 1 or by names, "
+                                                 "e.g. [1, 2] or [\"speed\", \"torque\"]",
+                                                 given->value.describe()));
     for (std::size_t k = 0; k < 2; ++k) {
       if (is_number_of_one(items[k])) {
         columns[k] = static_cast<int>(items[k].number);

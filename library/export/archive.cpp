@@ -2,10 +2,25 @@
 #include "library/export/archive.h"
 
 #include <fmt/format.h>
+#include <kurbel_fmi_image.h>  // its checksum: a cache of objects sees no other change
 #include <zip.h>
 
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
+
+// clang-format off
+asm(".section .rodata\n"
+    ".balign 16\n"
+    ".global kurbel_fmi_image_begin\n"
+    "kurbel_fmi_image_begin:\n"
+    ".incbin \"" KURBEL_FMI_IMAGE "\"\n"
+    ".global kurbel_fmi_image_end\n"
+    "kurbel_fmi_image_end:\n"
+    ".previous\n");
+// clang-format on
+extern "C" const char kurbel_fmi_image_begin[];
+extern "C" const char kurbel_fmi_image_end[];
 
 namespace kurbel {
 
@@ -50,6 +65,10 @@ std::string zip_of(const std::vector<std::pair<std::string, std::string>>& files
   if (got != static_cast<zip_int64_t>(all.size())) fail("read");
   zip_error_fini(&error);
   return all;
+}
+
+std::string_view run_time_image() {
+  return {kurbel_fmi_image_begin, static_cast<std::size_t>(kurbel_fmi_image_end - kurbel_fmi_image_begin)};
 }
 
 }  // namespace kurbel

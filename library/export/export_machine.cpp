@@ -11,8 +11,6 @@
 #include "engine/run/checkpoint.h"
 #include "engine/scene/document.h"
 #include "library/export/archive.h"
-#include "library/export/model_description.h"
-#include "library/export/run_time_image.h"
 #include "library/fmi/ports.h"
 #include "studies/files/sha256.h"
 

@@ -33,4 +33,7 @@ ExportedComponent component_of(const Scene& scene, const ExportAsked& asked);
 // The archive. `fmi` 2 or 3.
 std::string packed(const ExportedComponent& component, int fmi, const std::string& scene_folder);
 
+// Throws std::invalid_argument for a unit that neither version can describe.
+std::string model_description(const ExportedComponent& component, int fmi);
+
 }  // namespace kurbel

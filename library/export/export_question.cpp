@@ -77,9 +77,8 @@ OptionsOf<ExportAsked> options() {
             .each_time = true},
            &Asked::parameters)
       .add({.name = "output",
-            .doc =
-                "what others see: a channel, torque.main_coupling (default: all), or with --kind cs an extreme within "
-                "each step, peak_torque.main_coupling",
+            .doc = "what others see: a channel, torque.main_coupling (default: all), or with --kind cs an extreme "
+                   "within each step, peak_torque.main_coupling",
             .each_time = true},
            &Asked::outputs)
       .add({.name = "effects", .doc = "in place of the scene's, as in kurbel run"}, &Asked::effects)
@@ -94,8 +93,8 @@ Question export_question() {
        .name = "export",
        .arguments = "scene.toml --fmi 3 --input motor.command",
        .help = "the machine as a component of FMI 2.0 or 3.0 for other simulators",
-       .does = "the machine as a component (FMU) for co-simulation and model exchange by FMI 2.0 or "
-               "3.0, Linux on x86-64: inputs, parameters and outputs by their names; needs no compiler"},
+       .does = "the machine as a component (FMU) for co-simulation and model exchange by FMI 2.0 or 3.0, Linux on "
+               "x86-64: inputs, parameters and outputs by their names; needs no compiler"},
       options(), exported);
 }
 

@@ -1,5 +1,5 @@
 // model_description.cpp — attributes and elements in the order of the standards (2.0.4 section 2.2, 3.0 section 2.4).
-#include "library/export/model_description.h"
+#include "library/export/export_machine.h"
 
 #include <fmt/format.h>
 

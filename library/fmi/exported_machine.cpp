@@ -81,6 +81,16 @@ DocumentValue document_of(const Json& json) {
 
 const char* const kind = "kurbel exported machine 1";
 
+// All but the document.
+template <class Machine, class Take>
+void each_member(Machine& m, const Take& take) {
+  take("name", m.name), take("title", m.title), take("token", m.token), take("version", m.version);
+  take("file", m.file), take("effects", m.effects);
+  take("model_exchange", m.model_exchange), take("co_simulation", m.co_simulation);
+  take("inputs", m.inputs), take("parameters", m.parameters), take("outputs", m.outputs), take("peaks", m.peaks);
+  take("tables", m.tables.pages);
+}
+
 }  // namespace
 
 std::string ExportedInput::target() const {
@@ -91,21 +101,8 @@ std::string ExportedInput::target() const {
 }
 
 std::string ExportedMachine::text() const {
-  const Json json{{"kind", kind},
-                  {"name", name},
-                  {"title", title},
-                  {"token", token},
-                  {"version", version},
-                  {"file", file},
-                  {"effects", effects},
-                  {"model_exchange", model_exchange},
-                  {"co_simulation", co_simulation},
-                  {"inputs", inputs},
-                  {"parameters", parameters},
-                  {"outputs", outputs},
-                  {"peaks", peaks},
-                  {"document", json_of(document)},
-                  {"tables", tables.pages}};
+  Json json{{"kind", kind}, {"document", json_of(document)}};
+  each_member(*this, [&](const char* key, const auto& member) { json[key] = member; });
   return json.dump() + "\n";
 }
 
@@ -114,18 +111,8 @@ ExportedMachine ExportedMachine::from_text(const std::string& text) {
   try {
     const Json json = Json::parse(text);
     if (json.at("kind") != kind) throw std::invalid_argument("is no exported machine that this run-time can read");
-    for (const auto& [key, member] :
-         {std::pair("name", &m.name), std::pair("title", &m.title), std::pair("token", &m.token),
-          std::pair("version", &m.version), std::pair("file", &m.file), std::pair("effects", &m.effects)})
-      json.at(key).get_to(*member);
-    json.at("model_exchange").get_to(m.model_exchange);
-    json.at("co_simulation").get_to(m.co_simulation);
-    json.at("inputs").get_to(m.inputs);
-    json.at("parameters").get_to(m.parameters);
-    json.at("outputs").get_to(m.outputs);
-    json.at("peaks").get_to(m.peaks);
+    each_member(m, [&](const char* key, auto& member) { json.at(key).get_to(member); });
     m.document = document_of(json.at("document"));
-    json.at("tables").get_to(m.tables.pages);
   } catch (const Json::exception& error) {
     throw std::invalid_argument(std::string("cannot be read as an exported machine: ") + error.what());
   }

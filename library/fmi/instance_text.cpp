@@ -6,6 +6,18 @@
 #include "library/fmi/instance.h"
 
 namespace kurbel {
+namespace {
+
+const char* const instance_kind = "kurbel instance 1";
+
+// What is kept as it is; `here` has a text of its own.
+template <class State, class Take>
+void each_kept(State& state, const Take& take) {
+  take("parameters", state.parameters), take("inputs", state.inputs), take("applied", state.applied);
+  take("slopes", state.slopes), take("peaks", state.peaks), take("started", state.started), take("begin", state.begin);
+}
+
+}  // namespace
 
 InstanceState Instance::state() {
   made();
@@ -22,16 +34,8 @@ void Instance::restore(const InstanceState& state) {
 
 std::string Instance::text(const InstanceState& state) {
   made();
-  const nlohmann::json json{{"kind", "kurbel instance 1"},
-                            {"token", machine_.token},
-                            {"here", text_of(state.here, *equations_)},
-                            {"parameters", state.parameters},
-                            {"inputs", state.inputs},
-                            {"applied", state.applied},
-                            {"slopes", state.slopes},
-                            {"peaks", state.peaks},
-                            {"started", state.started},
-                            {"begin", state.begin}};
+  nlohmann::json json{{"kind", instance_kind}, {"token", machine_.token}, {"here", text_of(state.here, *equations_)}};
+  each_kept(state, [&](const char* key, const auto& member) { json[key] = member; });
   return json.dump();
 }
 
@@ -40,15 +44,9 @@ InstanceState Instance::state_from(const std::string& text) {
   InstanceState state;
   try {
     const auto json = nlohmann::json::parse(text);
-    if (json.at("kind") != "kurbel instance 1" || json.at("token") != machine_.token)
+    if (json.at("kind") != instance_kind || json.at("token") != machine_.token)
       throw std::invalid_argument("this is no state of this component");
-    json.at("parameters").get_to(state.parameters);
-    json.at("inputs").get_to(state.inputs);
-    json.at("applied").get_to(state.applied);
-    json.at("slopes").get_to(state.slopes);
-    json.at("peaks").get_to(state.peaks);
-    json.at("started").get_to(state.started);
-    json.at("begin").get_to(state.begin);
+    each_kept(state, [&](const char* key, auto& member) { json.at(key).get_to(member); });
     state.here = checkpoint_from(json.at("here").get<std::string>(), *equations_);
   } catch (const nlohmann::json::exception& error) {
     throw std::invalid_argument(std::string("this is no state of this component: ") + error.what());

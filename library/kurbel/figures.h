@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
+#include <kurbel/estimate.h>
+
 namespace kurbel {
 
-// A figure, in SI: speeds in rad/s.
-struct FigureValue {
-  std::string name;             // "peak_torque.main_coupling"; for its meaning: kurbel explain
-  double value = 0;             // in `unit`
-  std::string unit;             // "N*m"; empty: a plain number
-  std::optional<double> error;  // ±, in `unit`, measured by further runs; empty: not measured
-  std::optional<double> at;     // time at which it occurs [s]; empty: none
-  std::string of = {};          // the model that it belongs to, if a study has several: "rigid"; empty: the only one
+// A figure, in SI: speeds in rad/s. Its error ± is measured by further runs; empty: not measured.
+struct FigureValue : Estimate {
+  std::string name;          // "peak_torque.main_coupling"; for its meaning: kurbel explain
+  std::string unit;          // "N*m", of value and error; empty: a plain number
+  std::optional<double> at;  // time at which it occurs [s]; empty: none
+  std::string of = {};       // the model that it belongs to, if a study has several: "rigid"; empty: the only one
 };
 // Definition, formula, unit and limits of meaning of the figures with this name or these words. Throws
 // std::invalid_argument with the nearest names.

@@ -2,11 +2,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanisms/bodies/drawn_linkage.h"
 #include "mechanisms/bodies/sketched_linkage.h"
 
 namespace kurbel {
 namespace {
+
+struct DrawnJoint {
+  int body;       // the body that it moves with
+  SketchSpot at;  // in the position of the sketch, axes of the mechanism [m]
+  std::string name;
+};
 
 class LinkageDrafter {
  public:
@@ -27,7 +32,8 @@ class LinkageDrafter {
     add_link(s_.links[static_cast<std::size_t>(s_.driver)], "crank");
   }
 
-  std::vector<DrawnJoint> joints;
+  std::vector<DrawnJoint>
+      joints;  // in the order of LinkageDrawing's: the driving link's bearing and its next point first
   std::vector<LinkageDrawing::Link> links;
   int index_of_point(int p) const { return index_[static_cast<std::size_t>(p)]; }
 
@@ -84,12 +90,11 @@ class LinkageDrafter {
 
 }  // namespace
 
-std::vector<DrawnJoint> drawn_joints(const Linkage& linkage) { return LinkageDrafter(linkage).joints; }
-
 std::vector<PlanePoint> places_of(const LinkageData& data, double phi) {
   const LinkPoses poses = data.linkage->poses(phi);
   std::vector<PlanePoint> places;
-  for (const DrawnJoint& place : drawn_joints(*data.linkage)) {
+  const LinkageDrafter drafter(*data.linkage);
+  for (const DrawnJoint& place : drafter.joints) {
     const Path at = poses[place.body](place.at);
     places.push_back({static_cast<double>(at.x.value()), static_cast<double>(at.y.value())});
   }

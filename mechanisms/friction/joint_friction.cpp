@@ -282,9 +282,8 @@ void JointFriction::find(const State& s, Work& w) const {
     step /= 2;
     if (step < least_step)
       throw Jam(
-          fmt::format("its joints jam at phi = {:.6g} deg: from {:.3g} % of the given friction on no {} satisfy "
-                      "the friction laws; lower the coefficients, or lengthen guides and the links that push "
-                      "against them",
+          fmt::format("its joints jam at phi = {:.6g} deg: from {:.3g} % of the given friction on no {} satisfy the "
+                      "friction laws; lower the coefficients, or lengthen guides and the links that push against them",
                       s.phi * 180 / std::numbers::pi, 100 * share,
                       s.at_rest ? "finite reactions at rest"
                       : w.given ? "finite reactions"

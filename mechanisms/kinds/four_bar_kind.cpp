@@ -16,9 +16,8 @@ Fields<FourBar> four_bar_linkage() {
       .add(required("rocker", "m", positive, "rocker length, from its bearing to the coupler"), &FourBar::rocker)
       .add(required("ground", "m", positive, "distance of the two bearings"), &FourBar::ground)
       .add(choice("branch", "open",
-                  "how the loop is assembled: coupler pin left of the line from crank pin to rocker bearing, or "
-                  "right; of links "
-                  "that pass change points, for 0 < φ < 180 deg"),
+                  "how the loop is assembled: coupler pin left of the line from crank pin to rocker bearing, or right; "
+                  "of links that pass change points, for 0 < φ < 180 deg"),
            &FourBar::crossed, {{"open", false}, {"crossed", true}})
       .add(pivoted_link("crank", "from the axis towards the pin; negative: counterweighted"), &FourBar::crank_body)
       .add(floating_link("coupler", "from the crank pin"), &FourBar::coupler_body, in_the_middle_of(&FourBar::coupler))
@@ -39,9 +38,9 @@ Fields<Mounted<FourBar>> four_bar_fields() {
 Kind four_bar_kind() {
   return mounted_kind<four_bar_fields>(
       "four-bar",
-      "crank, coupler and rocker on the ground link: crank–rocker, drag link (both turn), parallelogram, kite; "
-      "a crank that cannot turn fully rocks within its arc, where the run ends if it is reached; "
-      "the loads act on the rocker; φ = 0 with the crank towards the rocker's bearing");
+      "crank, coupler and rocker on the ground link: crank–rocker, drag link (both turn), parallelogram, kite; a crank "
+      "that cannot turn fully rocks within its arc, where the run ends if it is reached; the loads act on the rocker; "
+      "φ = 0 with the crank towards the rocker's bearing");
 }
 
 }  // namespace kurbel

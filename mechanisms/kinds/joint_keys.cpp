@@ -14,10 +14,9 @@ using Friction = FrictionCoefficient;
 
 void check_friction(const Reading<Friction>& f) {
   if (f.resting < f.kinetic)
-    f.refuse(&Friction::resting,
-             fmt::format("static_friction = {:g}; must be ≥ friction = {:g}, else standing still would be easier to "
-                         "leave than to keep",
-                         f.resting, f.kinetic));
+    f.refuse(&Friction::resting, fmt::format("static_friction = {:g}; must be ≥ friction = {:g}, else standing still "
+                                             "would be easier to leave than to keep",
+                                             f.resting, f.kinetic));
 }
 
 Fields<Friction> friction() {
@@ -28,11 +27,10 @@ Fields<Friction> friction() {
            &Friction::kinetic)
       .add(quantity("static_friction", "", not_negative, "≥ friction; default: the same"), &Friction::resting,
            &Friction::kinetic)
-      .add(
-          defaulted("stribeck_speed", "m/s", "0 m/s", not_negative,
-                    "sliding speed v_s within which static friction falls to kinetic: f + (f_s − f) exp(−(v/v_s)²); 0: "
-                    "at once"),
-          &Friction::stribeck_speed)
+      .add(defaulted("stribeck_speed", "m/s", "0 m/s", not_negative,
+                     "sliding speed v_s within which static friction falls to kinetic: f + (f_s − f) exp(−(v/v_s)²); "
+                     "0: at once"),
+           &Friction::stribeck_speed)
       .add(defaulted("viscous_friction", "s/m", "0 s/m", not_negative,
                      "rise of the coefficient with sliding speed (fluid friction)"),
            &Friction::viscous)
@@ -63,11 +61,10 @@ const Tables<RubbingJoint>& journals() {
              &RubbingJoint::radius)
         .add(friction(), &RubbingJoint::friction);
     add_film(fields);
-    return Tables<RubbingJoint>().add(
-        "journal",
-        "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r sin(atan f) the radius of the "
-        "friction circle",
-        fields);
+    return Tables<RubbingJoint>().add("journal",
+                                      "journal or pin in its bearing; friction torque is ρ times the reaction, ρ = r "
+                                      "sin(atan f) the radius of the friction circle",
+                                      fields);
   }();
   return made;
 }
@@ -188,10 +185,8 @@ MechanismJoints joints_of(const MechanismData& data, const std::vector<Reading<R
     for (const PlanarLinkage::Joint& j : linkage.joints)
       if (to.name == j.name) sound = fits(joint, j.slides) && sound;
     if (!why.empty())
-      sound =
-          joint.refuse(fmt::format("friction of its joints cannot be found: {}; leave the joints out, or change the "
-                                   "lengths",
-                                   why));
+      sound = joint.refuse(
+          fmt::format("friction of its joints cannot be found: {}; leave the joints out, or change the lengths", why));
     rubbing.push_back(std::move(to));
   }
   if (!sound) return {};

@@ -35,10 +35,9 @@ const Tables<Reading<SpringKeys>>& spring_tables() {
           .add(defaulted("stiffness", "N/m", "0 N/m", not_negative, "k"), &SpringKeys::stiffness)
           .add(defaulted("preload", "N", "0 N", any_number, "tension at free_length; negative: it pushes there"),
                &SpringKeys::preload)
-          .add(quantity(
-                   "free_length", "m", not_negative,
-                   "length from which k counts, the pull is preload + k (length − free_length); default: the distance "
-                   "in the sketch"),
+          .add(quantity("free_length", "m", not_negative,
+                        "length from which k counts, the pull is preload + k (length − free_length); default: the "
+                        "distance in the sketch"),
                &SpringKeys::free_length)
           .add(defaulted("damping", "N*s/m", "0 N*s/m", not_negative, "of a damper beside the spring"),
                &SpringKeys::damping)
@@ -131,8 +130,8 @@ class LinkageForceBuilder {
       };
       if (!k.along && !std::all_of(k.loads.begin(), k.loads.end(), resists))
         return void(
-            k.refuse("without along a force resists the motion along the point's path, as kind = \"medium\" does; "
-                     "give along for other laws"));
+            k.refuse("without along a force resists the motion along the point's path, as kind = \"medium\" does; give "
+                     "along for other laws"));
     }
     if (!is_named_well(k)) return;
     put(k, k.between ? &PointForceKeys::between : &PointForceKeys::on, travel,
@@ -155,10 +154,10 @@ class LinkageForceBuilder {
     if (!is_named_well(k)) return;
     const auto laws = [&](Mechanism& m) {
       if (m.travel.winding != 0 && k.stiffness > 0)
-        return k.refuse(&CoupleKeys::stiffness,
-                        fmt::format("{} makes full turns relative to {}, and a spring between them would be "
-                                    "wound up without end",
-                                    two[1], two[0]));
+        return k.refuse(
+            &CoupleKeys::stiffness,
+            fmt::format("{} makes full turns relative to {}, and a spring between them would be wound up without end",
+                        two[1], two[0]));
       // Of the sketch 0; the table may count whole turns more.
       const double drawn = m.reduced->output_position(static_cast<double>(linkage_->drawn_at())).value;
       add_spring(m, k.stiffness, k.free_angle + drawn, k.preload, k.damping);

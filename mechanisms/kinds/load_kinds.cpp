@@ -77,19 +77,17 @@ Fields<K> with_misfire(Fields<K> fields, const char* unit) {
 }
 
 Fields<Table> table() {
-  return with_misfire(
-      Fields<Table>()
-          .add(required_curve(
-                   "force", {"travel", "angle"}, "N",
-                   "positive pushes the slider away from the working end; over the distance to that end "
-                   "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
-                   "720 deg for four strokes)"),
-               &Table::force)
-          .add(rounding_key("rounding", "m"), &Table::rounding)
-          .add(rounding_key("rounding_angle", "rad"), &Table::rounding_angle)
-          .add(working_end_key(), &Table::from_greatest, stroke_ends())
-          .add(work_key(), &Table::account, accounts()),
-      "N");
+  return with_misfire(Fields<Table>()
+                          .add(required_curve("force", {"travel", "angle"}, "N",
+                                              "positive pushes the slider away from the working end; over the distance "
+                                              "to that end (return_points: branch of the other stroke) or over the "
+                                              "crank angle (span up to 360 deg, or 720 deg for four strokes)"),
+                               &Table::force)
+                          .add(rounding_key("rounding", "m"), &Table::rounding)
+                          .add(rounding_key("rounding_angle", "rad"), &Table::rounding_angle)
+                          .add(working_end_key(), &Table::from_greatest, stroke_ends())
+                          .add(work_key(), &Table::account, accounts()),
+                      "N");
 }
 
 Fields<Compressor> compressor() {
@@ -126,8 +124,7 @@ Fields<Cylinder> cylinder() {
           .add(required_curve(
                    "pressure", {"travel", "angle"}, "Pa",
                    "absolute, in the chamber at the working end, which pushes the slider away from it; over the "
-                   "distance "
-                   "to that end (return_points: while the slider moves away) or over the crank angle"),
+                   "distance to that end (return_points: while the slider moves away) or over the crank angle"),
                &Cylinder::pressure)
           .add(curve("pressure_behind", {"travel", "angle"}, "Pa",
                      "the same in the other chamber, over the same distance or angle; without: outside_pressure"),
@@ -153,10 +150,10 @@ Fields<LinearMotor> linear_motor() {
 
 Fields<Table> rocker_table() {
   return Fields<Table>()
-      .add(required_curve("torque", {"swing", "angle"}, "N*m",
-                          "positive pushes the output away from the working end; over the angle to that end "
-                          "(return_points: branch of the other stroke) or over the crank angle (span up to 360 deg, or "
-                          "720 deg)"),
+      .add(required_curve(
+               "torque", {"swing", "angle"}, "N*m",
+               "positive pushes the output away from the working end; over the angle to that end (return_points: "
+               "branch of the other stroke) or over the crank angle (span up to 360 deg, or 720 deg)"),
            &Table::force)
       .add(rounding_key("rounding", "rad"), &Table::rounding)
       .add(swing_end_key(), &Table::from_greatest, swing_ends())
@@ -178,11 +175,10 @@ const Tables<LoadReading>& slider_loads() {
                "gas force of a compressor: compression, delivery, re-expansion of the clearance volume, suction; the "
                "valves open at located events",
                compressor())
-          .add(
-              "cylinder",
-              "a cylinder that drives the slider: pressures in one chamber or both, by table or formula over travel or "
-              "crank angle",
-              cylinder())
+          .add("cylinder",
+               "a cylinder that drives the slider: pressures in one chamber or both, by table or formula over travel "
+               "or crank angle",
+               cylinder())
           .add("linear motor", "a linear motor that drives the slider, by its force-speed line", linear_motor());
   return made;
 }

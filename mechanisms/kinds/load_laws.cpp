@@ -92,23 +92,22 @@ bool choose_diagram(const Reading<Keys>& s, const Mechanism& mechanism, CurveDat
     if (s.motored)
       return s.refuse(&Keys::motored, fmt::format("belongs to a diagram over \"angle\"; it is over \"{}\"", data.over));
     return !s.misfire ||
-           s.refuse(&Keys::misfire, fmt::format("a diagram over {} knows no cycle that could misfire; give "
-                                                "it over \"angle\"",
-                                                data.over));
+           s.refuse(
+               &Keys::misfire,
+               fmt::format("a diagram over {} knows no cycle that could misfire; give it over \"angle\"", data.over));
   }
   data.period = cycle_of(data);
   if (s.motored && std::abs(cycle_of(*s.motored) - data.period) > 1e-9 * data.period)
     return s.refuse(&Keys::motored, "its period is not that of the fired diagram");
   if (!s.misfire) return true;
   if (!s.motored && !s.from_greatest)
-    return s.refuse(&Keys::misfire,
-                    "the compression of a cylinder at the folded end does not end at 0 deg and is not "
-                    "mirrored; give \"motored\"");
-  if (!s.motored && !turns_at_dead_centres(mechanism))
     return s.refuse(
         &Keys::misfire,
-        "the travel does not turn at 0 and 180 deg of the crank, as it does not with an offset, so that the "
-        "compression mirrored about 0 deg would do work that is none; give \"motored\"");
+        "the compression of a cylinder at the folded end does not end at 0 deg and is not mirrored; give \"motored\"");
+  if (!s.motored && !turns_at_dead_centres(mechanism))
+    return s.refuse(&Keys::misfire,
+                    "the travel does not turn at 0 and 180 deg of the crank, as it does not with an offset, so that "
+                    "the compression mirrored about 0 deg would do work that is none; give \"motored\"");
   const double period = data.period;
   load.mirrored = !s.motored;
   data = s.motored ? *s.motored : first_half_turn_mirrored(data, period, false);
@@ -126,8 +125,8 @@ bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& lo
       if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
       if (mechanism.travel.winding != 0)
         return refuse(
-            fmt::format("a table over {}, but the output rotates with the crank and has no end of a swing; "
-                        "give the table over the crank's angle",
+            fmt::format("a table over {}, but the output rotates with the crank and has no end of a swing; give the "
+                        "table over the crank's angle",
                         data.over));
       TravelForce law{end, data.curve(), {}, mechanism.stroke()};
       if (!data.x_back.empty()) law.retreat = data.back();
@@ -152,9 +151,9 @@ bool put_law(const Reading<Compressor>& s, const Mechanism& mechanism, SliderLoa
                     fmt::format("delivery_pressure = {:g} bar; must be above suction_pressure = {:g} bar",
                                 law.delivery * 1e-5, law.suction * 1e-5));
   const auto refuse = [&](const char* event, double greatest) {
-    return s.refuse(&Compressor::clearance, fmt::format("clearance = {:g}; must be < {:.4g}, else the {} at these "
-                                                        "pressures",
-                                                        law.clearance, greatest, event));
+    return s.refuse(&Compressor::clearance,
+                    fmt::format("clearance = {:g}; must be < {:.4g}, else the {} at these pressures", law.clearance,
+                                greatest, event));
   };
   if (law.delivery_opens_at() <= 0)
     return refuse("delivery valve never opens",

@@ -57,8 +57,8 @@ bool lengths_fit(const Section& s, Messages& messages) {
     fit = false;
     messages.add(
         s.where(key.name),
-        fmt::format("{} \"{}\": {} = {:.3g} m is {:.1e} times {} = {:.3g} m; must be at most {:.0e} times, "
-                    "else positions are lost to round-off; check both units",
+        fmt::format("{} \"{}\": {} = {:.3g} m is {:.1e} times {} = {:.3g} m; must be at most {:.0e} times, else "
+                    "positions are lost to round-off; check both units",
                     s.kind->name, s.name, key.name, s.number(key.name),
                     std::abs(s.number(key.name)) / s.number(crank.name), crank.name, s.number(crank.name), longest));
   }
@@ -87,8 +87,8 @@ Key gravity_key() { return defaulted("gravity", "m/s2", "0 m/s2", not_negative, 
 Fields<Mounting> mounting(const std::string& load_doc, const Tables<LoadReading>& loads) {
   return mounting_without_joints(load_doc, loads)
       .add({.name = "joints",
-            .doc = "joints with friction, by their names: joints = { crank_pin = { radius = \"20 mm\", "
-                   "friction = 0.05 } }; of a linkage by the point of a pin and the link that slides"},
+            .doc = "joints with friction, by their names: joints = { crank_pin = { radius = \"20 mm\", friction = 0.05 "
+                   "} }; of a linkage by the point of a pin and the link that slides"},
            &Mounting::joints, rubbing_tables());
 }
 
@@ -139,16 +139,15 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
                            ? fmt::format("{} \"{}\": its links cannot be followed over the cycle{}; probably a dead "
                                          "position or change point is too near: change a length clearly",
                                          s.kind->name, s.name, by_sketch)
-                           : fmt::format("{} \"{}\": its lengths, masses and inertias lie too far apart to be "
-                                         "computed together ({}); check their units",
+                           : fmt::format("{} \"{}\": its lengths, masses and inertias lie too far apart to be computed "
+                                         "together ({}); check their units",
                                          s.kind->name, s.name, masses));
     return;
   }
   if (mechanism->stroke() == 0 && !mounting.loads.empty()) {
-    messages.add(s.where("load"),
-                 fmt::format("{} \"{}\": load: its output stands still on this branch, so that no load "
-                             "on it does work; leave the load out, or choose the other branch",
-                             s.kind->name, s.name));
+    messages.add(s.where("load"), fmt::format("{} \"{}\": load: its output stands still on this branch, so that no "
+                                              "load on it does work; leave the load out, or choose the other branch",
+                                              s.kind->name, s.name));
     return;
   }
   mechanism->node = node, mechanism->phase = mounting.phase;

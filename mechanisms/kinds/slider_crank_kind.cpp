@@ -25,17 +25,15 @@ Fields<Crank> slider_crank_linkage() {
       .add({.name = "rod",
             .unit = "m",
             .domain = positive,
-            .doc =
-                "rod length l; equal to radius + |offset|, crank and rod pass change points; shorter, the crank rocks "
-                "within its arc, where the run ends if it is reached",
+            .doc = "rod length l; equal to radius + |offset|, crank and rod pass change points; shorter, the crank "
+                   "rocks within its arc, where the run ends if it is reached",
             .required = true},
            &Crank::rod_length)
       .add(defaulted("offset", "m", "0 m", any_number, "of the slider's line from the crank axis"), &Crank::offset)
-      .add(choice(
-               "branch", "follows",
-               "of rod = radius + |offset|: how the rod passes upright; follows: x = 2 r cos φ without offset; folds: "
-               "it lies on the crank and the slider rests; with offset, which of two turns φ = 0 is. Of a shorter rod, "
-               "whose crank rocks: follows: the rod points towards +x, folds: towards −x"),
+      .add(choice("branch", "follows",
+                  "of rod = radius + |offset|: how the rod passes upright; follows: x = 2 r cos φ without offset; "
+                  "folds: it lies on the crank and the slider rests; with offset, which of two turns φ = 0 is. Of a "
+                  "shorter rod, whose crank rocks: follows: the rod points towards +x, folds: towards −x"),
            &Crank::folds, {{"follows", false}, {"folds", true}})
       .add(mass_key("crank_mass", "mass of the crank"), &Crank::crank_mass)
       .add(defaulted("crank_com", "m", "0 m", any_number,
@@ -106,10 +104,9 @@ std::optional<double> fires_at(const Section& s, const FiringKeys& f, Messages& 
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t k = 0; k < sorted.size(); ++k)
     if (sorted[k] != static_cast<int>(k) + 1)
-      return refuse("firing_order",
-                    fmt::format("firing_order must name each cylinder from 1 to {} once, e.g. [1, 3, 4, "
-                                "2]",
-                                sorted.size()));
+      return refuse(
+          "firing_order",
+          fmt::format("firing_order must name each cylinder from 1 to {} once, e.g. [1, 3, 4, 2]", sorted.size()));
   const auto own = std::find(order.begin(), order.end(), *f.cylinder);
   if (own == order.end())
     return refuse("cylinder",
@@ -117,10 +114,11 @@ std::optional<double> fires_at(const Section& s, const FiringKeys& f, Messages& 
   const std::vector<double> intervals =
       f.intervals.value_or(std::vector<double>(order.size(), cycle / static_cast<double>(order.size())));
   if (intervals.size() != order.size())
-    return refuse("firing_intervals",
-                  fmt::format("{} firing_intervals for {} cylinders; give one from each firing to the "
-                              "next, the last back to the first",
-                              intervals.size(), order.size()));
+    return refuse(
+        "firing_intervals",
+        fmt::format(
+            "{} firing_intervals for {} cylinders; give one from each firing to the next, the last back to the first",
+            intervals.size(), order.size()));
   const double sum = std::accumulate(intervals.begin(), intervals.end(), 0.0);
   if (std::abs(sum - cycle) > 1e-9 * cycle)
     return refuse("firing_intervals",
@@ -146,11 +144,11 @@ bool put_phase(const Section& s, const FiringKeys& f, Mounting& mounting, Messag
   const double turn = 2 * std::numbers::pi, degree = std::numbers::pi / 180;
   const double phase = place_within(-*at, f.strokes * std::numbers::pi);
   if (s.given("phase") && std::abs(std::remainder(mounting.phase - phase, turn)) > 1e-6)
-    return refuse("phase",
-                  fmt::format("phase = {:.6g} deg, but by the firing order it fires at {:.6g} deg of the shaft, "
-                              "where its crank must be at the dead centre: phase = {:.6g} deg; leave the phase "
-                              "out, or mend the order",
-                              mounting.phase / degree, *at / degree, place_within(-*at, turn) / degree));
+    return refuse(
+        "phase",
+        fmt::format("phase = {:.6g} deg, but by the firing order it fires at {:.6g} deg of the shaft, where its crank "
+                    "must be at the dead centre: phase = {:.6g} deg; leave the phase out, or mend the order",
+                    mounting.phase / degree, *at / degree, place_within(-*at, turn) / degree));
   mounting.phase = phase;
   return true;
 }
@@ -165,13 +163,12 @@ void build_slider_crank(const Section& s, const Reading<SliderCrankKeys>& mechan
   const bool friction = mechanism.joints.rub();
   const bool deforms = !mechanism.deformation.clearances.empty() || mechanism.deformation.flexibility;
   if (sound && faults.empty() && d.changes() && (friction || deforms))
-    faults.push_back(
-        {"rod", fmt::format("rod = radius + |offset| = {}, so that crank and rod pass change points, where "
-                            "{}; lengthen the rod, or omit {}",
-                            in_mm(d.rod_length),
-                            friction ? "reactions have no bound and friction by them jams the crank"
-                                     : "gaps and bending decide which way the rod goes on",
-                            friction ? "friction of the joints" : "clearance and rod_flexibility")});
+    faults.push_back({"rod", fmt::format("rod = radius + |offset| = {}, so that crank and rod pass change points, "
+                                         "where {}; lengthen the rod, or omit {}",
+                                         in_mm(d.rod_length),
+                                         friction ? "reactions have no bound and friction by them jams the crank"
+                                                  : "gaps and bending decide which way the rod goes on",
+                                         friction ? "friction of the joints" : "clearance and rod_flexibility")});
   if (sound && faults.empty() && d.rocks() && deforms)
     faults.push_back(
         {"rod",

@@ -35,10 +35,9 @@ Fields<Mounted<Lever>> slotted_lever_fields() {
 }  // namespace
 
 Kind slotted_lever_kind() {
-  return mounted_kind<slotted_lever_fields>(
-      "inverted slider-crank",
-      "crank, block on its pin and slotted lever, which the loads act on; φ = 0 with the crank towards the "
-      "lever's bearing");
+  return mounted_kind<slotted_lever_fields>("inverted slider-crank",
+                                            "crank, block on its pin and slotted lever, which the loads act on; φ = 0 "
+                                            "with the crank towards the lever's bearing");
 }
 
 }  // namespace kurbel

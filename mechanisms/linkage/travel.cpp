@@ -126,8 +126,7 @@ std::string fault_of(const Linkage& l, const LinkageTravel& travel) {
         over_cycle(l, [&](long double phi) { return travel_series(l, l.poses(phi), travel).value(); });
     if (d.least < least * d.greatest)
       return fmt::format(
-          "its points come together at φ = {:.4g}°, where a force along their line has no direction; "
-          "move one of them",
+          "its points come together at φ = {:.4g}°, where a force along their line has no direction; move one of them",
           degrees(d.at));
   }
   const PathGuide guide = travel.of == Of::path ? path_guide(l, travel) : PathGuide{};
@@ -138,8 +137,8 @@ std::string fault_of(const Linkage& l, const LinkageTravel& travel) {
     });
     if (v.least < least * v.greatest)
       return fmt::format(
-          "its point stands still at φ = {:.4g}°, where its path has a cusp and no direction; take "
-          "another point, or give a direction by along",
+          "its point stands still at φ = {:.4g}°, where its path has a cusp and no direction; take another point, or "
+          "give a direction by along",
           degrees(v.at));
   }
   return {};

@@ -97,10 +97,10 @@ DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : Mechanis
                                 "joints; give the clearance a friction and switch joint_friction off");
   for (const SliderLoad& load : m.loads)
     if (std::holds_alternative<OpposingForce>(load.law))
-      throw std::invalid_argument(fmt::format(
-          "{} cannot be had with the load \"{}\" of kind \"opposing\", which holds a slider that stands; take kind "
-          "\"medium\", or switch the effect off",
-          what, load.name));
+      throw std::invalid_argument(
+          fmt::format("{} cannot be had with the load \"{}\" of kind \"opposing\", which holds a slider that stands; "
+                      "take kind \"medium\", or switch the effect off",
+                      what, load.name));
   dynamics_ = std::make_shared<const SliderCrankDynamics>(*m.data.as<SliderCrankData>(), m.clearances, m.flexibility,
                                                           m.weightless);
   constexpr int n = 64;
@@ -108,10 +108,9 @@ DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : Mechanis
   for (int i = 0; i < n; ++i)
     least_inertia = std::min(least_inertia, inertia_felt(*dynamics_, 2 * std::numbers::pi * i / n));
   if (least_inertia < 0)
-    throw std::invalid_argument(
-        what +
-        " needs masses that its motions accelerate: give rod_mass, rod_inertia (of a prismatic rod "
-        "rod_mass · rod²/12) and slider_mass");
+    throw std::invalid_argument(what +
+                                " needs masses that its motions accelerate: give rod_mass, rod_inertia (of a prismatic "
+                                "rod rod_mass · rod²/12) and slider_mass");
   is.directional = false;
   uses_speed = true;
   own_states = own_states_of(m, dynamics_->rod());

@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
-#include "studies/advise/settled.h"
+#include "studies/advise/deviation.h"
 #include "studies/dictionary/dictionary.h"
-#include "studies/validity/idle_effects.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {

@@ -1,5 +1,5 @@
 // contact_claims.cpp — clutches, limiters, belts and brakes: by the final state and by records during the run.
-#include "studies/answers/contact_claims.h"
+#include "studies/answers/motion_claims.h"
 
 #include <fmt/format.h>
 

@@ -14,7 +14,6 @@
 #include "engine/numerics/index.h"
 #include "engine/run/sources.h"
 #include "engine/scene/effects.h"
-#include "studies/answers/contact_claims.h"
 
 namespace kurbel {
 namespace {

@@ -16,22 +16,20 @@ constexpr std::array kinds = {
     ClaimKind{incomplete, runs, fault, anything,
               "the computation ended before its end: budget, interrupt, a motion that cannot go on", "none",
               "INCOMPLETE: the budget of 300 s of processor time is spent", "every command"},
-    ClaimKind{
-        stalls, runs, fault, above,
-        "the link moved, rests at the end and is held, itself or behind springs, and something drives it; no brake "
-        "that is on holds it",
-        "at: of its rest; value: the torque that drives, on the link [N·m]",
-        "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
-        "holds them to the end",
-        "run, compare"},
+    ClaimKind{stalls, runs, fault, above,
+              "the link moved, rests at the end and is held, itself or behind springs, and something drives it; no "
+              "brake that is on holds it",
+              "at: of its rest; value: the torque that drives, on the link [N·m]",
+              "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
+              "holds them to the end",
+              "run, compare"},
     ClaimKind{does_not_start, runs, fault, above,
               "the link never moved although something drives it; no brake that is on holds it",
               "value: the torque that drives, on the link [N·m]",
               "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
     ClaimKind{brake_does_not_stop, runs, fault, above,
               "a brake that was put on slips at the end, and at the deceleration there it never stops its shaft within "
-              "the time "
-              "of the run",
+              "the time of the run",
               "at: it was put on; value: speed of its shaft [rad/s]",
               "\"brake\" does not stop it: it slips at 120 rpm after 2.5 s; its 40 N·m are too weak for what drives",
               "run, compare"},
@@ -128,13 +126,12 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{starts, runs, note, anything, "the link stands at the start and moves later on, driven",
               "at: end of the run-up, where there is one", "\"motor\" starts from rest", "run, compare"},
-    ClaimKind{
-        held_by, runs, note, anything,
-        "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
-        "brought to rest by it; while the link moves, a motor that gives a tenth of its rated torque is held by a "
-        "brake on its own shaft, or, where the link vibrates or creeps below 1 % of its usual speed, by what stands or "
-        "by loads that balance it",
-        "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
+    ClaimKind{held_by, runs, note, anything,
+              "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
+              "brought to rest by it; while the link moves, a motor that gives a tenth of its rated torque is held by "
+              "a brake on its own shaft, or, where the link vibrates or creeps below 1 % of its usual speed, by what "
+              "stands or by loads that balance it",
+              "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
     ClaimKind{sticks_and_slips, runs, note, above,
               "while the link turns, another shaft comes to rest and moves on in the same sense, three times at least",
               "at: of its first rest; value: how often; limit: 2",
@@ -151,8 +148,8 @@ constexpr std::array kinds = {
     ClaimKind{limit_exceeded, bears, fault, above,
               "a limit of the scene is exceeded by more than the error of what it is held against",
               "value, limit: as the requirement has them",
-              "1 of 3 ratings EXCEEDED, worst \"belts\", reserve against slip (run): 120 % of the limit, 194.3 "
-              "N·m of 161.9 N·m",
+              "1 of 3 ratings EXCEEDED, worst \"belts\", reserve against slip (run): 120 % of the limit, 194.3 N·m of "
+              "161.9 N·m",
               "run, compare, steady, modes"},
     ClaimKind{motor_overloaded, bears, fault, above,
               "RMS torque or current of a steady cycle is above the rated one, of a motor that states no duty",
@@ -193,12 +190,11 @@ constexpr std::array kinds = {
               "value, limit: as the requirement has them",
               "All 5 ratings assessed hold, the nearest \"clutch\", heat of an engagement (run): 69 % of the limit",
               "run, compare, steady, modes"},
-    ClaimKind{
-        not_assessed, bears, note, anything,
-        "a limit that the scene states is of a load case that this command does not compute, or that the run does "
-        "not reach",
-        "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
-        "run, compare, steady, modes"},
+    ClaimKind{not_assessed, bears, note, anything,
+              "a limit that the scene states is of a load case that this command does not compute, or that the run "
+              "does not reach",
+              "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
+              "run, compare, steady, modes"},
     ClaimKind{
         margin_kept, bears, note, above,
         "at the operating speeds of the scene every natural frequency keeps the margin wanted from every excitation",

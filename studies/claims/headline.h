@@ -1,8 +1,12 @@
-// headline.h — a headline rounds: no number in it has more than four significant digits.
+// headline.h — the conclusion of a study, made from its claims. A headline rounds: no number in it has more than four
+// significant digits.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "studies/claims/claim.h"
 
 namespace kurbel {
 
@@ -29,5 +33,15 @@ std::string capitalised(std::string sentence);
 
 // Significant digits as written: "0.0120" has 3, "19000" has 2, "1.0e-06" has 2.
 int significant_digits(std::string_view number);
+
+// Of the machine as it is bad news first; behind it what is said of its variants, then figures. Bad news by question, then
+// by severity, then by how far it is beyond its limit, at most two of a question; then the others by question, each as it
+// was given. With full stops, and rounded as headlines are.
+//     figures_told "δ is 0.1043819", limit_exceeded "\"clutch\" gets too hot"
+//         → "\"clutch\" gets too hot.", "δ is 0.1044."
+std::vector<std::string> concluded(Claims claims);
+
+// In one line.
+std::string in_one_line(const std::vector<std::string>& sentences);
 
 }  // namespace kurbel

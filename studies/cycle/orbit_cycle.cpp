@@ -180,14 +180,13 @@ OrbitCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::vec
   const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&recorder});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   if (!recorder.singular().empty())
-    throw std::invalid_argument(fmt::format(
-        "{}: its angle does not determine where the machine is in its cycle, and torques reduced to it are "
-        "infinite there; {}simulate the machine with kurbel run",
-        recorder.singular(),
-        m.scene.sequence.steps.empty()
-            ? ""
-            : "choose the machine in the state after a step of its sequence, as with its clutch engaged, by "
-              "--at \"step 2\", or "));
+    throw std::invalid_argument(
+        fmt::format("{}: its angle does not determine where the machine is in its cycle, and torques reduced to it are "
+                    "infinite there; {}simulate the machine with kurbel run",
+                    recorder.singular(),
+                    m.scene.sequence.steps.empty() ? ""
+                                                   : "choose the machine in the state after a step of its sequence, as "
+                                                     "with its clutch engaged, by --at \"step 2\", or "));
   OrbitCycle c = assembled(m, recorder, sense, sampled_within * tolerance, nodes.size());
   c.time = outcome.t - map.start_time();
   return c;

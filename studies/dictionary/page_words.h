@@ -32,8 +32,7 @@ inline constexpr PageWord of_pages[] = {
     {"unit", of_all, "in which value and numerical error of this row are given"},
     {"numerical error; numerical errors; ±; ± ζ; numerical error [*]; ± [*]", of_all,
      "by how much the value may differ from the exact solution of the same equations, measured by further runs; not "
-     "the "
-     "error of the model"},
+     "the error of the model"},
     {"rigid; rigid machine; rigid model", of_all, "of the machine with rigid shafts: one degree of freedom"},
     {"elastic; elastic machine; elastic model; elastic: *", of_all,
      "of the machine with the elastic shafts that its scene names; after a colon: only with these"},
@@ -128,8 +127,7 @@ inline constexpr PageWord of_pages[] = {
      "of each shaft over the reduction link; a start of the rigid machine"},
     // size
     {"by theory 3.1; against exact; flywheel sized by; cycles; punch-press form; motor's slope counted; neglecting "
-     "I_em; "
-     "Mertsalov; Wittenbauer; Wittenbauer (exact); rigid, work equation; sized, *; scene as it is, *",
+     "I_em; Mertsalov; Wittenbauer; Wittenbauer (exact); rigid, work equation; sized, *; scene as it is, *",
      "size",
      "methods of sizing (theory 3), their deviation from Wittenbauer's, and the machine with the flywheel that they "
      "give"},
@@ -137,9 +135,8 @@ inline constexpr PageWord of_pages[] = {
      "Wittenbauer's diagram and the works: tangents at greatest and least speed; extremes of the energy where M_d = "
      "M_c"},
     {"material; outer diameter D; hub diameter D/5; breadth b; thickness of the rim h *; spokes (elliptical); mass of "
-     "*; "
-     "rim's share of the inertia; energy stored at ω_max; rim speed at ω_max; stress of a free rim ρ v²; stress with "
-     "bending between spokes; safety against tensile strength; sum",
+     "*; rim's share of the inertia; energy stored at ω_max; rim speed at ω_max; stress of a free rim ρ v²; stress "
+     "with bending between spokes; safety against tensile strength; sum",
      "size",
      "a rim on six spokes with the inertia that is required (theory 3.7), and its stresses at the greatest speed"},
     // reduce
@@ -170,12 +167,10 @@ inline constexpr PageWord of_pages[] = {
      "mode of vibration by its number, ascending; parts with the largest amplitudes of the mode; `against`: in "
      "opposite phase"},
     {"f [Hz]; f_n; frequency; frequency [Hz]; f damped; |λ|; held at angles; periodic system, ζ; periodic system [Hz], "
-     "ζ; "
-     "first natural frequencies; first natural frequencies [Hz]",
+     "ζ; first natural frequencies; first natural frequencies [Hz]",
      of_trains,
      "frequencies of a mode: undamped; damped; magnitude of the eigenvalue; range with the mechanism held at its "
-     "angles; "
-     "of the Floquet system of the cycle"},
+     "angles; of the Floquet system of the cycle"},
     {"ζ; damping by", of_trains,
      "damping ratio of the mode by its eigenvalue, and the parts that dissipate its energy"},
     {"energy of the damped mode; twist energy in; kinetic energy in; nature", of_trains,
@@ -208,8 +203,8 @@ inline constexpr PageWord of_pages[] = {
     {"critical speed; critical speeds", of_trains,
      "speed at which the frequency of an order equals a natural frequency"},
     {"barred range; barred ranges; barred speed range; barred speed ranges", of_trains,
-     "speeds at which the load of a part would exceed its limit, or where it has none its rated torque, if the "
-     "machine stayed there"},
+     "speeds at which the load of a part would exceed its limit, or where it has none its rated torque, if the machine "
+     "stayed there"},
     {"separation margin; separation margins", of_trains,
      "distance of the speed where an excitation meets a natural frequency from the nearest operating speed, in "
      "percent"},
@@ -231,8 +226,7 @@ inline constexpr PageWord of_pages[] = {
     {"teeth; profile shift; generating shift; sum of shifts*; least shift *; least teeth *", "gears",
      "numbers of teeth and shifts in modules: generating: as cut, with the allowance for backlash (theory 6)"},
     {"* diameter; diameter where *; bore, *; greatest tip diameter *; base circle; reference circle, *; tip clearance; "
-     "tip shortening; "
-     "reference centre distance; radius; base pitch; pitch",
+     "tip shortening; reference centre distance; radius; base pitch; pitch",
      "gears", "dimensions of the wheels (theory 6)"},
     {"pressure angle; pressure angle, *; working pressure angle; base helix angle; overlap ratio; total contact ratio",
      "gears", "angles and contact ratios of the mesh (theory 6)"},
@@ -253,13 +247,10 @@ inline constexpr PageWord of_pages[] = {
     {"time ×; time with *; time [ms]; time of *; spread", "effects, advise, accuracy, compare",
      "processor time of one integration; ×: over that with the effect on; spread: of repetitions"},
     {"model; reference by; agreement of motion; model error; error; error of *; total error; largest error *; front; "
-     "Pareto "
-     "front; "
-     "numerical error as large as the model's; multibody",
+     "Pareto front; numerical error as large as the model's; multibody",
      "accuracy",
      "errors against a reference by two other methods, of the motion and of each figure; total: with that of the "
-     "model; "
-     "front: nothing is both faster and more accurate"},
+     "model; front: nothing is both faster and more accurate"},
     // sweep, uncertainty, fit
     {"parameter; variants; row; rows; greatest; mean along the parameter; computed alone", "sweep",
      "a varied key; rows are its variants; over them the range of a figure and its largest numerical error; the "
@@ -267,24 +258,18 @@ inline constexpr PageWord of_pages[] = {
     {"first order; total; share of the variance", "sweep",
      "Sobol's indices: share of a figure's variance that the parameter causes alone, and with its interactions"},
     {"deviation by gradients; by samples; deviation without it; samples; 95 % from; noise floor; numerical noise; "
-     "step; "
-     "of its value; where it comes from; all tolerances, *; tolerance of *",
+     "step; of its value; where it comes from; all tolerances, *; tolerance of *",
      "uncertainty",
      "standard deviation of a figure by the tolerances of the scene: linear, and of samples; without: if the row's "
-     "value were exact; "
-     "noise: part that numerical errors explain; step: of the gradient, in deviations of the value"},
+     "value were exact; noise: part that numerical errors explain; step: of the gradient, in deviations of the value"},
     {"hold; beyond; within their error; without the figure; probability from", "uncertainty, sweep",
      "samples that keep the limit, exceed it, are undecided within their numerical error, or lack the figure; 95 % "
      "interval"},
     {"record; channel; fitted; left; measured − fitted; standard error; correlation; correlation length; of the range; "
-     "over "
-     "the scatter; "
-     "scatter of the mean",
+     "over the scatter; scatter of the mean",
      "fit",
      "fitted values beside the measured ones, and their residuals: over the measured range and over the standard error "
-     "of "
-     "the "
-     "mean; correlation length: as many values count as one"},
+     "of the mean; correlation length: as many values count as one"},
 };
 
 }  // namespace kurbel::entries

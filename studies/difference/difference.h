@@ -6,11 +6,21 @@
 #include <vector>
 
 #include "engine/base/estimate.h"
-#include "studies/difference/scene_changes.h"
+#include "engine/scene/document.h"
 #include "studies/findings/findings.h"
 #include "studies/variants/machine.h"
 
 namespace kurbel {
+
+struct SceneChange {
+  std::string path;                 // "main_coupling.stiffness", "sequence.steps[2].after"
+  std::optional<std::string> a, b;  // as in the files, on one line; empty: not present
+  Location at_a, at_b;              // of the key's value
+};
+
+// In the order of the first scene, then what only the second has. Different texts of the same quantity ("0.9
+// MN*m/rad" and "900 kN*m/rad"), numbers of equal value and comments are not reported.
+std::vector<SceneChange> scene_changes(const DocumentValue& a, const DocumentValue& b);
 
 // A figure of both machines, in SI.
 struct FigureDifference {

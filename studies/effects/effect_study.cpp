@@ -9,7 +9,7 @@
 
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
-#include "studies/validity/idle_effects.h"
+#include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {

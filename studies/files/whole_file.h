@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "studies/files/staging.h"
+
 namespace kurbel {
 
 enum class Existing { replace, keep };
@@ -16,5 +18,16 @@ std::string why_no_file_at(const std::filesystem::path& path);
 // replaced; its target is unchanged. False: a file exists and was to be kept. Throws std::invalid_argument if no file
 // can be written at the path, std::runtime_error if writing failed.
 bool write_whole(const std::filesystem::path& path, std::string_view text, Existing existing = Existing::replace);
+
+// A file in memory, for libraries that can only write to a path; its bytes are then stored elsewhere.
+class MemoryFile {
+ public:
+  MemoryFile();              // throws std::runtime_error if memory is insufficient
+  std::string path() const;  // valid as long as this object
+  std::string bytes() const;
+
+ private:
+  Descriptor file_;
+};
 
 }  // namespace kurbel

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/base/estimate.h"
-#include "studies/claims/conclusion.h"
+#include "studies/claims/headline.h"
 #include "studies/data/data_table.h"
 #include "studies/findings/formulas.h"
 #include "studies/findings/report.h"

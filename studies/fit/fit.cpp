@@ -150,8 +150,7 @@ class FitWork {
     if (problem_.records().size() > 1 && reduced > contradictory)
       study_.notes.push_back(
           fmt::format("the records contradict each other: together they leave {:.2g} times what each leaves by itself, "
-                      "and all errors "
-                      "are widened by that",
+                      "and all errors are widened by that",
                       std::sqrt(reduced)));
   }
 
@@ -338,8 +337,8 @@ class FitWork {
     for (const ChannelResidual& r : study_.residuals) longest = std::max(longest, r.correlation_length);
     if (longest > 3)
       study_.notes.push_back(
-          fmt::format("the residual is correlated over some {:.0f} points: it is no noise; an effect is "
-                      "missing, or the record errs. Errors allow for that length",
+          fmt::format("the residual is correlated over some {:.0f} points: it is no noise; an effect is missing, or "
+                      "the record errs. Errors allow for that length",
                       longest));
     if (!study_.confounded.empty()) study_.conclusion += "; " + study_.confounded.front();
   }

@@ -8,7 +8,7 @@
 #include "engine/scene/messages.h"
 #include "studies/files/whole_file.h"
 #include "studies/fit/fit.h"
-#include "studies/question/option_values.h"
+#include "studies/question/option.h"
 #include "studies/question/question.h"
 #include "studies/variants/in_threads.h"
 
@@ -127,10 +127,9 @@ class Asking {
     made.against = behind(rest, " against ");
     if (const std::string speed = behind(rest, " at "); !speed.empty()) {
       if (records_[made.like].hold_by.empty())
-        throw std::invalid_argument(
-            fmt::format("--predict {}: a speed can be held only as in the fit; give --hold \"mean speed by "
-                        "COMPONENT.KEY\"",
-                        in_quotes(text)));
+        throw std::invalid_argument(fmt::format(
+            "--predict {}: a speed can be held only as in the fit; give --hold \"mean speed by COMPONENT.KEY\"",
+            in_quotes(text)));
       made.mean_speed = speed_of("--predict", speed);
     }
     made.scene = scene_of(inquiry_, rest);
@@ -170,8 +169,8 @@ OptionsOf<FitAsked> options() {
   texts("free", &FitAsked::free,
         "an unknown with its bounds: \"rotor.inertia=0.005..0.05 kg*m2\"; \"each: KEY=…\" one for every record; \"gain "
         "of TABLE=0.9..1.1\", \"offset of TABLE=-0.1..0.1 bar\", \"shift of TABLE=-2..2 deg\", \"dead centre of "
-        "TABLE=-2..2 deg\"; \"shift=…\", \"gain of "
-        "CHANNEL=…\", \"offset of CHANNEL=…\", \"pattern of CHANNEL=1,2\" of a record" +
+        "TABLE=-2..2 deg\"; \"shift=…\", \"gain of CHANNEL=…\", \"offset of CHANNEL=…\", \"pattern of CHANNEL=1,2\" of "
+        "a record" +
             record);
   texts("hold", &FitAsked::hold,
         "\"mean speed by load.torque\": the record's mean speed is kept by that quantity, \"mean speed=3000 rpm by "
@@ -185,10 +184,9 @@ OptionsOf<FitAsked> options() {
         "the mapped column holds the times at which an encoder's teeth pass: pitches of a turn less the missing teeth, "
         "60-2" +
             record);
-  texts(
-      "predict", &FitAsked::predict,
-      "a scene whose record is predicted with the fitted values: \"full.toml\", \"full.toml at 3060 rpm\" (mean speed "
-      "held), \"full.toml against full.csv\"");
+  texts("predict", &FitAsked::predict,
+        "a scene whose record is predicted with the fitted values: \"full.toml\", \"full.toml at 3060 rpm\" (mean "
+        "speed held), \"full.toml against full.csv\"");
   return options
       .add({.name = "starts",
             .doc = "starts within the bounds, the scene's own values first (default: 1)",
@@ -214,8 +212,7 @@ Question fit_question() {
        .help = "parameters of the machine from measured records, with errors; predictions of other records",
        .does =
            "values of the scene by least squares from measured records, of `steady` over the angle, `run` over time, "
-           "or "
-           "`modes`: errors, correlations, what the data cannot separate, residuals and whether an effect that is "
+           "or `modes`: errors, correlations, what the data cannot separate, residuals and whether an effect that is "
            "off would explain it; `--predict full.toml` another record with its interval; `--write fitted.toml`"},
       options(), fitted);
 }

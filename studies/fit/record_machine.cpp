@@ -90,21 +90,20 @@ RecordMachine::RecordMachine(const RecordRequest& request, const FitRecord& reco
     if (u.kind == Unknown::Kind::record_shift) later = u.si(1), earlier = u.si(0);
     if (u.kind == Unknown::Kind::key || !u.moves_machine()) continue;
     if (!table_at(scene.components, u.of))
-      throw std::invalid_argument(
-          fmt::format("{}: no table {} of points stands in {}; a channel that is mapped, or a table "
-                      "such as engine.load.pressure",
-                      u.range.where, in_quotes(u.of), request.scene.file));
+      throw std::invalid_argument(fmt::format(
+          "{}: no table {} of points stands in {}; a channel that is mapped, or a table such as engine.load.pressure",
+          u.range.where, in_quotes(u.of), request.scene.file));
     tables_.push_back(k);
   }
   if (!parameters.empty()) varied_ = VariedScene(request.scene, parameters);
   if (record.over != Over::time) return;
   const double before = record.reach.empty() ? 0 : record.reach.front();
   if (record.at.front() - before + std::min(0.0, earlier) < -1e-12)
-    throw std::invalid_argument(fmt::format(
-        "--measured {}: begins at {:.6g} s{}, before the run does; give --free \"{}: shift=…\" with ends that "
-        "leave it behind 0 s, or take these rows out",
-        record.file, record.at.front() - before,
-        earlier < 0 ? fmt::format(" and may be shifted by {:.6g} s", earlier) : "", record.name));
+    throw std::invalid_argument(
+        fmt::format("--measured {}: begins at {:.6g} s{}, before the run does; give --free \"{}: shift=…\" with ends "
+                    "that leave it behind 0 s, or take these rows out",
+                    record.file, record.at.front() - before,
+                    earlier < 0 ? fmt::format(" and may be shifted by {:.6g} s", earlier) : "", record.name));
   until_ = record.at.back() + (record.reach.empty() ? 0 : record.reach.back()) + std::max(0.0, later);
 }
 

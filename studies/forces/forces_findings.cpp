@@ -266,11 +266,10 @@ Formulas torque_formula(const Forces& f) {
           "M = {:.5g} · ({:.5g}) + ½ · ({:.5g}) · ({:.5g})² − ({:.5g}) − ({:.5g}) · ({:.5g}){} + ({:.5g}) = {:.6g} N·m",
           at.reduced_inertia, at.state.alpha, slope, w, by * at.weight_power, at.state.load, by * at.output_velocity,
           within ? fmt::format(" − ({:.5g})", by * power_within) : "", by * peak.power.friction, at.torque)
-      .note(fmt::format(
-          "I_r reduced inertia, M_g torque of the weights, F load on the output, {}P_f power lost in the joints; SI "
-          "units. Reactions come from the equilibrium of each link, this formula from energy: they agree to the power "
-          "balance below.",
-          within ? "M_i torque of the springs, dampers, forces and couples within the linkage, " : ""));
+      .note(fmt::format("I_r reduced inertia, M_g torque of the weights, F load on the output, {}P_f power lost in the "
+                        "joints; SI units. Reactions come from the equilibrium of each link, this formula from energy: "
+                        "they agree to the power balance below.",
+                        within ? "M_i torque of the springs, dampers, forces and couples within the linkage, " : ""));
 }
 
 Formulas mass_formula(const Forces& f) {
@@ -420,8 +419,8 @@ Findings findings_of(const Forces& f) {
   to.show(reactions, Text{.title = "Signs and axes", .body = signs_of(f)});
   to.show(polar,
           Text{.title = "",
-               .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; "
-                       "in axes of a link, where its pin or bore is: that is where an oil hole must not be."});
+               .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; in "
+                       "axes of a link, where its pin or bore is: that is where an oil hole must not be."});
   to.draw(polar, [&f] { return polar_plots(f); });
   say_positions(to, positions, f);
   say_work(to, work, f);

@@ -131,9 +131,8 @@ Question gears_question() {
        .name = "gears",
        .arguments = "scene.toml",
        .help = "gear pairs: diameters, contact, sliding, undercut, interference, a turning drawing",
-       .does = "gear pairs of the stages given by module: diameters, contact ratio, sliding, undercut, "
-               "interference, mesh stiffness, a turning drawing; or a pair alone (`--teeth 19 95 --module \"4 "
-               "mm\" --shift 0.3 0`)",
+       .does = "gear pairs of the stages given by module: diameters, contact ratio, sliding, undercut, interference, "
+               "mesh stiffness, a turning drawing; or a pair alone (`--teeth 19 95 --module \"4 mm\" --shift 0.3 0`)",
        .alone = "pair_alone"},
       gears_options(), gear_pairs);
 }

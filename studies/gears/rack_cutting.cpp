@@ -73,12 +73,9 @@ class CuttingDrawing {
     if (number_ == 1)
       plot.note +=
           " Transverse section. The envelope of the straight flanks is the involute, that of the rounded corners the "
-          "fillet; a "
-          "hob or a pinion cutter makes the same flank. Form cutting: a disc or end mill of the space's own shape cuts "
-          "one "
-          "space after the other; it is right for one z and x alone, so a set of cutters shares the range of z, and "
-          "flanks "
-          "between are approximate.";
+          "fillet; a hob or a pinion cutter makes the same flank. Form cutting: a disc or end mill of the space's own "
+          "shape cuts one space after the other; it is right for one z and x alone, so a set of cutters shares the "
+          "range of z, and flanks between are approximate.";
     return plot;
   }
 

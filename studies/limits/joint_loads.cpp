@@ -1,11 +1,16 @@
 // joint_loads.cpp — integrates one more period of the steady motion; integrals by Gauss's rule within every step.
 #include "studies/limits/joint_loads.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <complex>
 #include <numbers>
+#include <stdexcept>
 
+#include "drivetrain/couplings/coupling_keys.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/follow_period.h"
@@ -13,6 +18,18 @@
 
 namespace kurbel {
 namespace {
+
+DriveLimits stated_limits(const ComponentData& data, const std::string& component) {
+  if (const auto* given = data.find<CouplingLimits>(component)) return {*given};
+  const auto* shaft = data.find<ShaftKeys>(component);
+  if (!shaft) return {};
+  DriveLimits limits{{.application_factor = shaft->application_factor}};
+  if (!shaft->judges_stress()) return limits;
+  limits.shear_stress = shaft->allowable_shear_stress.value_or(0);
+  limits.polar_modulus = shaft->polar_modulus(), limits.diameter = *shaft->diameter;
+  limits.shaft = shaft->rating;
+  return limits;
+}
 
 using std::numbers::pi;
 using Complex = std::complex<double>;
@@ -158,6 +175,45 @@ SteadyLoads constant_loads(const Orbit& orbit, const std::shared_ptr<const Model
 }
 
 }  // namespace
+
+std::vector<LimitedJoint> limited_joints(const Model& model) {
+  const std::vector<std::string> names = model.joint_names();
+  std::vector<LimitedJoint> joints;
+  for (const ElasticJoint& e : model.elastic) {
+    const Network::Joint& joint = model.network.joints[at(e.joint)];
+    LimitedJoint one{.name = names[joints.size()], .component = joint.component, .joint = e.joint};
+    for (const TorqueJoint& known : model.torque_joints)
+      if (known.joint == e.joint) one.told = known.told;
+    one.stands = model.node_ratio[at(joint.a)] == 0;
+    one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
+    one.turns = std::abs(model.node_ratio[at(joint.a)]);
+    one.loss_account = e.loss_account;
+    const bool beside = joint.element->row && one.name != one.component;  // a continuous shaft is judged in its middle
+    if (!beside) {
+      one.limits = stated_limits(model.network.data, joint.component);
+      one.has_play = model.network.data.find<StatedPlay>(joint.component) != nullptr;
+    }
+    joints.push_back(std::move(one));
+  }
+  return joints;
+}
+
+std::vector<LimitedJoint> joints_of(const Model& other, const std::vector<LimitedJoint>& joints) {
+  const std::vector<LimitedJoint> known = limited_joints(other);
+  std::vector<LimitedJoint> found;
+  for (const LimitedJoint& joint : joints) {
+    const auto same =
+        std::find_if(known.begin(), known.end(), [&](const LimitedJoint& k) { return k.name == joint.name; });
+    if (same == known.end())
+      throw std::logic_error(fmt::format("\"{}\" is elastic with some effects, and with others not", joint.name));
+    found.push_back(*same);
+  }
+  return found;
+}
+
+bool any_limits(const std::vector<LimitedJoint>& joints) {
+  return std::any_of(joints.begin(), joints.end(), [](const LimitedJoint& j) { return j.limits.any(); });
+}
 
 ExtremeOf torque_extreme(const Model& machine, const LimitedJoint& joint, Functional functional) {
   const int j = joint.joint;

@@ -143,8 +143,8 @@ class Rater {
     if (rating.engagement && hottest)
       add(engagement, abs(*hottest), {}, *rating.engagement, "J", [](double times) {
         return Mend{
-            fmt::format("by an estimate, as W goes with the square of the difference of speed, it holds where "
-                        "that is {:.0f} % of what it is",
+            fmt::format("by an estimate, as W goes with the square of the difference of speed, it holds where that is "
+                        "{:.0f} % of what it is",
                         std::floor(100 / std::sqrt(times)))};
       });
     if (rating.power && power)
@@ -271,9 +271,8 @@ class Rater {
                                 const std::string& note) {
       Verdict& v = add(requirement, stress, {}, limit, "Pa", [](double) { return Mend{}; });
       if (only_case_.empty()) v.bound = true, v.load_case = load_case::steady;
-      const std::string whence = v.bound ? "a bound: the extremes of the whole run; kurbel steady and modes judge the "
-                                           "steady motion"
-                                         : "";
+      const std::string whence =
+          v.bound ? "a bound: the extremes of the whole run; kurbel steady and modes judge the steady motion" : "";
       for (const std::string& more : {whence, note})
         if (!more.empty()) v.note += (v.note.empty() ? "" : "; ") + more;
     };

@@ -13,10 +13,9 @@ const OptionsOf<MeasurementRequest>& measurement_options() {
                        "difference is given as figures"},
                &MeasurementRequest::file)
           .add({.name = "map",
-                .doc =
-                    "which column of the record is which channel, e.g. \"T1=torque.main_coupling\"; with a unit where "
-                    "the heading has none, \"T1=torque.main_coupling [kN*m]\"; \"COLUMN=time [ms]\" for the time; "
-                    "repeatable",
+                .doc = "which column of the record is which channel, e.g. \"T1=torque.main_coupling\"; with a unit "
+                       "where the heading has none, \"T1=torque.main_coupling [kN*m]\"; \"COLUMN=time [ms]\" for the "
+                       "time; repeatable",
                 .each_time = true},
                &MeasurementRequest::maps)
           .add({.name = "shift",
@@ -24,8 +23,7 @@ const OptionsOf<MeasurementRequest>& measurement_options() {
                &MeasurementRequest::shift)
           .add({.name = "offset",
                 .doc = "offset that is subtracted from a column, e.g. \"T1=5 N*m\"; \"T1=fit\", or fit for every "
-                       "column: found as "
-                       "the mean (default: none); repeatable",
+                       "column: found as the mean (default: none); repeatable",
                 .each_time = true},
                &MeasurementRequest::offsets);
   return made;
@@ -60,19 +58,18 @@ Question steady_question() {
        .name = "steady",
        .arguments = "scene.toml",
        .help = "the steady cycle directly: its figures, its stability, operating points",
-       .does = "the steady cycle directly, rigid and elastic: δ at every shaft, torques, works, Floquet "
-               "multipliers (is it stable?), operating points, motor use, start time; `--mid-speed \"60 "
-               "rpm\"` finds the drive torque for a speed; `--measured test.csv --map "
-               "\"T1=torque.main_coupling\"` lays a test's record over the cycle, its time taken modulo the "
-               "period"},
+       .does = "the steady cycle directly, rigid and elastic: δ at every shaft, torques, works, Floquet multipliers "
+               "(is it stable?), operating points, motor use, start time; `--mid-speed \"60 rpm\"` finds the drive "
+               "torque for a speed; `--measured test.csv --map \"T1=torque.main_coupling\"` lays a test's record over "
+               "the cycle, its time taken modulo the period"},
       OptionsOf<SteadyAsked>()
           .add({.name = "effects",
                 .doc = "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)"},
                &SteadyAsked::effects)
           .add({.name = "at",
-                .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at "
-                       "a mid speed (default: where its own start leads to; of a machine that rests in the end, the "
-                       "last motion that it keeps before)"},
+                .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
+                       "speed (default: where its own start leads to; of a machine that rests in the end, the last "
+                       "motion that it keeps before)"},
                OptionForm::one,
                [](SteadyAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.mid_speed); })
           .add({.name = "mid_speed",
@@ -88,9 +85,8 @@ Question steady_question() {
                OptionForm::one,
                [](SteadyAsked& asked, const OptionValues& given) { held(asked.mean_speed, asked.mid_speed, given); })
           .add({.name = "hold_by",
-                .doc =
-                    "COMPONENT.KEY, e.g. \"load.torque\": the quantity of the scene that is scaled to keep that speed "
-                    "(default: a torque is added to the drive)"},
+                .doc = "COMPONENT.KEY, e.g. \"load.torque\": the quantity of the scene that is scaled to keep that "
+                       "speed (default: a torque is added to the drive)"},
                &SteadyOptions::hold_by)
           .add({.name = "periods",
                 .doc = "cycles after which the motion repeats (default: 1)",

@@ -263,8 +263,7 @@ void note_missing_swings(ModesStudy& found) {
     if (!(really > 1e-6 * std::abs(found.cycle->joints[j].mean) && linear < hardly * really)) continue;
     found.notes.push_back(fmt::format(
         "the linear response says {} of {}, which has an amplitude of {} in the steady motion: its critical speeds, "
-        "barred "
-        "ranges and curves over the speed do not hold{}",
+        "barred ranges and curves over the speed do not hold{}",
         with_unit(linear, "N*m", 3), found.joint_names[j], with_unit(really, "N*m", 3),
         found.drive.model->effects.joint_clearance
             ? ". With clearance the linear drive takes the pin at its mean place, inside the gap, where nothing touches"

@@ -20,22 +20,20 @@ StudyOutput natural_modes(const Inquiry& inquiry, ModesAsked asked) {
 
 OptionsOf<ModesAsked> options() {
   return OptionsOf<ModesAsked>()
-      .add(
-          {.name = "effects",
-           .doc = "as in [effects], or elasticity:COUPLING,... (default: the scene's, with all elasticity where it has "
-                  "none)"},
-          &ModesAsked::effects)
+      .add({.name = "effects",
+            .doc = "as in [effects], or elasticity:COUPLING,... (default: the scene's, with all elasticity where it "
+                   "has none)"},
+           &ModesAsked::effects)
       .add({.name = "count", .doc = "number of modes (default: 20)", .domain = {.low = 1, .high = 1000}},
            &ModesOptions::count)
       .add({.name = "at", .doc = "as the machine is after a step of its sequence or at a time: \"step 2\", \"1.5 s\""},
            OptionForm::one, [](ModesAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.speed); })
-      .add(
-          {.name = "speed",
-           .doc = "operating point, e.g. \"300 rpm\" of the reduction link (default: where the scene's own start leads "
-                  "to)",
-           .example = "300 rpm",
-           .what = "a speed"},
-          &ModesOptions::speed)
+      .add({.name = "speed",
+            .doc = "operating point, e.g. \"300 rpm\" of the reduction link (default: where the scene's own start "
+                   "leads to)",
+            .example = "300 rpm",
+            .what = "a speed"},
+           &ModesOptions::speed)
       .add({.name = "angle",
             .doc = "holds the reduction link at an angle instead of averaging over the cycle, e.g. \"90 deg\"",
             .example = "90 deg",
@@ -62,16 +60,14 @@ OptionsOf<ModesAsked> options() {
            &ModesOptions::orders)
       .add({.name = "barred",
             .doc = "bars speeds where the torque of a joint without limits oscillates by more than this times its mean "
-                   "or the rated "
-                   "torque (default: 1)",
+                   "or the rated torque (default: 1)",
             .example = "1",
             .what = "a plain number > 0",
             .domain = positive},
            &ModesOptions::barred_factor)
       .add({.name = "spot_checks",
             .doc = "number of speeds, those of the largest loads, at which the nonlinear cycle is compared with the "
-                   "linear response "
-                   "(default: 2; 0: none)",
+                   "linear response (default: 2; 0: none)",
             .domain = {.low = 0, .high = 100}},
            &ModesOptions::spot_checks)
       .add({.name = "spot",
@@ -102,10 +98,9 @@ Question modes_question() {
        .name = "modes",
        .arguments = "scene.toml",
        .help = "natural frequencies, shapes, critical speeds, forced response over the speed, limits, spectra",
-       .does = "natural frequencies, shapes, damping; Campbell diagram; forced response by orders, barred "
-               "speeds, parametric zones, limits after DIN 740-2, stresses of shafts after IACS UR M68; spectrum of a "
-               "simulated torque (`--count`, "
-               "`--speed`, `--range`, `--orders`, `--spot-checks`, `--torque`)"},
+       .does = "natural frequencies, shapes, damping; Campbell diagram; forced response by orders, barred speeds, "
+               "parametric zones, limits after DIN 740-2, stresses of shafts after IACS UR M68; spectrum of a "
+               "simulated torque (`--count`, `--speed`, `--range`, `--orders`, `--spot-checks`, `--torque`)"},
       options(), natural_modes);
 }
 

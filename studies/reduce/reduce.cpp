@@ -76,10 +76,10 @@ class Reducer : MachineOnBasis {
   }
   void find_cycle() {
     if (options_.speed)
-      throw std::invalid_argument(fmt::format(
-          "--speed: the torques depend on more than angle and speed ({}), so they are those along the steady "
-          "cycle, which has its own speed; omit the option, or use --basis classical",
-          fmt::join(beyond_, ", ")));
+      throw std::invalid_argument(
+          fmt::format("--speed: the torques depend on more than angle and speed ({}), so they are those along the "
+                      "steady cycle, which has its own speed; omit the option, or use --basis classical",
+                      fmt::join(beyond_, ", ")));
     const Orbit orbit = orbit_of(model_, OrbitOptions{}.most_rounds);
     if (!orbit.repeats()) return without_a_cycle(orbit.words);
     const bool other = target_node_ != model().reduction_node;
@@ -146,13 +146,13 @@ class Reducer : MachineOnBasis {
         r_.turns_back
             ? fmt::format("{} moves to and fro: near its dead centres quantities reduced to it grow as 1/x′² and 1/x′, "
                           "and figures hold between them; its mean velocity over a cycle is zero, so that it has no δ: "
-                          "kurbel steady gives that of \"{}\". Between two dead centres it moves by {}, but no "
-                          "motion goes through them that way: kurbel run integrates it over time",
+                          "kurbel steady gives that of \"{}\". Between two dead centres it moves by {}, but no motion "
+                          "goes through them that way: kurbel run integrates it over time",
                           r_.to, r_.link, equation)
-            : fmt::format("{} may be the reduction link: it moves by {} throughout, which is the equation of \"{}\" "
-                          "over x′; kurbel run integrates it over time and records its position, velocity and "
-                          "acceleration",
-                          r_.to, equation, r_.link));
+            : fmt::format(
+                  "{} may be the reduction link: it moves by {} throughout, which is the equation of \"{}\" over x′; "
+                  "kurbel run integrates it over time and records its position, velocity and acceleration",
+                  r_.to, equation, r_.link));
   }
 
   // On the link first; then all inertias over the square of the ratio, all torques over the ratio.
@@ -366,8 +366,7 @@ class Reducer : MachineOnBasis {
       }
       r_.notes.push_back(fmt::format(
           "classical: at constant speed, rigid; the fluctuation of the speed is neglected{}: in the steady cycle (mid "
-          "speed "
-          "{}) the mean driving torque is {}, the mean resisting torque {}, and 2T/ω² {}",
+          "speed {}) the mean driving torque is {}, the mean resisting torque {}, and 2T/ω² {}",
           and_effects(), r_.speed_unit.text(c.mid_speed()), in_place_of(c.cycle.drive.mean(), r_.mean_drive.value),
           in_place_of(c.cycle.load.mean(), r_.mean_load.value),
           off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));

@@ -102,8 +102,7 @@ std::string frame_of(const Plot& plot) {
     if (band.from < band.to)
       text += fmt::format(
           "set object rectangle from first {:.9g},graph 0 to first {:.9g},graph 1 fc rgb '{}' fs transparent solid "
-          "0.15 "
-          "noborder behind\n",
+          "0.15 noborder behind\n",
           band.from, band.to, colour_of(band.role));
     else
       text += fmt::format("set arrow from first {0:.9g},graph 0 to first {0:.9g},graph 1 nohead dt 2 lc rgb '{1}'\n",
@@ -124,8 +123,7 @@ std::string frame_of(const Plot& plot) {
 std::string script_of(const Plot& plot, const std::string& name) {
   std::string text = fmt::format(
       "# gnuplot {0}.gp → {0}.svg and {0}.png\nreset\nset terminal svg size 900,480 noenhanced font 'sans,14' "
-      "background "
-      "'white'\nset output '{0}.svg'\n"
+      "background 'white'\nset output '{0}.svg'\n"
       "set title {1}\nset xlabel {2}\nset ylabel {3}\nset grid lc rgb '#dddddd'\nset key outside below horizontal\n",
       name, quoted(plot.title), quoted(label(plot.x)), quoted(label(plot.y)));
   if (plot.x.logarithmic) text += "set logscale x\n";

@@ -11,11 +11,17 @@
 
 #include "engine/scene/units.h"
 #include "studies/data/value.h"
+#include "studies/files/built_in.h"
 #include "studies/files/whole_file.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/thin.h"
-#include "studies/report/assets.h"
 #include "studies/report/theory.h"
+
+KURBEL_BUILT_IN(page_html, KURBEL_REPORT_FOLDER "/page.html")
+KURBEL_BUILT_IN(page_css, KURBEL_REPORT_FOLDER "/page.css")
+KURBEL_BUILT_IN(page_js, KURBEL_REPORT_FOLDER "/page.js")
+KURBEL_BUILT_IN(plotly_js, KURBEL_REPORT_FOLDER "/vendor/plotly-basic.min.js")
+KURBEL_BUILT_IN(plotly_licence, KURBEL_REPORT_FOLDER "/vendor/plotly-LICENSE")
 
 namespace kurbel {
 namespace {
@@ -335,9 +341,9 @@ Series drawn(const Series& series) {
 
 std::string html_of(const Report& report, const Letterhead& head) {
   const std::string json = json_text(record_of(report, head), JsonForm::in_page);
-  const std::string_view page = report_assets::page_html();
+  const std::string_view page = page_html();
   std::string html;
-  html.reserve(page.size() + json.size() + report_assets::plotly_js().size() + 65536);
+  html.reserve(page.size() + json.size() + plotly_js().size() + 65536);
   // Placeholders {{name}} of the template, in one pass; inserted text is not scanned again.
   std::size_t at = 0;
   for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{", at)) {
@@ -349,13 +355,13 @@ std::string html_of(const Report& report, const Letterhead& head) {
     else if (name == "conclusion")
       html += escaped(fmt::format("{}", fmt::join(report.conclusion, " ")));
     else if (name == "css")
-      html += report_assets::page_css();
+      html += page_css();
     else if (name == "js")
-      html += report_assets::page_js();
+      html += page_js();
     else if (name == "plotly")
-      html += report_assets::plotly_js();
+      html += plotly_js();
     else if (name == "licence")
-      html += escaped(report_assets::plotly_licence());
+      html += escaped(plotly_licence());
     else if (name == "data")
       html += json;
     else

@@ -1,8 +1,11 @@
 // measured_errors.h — errors of a run's figures, measured by other runs of the same machine.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "engine/model/model.h"
 #include "studies/findings/result.h"
 
 namespace kurbel {
@@ -26,5 +29,15 @@ double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& 
 // Adds the discretisation error of shafts, the differences to a machine with finer shafts, to the known errors of
 // integration. Returns the largest over its scale.
 double add_differences(std::vector<Figure>& figures, const std::vector<Figure>& finer);
+
+// Null: the machine was changed after reading, so that the scene does not describe it.
+std::shared_ptr<const Model> with_finer_shafts(const Model& model);
+
+// Adds the changes with finer shafts to the errors of a run's figures and states. Returns the largest change over its scale.
+double add_shaft_errors(std::vector<Figure>& figures, std::vector<Figure>& states, const std::vector<Figure>& finer,
+                        const std::vector<Figure>& finer_states);
+
+// Notes on this error; `why` there is no such run, else empty.
+std::vector<std::string> shaft_error_notes(double change, double accuracy, const std::string& why);
 
 }  // namespace kurbel

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/reading/read_scene.h"
+#include "engine/scene/keys.h"
 
 namespace kurbel {
 
@@ -25,5 +26,9 @@ const char* unsaid_text(const EffectFlag& effect);
 
 // What a scene's key of this name means, with the kinds that have it; each meaning once. Empty: no kind has such a key.
 std::string meanings_of_key(const std::string& key);
+
+// Registers a kind for all scenes read from now on; scenes read before are unaffected. Throws std::invalid_argument
+// if a kind of this name exists. Safe to call from several threads.
+void add_kind(Kind kind);
 
 }  // namespace kurbel

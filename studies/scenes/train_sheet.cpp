@@ -106,8 +106,7 @@ class Sheet {
     write_lines();
     std::string text = fmt::format(
         "#:schema ./scene.schema.json\n# Train of {}: {} stations. Each value is that of its own shaft. Nothing drives "
-        "it "
-        "yet, and\n# nothing damps it unless the sheet says so: give couplings a damping_ratio before a response is "
+        "it yet, and\n# nothing damps it unless the sheet says so: give couplings a damping_ratio before a response is "
         "judged.\n"
         "title = \"{}\"\nline = [{}]\n",
         std::filesystem::path(path_).filename().string(), stations_.size(),
@@ -116,8 +115,8 @@ class Sheet {
     text += tables_ + "\n[effects]\nelasticity = true\n";
     if (const Station& first = stations_.front(); first.speed != 0)
       text += fmt::format(
-          "\n[operation]\nspeeds = [\"{0:.12g} rad/s\"]\non = \"{1}\"\n\n[run]\nstart = {{ speed = "
-          "\"{0:.12g} rad/s\", on = \"{1}\" }}\n",
+          "\n[operation]\nspeeds = [\"{0:.12g} rad/s\"]\non = \"{1}\"\n\n[run]\nstart = {{ speed = \"{0:.12g} rad/s\", "
+          "on = \"{1}\" }}\n",
           std::abs(first.speed), first.name);
     else
       text +=
@@ -239,9 +238,9 @@ class Sheet {
       s.ratio = std::abs(*ratio);
     } else if (columns_.count("ratio") && !again) {
       refuse(row[columns_.at("ratio").place].at,
-             fmt::format("station {} has no speed ratio, where others have one: write 1 "
-                         "for those that turn with the first",
-                         in_quotes(s.said)));
+             fmt::format(
+                 "station {} has no speed ratio, where others have one: write 1 for those that turn with the first",
+                 in_quotes(s.said)));
     }
     if (const auto speed = number(row, "speed")) {
       s.speed = *speed * columns_.at("speed").factor;
@@ -289,10 +288,9 @@ class Sheet {
     const Station &a = stations_[joint.a], &b = stations_[joint.b];
     if (joint.rigid) return;
     if (std::abs(a.ratio - b.ratio) > same_speed * a.ratio)
-      refuse(joint.at,
-             fmt::format("a shaft of {} between {} and {}, which turn at different speeds (ratios {:g} and {:g}): "
-                         "give the wheel and the pinion as two stations with \"gear\" between them",
-                         said, in_quotes(a.said), in_quotes(b.said), a.ratio, b.ratio));
+      refuse(joint.at, fmt::format("a shaft of {} between {} and {}, which turn at different speeds (ratios {:g} and "
+                                   "{:g}): give the wheel and the pinion as two stations with \"gear\" between them",
+                                   said, in_quotes(a.said), in_quotes(b.said), a.ratio, b.ratio));
     if (!(*number(row, key) > 0)) refuse(joint.at, fmt::format("stiffness = {}: must be > 0, or \"rigid\"", said));
     const bool referred = std::string_view(key) != "stiffness";
     joint.keys.emplace_back("stiffness", quantity(row, key, referred ? 1 / (a.ratio * a.ratio) : 1));

@@ -21,8 +21,8 @@ OptionsOf<SizeOptions> options() {
       .add({.name = "machine", .doc = "customary δ of a machine in place of --delta: press, pump, \"machine tool\" …"},
            &Asked::machine)
       .add({.name = "at",
-            .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
-                   "speed such as \"60 rpm\""},
+            .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid speed "
+                   "such as \"60 rpm\""},
            OptionForm::one, [](Asked& asked, const OptionValues& given) { asked.at = given.moment(asked.mid_speed); })
       .add({.name = "mid_speed",
             .doc = "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\" (default: where drive and mean load balance)",
@@ -68,14 +68,13 @@ OptionsOf<SizeOptions> options() {
 }  // namespace
 
 Question size_question() {
-  return make_question(
-      {.place = 40,
-       .name = "size",
-       .arguments = "scene.toml --delta 0.05",
-       .help = "the flywheel that keeps the speed's fluctuation δ within bounds",
-       .does = "flywheel for a demanded δ by three methods and with the motor's slope, its dimensions; "
-               "δ reached rigid and elastic"},
-      options(), sized);
+  return make_question({.place = 40,
+                        .name = "size",
+                        .arguments = "scene.toml --delta 0.05",
+                        .help = "the flywheel that keeps the speed's fluctuation δ within bounds",
+                        .does = "flywheel for a demanded δ by three methods and with the motor's slope, its "
+                                "dimensions; δ reached rigid and elastic"},
+                       options(), sized);
 }
 
 }  // namespace kurbel

@@ -16,7 +16,6 @@
 #include "studies/findings/trace.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/steady/order_findings.h"
-#include "studies/steady/steady_ratings.h"
 #include "studies/steady/steady_words.h"
 
 namespace kurbel {

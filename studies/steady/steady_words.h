@@ -1,4 +1,4 @@
-// steady_words.h — sentences on steady cycles, operating points and starts.
+// steady_words.h — sentences on steady cycles, operating points and starts; ratings against the cycle's own figures.
 #pragma once
 
 #include <complex>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "studies/findings/rows.h"
+#include "studies/limits/verdicts.h"
 #include "studies/steady/steady.h"
 
 namespace kurbel {
@@ -21,5 +22,10 @@ std::vector<std::string> words_of_start(const SteadyStudy& study);
 // Conclusion from the last model's figures; unstable motions; extrapolated data; overheated motors.
 Claims claims_of(const SteadyStudy& study);
 std::string complex_text(std::complex<double> z);  // "0.3 + 0.4 i"
+
+// Belts, shafts, rims and motors in continuous or intermittent duty, by the cycle's largest and RMS torques and
+// largest speeds. Heat of engagements and short-time duty need a run: `kurbel run` assesses them. Empty: no ratings,
+// or no cycle was found.
+std::vector<Verdict> steady_ratings(const SteadyCycle& cycle);
 
 }  // namespace kurbel

@@ -39,13 +39,12 @@ bool is_figure(const Record& record) {
 bool is_event(const Record& record) { return number_in(record, "t") && value_of(record, "component"); }
 
 FigureRow figure_row(const Record& record, const std::string& of) {
-  FigureRow row{.of = of,
-                .name = text_in(record, "name"),
-                .value = *number_in(record, "value"),
-                .unit = text_in(record, "unit"),
-                .error = number_in(record, "error"),
-                .at = number_in(record, "at"),
-                .meaning = {}};
+  FigureRow row{{*number_in(record, "value"), number_in(record, "error")},
+                of,
+                text_in(record, "name"),
+                text_in(record, "unit"),
+                number_in(record, "at"),
+                {}};
   if (const Definition* definition = definition_of(row.name)) row.meaning = definition->words;
   return row;
 }

@@ -5,16 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "studies/findings/rows.h"
 
 namespace kurbel {
 
-struct FigureRow {
+struct FigureRow : Estimate {
   std::string of;  // its model: "rigid"; empty: the only one
-  std::string name;
-  double value = 0;
-  std::string unit;
-  std::optional<double> error, at;
+  std::string name, unit;
+  std::optional<double> at;
   std::string meaning;  // from the dictionary
 };
 

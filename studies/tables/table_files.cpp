@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "engine/scene/messages.h"
-#include "studies/files/memory_file.h"
+#include "studies/files/whole_file.h"
 #include "studies/tables/mat_file.h"
 #include "studies/tables/summary_tables.h"
 #include "studies/tables/xlsx_book.h"

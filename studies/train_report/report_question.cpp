@@ -186,8 +186,7 @@ class TrainReport {
       lines.push_back(fmt::format("sections omitted by --sections: {}", fmt::join(left_out, ", ")));
     lines.push_back(
         "lateral and axial vibration; faults of the mains, and whatever else neither the scene's sequence nor its "
-        "cases "
-        "contain");
+        "cases contain");
     for (std::string& line : lines) line = capitalised(line);
     return lines;
   }
@@ -287,11 +286,10 @@ Question report_question() {
        .name = "report",
        .arguments = "scene.toml",
        .help = "one document for a drive train: data, modes, margins, response, starts, what was not assessed",
-       .does =
-           "one document for a drive train, to be handed over: scope, verdict and what was not assessed on its first "
-           "page; mass–elastic data; modes; margins; forced response with the scene's cases; starts and stops; "
-           "assumptions; the input. Of what `modes` and `compare` say, each asked once; `report.html` prints to A4, "
-           "`report.md` and `summary.json` are of the same document"},
+       .does = "one document for a drive train, to be handed over: scope, verdict and what was not assessed on its "
+               "first page; mass–elastic data; modes; margins; forced response with the scene's cases; starts and "
+               "stops; assumptions; the input. Of what `modes` and `compare` say, each asked once; `report.html` "
+               "prints to A4, `report.md` and `summary.json` are of the same document"},
       OptionsOf<ReportAsked>()
           .add({.name = "cases",
                 .doc = "names of the scene's [[case]]s to compute; none: no case (default: all)",

@@ -1,7 +1,7 @@
 // compare_question.cpp — kurbel compare: the rigid against the elastic model, or any two sets of effects.
 #include "studies/run/compare.h"
 #include "studies/run/run_findings.h"
-#include "studies/trials/run_options.h"
+#include "studies/trials/run_question.h"
 #include "studies/trials/trials_findings.h"
 
 namespace kurbel {
@@ -19,11 +19,10 @@ SimulateOptions RunAsked::simulation(const Inquiry& inquiry) const {
 const OptionsOf<RunAsked>& run_options() {
   static const auto made =
       OptionsOf<RunAsked>()
-          .add(
-              {.name = "effects",
-               .doc = "none, all, or names of effects (see kurbel effects) joined by commas; elasticity:COUPLING,… for "
-                      "some couplings; -NAME takes one away (overrides the scene)"},
-              &RunAsked::effects)
+          .add({.name = "effects",
+                .doc = "none, all, or names of effects (see kurbel effects) joined by commas; elasticity:COUPLING,… "
+                       "for some couplings; -NAME takes one away (overrides the scene)"},
+               &RunAsked::effects)
           .add({.name = "accuracy",
                 .doc = "measured error of every figure over its scale (overrides the scene)",
                 .example = "1e-6",
@@ -66,20 +65,19 @@ StudyOutput compared(const Inquiry& inquiry, CompareAsked asked) {
 }  // namespace
 
 Question compare_question() {
-  return make_question(
-      {.place = 20,
-       .name = "compare",
-       .arguments = "scene.toml",
-       .help = "the rigid against the elastic model, or any two sets of effects",
-       .does = "rigid against elastic with the same other effects on both sides, or any two sets "
-               "of effects (`--effects`, `--against`); `--against none`: the bare machine"},
-      OptionsOf<CompareAsked>()
-          .add(run_options())
-          .add({.name = "against",
-                .doc = "effects of the first model; none for the bare machine (default: those of the second "
-                       "without elasticity)"},
-               &CompareAsked::against),
-      compared);
+  return make_question({.place = 20,
+                        .name = "compare",
+                        .arguments = "scene.toml",
+                        .help = "the rigid against the elastic model, or any two sets of effects",
+                        .does = "rigid against elastic with the same other effects on both sides, or any two sets of "
+                                "effects (`--effects`, `--against`); `--against none`: the bare machine"},
+                       OptionsOf<CompareAsked>()
+                           .add(run_options())
+                           .add({.name = "against",
+                                 .doc = "effects of the first model; none for the bare machine (default: those of the "
+                                        "second without elasticity)"},
+                                &CompareAsked::against),
+                       compared);
 }
 
 }  // namespace kurbel

@@ -6,10 +6,23 @@
 #include <string>
 
 #include "studies/measured/overlay.h"
-#include "studies/trials/run_options.h"
+#include "studies/question/question.h"
 #include "studies/trials/trials.h"
 
 namespace kurbel {
+
+// Of a run, shared by the questions that perform one.
+struct RunAsked {
+  std::optional<Effects> effects;
+  std::optional<double> accuracy, until;  // [1], [s]
+  std::optional<std::string> method;
+  bool measure_error = true, trials = true;
+
+  // Throws std::invalid_argument for a method unavailable for the scene's model.
+  SimulateOptions simulation(const Inquiry& inquiry) const;
+};
+
+const OptionsOf<RunAsked>& run_options();
 
 struct SingleRunAsked : RunAsked {
   MeasurementRequest measured;

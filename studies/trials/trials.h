@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "studies/findings/figure_changes.h"
+#include "studies/findings/result.h"
 #include "studies/run/compare.h"
+#include "studies/run/simulate.h"
 #include "studies/trials/off_effects.h"
 #include "studies/variants/variant_runs.h"
 
@@ -54,5 +56,12 @@ struct WithTrials {
 };
 WithTrials<Result> with_trials(Result run, const SimulateOptions& options);  // including the rigid machine
 WithTrials<Comparison> with_trials(Comparison comparison, const SimulateOptions& options);
+
+// Remedies are computed before they are reported: the machine with that value meets the limit, and with one worse by
+// 1 % it does not.
+// For every exceeded verdict of a complete run with a remedy by a key of the scene, in descending order of excess:
+// the value is sought by runs without errors, all within the processor time of the run, and stored in
+// `remedies_tried`. Otherwise the remedy remains an estimate. An interruption ends the search.
+void try_remedies(Result& run, const SimulateOptions& options);
 
 }  // namespace kurbel

@@ -1,5 +1,5 @@
-// substitutes.h — substitutes for data that a scene does not give, or not in this form: diagrams of misfiring
-// cylinders, flux lag of motors with unknown circuit, dense tables with fewer pieces.
+// substitutes.h — notes on a model: substitutes for data that a scene does not give, or not in this form (diagrams of misfiring
+// cylinders, flux lag of motors with unknown circuit, dense tables with fewer pieces); effects without influence.
 #pragma once
 
 #include <string>
@@ -9,7 +9,12 @@
 
 namespace kurbel {
 
-// One sentence each.
+// One sentence for each substitute.
 std::vector<std::string> substitutes(const Model& model);
+
+// Effects that are on and have data but no influence, because another effect that they need is off: one sentence for
+// each component. Without variable inertia a mechanism is a crank of constant inertia without rod
+// and joints, so that clearance and flexibility have no influence.
+std::vector<std::string> idle_effects(const Model& model);
 
 }  // namespace kurbel

@@ -43,14 +43,12 @@ Question forces_question() {
                &ForcesOptions::speed)
           .add({.name = "mechanism",
                 .doc = "which slider-crank, four-bar, quick-return, inverted slider-crank, knuckle press or linkage "
-                       "(default: "
-                       "the first)"},
+                       "(default: the first)"},
                &ForcesOptions::mechanism)
-          .add(
-              {.name = "effects",
-               .doc = "of the machine in the second problem: none, all, or as in [effects] (default: the scene's, with "
-                      "friction in the joints where they have any)"},
-              &ForcesOptions::effects)
+          .add({.name = "effects",
+                .doc = "of the machine in the second problem: none, all, or as in [effects] (default: the scene's, "
+                       "with friction in the joints where they have any)"},
+               &ForcesOptions::effects)
           .add({.name = "no_run", .doc = "prescribed motion only: do not simulate the machine"},
                &ForcesOptions::simulate, false)
           .add(sheet_options(), &ForcesAsked::sheet),

@@ -15,7 +15,6 @@
 #include "studies/forces/crank_motion.h"
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/table.h"
-#include "studies/worksheet/force_polygons.h"
 #include "studies/worksheet/motion_plans.h"
 
 namespace kurbel {
@@ -104,9 +103,8 @@ void add_polygons(Sheets& sheets, const ForcesSheet& sheet) {
             {.what = m.name + ": polygons of forces",
              .note = fmt::format(
                  "On each link at each position, closed: F load on the output, G weight, F with the link's number −m "
-                 "a_S (F_x, F_y of the table), "
-                 "R_21 of link 2 on link 1, the opposite of R_12; T friction along a slide, F_a what else acts within. "
-                 "Forces shorter than 1.2 mm are not named; {}.",
+                 "a_S (F_x, F_y of the table), R_21 of link 2 on link 1, the opposite of R_12; T friction along a "
+                 "slide, F_a what else acts within. Forces shorter than 1.2 mm are not named; {}.",
                  sheet.speed),
              .scale = "μ_F",
              .unit = "N",

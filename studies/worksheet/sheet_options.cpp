@@ -17,9 +17,8 @@ const OptionsOf<SheetAsked>& sheet_options() {
   static const auto made =
       OptionsOf<SheetAsked>()
           .add({.name = "sheet",
-                .doc =
-                    "write the classical sheet of the positions too, sheet.html: plan, tables and diagrams with their "
-                    "scales, to be printed",
+                .doc = "write the classical sheet of the positions too, sheet.html: plan, tables and diagrams with "
+                       "their scales, to be printed",
                 .makes_a_file = true},
                &SheetAsked::wanted)
           .add({.name = "paper", .doc = "of the sheet, landscape: A4 (default) or A3"}, &SheetAsked::paper);

@@ -14,7 +14,6 @@
 #include "engine/orbit/held_speeds.h"
 #include "engine/orbit/link_speeds.h"
 #include "engine/orbit/moment.h"
-#include "engine/orbit/sequence_ahead.h"
 #include "engine/orbit/settling.h"
 #include "tests/support/scenes.h"
 

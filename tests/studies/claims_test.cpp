@@ -18,7 +18,7 @@
 #include "studies/modes/modes.h"
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady.h"
-#include "studies/steady/steady_ratings.h"
+#include "studies/steady/steady_words.h"
 #include "studies/trials/trials_findings.h"
 #include "tests/support/scenes.h"
 

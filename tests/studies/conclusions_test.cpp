@@ -1,5 +1,5 @@
 // conclusions_test.cpp — what is said first: in the right order, rounded, and the same everywhere.
-#include "studies/claims/conclusion.h"
+#include "studies/claims/headline.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include "studies/modes/modes.h"
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady.h"
-#include "studies/steady/steady_ratings.h"
+#include "studies/steady/steady_words.h"
 #include "tests/published/published.h"
 #include "tests/support/conclusions.h"
 #include "tests/support/files.h"

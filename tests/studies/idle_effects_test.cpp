@@ -5,7 +5,7 @@
 
 #include "studies/advise/advise.h"
 #include "studies/effects/effect_study.h"
-#include "studies/validity/idle_effects.h"
+#include "studies/validity/substitutes.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::idle_effects_test {

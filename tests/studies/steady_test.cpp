@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "studies/question/option_values.h"
+#include "studies/question/option.h"
 #include "tests/published/published.h"
 
 namespace kurbel::test::steady_test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "studies/claims/conclusion.h"
+#include "studies/claims/headline.h"
 #include "studies/run/run_findings.h"
 #include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"

@@ -6,7 +6,6 @@
 #include <regex>
 #include <set>
 
-#include "studies/worksheet/force_polygons.h"
 #include "studies/worksheet/forces_sheet.h"
 #include "studies/worksheet/motion_plans.h"
 #include "tests/mechanisms/slider_crank_geometry.h"
