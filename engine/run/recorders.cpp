@@ -118,6 +118,7 @@ void ExtremeRecorder::step(StepView& view) {
   bool any = false;
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     if (wanted_[i].argument) learn_steepness(i);
+    if (!wanted_[i].slope) last_.slope[i] = (last_.value[i] - first_.value[i]) / (t1 - t0);
     consider(i, t0, first_.value[i]);
     consider(i, t1, last_.value[i]);
     any = any || may_be_beaten(i);
@@ -144,13 +145,14 @@ void ExtremeRecorder::learn_steepness(std::size_t i) {
 
 // A cubic through both ends with these slopes exceeds them by at most 4/27 h (|slope| + |slope|), half a sine wave between
 // two zeros by 1/(2π) of h (|slope| + |slope|); the limit used is some seven times as large. A law
-// rises by its argument's; twice as steeply as it did between samples, for one that is steeper between them.
+// rises by its argument's; twice as steeply as it did between samples, for one that is steeper between them. A value
+// without slopes has the mean ones of this step and of the one before: infinite where it begins anew.
 bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
   const double h = last_.t - first_.t, first = first_.slope[i], last = last_.slope[i];
   double reach = h * (std::abs(first) + std::abs(last));
   if (wanted_[i].argument)
     reach = steepness_[i] > 0 ? 2 * steepness_[i] * reach : HUGE_VAL;
-  else if (runs_straight(first, last, (last_.value[i] - first_.value[i]) / h))
+  else if (wanted_[i].slope && runs_straight(first, last, (last_.value[i] - first_.value[i]) / h))
     return false;
   return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
 }

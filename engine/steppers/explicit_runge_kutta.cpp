@@ -64,13 +64,18 @@ void combine(std::size_t size, const double* base, const Combination& c, const S
   combine_of[c.size() - 1](size, base, c, slopes, h, out);
 }
 
-// out = h Σ combination. Term by term over all states, so that neighbours are computed together.
+// out = h Σ combination. Four terms at a time over all states, so that neighbours are computed together.
 void sum_up(std::size_t size, const Combination& combination, const Slopes& slopes, double h, double* __restrict out) {
   std::fill(out, out + size, 0.0);
-  for (const Term& term : combination) {
-    const double* const slope = slopes[term.stage];
-    for (std::size_t i = 0; i < size; ++i) out[i] += term.weight * slope[i];
-  }
+  const auto term = [&](std::size_t k, std::size_t i) {
+    return combination[k].weight * slopes[combination[k].stage][i];
+  };
+  std::size_t k = 0;
+  for (; k + 4 <= combination.size(); k += 4)
+    for (std::size_t i = 0; i < size; ++i)
+      out[i] = out[i] + term(k, i) + term(k + 1, i) + term(k + 2, i) + term(k + 3, i);
+  for (; k < combination.size(); ++k)
+    for (std::size_t i = 0; i < size; ++i) out[i] += term(k, i);
   for (std::size_t i = 0; i < size; ++i) out[i] *= h;
 }
 

@@ -51,30 +51,30 @@ double largest_weighted_where(N_Vector x, N_Vector w, N_Vector mask) {
 // Elements of the result may lie where those of the same index of an addend do.
 
 void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
-  const double *u = N_VGetArrayPointer(x), *v = N_VGetArrayPointer(y);
-  double* out = N_VGetArrayPointer(z);
-  const sunindextype size = N_VGetLength(z);
+  const double *u = NV_DATA_S(x), *v = NV_DATA_S(y);
+  double* out = NV_DATA_S(z);
+  const sunindextype size = NV_LENGTH_S(z);
 #pragma GCC ivdep
   for (sunindextype i = 0; i < size; ++i) out[i] = a * u[i] + b * v[i];
 }
 
 void scale(double c, N_Vector x, N_Vector z) {
-  const double* u = N_VGetArrayPointer(x);
-  double* out = N_VGetArrayPointer(z);
-  const sunindextype size = N_VGetLength(z);
+  const double* u = NV_DATA_S(x);
+  double* out = NV_DATA_S(z);
+  const sunindextype size = NV_LENGTH_S(z);
 #pragma GCC ivdep
   for (sunindextype i = 0; i < size; ++i) out[i] = c * u[i];
 }
 
 int linear_combination(int count, double* c, N_Vector* x, N_Vector z) {
-  double* out = N_VGetArrayPointer(z);
-  const sunindextype size = N_VGetLength(z);
+  double* out = NV_DATA_S(z);
+  const sunindextype size = NV_LENGTH_S(z);
   constexpr sunindextype width = 8;
   for (sunindextype begin = 0; begin < size; begin += width) {
     const sunindextype end = std::min(begin + width, size);
     double sum[width] = {};
     for (int k = 0; k < count; ++k) {
-      const double *addend = N_VGetArrayPointer(x[k]), factor = c[k];
+      const double *addend = NV_DATA_S(x[k]), factor = c[k];
       for (sunindextype i = begin; i < end; ++i) sum[i - begin] += factor * addend[i];
     }
     std::copy(sum, sum + (end - begin), out + begin);
