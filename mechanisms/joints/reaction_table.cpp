@@ -34,7 +34,7 @@ class TabulatedReactions final : public ReactionTable {
     if (channels.empty()) return;
     table_ = PeriodicTable::build(
         [&](double part, std::span<double> values) {
-          sampler(angle_at(part), all.data());
+          sampler(cycle_.angle_at(part), all.data());
           for (std::size_t k = 0; k < place_.size(); ++k) values[k] = all[place_[k]];
         },
         std::move(channels), (first ? 1 : fine_tolerance) * table_tolerance, table_max_pieces,
@@ -45,23 +45,23 @@ class TabulatedReactions final : public ReactionTable {
   void read(double phi, double* values) const override {
     std::copy(constant_.begin(), constant_.end(), values);
     if (place_.empty()) return;
-    const PeriodicTable::Cursor at = table_.locate(part_of(phi));
+    const PeriodicTable::Cursor at = table_.locate(cycle_.part_of(phi));
     for (std::size_t k = 0; k < place_.size(); ++k) values[place_[k]] = PeriodicTable::value(at, k);
   }
   void read(double phi, double* values, double* slopes) const override {
     read(phi, values);
     std::fill_n(slopes, places_.size(), 0.0);
     if (place_.empty()) return;
-    const PeriodicTable::Cursor at = table_.locate(part_of(phi));
-    const double rate = part_rate(phi);
+    const PeriodicTable::Cursor at = table_.locate(cycle_.part_of(phi));
+    const double rate = cycle_.part_rate(phi);
     for (std::size_t k = 0; k < place_.size(); ++k) slopes[place_[k]] = rate * PeriodicTable::slope(at, k);
   }
   One read_one(double phi, std::size_t place) const override {
     const auto found = std::lower_bound(place_.begin(), place_.end(), place);
     if (found == place_.end() || *found != place) return {constant_[place], 0};
-    const PeriodicTable::Cursor at = table_.locate(part_of(phi));
+    const PeriodicTable::Cursor at = table_.locate(cycle_.part_of(phi));
     const auto channel = static_cast<std::size_t>(found - place_.begin());
-    return {PeriodicTable::value(at, channel), part_rate(phi) * PeriodicTable::slope(at, channel)};
+    return {PeriodicTable::value(at, channel), cycle_.part_rate(phi) * PeriodicTable::slope(at, channel)};
   }
   std::string describe() const override {
     if (place_.empty()) return "reactions that are constant";
@@ -74,20 +74,6 @@ class TabulatedReactions final : public ReactionTable {
   }
 
  private:
-  double angle_at(double part) const {
-    return cycle_.arc() ? cycle_.arc()->middle + cycle_.arc()->reach() * std::cos(part) : cycle_.turns() * part;
-  }
-  double along_arc(double phi) const {  // cos σ
-    const CrankArc& arc = *cycle_.arc();
-    return std::clamp((arc.near(phi) - arc.middle) / arc.reach(), -1.0, 1.0);
-  }
-  double part_of(double phi) const { return cycle_.arc() ? std::acos(along_arc(phi)) : phi / cycle_.turns(); }
-  double part_rate(double phi) const {
-    if (!cycle_.arc()) return 1.0 / cycle_.turns();
-    const double cosine = along_arc(phi), sine = std::sqrt(1 - cosine * cosine);
-    return sine > 0 ? -1 / (cycle_.arc()->reach() * sine) : 0;
-  }
-
   // Which places vary; their scales are those of their case, of forces and moments by themselves.
   std::vector<ChannelSpec> sort_out(const Sampler& sampler) {
     constexpr int samples = 48;
@@ -96,7 +82,7 @@ class TabulatedReactions final : public ReactionTable {
     const bool rocks = cycle_.arc().has_value();
     Sampler::Greatest widest;
     for (int i = 0; i < samples; ++i) {
-      const double phi = angle_at(2 * std::numbers::pi * (i + 0.37) / samples);
+      const double phi = cycle_.angle_at(2 * std::numbers::pi * (i + 0.37) / samples);
       sampler(phi, here.data());
       sampler.widen(phi, widest);
       for (std::size_t k = 0; k < size; ++k)
@@ -143,8 +129,7 @@ void put_signs(const Sampler& sampler, const CrankCycle& cycle, std::vector<Rub>
   std::vector<std::vector<double>> ratio(joints.size());
   std::vector<double> output, here(places.size());
   for (int i = 0; i < samples; ++i) {
-    const double part = 2 * std::numbers::pi * (i + 0.37) / samples;
-    const double phi = cycle.arc() ? cycle.arc()->middle + cycle.arc()->reach() * std::cos(part) : cycle.turns() * part;
+    const double phi = cycle.angle_at(2 * std::numbers::pi * (i + 0.37) / samples);
     sampler(phi, here.data());
     output.push_back(sampler.output_ratio(phi));
     for (std::size_t j = 0; j < joints.size(); ++j) ratio[j].push_back(here[places.ratio(joints[j].load)]);

@@ -146,7 +146,7 @@ class LinkageForceBuilder {
       if (link == s_.links.end() && name != "frame")
         return void(k.refuse(&CoupleKeys::between,
                              fmt::format("unknown link \"{}\"{}; links are frame, {}", name,
-                                         suggestion(name, names(s_.links)), shortened_list(names(s_.links), "and"))));
+                                         suggestion(name, names_of(s_.links)), shortened_list(names_of(s_.links), "and"))));
       if (link != s_.links.end()) place->body = static_cast<int>(link - s_.links.begin());
     }
     if (travel.from.body == travel.to.body)
@@ -167,13 +167,6 @@ class LinkageForceBuilder {
   }
 
  private:
-  template <class T>
-  static std::vector<std::string> names(const std::vector<T>& list) {
-    std::vector<std::string> all;
-    for (const T& t : list) all.push_back(t.name);
-    return all;
-  }
-
   // On the frame it stands; else the first link has it.
   template <class K, class M>
   std::optional<LinkageTravel::Place> place_of(const K& k, M member, const std::string& name) const {
@@ -182,8 +175,8 @@ class LinkageForceBuilder {
       for (int body = LinkageSketch::frame; body < static_cast<int>(s_.links.size()); ++body)
         if (s_.has(body, p)) return LinkageTravel::Place{body, p};
     }
-    k.refuse(member, fmt::format("unknown point \"{}\"{}; the sketch has {}", name, suggestion(name, names(s_.points)),
-                                 shortened_list(names(s_.points), "and")));
+    k.refuse(member, fmt::format("unknown point \"{}\"{}; the sketch has {}", name, suggestion(name, names_of(s_.points)),
+                                 shortened_list(names_of(s_.points), "and")));
     return {};
   }
   // "B", or of a pin the link that it acts on, too: "rocker B". Along a path a link that guides the pin comes first: with it

@@ -24,6 +24,12 @@ Tables<Reading<K>> by_names(const char* name, const char* doc, const Fields<K>& 
 }
 
 std::vector<std::string> words_in(const std::string& text);
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& list) {
+  std::vector<std::string> names;
+  for (const T& t : list) names.push_back(t.name);
+  return names;
+}
 
 struct SpringKeys {
   std::string between;                // two points

@@ -175,34 +175,19 @@ class SketchReader {
     return whole;
   }
 
-  int point_named(const std::string& name) const {
-    for (std::size_t p = 0; p < s_.points.size(); ++p)
-      if (s_.points[p].name == name) return static_cast<int>(p);
-    return -1;
-  }
-  int link_named(const std::string& name) const {
-    for (std::size_t k = 0; k < s_.links.size(); ++k)
-      if (s_.links[k].name == name) return static_cast<int>(k);
-    return -1;
-  }
-  std::vector<std::string> point_names() const {
-    std::vector<std::string> names;
-    for (const LinkageSketch::Point& p : s_.points) names.push_back(p.name);
-    return names;
-  }
-  std::vector<std::string> link_names() const {
-    std::vector<std::string> names;
-    for (const LinkageSketch::Link& link : s_.links) names.push_back(link.name);
-    return names;
+  template <class Part>  // −1: none
+  static int index_of(const std::vector<Part>& parts, const std::string& name) {
+    const auto found = std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return part.name == name; });
+    return found == parts.end() ? -1 : static_cast<int>(found - parts.begin());
   }
   template <class Refuse>
   std::vector<int> points_of(const std::string& text, const Refuse& refuse) {
     std::vector<int> points;
     for (const std::string& word : words_in(text)) {
-      const int p = point_named(word);
+      const int p = index_of(s_.points, word);
       if (p < 0)
-        refuse(fmt::format("unknown point \"{}\"{}; the sketch has {}", word, suggestion(word, point_names()),
-                           shortened_list(point_names(), "and")));
+        refuse(fmt::format("unknown point \"{}\"{}; the sketch has {}", word, suggestion(word, names_of(s_.points)),
+                           shortened_list(names_of(s_.points), "and")));
       else if (std::find(points.begin(), points.end(), p) != points.end())
         refuse(fmt::format("names the point \"{}\" twice", word));
       else
@@ -246,16 +231,16 @@ class SketchReader {
   void read_slides() {
     for (const Reading<SlideKeys>& slide : k_.slides) {
       LinkageSketch::Slide to;
-      to.link = link_named(slide.section().name);
+      to.link = index_of(s_.links, slide.section().name);
       if (to.link < 0)
         sound_ = slide.refuse(fmt::format("no link of this name{}; links are {}",
-                                          suggestion(slide.section().name, link_names()),
-                                          shortened_list(link_names(), "and")));
-      to.on = slide.on == "frame" ? LinkageSketch::frame : link_named(slide.on);
+                                          suggestion(slide.section().name, names_of(s_.links)),
+                                          shortened_list(names_of(s_.links), "and")));
+      to.on = slide.on == "frame" ? LinkageSketch::frame : index_of(s_.links, slide.on);
       if (slide.on != "frame" && to.on < 0)
-        sound_ = slide.refuse(&SlideKeys::on,
-                              fmt::format("on = \"{}\"{}; must be \"frame\" or a link: {}", slide.on,
-                                          suggestion(slide.on, link_names()), shortened_list(link_names(), "and")));
+        sound_ = slide.refuse(&SlideKeys::on, fmt::format("on = \"{}\"{}; must be \"frame\" or a link: {}", slide.on,
+                                                          suggestion(slide.on, names_of(s_.links)),
+                                                          shortened_list(names_of(s_.links), "and")));
       to.angle = slide.along.value_or(0);
       if (slide.through) {
         const std::vector<int> two = points_of(
@@ -274,15 +259,15 @@ class SketchReader {
   // Driving link and output.
   void read_roles() {
     if (k_.driver) {
-      s_.driver = link_named(*k_.driver);
+      s_.driver = index_of(s_.links, *k_.driver);
       if (s_.driver < 0)
         sound_ = k_.refuse(&LinkageKeys::driver,
                            fmt::format("driver = \"{}\"{}; must be a link: {}", *k_.driver,
-                                       suggestion(*k_.driver, link_names()), shortened_list(link_names())));
+                                       suggestion(*k_.driver, names_of(s_.links)), shortened_list(names_of(s_.links))));
     }
     const std::string output = k_.output.value_or(s_.links.back().name);
     LinkageSketch::Output& to = s_.output;
-    to.link = link_named(output);
+    to.link = index_of(s_.links, output);
     if (to.link >= 0) {
       for (const LinkageSketch::Slide& slide : s_.slides)
         if (slide.link == to.link && slide.on == LinkageSketch::frame)
@@ -290,7 +275,7 @@ class SketchReader {
       if (k_.output_along)
         sound_ =
             k_.refuse(&LinkageKeys::output_along, "belongs to a point as the output; of a link it follows from it");
-    } else if (to.point = point_named(output); to.point >= 0) {
+    } else if (to.point = index_of(s_.points, output); to.point >= 0) {
       to.angle = k_.output_along.value_or(0);
       for (std::size_t k = 0; k < s_.links.size(); ++k)
         if (s_.has(static_cast<int>(k), to.point) && (to.link < 0 || static_cast<int>(k) != s_.driver))
@@ -298,7 +283,7 @@ class SketchReader {
       if (to.link < 0)
         sound_ = k_.refuse(&LinkageKeys::output, fmt::format("the point \"{}\" is on no moving link", output));
     } else {
-      std::vector<std::string> names = link_names(), points = point_names();
+      std::vector<std::string> names = names_of(s_.links), points = names_of(s_.points);
       names.insert(names.end(), points.begin(), points.end());
       sound_ = k_.refuse(&LinkageKeys::output, fmt::format("output = \"{}\"{}; must be a link or a point", output,
                                                            suggestion(output, names)));
@@ -337,14 +322,14 @@ class SketchReader {
       for (std::size_t cut = 1; cut < name.size(); ++cut) {
         std::string second = name.substr(cut);
         if (second.front() == '-' || second.front() == ' ') second.erase(0, 1);
-        const int a = point_named(name.substr(0, cut)), b = point_named(second);
+        const int a = index_of(s_.points, name.substr(0, cut)), b = index_of(s_.points, second);
         if (a >= 0 && b >= 0 && a != b) to.from = a, to.to = b;
       }
       if (to.from >= 0)
         list.push_back(to);
       else
         sound_ = length.refuse(fmt::format("is named by two points of the sketch, as AB or \"A B\"; it has {}",
-                                           shortened_list(point_names(), "and")));
+                                           shortened_list(names_of(s_.points), "and")));
     }
     return list;
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <stdexcept>
 
@@ -85,9 +84,8 @@ bool turns_at_dead_centres(const Mechanism& mechanism) {
 }
 
 // The diagram that acts: of a cylinder that does not fire the motored one. False, with a message, where there is none.
-// Throws std::invalid_argument in words.
-template <class Keys>
-bool choose_diagram(const Reading<Keys>& s, const Mechanism& mechanism, CurveData& data, SliderLoad& load) {
+template <class Keys, class Key>
+bool choose_diagram(const Reading<Keys>& s, Key key, const Mechanism& mechanism, CurveData& data, SliderLoad& load) {
   if (data.over != "angle") {
     if (s.motored)
       return s.refuse(&Keys::motored, fmt::format("belongs to a diagram over \"angle\"; it is over \"{}\"", data.over));
@@ -110,17 +108,22 @@ bool choose_diagram(const Reading<Keys>& s, const Mechanism& mechanism, CurveDat
                     "the compression mirrored about 0 deg would do work that is none; give \"motored\"");
   const double period = data.period;
   load.mirrored = !s.motored;
-  data = s.motored ? *s.motored : first_half_turn_mirrored(data, period, false);
+  try {
+    data = s.motored ? *s.motored : first_half_turn_mirrored(data, period, false);
+  } catch (const std::invalid_argument& error) {
+    return s.refuse(key, error.what());
+  }
   data.period = period;
   return true;
 }
 
-bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& load) {
-  CurveData data = s.force;
-  const auto refuse = [&](const std::string& text) { return s.refuse(&Table::force, text); };
+// The law of a curve over travel or crank angle; of a chamber with its area and the pressure outside.
+template <class OverTravel, class OverAngle, class Keys, class Key, class... Chamber>
+bool put_curve(const Reading<Keys>& s, Key key, const CurveData& data, const Mechanism& mechanism, SliderLoad& load,
+               Chamber... chamber) {
+  const auto refuse = [&](const std::string& text) { return s.refuse(key, text); };
   const WorkingEnd end = working_end(s.from_greatest, mechanism);
   try {
-    if (!choose_diagram(s, mechanism, data, load)) return false;
     if (data.over != "angle") {
       if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
       if (mechanism.travel.winding != 0)
@@ -128,17 +131,24 @@ bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& lo
             fmt::format("a table over {}, but the output rotates with the crank and has no end of a swing; give the "
                         "table over the crank's angle",
                         data.over));
-      TravelForce law{end, data.curve(), {}, mechanism.stroke()};
+      OverTravel law{TravelForce{end, data.curve(), {}, mechanism.stroke()}, chamber...};
       if (!data.x_back.empty()) law.retreat = data.back();
       load.law = std::move(law);
     } else {
       if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
-      load.law = AngleForce{end, data.curve().over_angle()};
+      load.law = OverAngle{AngleForce{end, data.curve().over_angle()}, chamber...};
     }
   } catch (const std::invalid_argument& error) {
     return refuse(error.what());
   }
-  return put_rounding(s, mechanism, load);
+  return true;
+}
+
+bool put_law(const Reading<Table>& s, const Mechanism& mechanism, SliderLoad& load) {
+  CurveData data = s.force;
+  return choose_diagram(s, &Table::force, mechanism, data, load) &&
+         put_curve<TravelForce, AngleForce>(s, &Table::force, data, mechanism, load) &&
+         put_rounding(s, mechanism, load);
 }
 
 bool put_law(const Reading<Compressor>& s, const Mechanism& mechanism, SliderLoad& load) {
@@ -165,47 +175,25 @@ bool put_law(const Reading<Compressor>& s, const Mechanism& mechanism, SliderLoa
   return true;
 }
 
-// One chamber: its pressure on an area, which is negative behind the piston.
-bool put_chamber(const Reading<Cylinder>& s, const CurveData& given, double area, const Mechanism& mechanism,
-                 SliderLoad& load, const std::function<bool(const std::string&)>& refuse) {
-  const WorkingEnd end = working_end(s.from_greatest, mechanism);
-  CurveData data = given;
-  if (data.over != "angle") {
-    if (data.period > 0) return refuse(fmt::format("a table over {} has no period", data.over));
-    ChamberOverTravel law{{end, data.curve(), {}, mechanism.stroke()}, area, s.outside};
-    if (!data.x_back.empty()) law.retreat = data.back();
-    load.law = std::move(law);
-    return true;
-  }
-  if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
-  data.period = cycle_of(data);
-  try {
-    load.law = ChamberOverAngle{{end, data.curve().over_angle()}, area, s.outside};
-  } catch (const std::invalid_argument& error) {
-    return refuse(error.what());
-  }
-  return true;
-}
-
 bool put_law(const Reading<Cylinder>& s, Mechanism& mechanism, SliderLoad& load) {
   if (s.rod >= s.bore)
     return s.refuse(&Cylinder::rod, fmt::format("rod_diameter = {}; must be < bore = {}", in_mm(s.rod), in_mm(s.bore)));
   const auto area = [](double diameter) { return 0.25 * std::numbers::pi * diameter * diameter; };
+  // Of an area that is negative behind the piston.
+  const auto put_chamber = [&](auto key, const CurveData& pressure, double on, SliderLoad& of) {
+    return put_curve<ChamberOverTravel, ChamberOverAngle>(s, key, pressure, mechanism, of, on, s.outside);
+  };
   if (s.behind) {
     SliderLoad behind = load;
     behind.name += ".behind";
-    const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::behind, text); };
-    if (!put_chamber(s, *s.behind, area(s.rod) - area(s.bore), mechanism, behind, refuse)) return false;
+    CurveData pressure = *s.behind;
+    if (pressure.over == "angle") pressure.period = cycle_of(pressure);
+    if (!put_chamber(&Cylinder::behind, pressure, area(s.rod) - area(s.bore), behind)) return false;
     mechanism.loads.push_back(std::move(behind));
   }
-  const auto refuse = [&](const std::string& text) { return s.refuse(&Cylinder::pressure, text); };
   CurveData pressure = s.pressure;
-  try {
-    if (!choose_diagram(s, mechanism, pressure, load)) return false;
-  } catch (const std::invalid_argument& error) {
-    return refuse(error.what());
-  }
-  return put_chamber(s, pressure, area(s.bore), mechanism, load, refuse);
+  return choose_diagram(s, &Cylinder::pressure, mechanism, pressure, load) &&
+         put_chamber(&Cylinder::pressure, pressure, area(s.bore), load);
 }
 
 template <class Law>

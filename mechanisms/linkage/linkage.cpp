@@ -113,7 +113,7 @@ Linkage::Closed Linkage::close(long double phi, const Shifts& start) const {
     } else {
       out.shifts.push_back(start[by_newton++]);
       out.how = close_by_newton(group, structure_.joints, size_, out.poses, out.shifts.back());
-      out.margin.push_back(out.how.closed ? 1 : 0);
+      out.margin.push_back(out.how.closed ? out.how.pivot * out.how.pivot : 0);
     }
     if (out.margin.back() > 0) continue;
     out.failed = static_cast<int>(k);

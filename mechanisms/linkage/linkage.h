@@ -65,7 +65,7 @@ class Linkage {
     explicit Closed(std::size_t links) : poses(links) {}
     LinkPoses poses;
     Shifts shifts;
-    std::vector<long double> margin;  // by group; 1 for groups solved by Newton's method
+    std::vector<long double> margin;  // by group; of groups solved by Newton's method the square of its pivot
     int failed = -1;                  // the group that cannot be closed
     GroupClosure how;                 // of that group
   };
@@ -85,6 +85,8 @@ class Linkage {
   void find_margins();
   void refuse(const std::string& at, std::string text) { faults_.push_back({at, std::move(text)}); }
   bool touches(const Way& way, long double sense) const;
+  bool is_near(const Shifts& a, const Shifts& b, long double apart) const;  // of the size, and of a radian
+  std::string undetermined(const AssurGroup& group) const;
   void refuse_stop(const Closed& stopped, long double phi);
   void refuse_change_point(int group, long double phi);
   std::string stop_in_words(const Closed& stopped) const;

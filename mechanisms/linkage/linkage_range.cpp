@@ -12,6 +12,7 @@ namespace {
 const long double whole_turn = 2 * std::acos(-1.0L);
 constexpr int steps_of_turn = 360;
 constexpr long double least_step = 1e-13L;   // [rad]: how well the place of a lock is found
+constexpr long double least_way = 1e-3L;     // [rad]
 constexpr long double least_margin = 1e-6L;  // nearer to a dead position rounding would choose the branch
 
 std::string in_degrees_of(long double phi) {
@@ -28,14 +29,13 @@ bool Linkage::start_at_sketch(Node& node) {
   const Closed closed = close(drawn_at_, node.shifts);
   std::optional<std::size_t> dead;
   for (std::size_t k = 0; k < closed.margin.size() && !dead; ++k)
-    if (!(closed.margin[k] > least_margin)) dead = k;
+    if (!(closed.margin[k] > (structure_.groups[k].is_dyad() ? least_margin : 0))) dead = k;
   if (dead) {
     const AssurGroup& group = structure_.groups[*dead];
     refuse("points",
            fmt::format("the linkage is drawn in a position in which {}, which leaves its branch open; draw it in "
                        "another position",
-                       group.is_dyad() ? dead_position_of(group, sketch_)
-                                       : "the links " + links_of(group, sketch_) + " are not determined"));
+                       group.is_dyad() ? dead_position_of(group, sketch_) : undetermined(group)));
     return false;
   }
   node.shifts = closed.shifts;
@@ -54,15 +54,7 @@ Linkage::Way Linkage::march(const Node& from, long double angle) const {
     const long double phi = at_end ? end : last.phi + sense * step;
     const Shifts start = predicted(last, phi);
     Closed closed = close(phi, start);
-    bool good = closed.failed < 0;
-    for (std::size_t g = 0; good && g < start.size(); ++g)
-      for (std::size_t i = 0; i < start[g].size(); ++i) {
-        const LinkShift &a = start[g][i], &b = closed.shifts[g][i];
-        const auto off = [](const Taylor& u, const Taylor& v) { return std::fabs(u.value() - v.value()); };
-        good = good && off(a.x, b.x) < most_corrected * size_ && off(a.y, b.y) < most_corrected * size_ &&
-               off(a.angle, b.angle) < most_corrected;
-      }
-    if (good) {
+    if (closed.failed < 0 && is_near(start, closed.shifts, most_corrected)) {
       way.nodes.push_back({phi, std::move(closed.shifts)});
       step = std::min(1.5L * step, whole_turn / steps_of_turn);
       continue;
@@ -87,17 +79,32 @@ bool Linkage::comes_back(const Node& begin, const Node& end) const {
   return true;
 }
 
-// A margin that is positive again beyond touches zero there: the links pass through one line.
+// A margin that is positive again beyond touches zero there: the links pass through one line. Where Newton's method closes a
+// group, it is followed from a place where its series is good.
 bool Linkage::touches(const Way& way, long double sense) const {
-  constexpr long double beyond = 1e-5L;
-  if (!structure_.groups[static_cast<std::size_t>(way.stopped->failed)].is_dyad()) return false;
+  constexpr long double beyond = 1e-5L, before = 1e-3L;
   const long double phi = way.nodes.back().phi + sense * beyond;
-  const Closed closed = close(phi, predicted(way.nodes.back(), phi));
-  return closed.failed < 0 || closed.failed > way.stopped->failed;
+  auto from = way.nodes.rbegin();
+  while (std::next(from) != way.nodes.rend() && std::fabs(from->phi - phi) < before) ++from;
+  const Shifts start = predicted(*from, phi);
+  const Closed closed = close(phi, start);
+  const auto failed = static_cast<std::size_t>(way.stopped->failed);
+  if (closed.failed >= 0 && closed.failed <= way.stopped->failed) return false;
+  return structure_.groups[failed].is_dyad() || is_near(start, closed.shifts, before);
+}
+
+bool Linkage::is_near(const Shifts& a, const Shifts& b, long double apart) const {
+  const auto off = [](const Taylor& u, const Taylor& v) { return std::fabs(u.value() - v.value()); };
+  for (std::size_t g = 0; g < a.size(); ++g)
+    for (std::size_t i = 0; i < a[g].size(); ++i) {
+      const LinkShift &u = a[g][i], &v = b[g][i];
+      if (!(off(u.x, v.x) < apart * size_ && off(u.y, v.y) < apart * size_ && off(u.angle, v.angle) < apart))
+        return false;
+    }
+  return true;
 }
 
 void Linkage::explore() {
-  constexpr long double least_way = 1e-3L;  // [rad]
   Node begin;
   if (!start_at_sketch(begin)) return;
   Way forward = march(begin, whole_turn);
@@ -136,12 +143,18 @@ void Linkage::explore() {
   lower_lock_ = stop_in_words(*back.stopped), upper_lock_ = stop_in_words(*forward.stopped);
 }
 
+std::string Linkage::undetermined(const AssurGroup& group) const {
+  return "the links " + links_of(group, sketch_) + " are not determined";
+}
+
 void Linkage::refuse_change_point(int group, long double phi) {
+  const AssurGroup& of = structure_.groups[static_cast<std::size_t>(group)];
   refuse("points", fmt::format("at φ = {} {}, or so nearly that rounding would choose how the links go on: a change "
-                               "point. Change a length clearly; the kinds four-bar, slider-crank and inverted "
-                               "slider-crank know how theirs are passed",
-                               in_degrees_of(phi),
-                               dead_position_of(structure_.groups[static_cast<std::size_t>(group)], sketch_)));
+                               "point. {}; the kinds four-bar, slider-crank and inverted slider-crank know how theirs "
+                               "are passed",
+                               in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
+                               of.superfluous > 0 ? "Put a bearing of parallel cranks out of the line of the others"
+                                                  : "Change a length clearly"));
 }
 
 void Linkage::refuse_stop(const Closed& stopped, long double phi) {
@@ -163,19 +176,15 @@ std::string Linkage::stop_in_words(const Closed& stopped) const {
 
 // Between the nodes as well: a dip between two of them would be a lock that was stepped over.
 void Linkage::find_margins() {
+  constexpr long double small = 0.05L;  // of the greatest: a dip that may go down to zero
   least_.assign(structure_.groups.size(), {});
   const auto margin_at = [&](std::size_t group, long double phi) {
     const Closed closed = close(phi, start_near(phi));
     return group < closed.margin.size() ? closed.margin[group] : -1.0L;
   };
-  std::vector<std::vector<long double>> at(structure_.groups.size());
-  for (const Node& node : nodes_)
-    for (std::size_t g = 0; g < at.size(); ++g) at[g].push_back(margin_at(g, node.phi));
-  for (std::size_t g = 0; g < at.size(); ++g) {
-    if (!structure_.groups[g].is_dyad()) continue;
-    const auto least = std::min_element(at[g].begin(), at[g].end());
-    const auto k = static_cast<std::size_t>(least - at[g].begin());
-    long double from = nodes_[k > 0 ? k - 1 : 0].phi, to = nodes_[std::min(k + 1, nodes_.size() - 1)].phi;
+  const std::size_t last = nodes_.size() - 1;
+  const auto least_near = [&](std::size_t g, std::size_t k) {
+    long double from = nodes_[k > 0 ? k - 1 : 0].phi, to = nodes_[std::min(k + 1, last)].phi;
     for (int i = 0; i < 60; ++i) {
       const long double a = from + (to - from) * 0.382L, b = from + (to - from) * 0.618L;
       if (margin_at(g, a) < margin_at(g, b))
@@ -183,11 +192,27 @@ void Linkage::find_margins() {
       else
         from = a;
     }
-    const long double phi = (from + to) / 2;
-    least_[g] = {margin_at(g, phi), phi};
-    if (arc_ || least_[g].margin > least_margin) continue;
-    refuse_change_point(static_cast<int>(g), phi);
-    return;
+    return LeastMargin{margin_at(g, (from + to) / 2), (from + to) / 2};
+  };
+  const auto at_an_end = [&](long double phi) {
+    return arc_ && std::min(phi - nodes_.front().phi, nodes_.back().phi - phi) < least_way;
+  };
+  std::vector<std::vector<long double>> at(structure_.groups.size());
+  for (const Node& node : nodes_) {
+    const Closed closed = close(node.phi, start_near(node.phi));
+    for (std::size_t g = 0; g < at.size(); ++g) at[g].push_back(g < closed.margin.size() ? closed.margin[g] : -1);
+  }
+  for (std::size_t g = 0; g < at.size(); ++g) {
+    const auto [least, greatest] = std::minmax_element(at[g].begin(), at[g].end());
+    const long double scale = structure_.groups[g].is_dyad() ? 1 : *greatest;
+    for (std::size_t k = 0; k <= last; ++k) {
+      const bool dips = (k == 0 || at[g][k] <= at[g][k - 1]) && (k == last || at[g][k] <= at[g][k + 1]);
+      if (&at[g][k] != &*least && !(dips && at[g][k] < small * scale)) continue;
+      const LeastMargin found = least_near(g, k);
+      if (structure_.groups[g].is_dyad() && found.margin < least_[g].margin) least_[g] = found;
+      if (at_an_end(found.phi) || found.margin > least_margin * scale) continue;
+      return refuse_change_point(static_cast<int>(g), found.phi);
+    }
   }
 }
 

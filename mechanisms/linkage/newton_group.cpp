@@ -160,6 +160,7 @@ GroupClosure close_by_newton(const AssurGroup& g, const std::vector<LinkageJoint
     closures.put(shifts, poses);
   }
   out.closed = true;
+  out.pivot = std::fabs(factors.matrixR()(closures.columns() - 1, closures.columns() - 1)) / factors.maxPivot();
   return out;
 }
 

@@ -44,20 +44,11 @@ std::string in_degrees(double angle) { return fmt::format("{:.4g}°", angle * 18
 
 // Where a crank that cannot turn fully rocks; coupler and rocker lie in one line at the ends.
 std::string rocking_of(const CrankRockerLoop& l) {
-  const double pi = std::acos(-1.0), sum = l.coupler + l.rocker, gap = std::fabs(l.coupler - l.rocker);
-  if (sum < std::fabs(l.crank - l.ground) || gap > l.crank + l.ground) return "the loop cannot even be closed";
-  // Crank angle at which its pin is that far from the rocker's bearing.
-  const auto angle = [&](double far) {
-    return std::acos((l.crank * l.crank + l.ground * l.ground - far * far) / (2 * l.crank * l.ground));
-  };
-  const bool stops_outside = sum<l.crank + l.ground, stops_inside = gap> std::fabs(l.crank - l.ground);
-  const double inner = stops_inside ? angle(gap) : 0, outer = stops_outside ? angle(sum) : pi;
-  const std::string where = fmt::format("where {} and {} lie in one line", l.coupler_name, l.rocker_name);
-  if (!stops_inside)
-    return fmt::format("{} rocks between φ = {} and {}, {}", l.crank_name, in_degrees(-outer), in_degrees(outer),
-                       where);
-  return fmt::format("{} rocks between φ = {} and {}, {}", l.crank_name, in_degrees(inner),
-                     in_degrees(stops_outside ? outer : 2 * pi - inner), where);
+  const std::optional<CrankArc> arc = FourBarLoop{l.crank, l.coupler, l.rocker, l.ground}.arc();
+  if (!arc) return "the loop cannot even be closed";
+  return fmt::format("{} rocks between φ = {} and {}, where {} and {} lie in one line", l.crank_name,
+                     in_degrees(arc->middle - arc->half), in_degrees(arc->middle + arc->half), l.coupler_name,
+                     l.rocker_name);
 }
 
 struct NamedLength {
@@ -144,13 +135,6 @@ Range sine_range(double from, double to) {
   };
   const double a = std::sin(from), b = std::sin(to);
   return {passes(-pi / 2) ? -1 : std::min(a, b), passes(pi / 2) ? 1 : std::max(a, b)};
-}
-
-PlanePoint meeting_point(PlanePoint a, double a_length, PlanePoint b, double b_length, bool left) {
-  const double dx = b.x - a.x, dy = b.y - a.y, s = std::hypot(dx, dy);
-  const double along = (s * s + (a_length - b_length) * (a_length + b_length)) / (2 * s);
-  const double aside = (left ? 1 : -1) * std::sqrt(std::max(0.0, (a_length - along) * (a_length + along)));
-  return {a.x + (along * dx - aside * dy) / s, a.y + (along * dy + aside * dx) / s};
 }
 
 }  // namespace kurbel

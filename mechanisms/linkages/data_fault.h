@@ -51,8 +51,4 @@ struct Range {
 };
 Range sine_range(double from, double to);
 
-// Point at the distance a_length from a and b_length from b, left or right of the directed line a → b. The circles must
-// intersect.
-PlanePoint meeting_point(PlanePoint a, double a_length, PlanePoint b, double b_length, bool left);
-
 }  // namespace kurbel

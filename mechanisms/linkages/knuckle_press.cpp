@@ -29,21 +29,15 @@ Range knee_heights(const KnucklePressData& d) {
   return {d.bearing_y + d.upper * sine.least, d.bearing_y + d.upper * sine.greatest};
 }
 
-PlanePoint knee_at(const KnucklePressData& d, double phi) {
-  return meeting_point({d.radius * std::cos(phi), d.radius * std::sin(phi)}, d.rod, {d.bearing_x, d.bearing_y}, d.upper,
-                       !d.knee_right);
-}
-
 // Way of the ram, by angles of the crank that lie close enough to tell a ram that works from one that stands still.
 double stroke_of(const KnucklePressData& d) {
   constexpr int angles = 32;
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  long double least = std::numeric_limits<long double>::infinity(), greatest = -least;
   for (int i = 0; i < angles; ++i) {
-    const PlanePoint knee = knee_at(d, 2 * std::acos(-1.0) * i / angles);
-    const double rise = d.guide - knee.y, ram = knee.x + std::sqrt((d.lower - rise) * (d.lower + rise));
+    const long double ram = linkage_of(d, 2 * std::acos(-1.0L) * i / angles).output[0];
     least = std::fmin(least, ram), greatest = std::fmax(greatest, ram);
   }
-  return greatest - least;
+  return static_cast<double>(greatest - least);
 }
 
 void check_geometry(const KnucklePressData& d, DataChecks& checks) {

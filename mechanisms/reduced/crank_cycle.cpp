@@ -51,6 +51,22 @@ double CrankCycle::within(double phi) const {
   return arc_ ? arc_->middle + std::clamp(arc_->near(phi) - arc_->middle, -arc_->reach(), arc_->reach()) : phi;
 }
 
+double CrankCycle::along_arc(double phi) const {
+  return std::clamp((arc_->near(phi) - arc_->middle) / arc_->reach(), -1.0, 1.0);
+}
+
+double CrankCycle::angle_at(double part) const {
+  return arc_ ? arc_->middle + arc_->reach() * std::cos(part) : turns_ * part;
+}
+
+double CrankCycle::part_of(double phi) const { return arc_ ? std::acos(along_arc(phi)) : phi / turns_; }
+
+double CrankCycle::part_rate(double phi) const {
+  if (!arc_) return 1.0 / turns_;
+  const double cosine = along_arc(phi), sine = std::sqrt(1 - cosine * cosine);
+  return sine > 0 ? -1 / (arc_->reach() * sine) : 0;
+}
+
 double CrankCycle::angle() const { return static_cast<double>(turns_ * turn); }
 
 // Steps are bisected until the rotation of the output is limited, so that no turn of it is missed.

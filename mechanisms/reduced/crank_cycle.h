@@ -26,6 +26,10 @@ class CrankCycle {
   const std::optional<CrankArc>& arc() const { return arc_; }  // range of a rocking crank
   // φ, limited to the arc.
   double within(double phi) const;
+  // A table over the cycle has the period 2π: its place part = φ/turns, of a rocking crank σ with cos σ = (φ − middle)/reach.
+  double angle_at(double part) const;
+  double part_of(double phi) const;
+  double part_rate(double phi) const;  // ∂part/∂φ, 0 at the ends of an arc
   const std::vector<double>& change_points() const {
     return change_points_;
   }  // crank angles in a cycle, ascending [rad]
@@ -38,6 +42,7 @@ class CrankCycle {
  private:
   void follow_output(const MechanismData& data, double from, double to);
   void find_change_points(const MechanismData& data);
+  double along_arc(double phi) const;  // cos σ
 
   std::optional<CrankArc> arc_;
   int turns_ = 1;

@@ -21,11 +21,6 @@ namespace kurbel {
 
 namespace {
 
-// The crank angle of a place in the table, 0 … 2π.
-double place_of(const CrankCycle& cycle, double part) {
-  return cycle.arc() ? cycle.arc()->middle + cycle.arc()->reach() * std::cos(part) : cycle.turns() * part;
-}
-
 std::vector<ChannelSpec> channel_specs(const ReducedMechanism::NoiseScales& noise) {
   using enum ErrorScale;
   return {{"inertia", own_value, 10 * noise.inertia},
@@ -77,7 +72,7 @@ ReducedMechanism::NoiseScales noise_scales(const std::function<ReducedSample(dou
   ReducedMechanism::NoiseScales noise;
   if (slides) noise.reach = 0;
   for (int i = 0; i < n; ++i) {
-    const ReducedSample sample = sampler(place_of(cycle, 2 * std::numbers::pi * (i + 0.5) / n));
+    const ReducedSample sample = sampler(cycle.angle_at(2 * std::numbers::pi * (i + 0.5) / n));
     noise.inertia += part * sample.inertia / n;
     noise.gravity_torque += 0.1 * sample.gravity_torque_scale / n;
     noise.output += part * std::abs(sample.output_velocity_ratio) / n;
@@ -177,7 +172,7 @@ ReducedMechanism::ReducedMechanism(const Sampler& sampler, NoiseScales noise, do
 
 PeriodicTable::Sampler ReducedMechanism::in_table(const Sampler& sampler) const {
   return [this, &sampler](double part, std::span<double> values) {
-    const double phi = place_of(cycle_, part);
+    const double phi = cycle_.angle_at(part);
     write_channels(sampler(phi), values);
     double& output = values[output_position_channel];
     output = cycle_.periodic_part(phi, output);
@@ -190,11 +185,6 @@ ReducedMechanism::ReducedMechanism(PeriodicTable table, CrankCycle cycle)
       part_(1.0 / cycle_.turns()),
       winding_(cycle_.winding()),
       table_(std::move(table)) {}
-
-double ReducedMechanism::on_arc(double phi) const {
-  const CrankArc& arc = *cycle_.arc();
-  return std::acos(std::clamp((arc.near(phi) - arc.middle) / arc.reach(), -1.0, 1.0));
-}
 
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
                                    Extraction extraction) {
@@ -213,7 +203,7 @@ ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, 
   })
                                                       : closed;
   CrankCycle cycle(data);
-  if (const double phi = place_of(cycle, 1); by_bodies && data.rocks()) {
+  if (const double phi = cycle.angle_at(1); by_bodies && data.rocks()) {
     const double apart = sampler(phi).output_position - closed(phi).output_position;
     turns = apart - std::remainder(apart, 2 * std::numbers::pi);
   }

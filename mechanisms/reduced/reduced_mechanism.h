@@ -77,7 +77,7 @@ class ReducedMechanism {
   ReducedMechanism(PeriodicTable table, CrankCycle cycle);
   std::vector<double> numbers() const { return table_.numbers(); }
 
-  At at(double phi) const { return rocks_ ? At(table_, 1, 0, on_arc(phi)) : At(table_, part_, winding_, phi); }
+  At at(double phi) const { return rocks_ ? At(table_, 1, 0, cycle_.part_of(phi)) : At(table_, part_, winding_, phi); }
   const CrankCycle& cycle() const { return cycle_; }
   ValueAndSlope<double> inertia(double phi) const { return at(phi).inertia(); }
   ValueAndSlope<double> inertia_derivative(double phi) const { return at(phi).inertia_derivative(); }
@@ -92,7 +92,6 @@ class ReducedMechanism {
   const TableReport& report() const { return table_.report(); }
 
  private:
-  double on_arc(double phi) const;                                // σ
   PeriodicTable::Sampler in_table(const Sampler& sampler) const;  // `sampler` must outlive the result
 
   CrankCycle cycle_;

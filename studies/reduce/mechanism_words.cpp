@@ -14,6 +14,15 @@
 namespace kurbel {
 namespace {
 
+// Ascending; one at 359.9999999999° stands at 0°.
+std::vector<double> reversals_of(const Mechanism& m) {
+  std::vector<double> ends = m.travel.reversals;
+  for (double& phi : ends)
+    if (std::abs(std::remainder(phi, m.cycle())) < 1e-9) phi = 0;
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
 // For an output that reverses twice in a cycle.
 std::string time_ratio(const Mechanism& m, const std::vector<double>& ends) {
   if (ends.size() != 2) return {};
@@ -29,15 +38,66 @@ std::string travel(const Mechanism& m) {
   if (m.travel.winding != 0)
     return fmt::format("its output makes {:g} times as many turns as its driving link", m.travel.winding);
   if (m.stroke() == 0) return "its output stands still";
-  std::vector<double> ends = m.travel.reversals;
-  for (double& phi : ends)
-    if (std::abs(std::remainder(phi, m.cycle())) < 1e-9) phi = 0;
-  std::sort(ends.begin(), ends.end());
+  const std::vector<double> ends = reversals_of(m);
   std::string centres;
   for (const double phi : ends) centres += fmt::format("{}{:.5g}°", centres.empty() ? "" : ", ", phi / degree);
   return fmt::format("{} {}, dead centres at φ = {}{}", m.rocks() ? "swing" : "stroke",
                      m.rocks() ? fmt::format("{:.6g}°", m.stroke() / degree) : with_unit(m.stroke(), "m", 6), centres,
                      time_ratio(m, ends));
+}
+
+struct Dwell {
+  double from, to, phi;  // of the driving link [rad]; the reversal
+};
+
+// Where the output stays within this share of its stroke from where it reverses; of ranges that overlap the widest.
+std::vector<Dwell> dwells_of(const Mechanism& m, double share) {
+  constexpr int steps = 7200;
+  std::vector<Dwell> dwells;
+  for (const double phi : reversals_of(m)) {
+    const double end = m.reduced->output_position(phi).value, step = m.cycle() / steps;
+    const auto edge = [&](double sense) {
+      const auto within = [&](double way) {
+        return std::abs(m.reduced->output_position(phi + sense * way).value - end) <= share * m.stroke();
+      };
+      int i = 1;
+      while (i < steps && within(i * step)) ++i;
+      double in = (i - 1) * step, out = i * step;
+      for (int k = 0; k < 50; ++k) {
+        const double middle = (in + out) / 2;
+        (within(middle) ? in : out) = middle;
+      }
+      return phi + sense * in;
+    };
+    dwells.push_back({edge(-1), edge(1), phi});
+  }
+  std::stable_sort(dwells.begin(), dwells.end(),
+                   [](const Dwell& a, const Dwell& b) { return a.to - a.from > b.to - b.from; });
+  std::vector<Dwell> apart;
+  for (const Dwell& d : dwells)
+    if (std::none_of(apart.begin(), apart.end(), [&](const Dwell& wider) {
+          const double middle = (wider.from + wider.to) / 2, half = (wider.to - wider.from) / 2;
+          return std::abs(std::remainder(d.phi - middle, m.cycle())) < half;
+        }))
+      apart.push_back(d);
+  std::sort(apart.begin(), apart.end(), [](const Dwell& a, const Dwell& b) { return a.phi < b.phi; });
+  return apart;
+}
+
+// Empty: the output does not reverse.
+std::string dwell(const Mechanism& m) {
+  constexpr double share = 0.01;
+  std::string ranges;
+  if (m.arc() || m.travel.winding != 0 || m.stroke() == 0) return ranges;
+  const auto degrees = [&](double phi) {
+    const double at = phi - m.cycle() * std::floor(phi / m.cycle());
+    return fmt::format("{:.5g}°", at / degree);
+  };
+  for (const Dwell& d : dwells_of(m, share))
+    ranges += fmt::format("{}{:.4g}° from φ = {} to {}", ranges.empty() ? "" : ", ", (d.to - d.from) / degree,
+                          degrees(d.from), degrees(d.to));
+  return fmt::format("dwells within {:g} % of its {} where it reverses: over {}", 100 * share,
+                     m.rocks() ? "swing" : "stroke", ranges);
 }
 
 // A mechanism as a sketch: its pins at one angle are the points.
@@ -134,6 +194,7 @@ std::vector<std::string> mechanism_words(const Model& model) {
       for (const std::string& angle : linkage->transmission_in_words()) add(angle);
     }
     add(travel(m));
+    if (const std::string line = dwell(m); !line.empty()) add(line);
   }
   return words;
 }

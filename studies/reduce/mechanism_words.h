@@ -1,4 +1,4 @@
-// mechanism_words.h — structure of a mechanism and motion of its output and points: stroke, dead centres, time ratio.
+// mechanism_words.h — structure of a mechanism and motion of its output and points: stroke, dead centres, time ratio, dwell.
 #pragma once
 
 #include <string>

@@ -329,6 +329,7 @@ Findings findings_of(const MachineReduction& r) {
   tell_all(f, r);
   f.say(cycle, Sentences{.lines = {speed_text(r), errors_text(r)}, .page = false});
   f.draw(cycle, [&r] { return motion_plots(r); });
+  if (!r.paths.empty()) f.draw(cycle, [&r] { return path_plots(r); });
   f.say(cycle, positions_table(r));
   f.show(cycle, formulas_of(r));
   if (!r.chain.springs.empty()) f.draw(drive, [&r] { return chain_plot(r.chain); });

@@ -140,6 +140,26 @@ std::vector<Plot> harmonics_plots(const MachineReduction& r) {
   return plots;
 }
 
+std::vector<Plot> path_plots(const MachineReduction& r) {
+  std::vector<Plot> plots;
+  std::string linkage;
+  for (const PointPath& path : r.paths) {
+    const std::size_t dot = path.name.rfind('.');
+    if (plots.empty() || path.name.substr(0, dot) != linkage) {
+      linkage = path.name.substr(0, dot);
+      plots.push_back({.title = fmt::format("Coupler curves of {}", linkage),
+                       .x = {"x", "mm"},
+                       .y = {"y", "mm"},
+                       .note = "In the axes of the sketch, from the bearing of the driving link.",
+                       .equal_axes = true});
+    }
+    std::vector<Series>& curves = plots.back().series;
+    curves.push_back({.name = path.name.substr(dot + 1), .role = further_role(curves.size())});
+    for (std::size_t i = 0; i < path.x.size(); ++i) curves.back().add(1e3 * path.x[i], 1e3 * path.y[i]);
+  }
+  return plots;
+}
+
 // Schematic drawing of the chain: discs with a height by the cube root of their inertia, at distances by the
 // compliance of the shaft.
 Plot chain_plot(const Chain& chain) {

@@ -24,5 +24,7 @@ std::string speed_text(const MachineReduction& reduction);
 
 std::vector<Plot> motion_plots(const MachineReduction& reduction);
 std::vector<Plot> harmonics_plots(const MachineReduction& reduction);
+// The paths of each linkage's moving points.
+std::vector<Plot> path_plots(const MachineReduction& reduction);
 
 }  // namespace kurbel

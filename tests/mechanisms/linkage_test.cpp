@@ -315,6 +315,46 @@ TEST(Linkage, AParallelogramWithARedundantRodTurns) {
   EXPECT_NE(undetermined_reactions(data).find("not assessed"), std::string::npos);
 }
 
+// Parallel cranks at 0, 0.2 and 0.4 m, the middle bearing by h beside the line of the others.
+std::string fault_of_three_cranks(double drawn_at, double h) {
+  SketchOf of;
+  const double x = 0.1 * std::cos(drawn_at), y = 0.1 * std::sin(drawn_at);
+  of.point('O', 0, 0).point('A', x, y).point('C', 0.4, 0).point('B', 0.4 + x, y);
+  of.point('E', 0.2, h).point('D', 0.2 + x, h + y).frame("OCE");
+  of.link("crank", "OA", 1, 0.01).link("coupler", "ABD", 3, 0.05).link("rocker", "CB", 1, 0.01);
+  of.link("third", "ED", 1, 0.01).rocks("rocker");
+  const LinkageData data = of.data();
+  return data.linkage->faults().empty() ? "" : data.linkage->faults()[0].text;
+}
+
+// The third crank holds the coupler only where its bearing is out of the line of the others. In line with them all links fall
+// into one line twice a turn, wherever they are drawn and whether or not steps of a degree meet it.
+TEST(Linkage, AThirdCrankInLineWithTheOthersLeavesAChangePoint) {
+  for (const double degrees : {5.0, 30.0, 53.1301, 90.0, 121.7, 179.0, 200.0, 359.5}) {
+    SCOPED_TRACE(degrees);
+    for (const double h : {-0.1, -0.02, 0.02, 0.1}) EXPECT_EQ(fault_of_three_cranks(degrees * pi / 180, h), "") << h;
+    const std::string fault = fault_of_three_cranks(degrees * pi / 180, 0);
+    EXPECT_NE(fault.find("a change point"), std::string::npos) << fault;
+    EXPECT_NE(fault.find("Put a bearing of parallel cranks out of the line"), std::string::npos) << fault;
+    EXPECT_TRUE(fault.starts_with("at φ = 0° ") || fault.starts_with("at φ = 180° ") ||
+                fault.starts_with("at φ = 360° ") || fault.starts_with("at φ = 540° "))
+        << fault;
+  }
+}
+
+// A drag link O A B C turns the crank C D of a parallelogram C D E G, whose links fall into one line with the ground.
+TEST(Linkage, AChangePointBehindAnotherGroupIsSaid) {
+  SketchOf of;
+  of.point('O', 0, 0).point('A', 0.16, 0).point('B', 0.19, 0.15).point('C', 0.05, 0).point('D', 0.14, 0.1);
+  of.point('E', 0.34, 0.1).point('G', 0.25, 0).frame("OCG");
+  of.link("crank", "OA", 1, 0.01).link("coupler", "AB").link("drag", "CBD").link("rod", "DE").link("arm", "GE");
+  of.rocks("arm");
+  const LinkageData data = of.data();
+  ASSERT_EQ(data.linkage->faults().size(), 1u);
+  EXPECT_NE(data.linkage->faults()[0].text.find("rod and arm lie in one line"), std::string::npos)
+      << data.linkage->faults()[0].text;
+}
+
 TEST(Linkage, ARedundantRodOfAnotherLengthIsRefused) {
   const LinkageData data = locomotive(0.003).data();
   ASSERT_EQ(data.linkage->faults().size(), 1u);

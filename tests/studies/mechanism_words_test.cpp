@@ -21,8 +21,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Scene scene_of(const std::string& mechanism) {
-  return test::scene_from("line = [\"m\"]\n[m]\ncrank_inertia = \"0.5 kg*m2\"\n" + mechanism +
-                          "\n[run]\nstart = { speed = \"60 rpm\" }\n");
+  const bool drawn = mechanism.find("\"linkage\"") != std::string::npos;  // its crank has its inertia there
+  return test::scene_from("line = [\"m\"]\n[m]\n" + std::string(drawn ? "" : "crank_inertia = \"0.5 kg*m2\"\n") +
+                          mechanism + "\n[run]\nstart = { speed = \"60 rpm\" }\n");
 }
 
 // With these dead centres.
@@ -56,15 +57,56 @@ std::string transmission(const std::string& group, double angle, double phi) {
                      phi * 180 / pi);
 }
 
+// Of an output x(φ) that reverses at these angles: where it is a hundredth of the stroke away, by bisection.
+template <class Output>
+std::string dwell(const Output& x, std::vector<double> ends, const std::string& what = "stroke") {
+  std::sort(ends.begin(), ends.end());
+  const double share = 0.01 * std::abs(x(ends[1]) - x(ends[0]));
+  std::string text;
+  const auto edge = [&](double phi, double sense) {
+    double in = 0, out = 1;
+    while (out - in > 1e-13) {
+      const double middle = (in + out) / 2;
+      (std::abs(x(phi + sense * middle) - x(phi)) > share ? out : in) = middle;
+    }
+    return phi + sense * in;
+  };
+  for (const double phi : ends) {
+    const double from = edge(phi, -1), to = edge(phi, 1);
+    const auto degrees = [](double at) {
+      return fmt::format("{:.5g}°", (at - 2 * pi * std::floor(at / (2 * pi))) * 180 / pi);
+    };
+    text += fmt::format("{}{:.4g}° from φ = {} to {}", text.empty() ? "" : ", ", (to - from) * 180 / pi, degrees(from),
+                        degrees(to));
+  }
+  return "m: dwells within 1 % of its " + what + " where it reverses: over " + text;
+}
+
 // x = r cos φ + √(l² − (r sin φ − e)²), crank and rod in line at both ends; the rod is steepest with the crank upright.
 TEST(MechanismWords, OfAnOffsetSliderCrank) {
   constexpr double r = 0.1, l = 0.35, e = 0.04;
   expect_words(
-      "kind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\noffset = \"40 mm\"\nslider_mass = \"3 kg\"", 3,
+      "kind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\noffset = \"40 mm\"\nslider_mass = \"3 kg\"", 4,
       {"m: linkage of class II: crank drives RRP (rod, slider); degrees of freedom 3·3 − 2·4 = 1",
        transmission("RRP (rod, slider)", std::acos((r + e) / l), -pi / 2),
        travel(stroke(std::sqrt((l + r) * (l + r) - e * e) - std::sqrt((l - r) * (l - r) - e * e)),
-              std::asin(e / (l + r)), pi + std::asin(e / (l - r)))});
+              std::asin(e / (l + r)), pi + std::asin(e / (l - r))),
+       dwell([](double phi) { return r * std::cos(phi) + std::sqrt(l * l - std::pow(r * std::sin(phi) - e, 2)); },
+             {std::asin(e / (l + r)), pi + std::asin(e / (l - r))})});
+}
+
+// x = r cos φ stays within 1 % of 2 r over 2 arccos 0.98.
+TEST(MechanismWords, OfAScotchYokesDwell) {
+  const double half = std::acos(0.98) * 180 / pi;
+  expect_words(
+      "kind = \"linkage\"\nunit = \"mm\"\npoints = { O = [0, 0], A = [60, 0] }\nframe = \"O\"\n"
+      "slides = { block = { on = \"yoke\", along = \"90 deg\" }, yoke = \"0 deg\" }\n"
+      "links = { crank = { points = \"O A\", mass = \"1 kg\", inertia = \"0.5 kg*m2\" }, block = \"A\", yoke = { "
+      "points = \"A\", mass = \"2 kg\" } }",
+      3,
+      {fmt::format("m: dwells within 1 % of its stroke where it reverses: over {:.4g}° from φ = {:.5g}° to {:.5g}°, "
+                   "{:.4g}° from φ = {:.5g}° to {:.5g}°",
+                   2 * half, 360 - half, half, 2 * half, 180 - half, 180 + half)});
 }
 
 // A dead centre at 4e-13° by rounding stands at 0°.
@@ -83,7 +125,7 @@ TEST(MechanismWords, OfACrankAndRocker) {
   expect_words(
       "kind = \"four-bar\"\ncrank = \"80 mm\"\ncoupler = \"250 mm\"\nrocker = \"200 mm\"\nground = \"260 mm\"\n"
       "rocker_inertia = \"0.05 kg*m2\"",
-      3,
+      4,
       {"m: linkage of class II: crank drives RRR (coupler, rocker); degrees of freedom 3·3 − 2·4 = 1",
        transmission("RRR (coupler, rocker)", std::min(near, far), near < far ? 0 : pi),
        travel(swing(rocker(b + a) - rocker(b - a)), crank(b + a), pi + crank(b - a))});
@@ -93,9 +135,11 @@ TEST(MechanismWords, OfACrankAndRocker) {
 TEST(MechanismWords, OfAnInvertedSliderCrank) {
   const double gamma = std::asin(0.1 / 0.25);
   expect_words(
-      "kind = \"inverted slider-crank\"\ncrank = \"100 mm\"\nground = \"250 mm\"\nlever_inertia = \"0.06 kg*m2\"", 2,
+      "kind = \"inverted slider-crank\"\ncrank = \"100 mm\"\nground = \"250 mm\"\nlever_inertia = \"0.06 kg*m2\"", 3,
       {"m: linkage of class II: crank drives RPR (block, lever); degrees of freedom 3·3 − 2·4 = 1",
-       travel(swing(2 * gamma), pi / 2 - gamma, gamma - pi / 2)});
+       travel(swing(2 * gamma), pi / 2 - gamma, gamma - pi / 2),
+       dwell([](double phi) { return std::atan2(0.1 * std::sin(phi), 0.25 - 0.1 * std::cos(phi)); },
+             {pi / 2 - gamma, 3 * pi / 2 + gamma}, "swing")});
 }
 
 // The lever's end as high at both ends; there the link is steepest, so that its transmission angle is least twice.
@@ -105,7 +149,7 @@ TEST(MechanismWords, OfAShaper) {
   expect_words(
       "kind = \"quick-return\"\nradius = \"100 mm\"\npivot_distance = \"200 mm\"\nlever = \"400 mm\"\n"
       "link = \"300 mm\"\nguide_height = \"400 mm\"\nram_mass = \"60 kg\"",
-      3,
+      4,
       {"m: linkage of class II: crank drives RPR (lever, block), RRP (link, ram); degrees of freedom 3·5 − 2·7 = 1",
        travel(stroke(2 * lever * r / d), -gamma, pi + gamma)});
 }
@@ -128,12 +172,12 @@ TEST(MechanismWords, OfAKnucklePress) {
       "kind = \"knuckle press\"\nradius = \"50 mm\"\nrod = \"250 mm\"\nbearing_x = \"-160 mm\"\nbearing_y = \"300 "
       "mm\"\n"
       "upper = \"200 mm\"\nlower = \"200 mm\"\nbranch = \"right\"\nram_mass = \"50 kg\"",
-      4, {travel(stroke(far.x - near.x), far.phi, pi + near.phi)});
+      5, {travel(stroke(far.x - near.x), far.phi, pi + near.phi)});
 }
 
 // In line with its slider the crank is at 0° and 180°, not at 360°; where links pass change points there is no group.
 TEST(MechanismWords, OfEqualStrokesAndOfChangePoints) {
-  expect_words("kind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\nslider_mass = \"3 kg\"", 3,
+  expect_words("kind = \"slider-crank\"\nradius = \"100 mm\"\nrod = \"350 mm\"\nslider_mass = \"3 kg\"", 4,
                {travel(stroke(0.2), 0, pi)});
   expect_words(
       "kind = \"four-bar\"\ncrank = \"100 mm\"\ncoupler = \"300 mm\"\nrocker = \"100 mm\"\nground = \"300 mm\"\n"
