@@ -102,7 +102,7 @@ struct Prefix {
 };
 // Lengths and times have no large ones.
 Prefix prefix_of(double size, std::string_view unit) {
-  constexpr double least = 1e4, mega = 2e6, giga = 2e9, micro = 1e-4, nano = 1e-7, none = 1e-10;
+  constexpr double least = 1e4, mega = 2e6, giga = 2e9, micro = 1e-4, nano = 1e-6, none = 1e-9;
   if (size < micro) return size >= nano ? Prefix{"µ", -6} : size >= none ? Prefix{"n", -9} : Prefix{};
   if (unit == "m" || unit == "s") return {};
   return size >= giga ? Prefix{"G", 9} : size >= mega ? Prefix{"M", 6} : size >= least ? Prefix{"k", 3} : Prefix{};

@@ -77,7 +77,7 @@ FigureText figure_text(const Estimate& estimate, int most_digits) {
   const std::optional<double>& error = estimate.error;
   if (!error || !std::isfinite(*error)) return {rounded_number(value, digits_without_error), ""};
   if (*error == 0) return {rounded_number(value, digits_if_exact), "± 0"};
-  if (std::abs(value) <= *error && value != 0) return figure_text({0, *error + std::abs(value)}, most_digits);
+  if (3 * std::abs(value) <= *error && value != 0) return figure_text({0, *error + std::abs(value)}, most_digits);
   const double size = std::abs(*error);
   int place = last_place_of_error(size);
   int least_place = place;

@@ -71,9 +71,9 @@ void look_at(const HeldMachine& machine, const LinearDrive& drive, const HeldCyc
              const ModesStudy& found, SpotCheck& spot) {
   spot.linear = respond(drive, found.excitations);
   spot.linear.speed = spot.speed;
-  if (!spot.share) spot.joint = joint_with_largest_amplitude(spot.linear);
+  if (!spot.share) spot.joint = modes::joint_with_largest_amplitude(spot.linear);
   if (!(options.seconds > 0)) {
-    spot.why = fmt::format("checks before it took the {:g} s that all may take", most_seconds);
+    spot.why = fmt::format("earlier checks used up the {:g} s allowed for all", most_seconds);
     return;
   }
   HeldCycle held;

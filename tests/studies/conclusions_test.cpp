@@ -65,7 +65,8 @@ TEST(Headline, ReadableNumbersAreTheSameNumbers) {
         EXPECT_NEAR(std::stod(shown) * prefixes.at(shown.substr(blank + 1)), std::stod(written),
                     1e-11 * std::abs(value))
             << written << " " << shown;
-        EXPECT_EQ(shown.find('e') == std::string::npos, std::abs(value) >= 1e-10 && std::abs(value) < 1e12) << shown;
+        EXPECT_EQ(shown.find('e') == std::string::npos, std::abs(value) > 0.9999995e-9 && std::abs(value) < 1e12)
+            << shown;
       }
     }
 }

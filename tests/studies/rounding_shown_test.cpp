@@ -39,9 +39,9 @@ effects = { elasticity = true }
 run = { start = { speed = "10 rad/s", on = "motor", equilibrium = true }, until = "8 s" }
 )";
 
-// The first number of the size of rounding that is no error, residual or inertia; empty: none.
+// The first number of the size of rounding that is no error, bound, residual or inertia; empty: none.
 std::string rounding_in(const std::string& text) {
-  static const std::regex small("(± |= |to |of |<)?[0-9.]+(e-(09|1[0-9]|2[0-9]|3[0-9])| nN·m)(?! kg)");
+  static const std::regex small("(± |= |to |of |than |<)?[0-9.]+(e-(09|1[0-9]|2[0-9]|3[0-9])| nN·m(?!·s))(?! kg)");
   for (std::sregex_iterator i(text.begin(), text.end(), small); i != std::sregex_iterator(); ++i)
     if (!(*i)[1].matched) return i->str();
   return {};
