@@ -12,7 +12,7 @@ namespace kurbel {
 
 inline constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene tells of such a one
 
-// Faults of the motion, what holds the link, what slips (contact_claims.h); for an incomplete run only that it
+// Faults of the motion, what holds the link, what slips (contact_claims); for an incomplete run only that it
 // stalls. `equations`: in the modes at the run's end; `result` contains its periods, figures, and the errors of its
 // final state. `watch` ends trials; `budget`: of the run and its trials [s of processor time].
 Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips,
