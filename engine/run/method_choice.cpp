@@ -107,11 +107,11 @@ std::optional<Method> MethodChoice::after(const Stepper& stepper, Method now) {
     if (held) explicit_step += (h - explicit_step) / window;
     if (held_ < memory_.held_needed || left < 5 * memory_.held_needed * h) return {};
     implicit_steps_ = held_ = 0;
-    implicit_since_ = window_begin_ = t;
     return change(
         implicit_, t,
         fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", explicit_step));
   }
+  if (implicit_steps_ == 0) implicit_since_ = window_begin_ = stepper.t_previous();  // here or in a run that goes on
   if (++implicit_steps_ % window != 0) return {};
   const double mean = (t - std::exchange(window_begin_, t)) / window;
   if (implicit_steps_ == window || mean >= implicit_step_cost * explicit_step) return {};  // the first ones grow
