@@ -31,7 +31,7 @@ PlanarLinkage linkage_in(const LinkPoses& poses, const LinkageData& data) {
     const LinkageJoint& j = parts.joints[k];
     const Path along = poses[j.other(j.carrier)].turned(j.along);
     l.join({linkage.joint_name(k), number(j.a), number(j.b), poses[j.carrier](j.at), j.slides,
-            j.slides ? Direction{along.x, along.y} : Direction{}});
+            j.slides ? Direction{along.x, along.y} : Direction{}, j.carrier == j.a});
   }
   l.load_at = poses[s.output.link](linkage.spot_of(linkage.output_point()));
   const Direction output = towards(s.output.link);

@@ -176,7 +176,7 @@ void JointFriction::prepare(const State& s, double response, const double* value
     for (int k = 0; k < (joint.data.length > 0 ? 2 : 1); ++k)
       w.edge[2 * j + static_cast<std::size_t>(k)] = held(sign_count() + static_cast<int>(joint.first_side) + k);
     if (!joint.couple) continue;
-    const double lever = 0.5 * joint.data.width * w.strength[j];
+    const double lever = 0.5 * joint.between * joint.data.width * w.strength[j];
     const std::size_t couple = *joint.couple, normal = 2 * j;
     w.of[couple] = normal, w.by[couple][0] = lever, w.by[couple][1] = 0;
     if (!fold) continue;

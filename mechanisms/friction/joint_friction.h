@@ -7,7 +7,8 @@
 //     pin    q = −sgn(v) ρ |R|              couple [N·m]; ρ = r f/√(1 + f²), radius of the friction circle
 //     slide  q = −sgn(v) (f + k_r/r_r) Σ|N| force along it [N]; Σ|N| = |N| if N acts within the guide's length L, else
 //                            contact at both edges: Σ|N| = (|L N − 2 M| + |L N + 2 M|)/2L, M about the guide's middle
-//            q = −sgn(v) (f + k_r/r_r) w/2 N  couple of the friction on two faces at the distance w [N·m]
+//            q = −sgn(v) (f + k_r/r_r) w/2 N  couple of the friction on two faces at the distance w, between which `on`
+//                            lies; with `from` between them the opposite [N·m]
 // v_j ω is the velocity of `on` relative to `from`: angular for a pin, along a slide. Torque on the crank by equal power:
 //     M = Σ v_j q_j
 // With ε = ε₀ + m M, where m is the acceleration per unit of torque on the crank, all unknowns are solved together:
@@ -83,6 +84,7 @@ class JointFriction {
     bool slides = false;
     std::size_t load = 0;                 // its friction load; the n-th joint has the n-th
     std::optional<std::size_t> couple{};  // for a slide with two faces: index after the loads of all joints
+    int between = 1;                      // 1: `on` lies between the two faces, −1: `from`
     // Sign of v: index of a changing sign, or the sign of the output's travel, or constant.
     static constexpr int of_travel = -1, constant = -2;
     int sign = constant;

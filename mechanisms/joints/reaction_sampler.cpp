@@ -47,7 +47,7 @@ ReactionSampler::ReactionSampler(const MechanismData& data, const std::vector<Ru
       if (r.name != j.name) continue;
       any = true;
       validate(r);
-      if (r.rubs(j.slides)) add(k, r, j.slides);
+      if (r.rubs(j.slides)) add(k, r, j);
     }
     if (!any) throw std::invalid_argument(fmt::format("no joint \"{}\" in the linkage", r.name));
   }
@@ -64,9 +64,9 @@ ReactionSampler::ReactionSampler(const MechanismData& data, const std::vector<Ru
                     JointFriction::most_applied));
 }
 
-void ReactionSampler::add(int number, const RubbingJoint& r, bool slides) {
-  joints.push_back({.data = r, .slides = slides, .load = loads_.size()});
-  loads_.push_back({number, !slides});
+void ReactionSampler::add(int number, const RubbingJoint& r, const PlanarLinkage::Joint& j) {
+  joints.push_back({.data = r, .slides = j.slides, .load = loads_.size(), .between = j.from_is_between ? -1 : 1});
+  loads_.push_back({number, !j.slides});
   joint_.push_back(static_cast<std::size_t>(number));
 }
 

@@ -42,7 +42,7 @@ class ReactionSampler {
   std::vector<JointFriction::Joint> joints;  // with friction
 
  private:
-  void add(int number, const RubbingJoint& r, bool slides);
+  void add(int number, const RubbingJoint& r, const PlanarLinkage::Joint& j);
   UnitReactions units(double phi, const PlanarLinkage& at) const;
 
   MechanismData data_;

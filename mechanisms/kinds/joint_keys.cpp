@@ -204,10 +204,11 @@ const Tables<Reading<RubbingJoint>>& rubbing_tables() {
              &Joint::radius)
         .add(friction(), &Joint::friction);
     add_film(fields);
-    tables.add("joint",
-               "A joint with friction: of a pin ρ times the reaction, ρ = r sin(atan f) the radius of the friction "
-               "circle; of a slide f N, from both edges where the reaction leaves its length",
-               add_sliding(fields, "a slide", "joint along the slide", "faces of a slide"));
+    tables.add(
+        "joint",
+        "A joint with friction: of a pin ρ times the reaction, ρ = r sin(atan f) the radius of the friction "
+        "circle; of a slide f N, from both edges where the reaction leaves its length",
+        add_sliding(fields, "a slide", "joint along the slide", "faces of a slide, which its link lies between"));
     return tables;
   }();
   return made;

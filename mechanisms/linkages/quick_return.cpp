@@ -87,7 +87,7 @@ PlanarLinkage linkage_of(const QuickReturnData& m, long double phi) {
   l.add(floating("link", m.link_body, end, link));
   l.join({"main bearing", PlanarLinkage::frame, 0, {}});
   l.join({"crank pin", 0, 2, pin});
-  l.join({"slot", 2, 1, pin, true, slot});
+  l.join({"slot", 2, 1, pin, true, slot, true});
   l.join({"lever bearing", PlanarLinkage::frame, 1, pivot});
   l.join({"lever pin", 1, 3, end});
   add_slider(l, "ram", m.ram_mass, "ram pin", end + along(link, m.link));

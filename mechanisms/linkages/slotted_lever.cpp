@@ -51,7 +51,7 @@ PlanarLinkage linkage_of(const SlottedLeverData& m, long double phi) {
   l.add(pivoted("lever", m.lever_body, bearing, slot.along));
   l.join({"main bearing", PlanarLinkage::frame, 0, {}});
   l.join({"crank pin", 0, 1, pin});
-  l.join({"slot", 1, 2, pin, true, slot.along});
+  l.join({"slot", 1, 2, pin, true, slot.along, true});
   l.join({"lever bearing", PlanarLinkage::frame, 2, bearing});
   l.load_at = bearing;
   if (m.loop().changes()) l.changes = true, l.sine = slot.reach.value() / (m.crank + m.ground);

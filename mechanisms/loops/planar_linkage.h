@@ -26,7 +26,8 @@ struct PlanarLinkage {
     int from, on;      // indices of bodies, or frame
     Path at;
     bool slides = false;
-    Direction along = {};  // direction of the slide
+    Direction along = {};          // direction of the slide
+    bool from_is_between = false;  // of a slide: `from` lies between the faces of `on`, not the other way round
   };
   PlanarLinkage() { bodies.reserve(5), joints.reserve(7); }
   std::vector<Body> bodies;  // the crank first, the loaded body last

@@ -9,7 +9,6 @@
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
-#include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -180,6 +179,11 @@ std::vector<PointPath> point_paths(const Model& model) {
     paths.insert(paths.end(), own.begin(), own.end());
   }
   return paths;
+}
+
+std::string structure_words(const Mechanism& mechanism) {
+  const auto linkage = linkage_in(mechanism.data);
+  return linkage ? linkage->structure_in_words() : "";
 }
 
 std::vector<std::string> mechanism_words(const Model& model) {

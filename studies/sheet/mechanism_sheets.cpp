@@ -154,7 +154,8 @@ SheetMotion even_motion(const SheetCycle& cycle, std::vector<SheetPosition> posi
   return m;
 }
 
-void add_mechanism(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion& motion, const std::string& speed) {
+void add_mechanism(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion& motion, const std::string& speed,
+                   const std::string& structure) {
   Canvas plan;
   const PlanPlaced placed = draw_linkage(plan, sheets.room(), m, motion.positions, motion.cycle.sense);
   Canvas& c = sheets.add(fmt::format("{}: {} in its positions", m.mechanism.name, m.mechanism.data.drawing().name),
@@ -163,7 +164,8 @@ void add_mechanism(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion&
   add_lines(c, sheets.foot(),
             lengths_in_words(m, placed.scale) +
                 ".\nNumbers from a dead centre of the output on, in the sense of ω; letters: edges of the load and its "
-                "greatest value. Dash-dotted: paths.");
+                "greatest value. Dash-dotted: paths.\n" +
+                structure);
   const Motions at = motions_of(m, motion.at);
   add_table(sheets, kinematic_table(m, motion, at, speed));
   add_diagrams(sheets, m, motion, at, speed);

@@ -24,7 +24,7 @@ struct SheetMotion {
 SheetMotion even_motion(const SheetCycle& cycle, std::vector<SheetPosition> positions, double omega);
 
 void add_mechanism(Sheets& sheets, const MechanismOnSheet& mechanism, const SheetMotion& motion,
-                   const std::string& speed_in_words);
+                   const std::string& speed_in_words, const std::string& structure_in_words);
 
 // Labels of the positions, and which of them are letters or edges of a load.
 std::vector<std::string> labels_of(const std::vector<SheetPosition>& positions);

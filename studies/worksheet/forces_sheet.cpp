@@ -13,6 +13,7 @@
 #include "engine/numerics/angles.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/forces/crank_motion.h"
+#include "studies/reduce/mechanism_words.h"
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/table.h"
 #include "studies/worksheet/motion_plans.h"
@@ -276,7 +277,7 @@ void add_reactions(Sheets& sheets, const ForcesSheet& sheet) {
 
 std::string ForcesSheet::html() const {
   Sheets sheets(paper, {title, "kurbel forces " + std::filesystem::path(scene_file).filename().string(), author});
-  add_mechanism(sheets, mechanisms.front(), motion, speed);
+  add_mechanism(sheets, mechanisms.front(), motion, speed, structure_words(mechanisms.front().mechanism));
   add_motion_plans(sheets, mechanisms.front(), motion, speed);
   add_table(sheets, reaction_table(*this));
   add_table(sheets, inertia_table(*this));

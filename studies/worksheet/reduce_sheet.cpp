@@ -11,6 +11,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/rigid/rigid_machine.h"
 #include "studies/cycle/classical.h"
+#include "studies/reduce/mechanism_words.h"
 #include "studies/sheet/diagram.h"
 #include "studies/sheet/table.h"
 #include "studies/worksheet/energy_mass_sheet.h"
@@ -259,7 +260,7 @@ std::string ReduceSheet::html() const {
                 {reduction.title, "kurbel reduce " + std::filesystem::path(reduction.scene_file).filename().string(),
                  request.author});
   for (const MechanismOnSheet& m : mechanisms) {
-    add_mechanism(sheets, m, motion, speed_words(reduction));
+    add_mechanism(sheets, m, motion, speed_words(reduction), structure_words(m.mechanism));
     add_motion_plans(sheets, m, motion, speed_words(reduction));
   }
   add_table(sheets, torque_table(*this));

@@ -59,6 +59,35 @@ TEST(LinkageFriction, PinHasItsFrictionCircle) {
   EXPECT_NEAR(crank_pin.torque, -q, 1e-9);
 }
 
+// A crank's pin A in a slotted lever about C, nothing has mass: N acts where it balances the friction on the face that it
+// presses on, ½ f w from A. Of a block within the slot that is towards the motion of the block, of a lever's bar within the
+// block away from it, whichever of the two comes first.
+TEST(LinkageFriction, FacesLieWhereTheSlidingLinkIsBetweenThem) {
+  constexpr double r = 0.1, ground = 0.25, f = 0.2, w = 0.06;
+  for (const double phi : {0.4, 1.3, 2.5, 3.6, 4.4, 5.8}) {
+    SCOPED_TRACE(phi);
+    const double x = r * std::cos(phi) - ground, y = r * std::sin(phi), reach = std::hypot(x, y);
+    const double outwards = ground * std::sin(phi) > 0 ? 1 : -1;  // sign of d reach/dφ = r d sin φ/reach
+    for (const bool block_slides : {true, false}) {
+      test::SketchOf of;
+      of.point('O', 0, 0).point('A', r * std::cos(phi), y).point('C', ground, 0);
+      of.point('D', ground + 2 * x, 2 * y).frame("OC");
+      of.link("crank", "OA").link("block", "A").link("lever", "CD").rocks("lever");
+      if (block_slides)
+        of.slide("block", std::atan2(y, x), "lever");
+      else
+        of.slide("lever", std::atan2(y, x), "block");
+      const auto law = law_of(
+          of.data(),
+          {{.name = block_slides ? "slide block" : "slide lever", .friction = {f, f, 0, 0}, .length = 10, .width = w}});
+      const auto solved = law->solve({.phi = phi, .omega = 2, .load = 50});
+      const double from_point = solved.reactions.at(1) / solved.reactions.at(0);
+      const double from_pin = block_slides ? from_point : from_point - reach;
+      EXPECT_NEAR(from_pin, (block_slides ? 1 : -1) * outwards * f * w / 2, 1e-12);
+    }
+  }
+}
+
 // A rod that pushes the ram out under β on a guide of friction f: F = P (1 − f tan β); it locks at f tan β = 1.
 TEST(LinkageFriction, SlideJamsWhereTheFrictionAngleMeetsTheRod) {
   test::SketchOf of = crank_and_ram();

@@ -257,6 +257,11 @@ TEST(Sheet, PagesAreWhole) {
   for (const char* scene : {"scenes/crank_press.toml", "scenes/shaper.toml", "scenes/four_bar_rocker.toml",
                             "docs/tasks/two_cylinder_compressor.toml", "scenes/single_cylinder_engine.toml"})
     check(sheet_of_file(scene).html(), {});
+  // The structure stands beside the plan.
+  for (const auto& [scene, group] :
+       {std::pair("scenes/crank_press.toml", "RRP"), std::pair("scenes/shaper.toml", "RPR"),
+        std::pair("scenes/four_bar_rocker.toml", "RRR")})
+    EXPECT_NE(sheet_of_file(scene).html().find(group), std::string::npos) << scene;
   const Paper a3 = paper_named("A3");
   check(sheet_of(test::scene_file("scenes/drag_link_feeder.toml"), {},
                  {.paper = a3, .delta = {}, .flywheel = {}, .author = "N. N."})
