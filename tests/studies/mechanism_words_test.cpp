@@ -99,10 +99,10 @@ TEST(MechanismWords, OfAnOffsetSliderCrank) {
 TEST(MechanismWords, OfAScotchYokesDwell) {
   const double half = std::acos(0.98) * 180 / pi;
   expect_words(
-      "kind = \"linkage\"\nunit = \"mm\"\npoints = { O = [0, 0], A = [60, 0] }\nframe = \"O\"\n"
+      "kind = \"linkage\"\nunit = \"mm\"\npoints = { O = [0, 0], A = [60, 0], Y = [300, 0] }\nframe = \"O\"\n"
       "slides = { block = { on = \"yoke\", along = \"90 deg\" }, yoke = \"0 deg\" }\n"
       "links = { crank = { points = \"O A\", mass = \"1 kg\", inertia = \"0.5 kg*m2\" }, block = \"A\", yoke = { "
-      "points = \"A\", mass = \"2 kg\" } }",
+      "points = \"Y\", mass = \"2 kg\" } }",
       3,
       {fmt::format("m: dwells within 1 % of its stroke where it reverses: over {:.4g}° from φ = {:.5g}° to {:.5g}°, "
                    "{:.4g}° from φ = {:.5g}° to {:.5g}°",
