@@ -230,6 +230,44 @@ Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Res
   return ContactJudge(equations, outcome, result, slips).all();
 }
 
+namespace {
+
+// dω/dt = λ² δφ beside a start at rest without acceleration.
+void add_unstable_starts(const Model& m, Equations& equations, Claims& claims) {
+  constexpr double aside = 1e-4;     // [rad]
+  constexpr double rounding = 1e-9;  // of the accelerations beside it
+  const std::vector<double> y = equations.start(0);
+  std::vector<double> beside(y.size()), rate(y.size());
+  for (std::size_t shaft = 0; shaft < m.free_shafts; ++shaft) {
+    const std::size_t speed = equations.speed_index(static_cast<int>(shaft));
+    const auto joined = [shaft](const ElasticJoint& e) { return at(e.shaft_a) == shaft || at(e.shaft_b) == shaft; };
+    if (y[speed] != 0 || equations.modes().direction[shaft] == 0 ||
+        std::any_of(m.elastic.begin(), m.elastic.end(), joined))
+      continue;
+    const auto acceleration = [&](double by) {
+      beside = y;
+      for (std::size_t i = 0; i < m.angles.size(); ++i)
+        if (at(m.angles[i].shaft) == shaft) beside[i] += m.angles[i].gain * by;
+      equations.flow(0, beside, rate);
+      return rate[speed];
+    };
+    const double ahead = acceleration(aside), behind = acceleration(-aside), here = acceleration(0);
+    if (!(ahead > 0 && behind < 0 && std::abs(here) <= rounding * std::min(ahead, -behind))) continue;
+    const double growth = std::sqrt((ahead - behind) / (2 * aside));
+    const auto tracked =
+        std::find_if(m.angles.begin(), m.angles.end(), [shaft](const TrackedAngle& a) { return at(a.shaft) == shaft; });
+    const std::string& name = m.network.nodes[at(tracked->node)].component;
+    add(claims,
+        claimed(Predicate::start_unstable,
+                fmt::format("\"{}\" starts in an unstable equilibrium: rounding decides when it leaves it, and to "
+                            "which side; a deviation grows tenfold in {:.2g} s. Start it at another angle",
+                            name, std::log(10) / growth),
+                name, {.at = 0, .value = growth, .limit = 0, .unit = "1/s"}));
+  }
+}
+
+}  // namespace
+
 Claims start_claims(const std::shared_ptr<const Model>& model) {
   constexpr double disagree = 0.1;  // of the usual speed
   Claims claims;
@@ -237,8 +275,9 @@ Claims start_claims(const std::shared_ptr<const Model>& model) {
   std::set<int> given;
   for (const auto& [component, start] : m.scene.run.start.components)
     if (start.speed) given.insert(m.shaft_of_node[at(m.network.ports.at(component).in)]);
-  if (given.empty()) return claims;
   Equations first(model, false);
+  add_unstable_starts(m, first, claims);
+  if (given.empty()) return claims;
   const std::vector<double> y = first.start(0);
   const Snapshot& s = first.snapshot(0, y);
   for (const ElasticJoint& joint : m.elastic) {

@@ -38,6 +38,7 @@ enum class Predicate {
   brake_has_not_stopped,
   steady_motion_unstable,
   start_shafts_disagree,
+  start_unstable,
   runs_steadily,
   vibrates,
   works_in_strokes,

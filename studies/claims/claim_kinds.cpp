@@ -86,6 +86,15 @@ constexpr std::array kinds = {
         "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
         "value: the difference of speed [rad/s]",
         "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a shock", "run, compare, steady"},
+    ClaimKind{start_unstable, runs, warning, above,
+              "a shaft without an elastic joint starts at rest, nothing holds it, its acceleration is rounding, and "
+              "1e-4 rad to "
+              "either side it is accelerated away",
+              "value: rate at which a deviation grows, λ of e^(λt) [1/s]; limit: 0",
+              "\"press\" starts in an unstable equilibrium: rounding decides when it leaves it, and to which side; a "
+              "deviation "
+              "grows tenfold in 0.07 s. Start it at another angle",
+              "run, compare, steady"},
     ClaimKind{
         runs_steadily, runs, note, anything,
         "what the mid speed of the cycle still has to go to its limit, by the last three cycles or more without a "

@@ -297,6 +297,26 @@ TEST(MotionClaims, AStartWhoseShaftsDisagreeIsWarnedOf) {
   EXPECT_FALSE(find(run("speed = \"1455 rpm\"").claims, Predicate::start_shafts_disagree));
 }
 
+// A pendulum upside down, m g r = 1.5 kg·0.2 m·9.81 m/s², I = 0.06 kg·m² at the crank alone: λ² = m g r/I.
+TEST(StartClaims, UnstableEquilibriumIsSaid) {
+  const auto run = [](const char* more) {
+    return test::run(fmt::format(R"(
+      line = ["crank"]
+      crank = {{ kind = "slider-crank", radius = "0.2 m", rod = "0.6 m", crank_mass = "1.5 kg", crank_com = "0.2 m", crank_inertia = "0.06 kg*m2", slider_mass = "0 kg", gravity = "9.81 m/s2", stroke_angle = "90 deg" }}
+      run = {{ until = "0.1 s"{} }}
+    )",
+                                 more),
+                     false);
+  };
+  const Result up = run(", start = { angle = \"0 deg\" }");
+  const Claim* claim = find(up.claims, Predicate::start_unstable, "crank");
+  ASSERT_TRUE(claim) << said(up);
+  EXPECT_NEAR(*claim->evidence.value, std::sqrt(1.5 * 0.2 * 9.81 / 0.06), 1e-6);
+  EXPECT_FALSE(find(run(", start = { angle = \"0.1 deg\" }").claims, Predicate::start_unstable));
+  EXPECT_FALSE(find(run(", start = { angle = \"180 deg\" }").claims, Predicate::start_unstable));
+  EXPECT_FALSE(find(run(", start = { angle = \"0 deg\", speed = \"1 rad/s\" }").claims, Predicate::start_unstable));
+}
+
 // --- the three periods ---
 
 TEST(Periods, AreTheSameInWordsTablesAndWorks) {
