@@ -70,17 +70,17 @@ struct CubicBetween {
 
 // Places in [a, b] where a law is narrow against the way between knots, such as a pulse of 1 ms within 3 s, or of 1° within
 // a turn: a step could pass it by, as each of its evaluations may lie beside it. Intervals are halved until the cubic
-// through values and slopes at their ends is within 2 % of the law's range at all of 2048 samples; if they are alike, steps
-// see the law everywhere, and it needs no knots.
-std::vector<double> narrow_parts(const FormulaProgram& law, double a, double b) {
-  constexpr int cells = 2048, alike = 16;
-  constexpr double plain = 0.02;
+// through values and slopes at their ends is within a thousandth of the law's range at all samples; if they are alike, steps
+// see the law everywhere, and it needs no knots. What lies between the samples, or is lower, is not seen.
+std::vector<double> narrow_parts(const FormulaProgram& law, double a, double b, int cells) {
+  constexpr int alike = 16;
+  constexpr double plain = 1e-3, rounding = 1e-9;
   const auto place = [&](int i) { return a + (b - a) * i / cells; };
-  std::vector<double> y(cells + 1);
+  std::vector<double> y(static_cast<std::size_t>(cells) + 1);
   for (int i = 0; i <= cells; ++i) y[static_cast<std::size_t>(i)] = law(place(i));
   const auto [least, most] = std::minmax_element(y.begin(), y.end());
   const double slack = plain * (*most - *least);
-  if (!(slack > 0) || !std::isfinite(slack)) return {};
+  if (!(slack > rounding * std::max(std::abs(*least), std::abs(*most))) || !std::isfinite(slack)) return {};
   std::vector<std::pair<int, int>> open = {{0, cells}};
   std::vector<int> ends;
   int shortest = cells, longest = 0;
@@ -278,8 +278,10 @@ Curve::Curve(const std::vector<double>& given_x, const std::vector<double>& give
 
 Curve::Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, double period)
     : form_(Form::formula), period_(period) {
+  const double whole = knots.back() - knots.front();
   for (std::size_t i = programs.size(); i-- > 0;) {
-    const std::vector<double> more = narrow_parts(programs[i], knots[i], knots[i + 1]);
+    const auto cells = static_cast<int>(std::max(64.0, 2048 * (knots[i + 1] - knots[i]) / whole));
+    const std::vector<double> more = narrow_parts(programs[i], knots[i], knots[i + 1], cells);
     const auto behind = static_cast<std::ptrdiff_t>(i) + 1;
     knots.insert(knots.begin() + behind, more.begin(), more.end());
     programs.insert(programs.begin() + behind, more.size(), FormulaProgram(programs[i]));
@@ -343,7 +345,7 @@ Curve Curve::over_angle() const {
   if (programs_)
     made.programs_ = std::make_shared<const std::vector<FormulaProgram>>(programs.rbegin(), programs.rend());
   made.seamless_ = seamless_ && made.pieces() == 1;
-  if (const double periods = std::round(two_turns / period_); !made.seamless_ && periods * made.pieces() < most_modes)
+  if (const double periods = std::max(1.0, std::round(two_turns / period_)); !made.seamless_ && periods * made.pieces() < most_modes)
     made.periods_ = static_cast<int>(periods);
   return made;
 }
