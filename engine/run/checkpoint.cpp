@@ -46,8 +46,8 @@ void check(const Checkpoint& c, const Equations& equations) {
   if (!fits) throw UnfitCheckpoint("is of a machine with other elements, contacts or commands than this scene's");
   const bool sound = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
                      all_finite(m.capacity) && all_finite(m.on_since) && all_finite(m.turns) &&
-                     std::all_of(c.observers.begin(), c.observers.end(), all_finite) &&
-                     m.next_step <= equations.model().scene.sequence.steps.size();
+                     std::all_of(c.observers.begin(), c.observers.end(), all_finite) && c.loop.held_needed > 0 &&
+                     c.loop.explicit_step >= 0 && m.next_step <= equations.model().scene.sequence.steps.size();
   const auto pieces = [](const std::vector<int>& list) {
     constexpr int most = 100'000'000;  // of a table's rows; a starter's pause keeps its begin as a negative number
     return std::all_of(list.begin(), list.end(), [](int v) { return v <= most; });

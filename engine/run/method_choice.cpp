@@ -105,7 +105,7 @@ std::optional<Method> MethodChoice::after(const Stepper& stepper, Method now) {
     held_ = std::max(0, held_ + (held ? 1 : -1));
     if (held && held_ == 1) explicit_step = h;
     if (held) explicit_step += (h - explicit_step) / window;
-    if (held_ < memory_.held_needed || left < 5 * memory_.held_needed * h) return {};
+    if (held_ < memory_.held_needed || left < 5.0 * memory_.held_needed * h) return {};
     implicit_steps_ = held_ = 0;
     return change(
         implicit_, t,

@@ -61,6 +61,9 @@ Linkage::Way Linkage::march(const Node& from, long double angle) const {
     }
     step /= 2;
     if (step > least_step) continue;
+    for (std::size_t g = 0; closed.failed < 0 && g < start.size(); ++g)
+      if (g + 1 == start.size() || !is_near({start[g]}, {closed.shifts[g]}, most_corrected))
+        closed.failed = static_cast<int>(g);
     way.stopped = std::move(closed);
     break;
   }

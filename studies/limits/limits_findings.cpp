@@ -30,8 +30,8 @@ Tone tone_of(Compliance state) {
 std::string load_text(const Verdict& v) {
   if (!v.assessed) return "—";
   const ReadableUnit unit = readable_unit(v.limit, v.unit);
-  const double error = v.known_error();
-  const double load = std::abs(v.value) > error ? v.load() : 0;
+  const bool is_rounding = !v.bound && std::abs(v.value) <= v.known_error();
+  const double load = is_rounding ? 0 : v.load(), error = v.known_error() + (is_rounding ? std::abs(v.value) : 0);
   const std::string value = read_as(unit.factor * load, {.digits = 5, .otherwise = "unbounded"});
   if (v.bound) return fmt::format("≤ {} {}", value, unit.unit);
   if (!(error > 1e-4 * std::max(std::abs(v.value), 1e-3 * v.limit))) return fmt::format("{} {}", value, unit.unit);
