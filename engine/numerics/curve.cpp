@@ -345,7 +345,8 @@ Curve Curve::over_angle() const {
   if (programs_)
     made.programs_ = std::make_shared<const std::vector<FormulaProgram>>(programs.rbegin(), programs.rend());
   made.seamless_ = seamless_ && made.pieces() == 1;
-  if (const double periods = std::max(1.0, std::round(two_turns / period_)); !made.seamless_ && periods * made.pieces() < most_modes)
+  if (const double periods = std::max(1.0, std::round(two_turns / period_));
+      !made.seamless_ && periods * made.pieces() < most_modes)
     made.periods_ = static_cast<int>(periods);
   return made;
 }

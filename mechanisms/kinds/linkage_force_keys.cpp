@@ -144,9 +144,9 @@ class LinkageForceBuilder {
     for (const auto& [name, place] : {std::pair{two[0], &travel.from}, std::pair{two[1], &travel.to}}) {
       const auto link = std::find_if(s_.links.begin(), s_.links.end(), [&](const auto& l) { return l.name == name; });
       if (link == s_.links.end() && name != "frame")
-        return void(k.refuse(&CoupleKeys::between,
-                             fmt::format("unknown link \"{}\"{}; links are frame, {}", name,
-                                         suggestion(name, names_of(s_.links)), shortened_list(names_of(s_.links), "and"))));
+        return void(k.refuse(&CoupleKeys::between, fmt::format("unknown link \"{}\"{}; links are frame, {}", name,
+                                                               suggestion(name, names_of(s_.links)),
+                                                               shortened_list(names_of(s_.links), "and"))));
       if (link != s_.links.end()) place->body = static_cast<int>(link - s_.links.begin());
     }
     if (travel.from.body == travel.to.body)
@@ -175,8 +175,8 @@ class LinkageForceBuilder {
       for (int body = LinkageSketch::frame; body < static_cast<int>(s_.links.size()); ++body)
         if (s_.has(body, p)) return LinkageTravel::Place{body, p};
     }
-    k.refuse(member, fmt::format("unknown point \"{}\"{}; the sketch has {}", name, suggestion(name, names_of(s_.points)),
-                                 shortened_list(names_of(s_.points), "and")));
+    k.refuse(member, fmt::format("unknown point \"{}\"{}; the sketch has {}", name,
+                                 suggestion(name, names_of(s_.points)), shortened_list(names_of(s_.points), "and")));
     return {};
   }
   // "B", or of a pin the link that it acts on, too: "rocker B". Along a path a link that guides the pin comes first: with it
