@@ -108,7 +108,7 @@ run = {{ until = "3 s", start = {{ speed = "20 rad/s", angle = "1 rad" }} }}
   }
 }
 
-// A pulse by a formula, in time or over the angle: J Δω = ∫ M dt = √π M₀ τ, and J (ω² − ω₀²)/2 = n √π M₀ σ after n pulses.
+// A pulse by a formula, in time, alone or on a rising torque, or over the angle: J Δω = ∫ M dt = √π M₀ τ, and J (ω² − ω₀²)/2 = n √π M₀ σ after n pulses.
 TEST(Formulas, NarrowPulsesAreSeenByEveryMethod) {
   struct Law {
     const char *text, *extra;
@@ -118,6 +118,8 @@ TEST(Formulas, NarrowPulsesAreSeenByEveryMethod) {
   for (const Law& law :
        {Law{"5000 [N*m]*exp(-((t - 1.2345 [s])/0.001 [s])^2)", ", over = \"time\", range = [\"0 s\", \"3 s\"]",
             root * 5, 0},
+        Law{"1000 [N*m]*t/1 [s] + 58 [N*m]*exp(-((t - 1.2341 [s])/0.002 [s])^2)",
+            ", over = \"time\", range = [\"0 s\", \"3 s\"]", 4500 + root * 0.116, 0},
         Law{"500 [N*m]*exp(-((angle - 1 [rad])/0.01 [rad])^2)", ", over = \"angle\"", 0, 10 * root * 5},
         Law{"500 [N*m]*exp(-((angle - 5 [rad])/0.05 [rad])^2)", ", over = \"angle\"", 0, 9 * root * 25}})
     for (const char* method : {"dopri5", "dop853", "esdirk5", "bdf"}) {
