@@ -25,7 +25,7 @@
 namespace kurbel {
 
 // Version of summary.json: increased by one whenever programs that read it must change.
-inline constexpr int summary_version = 2;
+inline constexpr int summary_version = 3;
 
 // Sentences, one per line.
 struct Sentences {
