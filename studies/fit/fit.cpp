@@ -138,8 +138,10 @@ class FitWork {
     state_.covariance = state_.determined.covariance * std::max(1.0, reduced);
     const bool of_cycles = by_scatter && study_.chi_squared <= 1 && cycles_ > 1;
     state_.interval = boost::math::quantile(StudentsT(of_cycles ? cycles_ - 1 : freedom), 0.975);
+    state_.has_errors = by_scatter || problem_.values_compared() > problem_.unknowns().size();
     study_.errors_from =
-        !by_scatter && reduced < below_machine_error
+        !state_.has_errors ? ""
+        : !by_scatter && reduced < below_machine_error
             ? "the machine's own error ([run] accuracy): the residual is smaller"
         : !by_scatter ? "the residual, as noise of its own correlation length"
         : study_.chi_squared > 1
@@ -170,13 +172,16 @@ class FitWork {
         told.remark = state_.best.on_bound[k] < 0 ? "on its lower bound" : "on its upper bound";
       } else if (!d.known[k]) {
         told.remark = "not determined: see what the data cannot separate";
+      } else if (!state_.has_errors) {
+        told.remark = "error not assessed: as many unknowns as values, which have no scatter";
       } else {
         told.error = std::sqrt(state_.covariance(c, c)) * range;
         told.low = told.value - state_.interval * *told.error, told.high = told.value + state_.interval * *told.error;
         if (*told.error > 0.5 * range) told.remark = "the data hardly bound it: its error is over half of its range";
       }
       for (std::size_t other = 0; other < k; ++other)
-        if (const double value = d.correlation(other, k); value != 0) study_.correlations.push_back({other, k, value});
+        if (const double value = d.correlation(other, k); state_.has_errors && value != 0)
+          study_.correlations.push_back({other, k, value});
     }
     std::stable_sort(study_.correlations.begin(), study_.correlations.end(),
                      [](const Correlation& a, const Correlation& b) { return std::abs(a.value) > std::abs(b.value); });

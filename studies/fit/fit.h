@@ -141,6 +141,7 @@ struct FitState {
   Determination determined;
   Eigen::MatrixXd covariance;  // of u, including the residuals
   double interval = 1.96;      // factor from standard error to 95 % (Student)
+  bool has_errors = true;      // as many unknowns as values without scatter have none
 };
 void try_starts(FitProblem& problem, const FitOptions& options, FitState& state, FitStudy& study);
 void leave_records_out(FitProblem& problem, const FitState& state, FitStudy& study);

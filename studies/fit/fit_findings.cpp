@@ -181,16 +181,15 @@ Series line_of(const FitStudy& s, const Curve95& c, const std::string& name, Rol
   return series;
 }
 
-std::vector<Plot> overlays(const FitStudy& s, const std::vector<Curve95>& curves) {
+std::vector<Plot> overlays(const FitStudy& s, const std::vector<Curve95>& curves, bool predicted) {
   std::vector<Plot> plots;
   for (const Curve95& c : curves) {
-    const bool predicted = !c.low.empty();
     const std::string name = predicted ? "predicted" : "fitted";
     Plot over = frame(s, c, fmt::format("{} of {}: {}", c.channel, c.record, predicted ? name : "measured and fitted"));
     if (!c.measured.empty()) over.series.push_back(marks(line_of(s, c, "measured", Role::reference, c.measured)));
     const Series line = line_of(s, c, name, Role::elastic, c.shown);
     over.series.push_back(c.over == Over::mode ? marks(line) : line);
-    if (predicted) {
+    if (!c.low.empty()) {
       over.series.push_back(dashed(line_of(s, c, "95 %, lower end", Role::sky, c.low)));
       over.series.push_back(dashed(line_of(s, c, "95 %, upper end", Role::sky, c.high)));
     }
@@ -247,7 +246,7 @@ Findings findings_of(const FitStudy& s) {
   const Chapter values = f.chapter("Values"), left = f.chapter("Residuals"), checks = f.chapter("Checks"),
                 predictions = f.chapter("Predictions");
   f.say(values, value_table(s));
-  if (!s.unknowns.empty())
+  if (!s.errors_from.empty())
     f.say(values, Sentences{.lines = {"standard errors by " + s.errors_from}, .title = "", .indent = "  "});
   f.say(
       values,
@@ -258,12 +257,12 @@ Findings findings_of(const FitStudy& s) {
   f.say(left, residual_table(s));
   f.say(left, order_table(s, "orders", "By order of the link's turns", s.orders));
   f.say(left, band_table(s));
-  f.draw(left, [&s] { return overlays(s, s.curves); });
+  f.draw(left, [&s] { return overlays(s, s.curves, false); });
   f.say(checks, effect_table(s));
   f.say(checks, left_out_table(s));
   f.say(predictions, prediction_table(s));
   f.say(predictions, order_table(s, "predicted_orders", "Predicted orders, with 95 %", s.predicted_orders));
-  f.draw(predictions, [&s] { return overlays(s, s.predicted_curves); });
+  f.draw(predictions, [&s] { return overlays(s, s.predicted_curves, true); });
   f.tell("errors_from", s.errors_from);
   f.tell("chi_squared", s.chi_squared);
   f.tell("values", s.values);

@@ -74,10 +74,13 @@ class Predicting {
   }
 
  private:
-  // What is made of points, and half of its 95 %: by the unknowns' covariance, and by what the fit has left of the same.
+  // What is made of points, and half of its 95 %: by the unknowns' covariance, and by what the fit has left of the same;
+  // without the latter where the unknowns have no errors.
   template <class Of>
-  std::pair<Eigen::VectorXd, Eigen::VectorXd> interval_of(const Of& of, const Eigen::VectorXd& left) const {
+  std::pair<Eigen::VectorXd, std::optional<Eigen::VectorXd>> interval_of(const Of& of,
+                                                                         const Eigen::VectorXd& left) const {
     const Eigen::VectorXd value = of(points_.front());
+    if (!state_.has_errors) return {value, {}};
     Eigen::MatrixXd j = Eigen::MatrixXd::Zero(value.size(), state_.best.u.size());
     for (std::size_t m = 0; m < moved_.size(); ++m) {
       const auto c = static_cast<Eigen::Index>(moved_[m]);
@@ -118,8 +121,9 @@ class Predicting {
       for (std::size_t i = 0; i < n; ++i) {
         const auto k = static_cast<Eigen::Index>(c * n + i);
         curve.shown.push_back(shown[k]);
-        curve.low.push_back(shown[k] - half[k]), curve.high.push_back(shown[k] + half[k]);
-        inside += std::abs(channel.mean[i] - shown[k]) <= half[k];
+        if (!half) continue;
+        curve.low.push_back(shown[k] - (*half)[k]), curve.high.push_back(shown[k] + (*half)[k]);
+        inside += std::abs(channel.mean[i] - shown[k]) <= (*half)[k];
       }
       if (asked_.against.empty()) continue;
       curve.measured = channel.mean;
@@ -127,7 +131,7 @@ class Predicting {
       // A cycle's mean is held, not predicted.
       const bool about_mean = record_.over == Over::angle;
       told_.rms = rms_between(curve.shown, curve.measured, about_mean);
-      told_.inside = static_cast<double>(inside) / static_cast<double>(n);
+      if (half) told_.inside = static_cast<double>(inside) / static_cast<double>(n);
       if (like_.at.size() == n)
         told_.rms_of_fitted_record = rms_between(like_.channels[c].mean, curve.measured, about_mean);
     }
@@ -151,8 +155,8 @@ class Predicting {
           const Eigen::VectorXd z = orders.compared(points);
           return Eigen::Vector2d(cosine * z[i] + sine * z[i + 1], cosine * z[i + 1] - sine * z[i]);
         };
-        const Eigen::VectorXd half = interval_of(parts, Eigen::Vector2d(left, left)).second;
-        told.amplitude_error = half[0], told.phase_error = half[1] / std::max(told.shown.amplitude, 1e-300);
+        if (const auto half = interval_of(parts, Eigen::Vector2d(left, left)).second)
+          told.amplitude_error = (*half)[0], told.phase_error = (*half)[1] / std::max(told.shown.amplitude, 1e-300);
         if (asked_.against.empty()) continue;
         told.measured = order_part(orders.data()[i], orders.data()[i + 1]);
         told.left = std::hypot(first[i] - orders.data()[i], first[i + 1] - orders.data()[i + 1]);
@@ -170,7 +174,7 @@ class Predicting {
     double left = 0;
     if (const Curve95* const curve = fitted_curve(c)) left = fluctuation(curve->shown) - fluctuation(curve->measured);
     const auto [value, half] = interval_of(of, Eigen::VectorXd::Constant(1, left));
-    told_.delta = Estimate{value[0], half[0]};
+    told_.delta = Estimate{value[0], half ? std::optional((*half)[0]) : std::nullopt};
     if (!asked_.against.empty()) told_.measured_delta = fluctuation(record_.channels[c].mean);
   }
 

@@ -59,9 +59,9 @@ FitProblem::FitProblem(std::vector<RecordRequest> requests, const std::vector<st
   active.assign(records_.size(), true);
   effects.assign(records_.size(), std::nullopt);
   steps_.assign(unknowns_.size(), shortest);
-  if (unknowns_.size() >= values_compared())
+  if (unknowns_.size() > values_compared())
     throw std::invalid_argument(fmt::format(
-        "{} unknowns for {} values that are compared: give more data (points, orders, records) than unknowns",
+        "--free: {} unknowns for {} values that are compared; give more data (points, orders, records) or fewer unknowns",
         unknowns_.size(), values_compared()));
 }
 

@@ -133,15 +133,26 @@ TEST_F(Fit, FindsStiffnessAndDampingByAMode) {
                ratio = c * omega / (2 * k);
   const std::string text = fmt::format("mode,f [Hz],fd [Hz],zeta [-]\n1,{},{},{}\n", omega / (2 * pi),
                                        omega / (2 * pi) * std::sqrt(1 - ratio * ratio), ratio);
-  const FitStudy found = fit_machine(asked(
+  const std::string scene =
       "line = [\"a\", \"spring\", \"b\"]\na = { kind = \"inertia\", inertia = \"0.2 kg*m2\" }\nspring = { kind = "
       "\"coupling\", stiffness = \"4 kN*m/rad\", damping = \"5 N*m*s/rad\" }\nb = { kind = \"inertia\", inertia = "
-      "\"1.5 kg*m2\" }\n[effects]\nelasticity = true\n[run]\nuntil = \"0.1 s\"\n",
-      file("modes.csv", text), Over::mode, {"f=natural_frequency", "fd=damped_frequency", "zeta=damping_ratio"},
-      {"spring.stiffness=3..8 kN*m/rad", "spring.damping=1..10 N*m*s/rad"}));
+      "\"1.5 kg*m2\" }\n[effects]\nelasticity = true\n[run]\nuntil = \"0.1 s\"\n";
+  const std::vector<std::string> free = {"spring.stiffness=3..8 kN*m/rad", "spring.damping=1..10 N*m*s/rad"};
+  const std::string record = file("modes.csv", text);
+  const FitStudy found = fit_machine(
+      asked(scene, record, Over::mode, {"f=natural_frequency", "fd=damped_frequency", "zeta=damping_ratio"}, free));
   ASSERT_TRUE(found.complete) << found.diagnosis;
   EXPECT_NEAR(found.unknowns[0].value, k / 1000, 1e-6 * k / 1000);
   EXPECT_NEAR(found.unknowns[1].value, c, 1e-6 * c);
+  EXPECT_TRUE(found.unknowns[0].error);
+  // Two values for two unknowns: solved, without errors.
+  const FitStudy solved =
+      fit_machine(asked(scene, record, Over::mode, {"f=natural_frequency", "zeta=damping_ratio"}, free));
+  EXPECT_NEAR(solved.unknowns[0].value, k / 1000, 1e-6 * k / 1000);
+  EXPECT_NEAR(solved.unknowns[1].value, c, 1e-6 * c);
+  for (const FittedUnknown& u : solved.unknowns) EXPECT_FALSE(u.error) << *u.error;
+  EXPECT_NE(solved.unknowns[0].remark.find("not assessed"), std::string::npos);
+  EXPECT_TRUE(solved.errors_from.empty()) << solved.errors_from;
 }
 
 // Two records, one shared unknown and a start speed of each; each left out, the other finds the same within its error.
@@ -402,8 +413,8 @@ TEST_F(Fit, RefusesWhatSaysNothing) {
   EXPECT_NE(said(mixed).find("unlike axes"), std::string::npos);
   EXPECT_NE(said(asked(coasting, record, Over::time, {"n=speed.rotor"},
                        {free, "rotor.inertia=0.2..1 kg*m2", "run.start.speed=90..110 rad/s", "shift=0..0.1 s",
-                        "gain of speed.rotor=0.9..1.1"}))
-                .find("5 unknowns for 5 values"),
+                        "gain of speed.rotor=0.9..1.1", "offset of speed.rotor=-1..1 rad/s"}))
+                .find("--free: 6 unknowns for 5 values"),
             std::string::npos);
   EXPECT_NE(
       said(asked(coasting, record, Over::time, {"n=speed.rotor"}, {"drag.dampin=0.05..0.6 N*m*s/rad"})).find("dampin"),
