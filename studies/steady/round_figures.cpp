@@ -266,10 +266,14 @@ class RoundFigures {
     for (const MotorTorque& motor : m_.motors)
       add(Name::own("cycle_motor_power", motor.component), driving_work(m_, motor.component, work) / time(),
           std::abs(motor.rated_torque * motor.rated_speed));
-    for (std::size_t a = 0; a < m_.accounts.size(); ++a)
-      if (work[a] != 0)
-        add(quantities::work_per_cycle, fmt::format("{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind)),
-            work[a], energy_scale());
+    std::vector<std::pair<std::string, double>> by_account;  // a component may have several of one kind
+    for (std::size_t a = 0; a < m_.accounts.size(); ++a) {
+      const std::string name = fmt::format("{} ({})", m_.accounts[a].name, name_of(m_.accounts[a].kind));
+      const auto known = std::ranges::find(by_account, name, &std::pair<std::string, double>::first);
+      (known == by_account.end() ? by_account.emplace_back(name, 0) : *known).second += work[a];
+    }
+    for (const auto& [name, of_account] : by_account)
+      if (of_account != 0) add(quantities::work_per_cycle, name, of_account, energy_scale());
     round_.work_residual = std::abs(sum) / std::max(turnover, 1e-6 * m_.torque_scale * map_.periodicity().angle);
   }
 

@@ -104,6 +104,25 @@ TEST(Steady, WorkOfALoadEdgeIsForceTimesTravel) {
   EXPECT_NEAR(value_of(study.cycles[0], "driving_work_per_cycle"), 200, 1e-7);
 }
 
+// A table and a damping are two torques of one load, and one account: all that the motor gives.
+TEST(Steady, LoadOfSeveralPartsHasOneWork) {
+  const SteadyCycle cycle =
+      steady(scene_from(dc_against("load = { kind = \"load\", damping = \"0.1 N*m*s/rad\", table = "
+                                   "{ over = \"angle\", formula = \"5 [N*m] + 2 [N*m]*sin(phi)\" } }\n"
+                                   "run = { accuracy = 1e-9 }\n")),
+             {Effects{}}, {})
+          .cycles.at(0);
+  ASSERT_TRUE(cycle.found) << cycle.why;
+  EXPECT_EQ(std::ranges::count(cycle.figures, "work_per_cycle.load (useful)", &Figure::name), 1);
+  const Figure* const work = cycle.find("work_per_cycle.load (useful)");
+  ASSERT_NE(work, nullptr);
+  EXPECT_NEAR(work->value, -value_of(cycle, "work_per_cycle.motor (driving)"), 1e-6);
+  EXPECT_LT(-work->value, 2 * pi * (5 + 0.1 * value_of(cycle, "cycle_max_speed.load")));
+  EXPECT_GT(-work->value, 2 * pi * (5 + 0.1 * value_of(cycle, "cycle_min_speed.load")));
+  ASSERT_TRUE(work->error);
+  EXPECT_LT(*work->error, 1e-6);
+}
+
 // J dω/dt = −(M_s/ω₀)(ω − ω_steady): a deviation halves in J ω₀/M_s ln 2.
 TEST(Steady, StabilityOfAnEquilibriumIsStatedInSeconds) {
   const SteadyStudy study =

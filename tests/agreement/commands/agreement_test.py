@@ -132,6 +132,8 @@ def planted(value, path):
         return value * 1.01
     if isinstance(value, int) and last == "exit":
         return 2
+    if isinstance(value, str) and last == "name" and value.startswith("peak_torque"):
+        return "mid_speed.crank"
     if isinstance(value, str) and last == "verdict":
         return "exceeded"
     if isinstance(value, str) and last in ("conclusion", "why", "stderr"):

@@ -588,6 +588,27 @@ def rests_alike(told):
             yield Words("when it comes to rest", f"{command}: {t} s", f"steady: {times_ or steady['conclusion'][:160]}", any(abs(t - x) <= 1e-3 * x for x in times_))
 
 
+def figures_in(node, where):
+    """Every list of figures of a summary, with its place."""
+    if isinstance(node, dict):
+        for key, value in node.items():
+            if key == "figures" and isinstance(value, list):
+                yield f"{where} {key}", value
+            yield from figures_in(value, f"{where} {key}")
+    elif isinstance(node, list):
+        for i, value in enumerate(node):
+            yield from figures_in(value, f"{where} {i + 1}")
+
+
+def one_figure_of_a_name(told):
+    """A name stands once in a list of figures: its value and error are looked up by it."""
+    for command in told.cells:
+        for where, figures in figures_in(told.get(command), command):
+            count = Counter(f.get("name") or f.get("figure") for f in figures)
+            name, times_ = count.most_common(1)[0] if count else ("", 1)
+            yield Words("a figure's name", f"{where}: {times_} of {name}", "one", times_ == 1)
+
+
 def accepted(told):
     """What `check` finds valid, `run` runs."""
     check, run = told.whole("check"), told.whole("run")
@@ -597,4 +618,4 @@ def accepted(told):
 
 PAIRS = (run_and_compare, run_and_diff, run_and_effects, effects_and_advise, run_and_accuracy, run_and_uncertainty, run_and_figures,
          run_and_steady, rigid_and_steady, settled_and_steady, size_and_steady, size_and_present, operating_speeds, reduce_and_steady,
-         chains, forces_and_steady, modes_and_steady, modes_and_multipliers, verdicts, too_hot, kinds_of_motion, rests_alike, accepted)
+         chains, forces_and_steady, modes_and_steady, modes_and_multipliers, verdicts, too_hot, kinds_of_motion, rests_alike, one_figure_of_a_name, accepted)
