@@ -242,8 +242,11 @@ class FormulaParser : private FormulaBuilder {
     return unknown(name, column, "name", known);
   }
   Term unknown(const std::string& name, std::size_t column, const char* what, const std::vector<std::string>& known) {
-    return stop(fmt::format("unknown {} {}{}; known: {}", what, in_quotes(name), suggestion(name, known),
-                            shortened_list(known, "and")),
+    UnitError error;
+    const bool is_unit = parse_unit(name, error).has_value();
+    return stop(fmt::format("unknown {} {}{}; known: {}{}", what, in_quotes(name), suggestion(name, known),
+                            shortened_list(known, "and"),
+                            is_unit ? "; a unit of several parts is written in brackets, 20 [N*m]" : ""),
                 column);
   }
 

@@ -141,7 +141,8 @@ std::vector<const Kind*> kinds_with_nested() {
 
 std::vector<std::string> names_of_keys() {
   std::vector<std::string> names;
-  for (const Kind* kind : kinds_with_nested()) names.push_back(kind->name);
+  for (const Kind* kind : kinds_with_nested())
+    if (std::ranges::find(names, kind->name) == names.end()) names.push_back(kind->name);
   names.insert(names.end(), {"run", "operation"});
   return names;
 }

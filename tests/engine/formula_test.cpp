@@ -386,6 +386,7 @@ const Wrong wrong_ones[] = {
     {"sinn(x)", 0, "did you mean \"sin\"?"},
     {"system(x)", 0, "unknown function \"system\""},
     {"y + 1", 0, "unknown name \"y\""},
+    {"2 N*m*y", 4, "; a unit of several parts is written in brackets"},
     {"1 + PO", 4, "unknown name \"PO\""},
     {"pO*A", 0, "did you mean \"p0\"?"},
     {"2 x", 2, "write 2 * x"},
