@@ -41,8 +41,8 @@ TEST(FitCommand, WhatIsWrongEndsWithTwoAndItsPlace) {
            {mapped + rotor + "--orders 0.5,x", "--orders \"x\""},
            {mapped + rotor + "--over anlge", "must be time, angle or modes"},
            {mapped + rotor + "--map 'b: c1=speed.engine'", "no record \"b\""},
-           {mapped + rotor + "--orders 0.5 --free 'engine.crank_inertia=0..0.05 kg*m2'",
-            "2 unknowns for 2 values that are compared"},
+           {mapped + rotor + "--orders 0.5 --free 'engine.crank_inertia=0..0.05 kg*m2' --free 'load.torque=1..9 N*m'",
+            "--free: 3 unknowns for 2 values that are compared"},
            {mapped + rotor + "--predict nothere.toml", "nothere.toml: no such file"},
            {mapped + rotor + "--write /nonexistent/x.toml", "there is no folder"},
        }) {

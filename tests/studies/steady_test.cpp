@@ -117,8 +117,8 @@ TEST(Steady, LoadOfSeveralPartsHasOneWork) {
   const Figure* const work = cycle.find("work_per_cycle.load (useful)");
   ASSERT_NE(work, nullptr);
   EXPECT_NEAR(work->value, -value_of(cycle, "work_per_cycle.motor (driving)"), 1e-6);
-  EXPECT_LT(-work->value, 2 * pi * (5 + 0.1 * value_of(cycle, "cycle_max_speed.load")));
-  EXPECT_GT(-work->value, 2 * pi * (5 + 0.1 * value_of(cycle, "cycle_min_speed.load")));
+  EXPECT_LT(-work->value, 2 * pi * (5 + 0.1 * value_of(cycle, "cycle_max_speed.motor")));
+  EXPECT_GT(-work->value, 2 * pi * (5 + 0.1 * value_of(cycle, "cycle_min_speed.motor")));
   ASSERT_TRUE(work->error);
   EXPECT_LT(*work->error, 1e-6);
 }
