@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OfExample, testing::ValuesIn(example_scenes()),
 TEST_P(OfExample, AnEffectThatIsOffLeavesNoTrace) {
   const Scene scene = example(GetParam());
   for (const EffectFlag& flag : effect_flags()) {
-    if (flag.unspecified != EffectFlag::Default::where_given || !has_parameters(scene, flag)) continue;
+    if (flag.by_default != EffectFlag::Default::where_given || !has_parameters(scene, flag)) continue;
     Scene never = scene;
     test::erase_effect(never, flag.name);
     if (has_parameters(never, flag)) continue;  // a component that is nothing but the effect
