@@ -60,9 +60,10 @@ FitProblem::FitProblem(std::vector<RecordRequest> requests, const std::vector<st
   effects.assign(records_.size(), std::nullopt);
   steps_.assign(unknowns_.size(), shortest);
   if (unknowns_.size() > values_compared())
-    throw std::invalid_argument(fmt::format(
-        "--free: {} unknowns for {} values that are compared; give more data (points, orders, records) or fewer unknowns",
-        unknowns_.size(), values_compared()));
+    throw std::invalid_argument(
+        fmt::format("--free: {} unknowns for {} values that are compared; give more data (points, orders, records) or "
+                    "fewer unknowns",
+                    unknowns_.size(), values_compared()));
 }
 
 std::size_t FitProblem::values_compared() const {
