@@ -202,7 +202,7 @@ effects = { elasticity = true }
   for (int i = 0; i < 4; ++i) {
     Forcing force = Forcing::none(d);
     force.torque[0] = 100;
-    const auto joints = response.swings(w[i], force);
+    const auto joints = response.vibrations(w[i], force);
     EXPECT_NEAR(std::abs(response.motion(w[i], force).q[0]), amp1[i], 1e-6 * amp1[i]);
     EXPECT_NEAR(std::abs(joints[0].torque), torque1[i], 1e-10 * torque1[i]);
     EXPECT_NEAR(std::abs(joints[1].torque), torque2[i], 1e-10 * torque2[i]);
@@ -224,7 +224,7 @@ effects = { elasticity = true }
     const Complex spring(1000, 3 * w), expected = 0.5 / 2.5 * spring / (spring - w * w * 0.4);
     Forcing force = Forcing::none(d);
     force.torque[0] = 1;
-    EXPECT_LT(std::abs(response.swings(w, force)[0].torque - expected), 1e-12 * std::abs(expected)) << w;
+    EXPECT_LT(std::abs(response.vibrations(w, force)[0].torque - expected), 1e-12 * std::abs(expected)) << w;
   }
 }
 
