@@ -323,7 +323,7 @@ consteval bool demand_valid_connection() {
   static_assert(valid::SpringTakes<E>,
                 "double spring_torque(x) const and double energy(x) const take the twist, or "
                 "with .spring_takes_motion, always with .states or .uses_angle, the motion");
-  static_assert(valid::ReportsLoss<E>, ".tells_loss, always with .states, goes with double loss_power(x) const");
+  static_assert(valid::ReportsLoss<E>, ".reports_loss, always with .states, goes with double loss_power(x) const");
   static_assert(valid::UsesAngle<E>,
                 ".uses_angle goes with template <class T> T turning_torque(const Twist<T>&) const");
   static_assert(valid::TurnsUnevenly<E>,

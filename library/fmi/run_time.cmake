@@ -2,7 +2,7 @@
 # without what reads files, linked so that it needs libc and libstdc++ alone.
 set(rooms engine/base engine/scene engine/elements engine/model engine/equations engine/events engine/steppers engine/run
   engine/numerics engine/matrices engine/values engine/reading engine/tables "drivetrain(/[a-z_]+)?" mechanisms/linkage
-  mechanisms/linkages mechanisms/bodies mechanisms/friction mechanisms/slider_crank mechanisms/loads mechanisms/reduced
+  mechanisms/linkages mechanisms/bodies mechanisms/friction mechanisms/loads mechanisms/reduced mechanisms/deforming
   mechanisms/link_forces mechanisms/joints mechanisms/kinds)
 list(JOIN rooms "|" rooms)
 set(run_time ${KURBEL_SOURCES})

@@ -142,15 +142,18 @@ Fields<DeformationKeys> deformation_fields() {
       .check(check_deformation);
 }
 
-Deformation deformation_of(const DeformationKeys& keys, const SliderCrankData& data, const Section& section,
-                           Messages& messages) {
-  Deformation deformation{{keys.clearances.begin(), keys.clearances.end()}, keys.flexibility};
+std::shared_ptr<const DeformingParts> deforming_parts(const DeformationKeys& keys, const SliderCrankData& data,
+                                                      const Section& section, Messages& messages) {
   if (keys.flexibility && data.rod_mass <= 0)
     messages.add(section.where("rod_flexibility"),
                  fmt::format("slider-crank \"{}\": rod_flexibility: the rod has no mass; give rod_mass, and "
                              "rod_inertia (of a prismatic rod rod_mass · rod²/12)",
                              section.name));
-  return deformation;
+  if (keys.clearances.empty() && !keys.flexibility) return nullptr;
+  auto parts = std::make_shared<Deformation>();
+  parts->clearances.assign(keys.clearances.begin(), keys.clearances.end());
+  parts->flexibility = keys.flexibility;
+  return parts;
 }
 
 }  // namespace kurbel

@@ -5,25 +5,18 @@
 #include <vector>
 
 #include "engine/scene/fields.h"
-#include "mechanisms/slider_crank/joint_contact.h"
-#include "mechanisms/slider_crank/rod_flexibility.h"
-#include "mechanisms/slider_crank/slider_crank_dynamics.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 
 namespace kurbel {
 
-// Clearances and flexibility of a slider-crank.
-struct Deformation {
-  std::vector<JointClearance> clearances = {};
-  std::optional<RodFlexibility> flexibility = {};
-};
 struct DeformationKeys {
   std::vector<Reading<JointClearance>> clearances;
   std::optional<RodFlexibility> flexibility;
 };
 Fields<DeformationKeys> deformation_fields();
 
-// Faults other than those of the slider-crank's data go into the messages.
-Deformation deformation_of(const DeformationKeys& keys, const SliderCrankData& data, const Section& section,
-                           Messages& messages);
+// Null: nothing deforms. Faults other than those of the slider-crank's data go into the messages.
+std::shared_ptr<const DeformingParts> deforming_parts(const DeformationKeys& keys, const SliderCrankData& data,
+                                                      const Section& section, Messages& messages);
 
 }  // namespace kurbel

@@ -120,7 +120,8 @@ void limit_loads(const Mechanism& mechanism, const std::string& component, int n
 }
 
 void build_mechanism(const Section& s, const MechanismData& data, const Mounting& mounting, const DataFaults& faults,
-                     Network& net, Messages& messages, std::optional<MechanismJoints> joints, Deformation deformation) {
+                     Network& net, Messages& messages, std::optional<MechanismJoints> joints,
+                     std::shared_ptr<const DeformingParts> deforming) {
   const int node = net.add_node(s.name, "", 0);
   net.ports[s.name] = {node, node};
   for (const DataFault& fault : faults)
@@ -154,8 +155,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
   if (!joints) joints = joints_of(data, mounting.joints);
   mechanism->joints = friction_of(data, *joints, mounting.within);
   net.data.add(s.name, std::move(*joints));
-  mechanism->clearances = std::move(deformation.clearances);
-  mechanism->flexibility = deformation.flexibility;
+  mechanism->deforming = std::move(deforming);
   put_loads(mounting.loads, *mechanism);
   limit_loads(*mechanism, s.name, node, net);
   net.put(node, s.name, std::make_shared<MechanismElement>(std::move(*mechanism)), {}, mounting.phase);

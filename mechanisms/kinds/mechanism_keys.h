@@ -1,6 +1,7 @@
 // mechanism_keys.h — fields shared by mechanisms, and the element from the data of a mechanism.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,7 +9,6 @@
 
 #include "engine/model/network.h"
 #include "engine/scene/fields.h"
-#include "mechanisms/kinds/deformation_keys.h"
 #include "mechanisms/kinds/joint_keys.h"
 #include "mechanisms/kinds/load_kinds.h"
 #include "mechanisms/reduced/mechanism.h"
@@ -49,10 +49,11 @@ Fields<Mounted<Linkage>> mounted(const Fields<Linkage>& linkage, const Fields<Mo
 }
 
 // Adds the component: its node first, so that others can refer to it, then the element with its loads. The `faults` and
-// the errors of Simbody go into the messages. joints: replace those of the mounting; deformation: for slider-cranks.
+// the errors of Simbody go into the messages. joints: replace those of the mounting; deforming: what deforms.
 void build_mechanism(const Section& section, const MechanismData& data, const Mounting& mounting,
                      const DataFaults& faults, Network& net, Messages& messages,
-                     std::optional<MechanismJoints> joints = {}, Deformation deformation = {});
+                     std::optional<MechanismJoints> joints = {},
+                     std::shared_ptr<const DeformingParts> deforming = nullptr);
 // Registers the range of load tables over the travel; `component`: their component in the scene.
 void limit_loads(const Mechanism& mechanism, const std::string& component, int node, Network& net);
 // A kind of mechanism by its fields alone.

@@ -177,7 +177,7 @@ void build_slider_crank(const Section& s, const Reading<SliderCrankKeys>& mechan
              "far it goes, beyond any arc that is known: lengthen the rod, or omit clearance and rod_flexibility",
              in_mm(d.rod_length))});
   build_mechanism(s, d, mounting, faults, net, messages, joints_of(mechanism.joints),
-                  deformation_of(mechanism.deformation, d, s, messages));
+                  deforming_parts(mechanism.deformation, d, s, messages));
 }
 
 }  // namespace

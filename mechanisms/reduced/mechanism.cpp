@@ -10,7 +10,6 @@
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/scene.h"
-#include "mechanisms/reduced/deforming_mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -223,10 +222,8 @@ ShaftForm MechanismElement::form_under(const Effects& effects) const {
   if (!effects.load_edges)
     for (SliderLoad& load : changed.loads)
       if (load.can_be_rounded()) load = load.rounded(), rounded = true;
-  if (!effects.joint_clearance) changed.clearances.clear();
-  if (!effects.flexible_rod) changed.flexibility.reset();
-  if ((!changed.clearances.empty() || changed.flexibility) && !changed.mean_inertia)
-    return std::make_shared<DeformingMechanismElement>(std::move(changed));
+  if (changed.deforming) changed.deforming = changed.deforming->under(effects);
+  if (const auto parts = changed.deforming; parts && !changed.mean_inertia) return parts->form(std::move(changed));
   if (!changed.friction && !changed.weightless && !changed.mean_inertia && !changed.in_the_loop && !rounded)
     return nullptr;
   return std::make_shared<MechanismElement>(std::move(changed));

@@ -15,7 +15,6 @@
 #include "mechanisms/friction/joint_friction.h"
 #include "mechanisms/loads/slider_loads.h"
 #include "mechanisms/reduced/reduced_mechanism.h"
-#include "mechanisms/slider_crank/slider_crank_dynamics.h"
 
 namespace kurbel {
 
@@ -27,6 +26,17 @@ struct TravelOfTurn {
   double winding = 0;                          // turns of the output per turn of the crank; 0: it slides or rocks
 };
 TravelOfTurn travel_of_turn(const ReducedMechanism& reduced);
+
+struct Mechanism;
+// Parts of a mechanism that deform, by the scene: what it does beyond its one degree of freedom (mechanisms/deforming).
+class DeformingParts {
+ public:
+  virtual ~DeformingParts() = default;
+  // What these effects leave of them; null: nothing.
+  virtual std::shared_ptr<const DeformingParts> under(const Effects& effects) const = 0;
+  // The mechanism with them, as an element.
+  virtual ShaftForm form(Mechanism mechanism) const = 0;
+};
 
 struct Mechanism {
   // Extracts the tables and finds the ends of the output's travel. Throws as make_bodies and MechanismBodies do.
@@ -45,9 +55,8 @@ struct Mechanism {
   std::shared_ptr<const JointFriction> friction = nullptr;      // null: the effect joint friction is off
   bool weightless = false;                                      // the effect gravity is off
   bool mean_inertia = false;                                    // I_r is constant: the effect variable inertia is off
-  bool in_the_loop = false;                        // the bodies are evaluated at every step: the effect multibody is on
-  std::vector<JointClearance> clearances = {};     // of a slider-crank, by the scene
-  std::optional<RodFlexibility> flexibility = {};  // of its rod
+  bool in_the_loop = false;  // the bodies are evaluated at every step: the effect multibody is on
+  std::shared_ptr<const DeformingParts> deforming = nullptr;  // null: its links are rigid, its joints ideal
 
   bool rocks() const { return data.rocks(); }  // the output is an angle
   // A force within a linkage: the output is the travel of a spring, force or couple; no inertia, no weight.
@@ -93,8 +102,7 @@ class MechanismElement : public AnyShaftElement {
  public:
   explicit MechanismElement(Mechanism mechanism);
   const Mechanism& mechanism() const { return mechanism_; }
-  // Equations with clearance in joints or a flexible rod; else null.
-  virtual const SliderCrankDynamics* dynamics() const { return nullptr; }
+  virtual bool deforms() const { return false; }
 
   InertiaAt inertia_at(double angle) const override {
     if (mechanism_.mean_inertia) return {mechanism_.travel.mean_inertia, 0};

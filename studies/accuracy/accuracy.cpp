@@ -12,8 +12,7 @@ AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& option
   AccuracyStudy& study = work.study;
   make_levels(work);
   if (work.levels.empty()) {
-    study.complete = false;
-    study.diagnosis = "no level of the scene runs to its end: " + work.last_diagnosis;
+    study.break_off("no level of the scene runs to its end: " + work.last_diagnosis);
     study.findings = {study.diagnosis};
     return std::move(study);
   }
@@ -26,8 +25,7 @@ AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& option
   add_multibody(work);
   fill_model_errors(study);
   study.seconds = work.spent();
-  study.complete = !work.interrupted();
-  if (!study.complete) study.diagnosis = "interrupted";
+  if (work.interrupted()) study.break_off("interrupted");
   judge_accuracy(study, options);
   return std::move(study);
 }

@@ -86,9 +86,7 @@ struct Omission {
   std::string what, why;
 };
 
-struct AccuracyStudy {
-  std::string title, scene_file, scene_text;
-  SpeedUnit speed_unit = {};  // for people
+struct AccuracyStudy : SceneStudy {
   std::vector<FollowedFigure> figures;
   std::size_t key = 0;             // of the figures
   std::vector<ModelLevel> levels;  // the series up to `fullest`, the reference of the others; then own solvers
@@ -98,10 +96,7 @@ struct AccuracyStudy {
   std::vector<Omission> omissions;
   std::vector<std::string> findings;  // sentences from the data; the first is the conclusion
   std::vector<std::string> answers;   // to --within and --budget
-  std::vector<std::string> notes;     // range of validity of the models, of the fullest level
   double seconds = 0;                 // of the whole study
-  bool complete = true;
-  std::string diagnosis;
 
   std::string name_of(const MeasuredSetting& s) const;  // "elastic, esdirk at 1e-05"
 };

@@ -241,13 +241,8 @@ void show_measured(Findings& f, const AccuracyStudy& study) {
 
 Findings findings_of(const AccuracyStudy& study) {
   const std::string first = study.findings.empty() ? study.diagnosis : study.findings.front();
-  Findings f{.title = study.title,
-             .subtitle = "What accuracy costs: methods, tolerances and models against converged references",
-             .scene_file = study.scene_file,
-             .complete = study.complete,
-             .diagnosis = study.diagnosis,
-             .opening = Findings::Opening::title_and_conclusion,
-             .footer = machine_info() + " · " + report_footer()};
+  Findings f = Findings::of(study, "What accuracy costs: methods, tolerances and models against converged references");
+  f.opening = Findings::Opening::title_and_conclusion, f.footer = machine_info() + " · " + report_footer();
   f.conclude(study.complete, study.answers.empty() ? first : study.answers.front());
   const bool measured = !study.settings.empty() && !study.figures.empty();
   const Chapter terminal = f.chapter("");  // nothing of it on the page

@@ -12,10 +12,7 @@ AccuracyWork::AccuracyWork(const Scene& of, const AccuracyOptions& asked)
     : scene(of), options(asked), begin(processor_time()) {
   scene.run.model = "reduced";
   scene.run.method = "auto";
-  study.title = of.heading();
-  study.scene_file = of.file;
-  study.speed_unit = of.speed_unit;
-  study.scene_text = of.text;
+  study.is_of(of);
 }
 
 void AccuracyWork::log(const std::string& text) const { options.watch.say(text); }

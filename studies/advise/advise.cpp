@@ -27,9 +27,7 @@ class Adviser {
       : scene_(scene), options_(options), runs_(VariantRuns::timed(options.simulate)) {}
 
   Advice run() {
-    a_.title = scene_.heading();
-    a_.scene_file = scene_.file;
-    a_.scene_text = scene_.text;
+    a_.is_of(scene_);
     a_.tolerance = options_.within;
     a_.figures = options_.figures;
     a_.units = effect_units(scene_);
@@ -40,7 +38,7 @@ class Adviser {
     a_.full = must_run(all_, "full");
     a_.tried.push_back({{}, all_, describe(a_.units, all_), a_.full.statistics.cpu_seconds, size_of(*a_.full.model)});
     if (!a_.full.complete) {
-      a_.complete = false;
+      a_.break_off(a_.full.diagnosis);
       a_.conclusion = "The full model did not run to the end: " + a_.full.diagnosis;
       return std::move(a_);
     }

@@ -33,8 +33,7 @@ struct HeldOut : Deviation {
   std::string what = {}, refused = {};  // "loads +20 % (load.torque)"
 };
 
-struct Advice {
-  std::string title, scene_file, scene_text;
+struct Advice : SceneStudy {
   double tolerance = 0;
   std::vector<std::string> figures;
   std::vector<EffectUnit> units;
@@ -46,8 +45,7 @@ struct Advice {
   std::vector<HeldOut> held_out;
   double time_spread = 0;  // of processor times: relative, between two runs of the chosen set
   std::vector<std::string> warnings;
-  std::string conclusion, lean_scene;
-  bool complete = true;
+  std::string lean_scene;
 };
 
 // Never recommends a set that was not run. Throws std::invalid_argument if there is no choice.

@@ -125,7 +125,7 @@ Findings findings_of(const Advice& a) {
   Findings f{.title = a.title,
              .subtitle = fmt::format("Which effects are needed for {:.3g} %", 100 * a.tolerance),
              .complete = a.complete,
-             .diagnosis = a.full.diagnosis,
+             .diagnosis = a.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
              .reports_diagnosis = false};
   f.conclude(a.complete, a.conclusion);

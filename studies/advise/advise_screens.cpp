@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "engine/numerics/deadline.h"
-#include "mechanisms/reduced/deforming_mechanism.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 #include "studies/modes/modes.h"
 
 namespace kurbel {
@@ -219,10 +219,10 @@ class Screening {
         fastest = std::max(fastest, std::abs(f.value));
     std::vector<Screen> screens;
     for (const Network::ShaftElement& e : full_.model->network.elements) {
-      const MechanismElement* element = mechanism_of(e);
-      if (!element || !element->dynamics() || element->dynamics()->rod().bending == 0) continue;
+      const SliderCrankDynamics* const dynamics = dynamics_of(e);
+      if (!dynamics || dynamics->rod().bending == 0) continue;
       const double crank = fastest * std::abs(full_.model->node_ratio[static_cast<std::size_t>(e.node)]);
-      const double ratio = element->dynamics()->rod().frequency(1) / std::max(crank, 1e-300);
+      const double ratio = dynamics->rod().frequency(1) / std::max(crank, 1e-300);
       const double more = ratio > 2 ? 1 / (1 - 4 / (ratio * ratio)) - 1 : HUGE_VAL;
       screens.push_back(
           {"rod frequency", ratio,

@@ -102,9 +102,7 @@ OmittedEffect study_in_place_of_others(const Scene& scene, const std::vector<Eff
 
 EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
   EffectStudy study;
-  study.title = scene.heading();
-  study.scene_file = scene.file;
-  study.scene_text = scene.text;
+  study.is_of(scene);
   study.units = effect_units(scene);
   if (study.units.empty())
     throw std::invalid_argument(
@@ -119,6 +117,7 @@ EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
   study.full = simulate(scene, effects_of(scene, study.units, on), "full", runs.options());
   study.size = size_of(*study.full.model);
   study.notes = study.full.notes;
+  if (!study.full.complete) study.break_off(study.full.diagnosis);
   for (std::size_t k = 0; k < study.units.size() && study.full.complete; ++k) {
     const std::string words = "without " + study.units[k].words;
     say(words, k + 1);

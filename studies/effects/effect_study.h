@@ -24,14 +24,11 @@ struct OmittedEffect : VariantRun {
   std::string in_place_of = {};
 };
 
-struct EffectStudy {
-  std::string title, scene_file, scene_text;
+struct EffectStudy : SceneStudy {
   std::vector<EffectUnit> units;
   Result full;
   ModelSize size;
   std::vector<OmittedEffect> omitted;  // ranked by their greatest change
-  std::vector<std::string> notes;      // range of validity of the models, and what else was switched with an effect
-  std::string conclusion;
 };
 
 // Two runs, of the fullest machine that has the unit and of the same without it: for a unit that is off in `fullest`.

@@ -128,11 +128,11 @@ std::string full_model(const EffectStudy& s) {
 Findings findings_of(const EffectStudy& s) {
   Findings f{.title = s.title,
              .subtitle = "What each effect changes and costs",
-             .complete = s.full.complete,
-             .diagnosis = s.full.diagnosis,
+             .complete = s.complete,
+             .diagnosis = s.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
              .reports_diagnosis = false};
-  f.conclude(s.full.complete, s.conclusion);
+  f.conclude(s.complete, s.conclusion);
   for (const OmittedEffect& l : s.omitted)
     if (l.failed.empty() && !l.changes.empty() && f.figures.size() < 4) {
       const FigureChange& most = l.changes.front();

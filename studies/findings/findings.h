@@ -7,6 +7,8 @@
 //   f.record("operating_point", Record{{"speed", 31.4}});
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <optional>
@@ -18,14 +20,34 @@
 #include "engine/base/estimate.h"
 #include "studies/claims/headline.h"
 #include "studies/data/data_table.h"
-#include "studies/findings/formulas.h"
 #include "studies/findings/report.h"
 #include "studies/findings/rows.h"
+#include "studies/findings/scene_study.h"
 
 namespace kurbel {
 
 // Version of summary.json: increased by one whenever programs that read it must change.
 inline constexpr int summary_version = 3;
+
+// Formulas with numbers inserted, in sequence.
+class Formulas {
+ public:
+  // The formula "δ = (ω_max − ω_min)/ω_m"; the same with numbers inserted, and the result.
+  template <class... Values>
+  Formulas& add(std::string title, std::string symbols, fmt::format_string<Values...> numbers, Values&&... values) {
+    cards_.push_back({.title = std::move(title),
+                      .symbols = std::move(symbols),
+                      .numbers = fmt::format(numbers, std::forward<Values>(values)...)});
+    return *this;
+  }
+  // A note below the last one.
+  Formulas& note(std::string words) { return cards_.back().note = std::move(words), *this; }
+
+  const std::vector<FormulaCard>& cards() const { return cards_; }
+
+ private:
+  std::vector<FormulaCard> cards_;
+};
 
 // Sentences, one per line.
 struct Sentences {
@@ -88,6 +110,15 @@ struct Findings {
   std::vector<Statement> statements = {};
   std::vector<NamedTable> tables = {};
   std::optional<Brief> brief = {};  // short form for the terminal, unless all is requested; none: always the full form
+
+  // Of a study, as far as they are the same for all.
+  static Findings of(const SceneStudy& study, std::string subtitle) {
+    return {.title = study.title,
+            .subtitle = std::move(subtitle),
+            .scene_file = study.scene_file,
+            .complete = study.complete,
+            .diagnosis = study.diagnosis};
+  }
 
   // The same in terminal, page and JSON, on one line.
   std::string conclusion() const { return in_one_line(concluded(claims)); }

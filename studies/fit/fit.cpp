@@ -25,8 +25,7 @@ class FitWork {
   explicit FitWork(const FitOptions& options)
       : options_(options), problem_(options.records, options.free, options.jobs, options.watch) {
     const Scene scene = VariedScene(options.records.front().scene, {}).at({});
-    study_.title = scene.heading(), study_.scene_file = options.records.front().scene.file;
-    study_.scene_text = scene.text, study_.speed_unit = scene.speed_unit;
+    study_.is_of(scene), study_.scene_file = options.records.front().scene.file;
     study_.values = problem_.values_compared();
   }
 
@@ -51,7 +50,7 @@ class FitWork {
 
  private:
   FitStudy without_fit() {
-    study_.complete = false, study_.diagnosis = problem_.failure();
+    study_.break_off(problem_.failure());
     study_.conclusion = "No fit: the machine does not run with these values: " + problem_.failure();
     return std::move(study_);
   }

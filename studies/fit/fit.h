@@ -105,9 +105,7 @@ struct Prediction {
   std::optional<double> inside = {};  // fraction of the points within 95 %
 };
 
-struct FitStudy {
-  std::string title, scene_file, scene_text;
-  SpeedUnit speed_unit;
+struct FitStudy : SceneStudy {
   std::vector<FittedUnknown> unknowns;
   std::vector<Correlation> correlations;  // strongest first
   std::vector<std::string> confounded;    // a sentence for each combination that the data cannot separate
@@ -126,10 +124,6 @@ struct FitStudy {
   int steps = 0;
   bool converged = false;
   std::string written;  // text of the fitted scene
-  std::vector<std::string> notes;
-  std::string conclusion;
-  bool complete = true;
-  std::string diagnosis;
 };
 
 FitStudy fit_machine(const FitOptions& options);

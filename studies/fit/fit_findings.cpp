@@ -234,11 +234,7 @@ std::vector<Plot> contours(const FitStudy& s) {
 }  // namespace
 
 Findings findings_of(const FitStudy& s) {
-  Findings f{.title = s.title,
-             .subtitle = "Fit to measured records",
-             .scene_file = s.scene_file,
-             .complete = s.complete,
-             .diagnosis = s.diagnosis};
+  Findings f = Findings::of(s, "Fit to measured records");
   f.conclude(s.complete, s.conclusion);
   for (const FittedUnknown& u : s.unknowns)
     if (f.figures.size() < 4)

@@ -17,7 +17,7 @@ DeformedMechanism::DeformedMechanism(std::shared_ptr<const Model> model, const s
   const Model& m = *model_;
   const Network::ShaftElement& element = mechanism_element(m.network, component);
   element_ = static_cast<std::size_t>(&element - m.network.elements.data());
-  dynamics_ = mechanism_of(element)->dynamics();
+  dynamics_ = dynamics_of(element);
   for (std::size_t e = 0; e < m.network.elements.size(); ++e)
     if (m.network.elements[e].component.starts_with(component + ".")) within_.push_back(e);
   for (std::size_t k = 0; k < m.pool_channels.size(); ++k)

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/model/model.h"
-#include "mechanisms/slider_crank/slider_crank_dynamics.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 
 namespace kurbel {
 

@@ -281,10 +281,7 @@ CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& o
 }
 
 void describe(const AskedMechanism& asked, Forces& out) {
-  out.title = asked.scene.heading();
-  out.speed_unit = asked.scene.speed_unit;
-  out.scene_file = asked.scene.file;
-  out.scene_text = asked.scene.text;
+  out.is_of(asked.scene);
   out.mechanism = asked.name;
   out.kind = asked.kind;
 }

@@ -20,6 +20,7 @@
 #include "mechanisms/joints/reaction_table.h"
 #include "mechanisms/linkages/slider_crank.h"
 #include "mechanisms/reduced/newton_euler.h"
+#include "studies/findings/scene_study.h"
 #include "studies/findings/watch.h"
 
 namespace kurbel {
@@ -175,9 +176,8 @@ struct PinFilm {
   std::string words() const;  // "boundary, mixed, fluid"
 };
 
-struct Forces {
-  std::string title, scene_file, scene_text, mechanism, kind;
-  SpeedUnit speed_unit;
+struct Forces : SceneStudy {
+  std::string mechanism, kind;
   bool rocks = false;    // the output is an angle
   bool elastic = false;  // the machine of the second problem is elastic
   MechanismJoints joints;
@@ -190,9 +190,6 @@ struct Forces {
   UnboundedReactions unbounded;
   std::vector<std::string> outside_data;  // extrapolation of tables; it has no error
   std::vector<std::string> about;         // its structure, its output's travel
-  std::vector<std::string> notes;
-  bool complete = true;
-  std::string diagnosis;
 
   // The solved problems, the first one first; the last one is the machine's own motion, if there is one.
   std::vector<const ForceCycle*> problems() const;

@@ -25,14 +25,9 @@ std::string at_angle(const Peak& p) { return fmt::format("{:.1f}°", degrees(p.p
 std::string peak_text(const Peak& p, double factor) { return p.unbounded ? "no bound" : with_error(factor * p, ""); }
 
 Findings begin_findings(const Forces& f, const ForceCycle& front, const std::string& conclusion) {
-  Findings to{.title = f.title,
-              .subtitle = fmt::format("Kinetostatics by d'Alembert's principle; {}", front.description),
-              .page_title = fmt::format("{}: forces in {}", f.title, f.mechanism),
-              .scene_file = f.scene_file,
-              .speed_unit = f.speed_unit.name,
-              .complete = f.complete,
-              .diagnosis = f.diagnosis,
-              .footer = report_footer()};
+  Findings to = Findings::of(f, "Kinetostatics by d'Alembert's principle; " + front.description);
+  to.page_title = fmt::format("{}: forces in {}", f.title, f.mechanism);
+  to.speed_unit = f.speed_unit.name, to.footer = report_footer();
   to.conclude(f.complete, conclusion);
   if (f.complete) to.conclude(true, capitalised(front.description));
   for (const std::string& sentence : f.outside_data) to.claim(Predicate::outside_data, sentence);

@@ -44,7 +44,8 @@ bool wanted(const std::string& stage, const std::string& pair) {
 }  // namespace
 
 Gears find_gears(const Scene& scene, const GearsOptions& options) {
-  Gears gears{.title = scene.heading(), .scene_file = scene.file, .scene_text = scene.text, .stages = {}, .notes = {}};
+  Gears gears;
+  gears.is_of(scene);
   std::vector<std::string> without_module;
   const Network network = build_network(scene);
   for (const auto& [gearbox, given] : network.data.all<GearStages>())

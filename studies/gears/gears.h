@@ -37,10 +37,8 @@ double inertia_error(const GearStage& stage, std::size_t wheel);
 // Of j_bn, j_wt and derived values: values below 10⁻¹² modules are reported as zero.
 double backlash_error(const GearStage& stage, const std::function<double(const GearPair&)>& get);
 
-struct Gears {
-  std::string title, scene_file, scene_text;
+struct Gears : SceneStudy {
   std::vector<GearStage> stages;
-  std::vector<std::string> notes;
 };
 
 struct GearsOptions {

@@ -351,12 +351,9 @@ void say_stage(Findings& f, const GearStage& s) {
 }  // namespace
 
 Findings findings_of(const Gears& g) {
-  Findings f{.title = g.title,
-             .subtitle = "Involute geometry after ISO 21771",
-             .page_title = g.scene_file.empty() ? g.title : fmt::format("{}: gear pairs", g.title),
-             .scene_file = g.scene_file,
-             .reports_complete = false,
-             .footer = report_footer()};
+  Findings f = Findings::of(g, "Involute geometry after ISO 21771");
+  f.page_title = g.scene_file.empty() ? g.title : fmt::format("{}: gear pairs", g.title);
+  f.reports_complete = false, f.footer = report_footer();
   f.conclude(true, conclusion_of(g));
   for (const GearStage& s : g.stages)
     for (const GearVerdict& v : s.verdicts)

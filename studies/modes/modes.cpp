@@ -29,8 +29,7 @@ class Study {
   Study(const Scene& scene, const Effects& effects, const ModesOptions& options)
       : options_(options), given_(scene), effects_(effects), scene_(as_of(scene, effects, options.at)) {
     model_ = compile_network(network_as_of(scene_, options.at), scene_, effects);
-    found_.title = scene.heading(), found_.speed_unit = scene.speed_unit;
-    found_.scene_file = scene.file, found_.scene_text = scene.text;
+    found_.is_of(scene);
     found_.link = model_->node_label(model_->reduction_node);
   }
 
@@ -97,10 +96,9 @@ class Study {
   }
   // The budget is spent: removes incomplete tables.
   void end_early() {
-    found_.complete = false;
-    found_.diagnosis = fmt::format(
+    found_.break_off(fmt::format(
         "the budget of {:g} s of processor time is spent at work on the {}: what would follow is not assessed",
-        scene_.run.budget, at_work_);
+        scene_.run.budget, at_work_));
     std::erase_if(found_.spots, [](const SpotCheck& spot) { return spot.linear.joints.empty(); });
     if (found_.limited.empty()) found_.sweep.clear(), found_.rigid.clear(), found_.critical.clear();
   }
@@ -346,8 +344,7 @@ class Study {
     found_.keeps_its_speed = !grows(found_.drive) && found_.here.speed_amplitude < std::abs(found_.drive.at.speed);
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       if (stopped()) {
-        found_.complete = false;
-        found_.diagnosis = "interrupted within the sweep over the speeds";
+        found_.break_off("interrupted within the sweep over the speeds");
         return found_.critical.clear();  // their amplitudes are not known
       }
       Deadline::check();
@@ -406,8 +403,7 @@ class Study {
     for (const Mode& mode : found_.modes) highest = std::max(highest, mode.magnitude());
     found_.history = simulate_torque(end_ ? given_ : scene_, effects_,
                                      {.torque = options_.torque, .link = link, .highest = highest, .watch = watch});
-    if (found_.history->complete) return;
-    found_.complete = false, found_.diagnosis = found_.history->diagnosis;
+    if (!found_.history->complete) found_.break_off(found_.history->diagnosis);
   }
 
   ModesOptions options_;

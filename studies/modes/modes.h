@@ -133,15 +133,13 @@ struct ModesCase {
   std::string why = {};                          // reason, if not assessed
 };
 
-struct ModesStudy {
-  std::string title, scene_file, scene_text;
+struct ModesStudy : SceneStudy {
   LinearDrive drive;
   UndampedModes undamped;
   std::vector<Mode> modes;                            // by number; without the rigid ones
   std::vector<DampedMode> damped;                     // all that were found
   std::vector<std::string> shaft_names, joint_names;  // of the shafts that may move, of all elastic joints
   std::string link;                                   // reduction link
-  SpeedUnit speed_unit;
   Excitations excitations;
   double slowest = 0, fastest = 0, highest_order = 0;
   std::vector<CriticalSpeed> critical;  // by speed
@@ -165,10 +163,7 @@ struct ModesStudy {
   std::optional<TorqueHistory> history;
   std::vector<ModesCase> cases;
   std::vector<std::string> outside_data;  // extrapolation of tables in the motion
-  std::vector<std::string> notes;
-  bool complete = true;
-  std::string diagnosis;
-  std::optional<double> rests_at;  // mean angle of the link if it vibrates about rest [rad]
+  std::optional<double> rests_at;         // mean angle of the link if it vibrates about rest [rad]
 };
 
 // Default: the scene's effects, with all elasticity if it has none.

@@ -397,14 +397,9 @@ void say_history(Findings& f, Chapter in, const ModesStudy& m) {
 }  // namespace
 
 Findings findings_of(const ModesStudy& m) {
-  Findings f{.title = m.title,
-             .subtitle = point_text(m),
-             .page_title = fmt::format("{}: modes and critical speeds", m.title),
-             .scene_file = m.scene_file,
-             .speed_unit = m.speed_unit.name,
-             .complete = m.complete,
-             .diagnosis = m.diagnosis,
-             .footer = report_footer()};
+  Findings f = Findings::of(m, point_text(m));
+  f.page_title = fmt::format("{}: modes and critical speeds", m.title);
+  f.speed_unit = m.speed_unit.name, f.footer = report_footer();
   f.conclude(m.complete, conclusion_of(m));
   for (const std::string& sentence : m.outside_data) f.claim(Predicate::outside_data, capitalised(sentence));
   f.claim(limit_claims(m.verdicts, "limit"));

@@ -30,9 +30,7 @@ class Reducer : MachineOnBasis {
  public:
   Reducer(const Scene& scene, const ReduceOptions& options)
       : scene_(as_of(scene, scene.effects, options.at)), options_(options) {
-    r_.title = scene.heading();
-    r_.speed_unit = scene.speed_unit;
-    r_.scene_file = scene.file;
+    r_.is_of(scene);
   }
 
   MachineReduction run() {

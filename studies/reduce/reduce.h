@@ -81,8 +81,7 @@ struct PointPath {
   std::vector<double> phi, x, y;  // [rad]; in the sketch's axes, from the driving link's bearing [m]
 };
 
-struct MachineReduction {
-  std::string title, scene_file;
+struct MachineReduction : SceneStudy {
   std::string link, to;    // the reduction link, and the target of the reduction
   bool turns_back = true;  // the target reverses: dead centres
   bool to_output = false;  // the mechanism's slider or rocker, whose ratio varies
@@ -90,7 +89,6 @@ struct MachineReduction {
   double to_ratio = 1;  // speed of the chosen shaft over the link's
   double speed = 0;     // of the link, if torques depend on it [rad/s]
   std::string speed_source;
-  SpeedUnit speed_unit;
   CycleBasis basis = CycleBasis::classical;
   double cycle = 0;                   // of the link [rad]
   double sense = 1;                   // ±1, of its motion
@@ -106,7 +104,6 @@ struct MachineReduction {
   std::optional<double> inertia_error, drive_error, load_error;
   std::vector<std::string> outside_data;  // extrapolation of tables in the torques; it has no error
   std::vector<PointPath> paths;           // of a linkage's moving points, over a cycle of its driving link
-  std::vector<std::string> notes;
 };
 
 // Throws SceneError if no machine can be made, std::invalid_argument with the reason for invalid options, and if

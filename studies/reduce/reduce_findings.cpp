@@ -310,12 +310,8 @@ Rows chain_table(const Chain& chain, const std::string& to, double slowest, doub
 }
 
 Findings findings_of(const MachineReduction& r) {
-  Findings f{.title = r.title,
-             .subtitle = fmt::format("Machine reduced to {}", r.to),
-             .scene_file = r.scene_file,
-             .speed_unit = r.speed_unit.name,
-             .opening = Findings::Opening::title_and_conclusion,
-             .reports_complete = false};
+  Findings f = Findings::of(r, fmt::format("Machine reduced to {}", r.to));
+  f.speed_unit = r.speed_unit.name, f.opening = Findings::Opening::title_and_conclusion, f.reports_complete = false;
   f.key("constant inertia of the drive", {r.constant_inertia}, "constant_inertia", r.to_output ? "on " + r.link : "");
   f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);
   f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
-#include "mechanisms/reduced/deforming_mechanism.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 #include "studies/findings/figure_changes.h"
 #include "studies/findings/figure_text.h"
 #include "studies/run/run_findings.h"

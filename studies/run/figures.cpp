@@ -7,6 +7,7 @@
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/duty/holding.h"
 #include "studies/duty/motor_figures.h"
@@ -21,9 +22,8 @@ namespace {
 std::vector<std::string> components_with_impacts(const Model& model) {
   std::vector<std::string> names;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const MechanismElement* element = mechanism_of(e);
-        element && element->dynamics() && !element->mechanism().clearances.empty())
-      names.push_back(element->mechanism().name);
+    if (const SliderCrankDynamics* dynamics = dynamics_of(e); dynamics && !dynamics->clearances().empty())
+      names.push_back(e.component);
   return names;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/numerics/index.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
 #include "studies/run/compare.h"
@@ -114,7 +115,7 @@ MachineView::Linkage linkage_of(const Mechanism& mechanism, const Model& model, 
                                .fixed = drawing.fixed,
                                .output = drawing.output,
                                .gaps = {}};
-  for (const JointClearance& c : mechanism.clearances)
+  for (const JointClearance& c : deformation_of(mechanism).clearances)
     if (c.joint != JointClearance::Joint::guide) linkage.gaps.push_back({c.name(), c.contact.gap});
   for (const auto& [shape, joints] : drawing.links) linkage.links.push_back({shape, joints});
   const auto slides_there = [&](const MachineView::Linkage::Link& link) {

@@ -9,7 +9,6 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "mechanisms/bodies/multibody_run.h"
-#include "mechanisms/reduced/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/findings/trace.h"
 
@@ -95,7 +94,7 @@ const Mechanism& crank_of(const Model& model) {
     refuse("needs a mechanism of which the joints are known, not a kind of its user's own");
   if (!mechanism->mechanism().reduced->cycle().change_points().empty())
     refuse("its links pass change points, where the closed loop leaves open which way they go on");
-  if (mechanism->dynamics())
+  if (mechanism->deforms())
     refuse("its joints are ideal and its links rigid, so joint_clearance and flexible_rod must be off");
   if (mechanism->mechanism().friction) refuse("its joints are ideal, so joint_friction must be off");
   if (!model.scene.sequence.steps.empty())

@@ -13,7 +13,7 @@
 #include "engine/rigid/work_equation.h"
 #include "engine/run/checkpoint.h"
 #include "engine/values/dense_tables.h"
-#include "mechanisms/reduced/deforming_mechanism.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/motion_claims.h"
 #include "studies/duty/holding.h"

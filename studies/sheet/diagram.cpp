@@ -92,4 +92,16 @@ Placed draw_diagram(Canvas& c, const Box& box, const AngleAxis& axis, const Shee
   return placed;
 }
 
+void add_diagrams(Sheets& sheets, const std::string& title, double cycle, const std::vector<SheetPosition>& positions,
+                  const std::vector<SheetDiagram>& diagrams, const std::string& note, std::size_t rows) {
+  const Box room = sheets.room();
+  const AngleAxis axis = angle_axis(cycle, room.x + 6, room.width - 24);
+  Canvas& c = sheets.add(title, axis.words());
+  const double height = room.height / static_cast<double>(rows ? rows : diagrams.size());
+  for (std::size_t i = 0; i < diagrams.size(); ++i)
+    draw_diagram(c, {room.x, room.y + height * static_cast<double>(i), room.width, height - 2}, axis, diagrams[i],
+                 positions);
+  add_lines(c, sheets.foot(), fmt::format("{}; {}.", axis.words(), note));
+}
+
 }  // namespace kurbel

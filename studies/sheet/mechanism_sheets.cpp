@@ -107,13 +107,11 @@ SheetCurve curve_of(const std::string& symbol, const SheetMotion& motion, const 
   return {symbol, motion.way, values_of(between, get), values_of(at, get), pen};
 }
 
-void add_diagrams(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion& motion, const Motions& at,
-                  const std::string& speed) {
+void add_motion(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion& motion, const Motions& at,
+                const std::string& speed) {
   const Motions between = motions_of(m, motion.between);
   const bool rocks = m.mechanism.rocks();
   const double first = at.front().output;
-  const Box room = sheets.room();
-  const AngleAxis axis = angle_axis(motion.cycle.length, room.x + 6, room.width - 24);
   const Get place = [=](const auto& k) {
     return rocks ? std::remainder(k.output - first, 2 * std::numbers::pi) : k.output - first;
   };
@@ -132,13 +130,8 @@ void add_diagrams(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion& 
        rocks ? "rad/s²" : "m/s²",
        {curve_of("a", motion, at, between, Pen::load, [](const auto& k) { return k.acceleration; })}}};
   if (rotates != 0) list.erase(list.begin());
-  Canvas& c = sheets.add(fmt::format("{}: diagrams of motion", m.mechanism.name), axis.words());
-  const double height = room.height / static_cast<double>(list.size());
-  for (std::size_t i = 0; i < list.size(); ++i)
-    draw_diagram(c, {room.x, room.y + height * static_cast<double>(i), room.width, height - 2}, axis, list[i],
-                 motion.positions);
-  add_lines(c, sheets.foot(),
-            fmt::format("{}; velocity and acceleration of the output by time, {}.", axis.words(), speed));
+  add_diagrams(sheets, fmt::format("{}: diagrams of motion", m.mechanism.name), motion.cycle.length, motion.positions,
+               list, "velocity and acceleration of the output by time, " + speed);
 }
 
 }  // namespace
@@ -168,7 +161,7 @@ void add_mechanism(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion&
                 structure);
   const Motions at = motions_of(m, motion.at);
   add_table(sheets, kinematic_table(m, motion, at, speed));
-  add_diagrams(sheets, m, motion, at, speed);
+  add_motion(sheets, m, motion, at, speed);
 }
 
 std::vector<std::string> labels_of(const std::vector<SheetPosition>& positions) {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "engine/numerics/angles.h"
+
 namespace kurbel {
 namespace {
 
@@ -33,6 +35,18 @@ std::vector<double> by_weight(const std::vector<double>& places, const std::vect
 
 double SheetCycle::phi_at(double way) const { return within(origin + sense * way, length); }
 double SheetCycle::way_at(double phi) const { return within(sense * (phi - origin), length); }
+
+BentEdges bent_edges(const std::vector<double>& edges, double cycle, const std::function<double(double)>& load,
+                     double largest) {
+  constexpr double step = 2 / in_degrees, visible = 2e-3;
+  BentEdges bent;
+  for (const double edge : edges) {
+    const double bend = std::abs(load(edge + step) - 2 * load(edge) + load(edge - step));
+    if (edge >= cycle * (1 - 1e-12) || bend < visible * largest) continue;
+    bent.at.push_back(edge), bent.bend.push_back(bend);
+  }
+  return bent;
+}
 
 std::vector<double> looked_at(const SheetCycle& cycle, const std::vector<SheetPosition>& positions) {
   std::vector<double> phis;

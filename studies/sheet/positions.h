@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,6 +38,14 @@ std::vector<SheetPosition> sheet_positions(const SheetCycle& cycle, const std::v
 
 inline constexpr std::size_t most_letters = 14;
 
+// Of a load's edges those where it bends visibly (a dead centre of a load that opposes is none), with how much it does.
+// largest: of the load over the cycle.
+struct BentEdges {
+  std::vector<double> at, bend;
+};
+BentEdges bent_edges(const std::vector<double>& edges, double cycle, const std::function<double(double phi)>& load,
+                     double largest);
+
 // Angles evaluated for the positions: before, at and after each, `beside_edge` apart [rad].
 inline constexpr double beside_edge = 1e-7;
 std::vector<double> looked_at(const SheetCycle& cycle, const std::vector<SheetPosition>& positions);
@@ -65,12 +74,15 @@ std::vector<SheetRow<Values>> sheet_rows(const std::vector<SheetPosition>& posit
   return rows;
 }
 
-// Points of a curve over the cycle by their angle from position 0; the first one is repeated at the end.
-template <class Point>
-std::vector<std::pair<double, const Point*>> by_way(const SheetCycle& cycle, const std::vector<Point>& curve) {
+// Points of a curve over the cycle, each with its angle `phi`, by their angle from position 0; the first one is repeated
+// at the end.
+template <class Point, class Angle>
+std::vector<std::pair<double, const Point*>> by_way(const SheetCycle& cycle, const std::vector<Point>& curve,
+                                                    const Angle& phi) {
   std::vector<std::pair<double, const Point*>> points;
   for (const Point& p : curve)
-    if (p.phi < cycle.length * (1 - 1e-12)) points.emplace_back(cycle.way_at(p.phi), &p);
+    if (const double at = std::invoke(phi, p); at < cycle.length * (1 - 1e-12))
+      points.emplace_back(cycle.way_at(at), &p);
   std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   points.emplace_back(cycle.length, points.front().second);
   return points;

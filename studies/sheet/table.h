@@ -1,11 +1,16 @@
 // table.h — a table of a sheet: one column per quantity, one row per position; digits according to its largest value.
 #pragma once
 
+#include <cmath>
+#include <functional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/numerics/angles.h"
 #include "studies/sheet/paper.h"
+#include "studies/sheet/positions.h"
 
 namespace kurbel {
 
@@ -17,23 +22,42 @@ struct SheetColumn {
 
 struct SheetTable {
   std::string title;
-  std::vector<std::string> labels;  // of the rows: "0", "a⁻"
-  std::vector<SheetColumn> columns;
+  std::vector<std::string> labels = {};  // of the rows: "0", "a⁻"
+  std::vector<SheetColumn> columns = {};
   std::vector<bool> stressed = {};  // rows of the load's edges; none, or one each
   std::string note = {};
 };
 
-// From rows of positions, with only the column of angles so far.
-template <class Row>
-SheetTable table_of_positions(const std::string& title, const std::vector<Row>& rows) {
-  SheetTable table{.title = title, .labels = {}, .columns = {{"φ", "°", {}}}};
-  for (const Row& row : rows) {
-    table.labels.push_back(row.label);
-    table.stressed.push_back(!row.position->numbered || row.position->greatest);
-    table.columns.front().values.push_back(row.position->phi * in_degrees);
+// A table whose rows are positions, with the column of their angles.
+template <class Values>
+class TableOfPositions {
+ public:
+  using Row = SheetRow<Values>;
+  TableOfPositions(const std::string& title, std::vector<Row> rows) : table{.title = title}, rows_(std::move(rows)) {
+    for (const Row& row : rows_) {
+      table.labels.push_back(row.label);
+      table.stressed.push_back(!row.position->numbered || row.position->greatest);
+    }
+    add("φ", "°", [](const Row& row) { return row.position->phi * in_degrees; });
   }
-  return table;
-}
+  // Of a row or of its values. Values that are rounding dust beside `scale` are zeros.
+  template <class Get>
+  void add(const std::string& symbol, const std::string& unit, const Get& get, double scale = 0) {
+    SheetColumn& column = table.columns.emplace_back(SheetColumn{symbol, unit, {}});
+    for (const Row& row : rows_) {
+      double v = 0;
+      if constexpr (std::is_invocable_v<Get, const Row&>)
+        v = get(row);
+      else
+        v = std::invoke(get, *row.values);
+      column.values.push_back(std::abs(v) < 1e-12 * scale ? 0 : v);
+    }
+  }
+  SheetTable table;
+
+ private:
+  std::vector<Row> rows_;
+};
 
 // Puts the table on its own sheets, as many as necessary.
 void add_table(Sheets& sheets, const SheetTable& table);

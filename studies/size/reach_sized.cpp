@@ -92,7 +92,7 @@ class Reach {
     if (!s_.operating || !(with_motor.found || s_.stalls)) return;
     count_slope(with_motor, rigid);
     if (!s_.soft) {
-      if (s_.stalls) s_.complete = false, s_.diagnosis = s_.soft_why;
+      if (s_.stalls) s_.break_off(s_.soft_why);
       return;
     }
     if (!s_.meeting || s_.meeting->name != s_.soft->name)
@@ -111,8 +111,7 @@ class Reach {
       meet_if_missed(as, by, orbit, effects);
     } else if ((s_.operating && !(orbit.stops && as == SizedModel::rigid)) ||
                (s_.basis == CycleBasis::steady && !s_.held)) {
-      s_.complete = false;
-      s_.diagnosis = fmt::format("{} ({}): {}", name, sized_by, orbit.why);
+      s_.break_off(fmt::format("{} ({}): {}", name, sized_by, orbit.why));
     } else {
       s_.notes.push_back(fmt::format("{} ({}): {}", name, sized_by, orbit.why));
     }

@@ -34,9 +34,7 @@ class Sizer : MachineOnBasis {
       scene_ = with_flywheel(scene_, s_.flywheel, 0, component_of(*bare, bare->reduction_node));
     }
     s_.basis = choose_basis(scene_, options_.at, options_.basis);
-    s_.title = scene.heading();
-    s_.speed_unit = scene.speed_unit;
-    s_.scene_file = scene.file;
+    s_.is_of(scene);
     s_.link = model().node_label(model().reduction_node);
     s_.diagram_length = options.diagram_length;
   }

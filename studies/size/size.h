@@ -58,13 +58,12 @@ struct DeltaReached : SizedCycle {
   std::string sized_by;  // name of that method
 };
 
-struct Sizing {
-  std::string title, scene_file, link;
+struct Sizing : SceneStudy {
+  std::string link;
   double delta = 0;
   std::string delta_source;
   double mid_speed = 0;
   std::string mid_speed_source;
-  SpeedUnit speed_unit;
   CycleBasis basis = CycleBasis::classical;
 
   MachineCycle cycle;
@@ -109,9 +108,6 @@ struct Sizing {
   std::optional<PunchPress> punch;  // for loads that act during a part of the cycle only
   std::vector<DeltaReached> reached;
   std::optional<double> diagram_length;
-  std::vector<std::string> notes;
-  bool complete = true;
-  std::string diagnosis;
 };
 
 // Throws SceneError if no machine can be made; std::invalid_argument with the reason for bad options, a load without

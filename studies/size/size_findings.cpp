@@ -375,13 +375,8 @@ void judge_dimensions(Findings& f, const Sizing& s) {
 }  // namespace
 
 Findings findings_of(const Sizing& s) {
-  Findings f{.title = s.title,
-             .subtitle = fmt::format("Flywheel for δ = {:g}", s.delta),
-             .scene_file = s.scene_file,
-             .speed_unit = s.speed_unit.name,
-             .complete = s.complete,
-             .diagnosis = s.diagnosis,
-             .opening = Findings::Opening::title_and_conclusion};
+  Findings f = Findings::of(s, fmt::format("Flywheel for δ = {:g}", s.delta));
+  f.speed_unit = s.speed_unit.name, f.opening = Findings::Opening::title_and_conclusion;
   add_answers(f, s);
   judge_dimensions(f, s);
   const Chapter cycle = f.chapter("One cycle"), synthesis = f.chapter("Inertia for the demanded δ"),

@@ -97,8 +97,7 @@ class Study {
 
   SteadyStudy run() {
     const auto model = compile(scene_, effects_.back());
-    out_.title = scene_.heading();
-    out_.scene_file = scene_.file;
+    out_.is_of(scene_);
     out_.link = model->node_label(model->reduction_node);
     out_.mid_speed = options_.mid_speed;
     if (!out_.later.empty())
@@ -202,8 +201,7 @@ class Study {
     out_.cycles.push_back(std::move(cycle));
   }
   void incomplete(const std::string& why) {
-    out_.complete = false;
-    if (out_.diagnosis.empty()) out_.diagnosis = why;
+    if (out_.complete) out_.break_off(why);
   }
 
   // The mean torques explain why there is none; else the machine's motion.

@@ -102,8 +102,8 @@ struct SteadyCycle {
   const Figure* find(std::string_view name) const { return kurbel::find(figures, name); }
 };
 
-struct SteadyStudy {
-  std::string title, scene_file, link;
+struct SteadyStudy : SceneStudy {
+  std::string link;
   std::optional<double> mid_speed;
   std::optional<OperatingDiagram> diagram;  // none if a law over time drives or a speed is prescribed
   std::string no_diagram;                   // reason
@@ -111,10 +111,6 @@ struct SteadyStudy {
   std::optional<StartRun> start;            // rigid, from rest to 95 % of the steady speed
   std::vector<RatioSearch> ratios;
   std::string later;  // it comes to rest in the end: why the motion of an earlier moment is shown; empty otherwise
-  std::vector<std::string> notes;
-  std::string conclusion;
-  bool complete = true;
-  std::string diagnosis;
 };
 
 // Default effects for cycles shown side by side: the scene's own effects, rigid and elastic, so that only elasticity

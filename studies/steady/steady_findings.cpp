@@ -21,10 +21,6 @@
 namespace kurbel {
 namespace {
 
-SpeedUnit speed_unit_of(const SteadyStudy& s) {
-  return s.cycles.empty() || !s.cycles.front().model ? SpeedUnit{} : s.cycles.front().model->scene.speed_unit;
-}
-
 Role role_of(const SteadyCycle& c) { return !is_elastic(*c.model) ? Role::rigid : Role::elastic; }
 
 // --- figures and multipliers ---
@@ -40,7 +36,7 @@ std::vector<std::string> names_of_figures(const SteadyStudy& s) {
 // One row per figure, the models side by side; orders have separate tables.
 Rows figure_table(const SteadyStudy& s) {
   auto table = table_of("", "Every figure of the steady cycle", names_of_figures(s)).fold();
-  const SpeedUnit speed = speed_unit_of(s);
+  const SpeedUnit speed = s.speed_unit;
   table.explained_by(std::identity()).only_for_people("figure", std::identity());
   for (const SteadyCycle& c : s.cycles)
     table.value_and_error(c.label, [&](const std::string& name, int digits) {
@@ -84,7 +80,7 @@ Rows shaft_table(const SteadyStudy& s) {
   const std::vector<ShaftFluctuation>& first = s.cycles.front().shafts;
   auto table = table_of("", "Speed fluctuation δ at every shaft", numbers_below(first.size())).not_on_terminal();
   table.always();
-  const SpeedUnit unit = speed_unit_of(s);
+  const SpeedUnit unit = s.speed_unit;
   table.only_for_people("shaft", [&](std::size_t i) { return first[i].shaft; });
   table.only_for_people("ratio to the link", [&](std::size_t i) { return first[i].ratio; }, {.digits = 5});
   for (const SteadyCycle& c : s.cycles)
@@ -220,7 +216,7 @@ std::optional<Plot> over_angle(const SteadyStudy& s, const std::string& channel,
     for (const Trace& t : last->traces)
       if (t.name == measured_trace(channel)) plot.series.push_back(marks(over_degrees("measured", Role::reference, t)));
   if (plot.series.empty()) return {};
-  return in_readable_unit(std::move(plot), si_unit, speed_unit_of(s));
+  return in_readable_unit(std::move(plot), si_unit, s.speed_unit);
 }
 
 // Torque times speed of a motor.
@@ -281,7 +277,7 @@ Plot multiplier_plot(const SteadyStudy& s) {
 
 Plot start_plot(const SteadyStudy& s) {
   Series speed{.name = "rigid", .role = Role::rigid, .x = s.start->t, .y = s.start->w};
-  const SpeedUnit unit = speed_unit_of(s);
+  const SpeedUnit unit = s.speed_unit;
   for (double& w : speed.y) w = unit.of(w);
   return {.title = "Start from rest to 95 % of the steady speed",
           .x = {"time", "s"},
@@ -327,7 +323,7 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
 // --- all of it ---
 
 void add_key_figures(Findings& f, const SteadyStudy& s) {
-  const SpeedUnit unit = speed_unit_of(s);
+  const SpeedUnit unit = s.speed_unit;
   for (const SteadyCycle& c : s.cycles) {
     if (!c.found) continue;
     if (const Figure* mean = c.find("mean_speed." + s.link))
@@ -347,7 +343,7 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
 }
 
 void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
-  const SpeedUnit unit = speed_unit_of(s);
+  const SpeedUnit unit = s.speed_unit;
   for (const SteadyCycle& c : s.cycles) {
     const Figure *delta = c.find("delta." + s.link), *max = c.find("cycle_max_speed." + s.link),
                  *min = c.find("cycle_min_speed." + s.link);
@@ -379,13 +375,8 @@ void say_operation(Findings& f, Chapter in, const SteadyStudy& s) {
 }  // namespace
 
 Findings findings_of(const SteadyStudy& s) {
-  Findings f{.title = s.title,
-             .subtitle = "Steady motion found directly: return map and its multipliers",
-             .scene_file = s.scene_file,
-             .speed_unit = speed_unit_of(s).name,
-             .complete = s.complete,
-             .diagnosis = s.diagnosis,
-             .opening = Findings::Opening::title_and_conclusion};
+  Findings f = Findings::of(s, "Steady motion found directly: return map and its multipliers");
+  f.speed_unit = s.speed_unit.name, f.opening = Findings::Opening::title_and_conclusion;
   f.claims = claims_of(s);
   if (s.cycles.empty()) return f;  // interrupted before the first
   const std::vector<Verdict> ratings = steady_ratings(s.cycles.back());

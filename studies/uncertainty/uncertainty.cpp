@@ -25,8 +25,7 @@ class UncertaintyWork {
  public:
   UncertaintyWork(const MachineQuestion& question, const UncertaintyOptions& options)
       : question_(question), options_(options), scene_(VariedScene(question, {}).at({})) {
-    study_.title = scene_.heading(), study_.scene_file = question.file, study_.scene_text = scene_.text;
-    study_.speed_unit = scene_.speed_unit;
+    study_.is_of(scene_), study_.scene_file = question.file;
     study_.parameters = tolerated_parameters(scene_);
     for (const Tolerated& t : study_.parameters) swept_.push_back(t.swept());
     varied_.emplace(question_, swept_);
@@ -37,7 +36,7 @@ class UncertaintyWork {
   UncertaintyStudy run() {
     const SweepRow nominal = compute({nominal_values()}).at(0);
     if (nominal.state == RowState::failed) {
-      study_.complete = false, study_.diagnosis = nominal.diagnosis;
+      study_.break_off(nominal.diagnosis);
       study_.conclusion = "The machine as it is given does not run: " + nominal.diagnosis;
       return std::move(study_);
     }

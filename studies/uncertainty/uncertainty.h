@@ -63,17 +63,11 @@ struct FigureUncertainty : Estimate {
   double deviation() const { return is_linear() ? by_gradients : by_samples; }
 };
 
-struct UncertaintyStudy {
-  std::string title, scene_file, scene_text;
+struct UncertaintyStudy : SceneStudy {
   std::vector<Tolerated> parameters;
   std::vector<FigureUncertainty> figures;
   std::vector<LimitCount> limits;  // a machine that does not run meets none
-  std::vector<std::string> notes;
   std::size_t drawn = 0, failed = 0;
-  SpeedUnit speed_unit;  // unit of speeds for people
-  std::string conclusion;
-  bool complete = true;
-  std::string diagnosis;
 };
 
 // Throws std::invalid_argument if the scene has no tolerance, or a figure or a limit is invalid.

@@ -175,11 +175,7 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
 }  // namespace
 
 Findings findings_of(const UncertaintyStudy& s) {
-  Findings f{.title = s.title,
-             .subtitle = "Uncertainty by tolerances, numerical errors and known biases",
-             .scene_file = s.scene_file,
-             .complete = s.complete,
-             .diagnosis = s.diagnosis};
+  Findings f = Findings::of(s, "Uncertainty by tolerances, numerical errors and known biases");
   f.conclude(s.complete, s.conclusion);
   f.claim(share_claims(s.limits, s.failed, s.drawn));
   for (const FigureUncertainty& figure : s.figures)

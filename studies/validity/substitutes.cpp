@@ -7,6 +7,7 @@
 
 #include "engine/reading/mirrored.h"
 #include "engine/values/dense_tables.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 #include "mechanisms/link_forces/link_forces.h"
 #include "mechanisms/reduced/mechanism.h"
 
@@ -40,10 +41,11 @@ std::vector<std::string> idle_effects(const Model& model) {
   for (const Network::ShaftElement& e : model.network.elements) {
     const MechanismElement* const element = mechanism_of(e);
     if (!element) continue;
+    const Deformation& deformation = deformation_of(element->mechanism());
     std::vector<std::string> idle;
     for (const EffectFlag& effect : effect_flags())
-      if ((effect.flag == &Effects::joint_clearance && !element->mechanism().clearances.empty()) ||
-          (effect.flag == &Effects::flexible_rod && element->mechanism().flexibility))
+      if ((effect.flag == &Effects::joint_clearance && !deformation.clearances.empty()) ||
+          (effect.flag == &Effects::flexible_rod && deformation.flexibility))
         idle.emplace_back(effect.words);
     if (idle.empty()) continue;
     notes.push_back(

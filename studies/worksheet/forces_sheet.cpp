@@ -21,21 +21,6 @@
 namespace kurbel {
 namespace {
 
-ForcesAt forces_of(const PositionForces& p) {
-  ForcesAt at{p.forces.state.phi, p.forces.state.load, p.forces.torque, {}, {}};
-  for (const JointForces& j : p.forces.joints) at.reactions.push_back({j.force, j.moment});
-  for (const LinkForces& l : p.forces.links) at.inertia.push_back({l.inertia_force, l.inertia_couple});
-  return at;
-}
-
-void take_forces(ForcesSheet& sheet) {
-  for (const PositionForces& p : sheet.forces.also) sheet.looks.push_back(forces_of(p));
-  for (std::size_t k = 1; k < sheet.looks.size(); k += 3) sheet.at.push_back(sheet.looks[k]);
-  std::vector<ForcesAt> forces;
-  for (const PositionForces& p : sheet.forces.prescribed->curve) forces.push_back(forces_of(p));
-  for (const auto& [way, at] : by_way(sheet.motion.cycle, forces)) sheet.way.push_back(way), sheet.curve.push_back(*at);
-}
-
 void name_parts(ForcesSheet& sheet, const LinkageForces& f) {
   for (const LinkForces& l : f.links) sheet.links.emplace_back(l.name);
   for (const JointForces& j : f.joints)
@@ -46,7 +31,6 @@ void name_parts(ForcesSheet& sheet, const LinkageForces& f) {
 // --- positions ---
 
 std::vector<SheetPosition> positions_of(const PrescribedCycle& c, const SheetCycle& cycle) {
-  constexpr double step = 2 / in_degrees, visible = 2e-3;
   constexpr int samples = 720;
   double largest = 0, least = HUGE_VAL, where = 0;
   const auto look = [&](double phi, double beyond) {
@@ -57,12 +41,8 @@ std::vector<SheetPosition> positions_of(const PrescribedCycle& c, const SheetCyc
   for (const double edge : c.edges)
     for (const double side : {-beside_edge, 0.0, beside_edge}) look(edge + side, 1 + 1e-9);
   for (int k = 0; k < samples; ++k) look(c.length * k / samples, 1 + 1e-3);  // an edge rather than a place beside it
-  std::vector<double> edges, weight;
-  for (const double edge : c.edges) {
-    const double bend = std::abs(c.load(edge + step) - 2 * c.load(edge) + c.load(edge - step));
-    if (bend > visible * largest && edge < c.length * (1 - 1e-12)) edges.push_back(edge), weight.push_back(bend);
-  }
-  return sheet_positions(cycle, edges, largest > 1.001 * least ? std::optional(where) : std::nullopt, weight);
+  const BentEdges bent = bent_edges(c.edges, c.length, c.load, largest);
+  return sheet_positions(cycle, bent.at, largest > 1.001 * least ? std::optional(where) : std::nullopt, bent.bend);
 }
 
 MechanismOnSheet drawn(Mechanism mechanism) {
@@ -73,17 +53,26 @@ MechanismOnSheet drawn(Mechanism mechanism) {
 
 // --- sheets ---
 
-using ForcesRow = SheetRow<ForcesAt>;
+using P = const PositionForces&;
+using Get = std::function<double(P)>;
+using TableOfForces = TableOfPositions<PositionForces>;
 
-double load_of(const ForcesAt& at) { return at.load; }
-double load_of(const PositionForces& at) { return at.forces.state.load; }
+double phi_of(P p) { return p.forces.state.phi; }
+double load_of(P p) { return p.forces.state.load; }
+double torque_of(P p) { return p.forces.torque; }
+Get reaction_of(std::size_t joint) {
+  return [joint](P p) { return p.forces.joints[joint].force.magnitude(); };
+}
 
-template <class Values>
-std::vector<SheetRow<Values>> rows_of(const ForcesSheet& sheet, const std::vector<Values>& looks) {
+double largest_of(const ForcesSheet& sheet, const Get& get) {
   double largest = 0;
-  for (const ForcesAt& at : sheet.curve) largest = std::max(largest, std::abs(at.load));
-  return sheet_rows(sheet.motion.positions, looks, [largest](const Values& before, const Values& after) {
-    return std::abs(load_of(before) - load_of(after)) > 1e-4 * largest;
+  for (P p : sheet.forces.prescribed->curve) largest = std::max(largest, std::abs(get(p)));
+  return largest;
+}
+
+std::vector<TableOfForces::Row> rows_of(const ForcesSheet& sheet) {
+  return sheet_rows(sheet.motion.positions, sheet.forces.also, [jump = 1e-4 * largest_of(sheet, load_of)](P a, P b) {
+    return std::abs(load_of(a) - load_of(b)) > jump;
   });
 }
 
@@ -96,7 +85,7 @@ void add_polygons(Sheets& sheets, const ForcesSheet& sheet) {
   const int links = linkage.body_count, lines = (links * 44 - 1) / static_cast<int>(room.width) + 1,
             columns = (links + lines - 1) / lines;
   std::vector<VectorPlan> plans;
-  for (const auto& row : rows_of(sheet, sheet.forces.also)) {
+  for (const auto& row : rows_of(sheet)) {
     for (VectorPlan& plan : force_polygons(row.values->forces, linkage, row.label)) plans.push_back(std::move(plan));
     for (int k = links; k < lines * columns; ++k) plans.emplace_back();
   }
@@ -116,160 +105,120 @@ void add_polygons(Sheets& sheets, const ForcesSheet& sheet) {
             plans);
 }
 
-using Get = std::function<double(const ForcesAt&)>;
-
-class TableOfForces {
- public:
-  TableOfForces(const ForcesSheet& sheet, const std::string& title)
-      : rows_(rows_of(sheet, sheet.looks)), table_(table_of_positions(title, rows_)) {}
-  // Values that are rounding dust beside `scale` are zeros.
-  void add(const std::string& symbol, const std::string& unit, const Get& get, double scale = 0) {
-    SheetColumn column{symbol, unit, {}};
-    for (const ForcesRow& row : rows_) {
-      const double v = get(*row.values);
-      column.values.push_back(std::abs(v) < 1e-12 * scale ? 0 : v);
-    }
-    table_.columns.push_back(std::move(column));
-  }
-  SheetTable& table() { return table_; }
-
- private:
-  std::vector<ForcesRow> rows_;
-  SheetTable table_;
-};
-
-double largest_of(const ForcesSheet& sheet, const Get& get) {
-  double largest = 0;
-  for (const ForcesAt& at : sheet.curve) largest = std::max(largest, std::abs(get(at)));
-  return largest;
-}
-
 double heaviest(const ForcesSheet& sheet) {
   double largest = 0;
-  for (std::size_t k = 0; k < sheet.joints.size(); ++k)
-    largest =
-        std::max(largest, largest_of(sheet, [k](const ForcesAt& at) { return at.reactions[k].force.magnitude(); }));
+  for (std::size_t k = 0; k < sheet.joints.size(); ++k) largest = std::max(largest, largest_of(sheet, reaction_of(k)));
   return largest;
 }
 
 std::string notes_of(const ForcesSheet& sheet) {
   const std::string& unbounded = sheet.forces.unbounded.words;
-  return unbounded.empty() ? "" : "\n" + unbounded + ".";
+  return unbounded.empty() ? "" : ".\n" + unbounded;
 }
 
 bool load_rocks(const ForcesSheet& sheet) { return sheet.mechanisms.front().mechanism.rocks(); }
 
 SheetTable reaction_table(const ForcesSheet& sheet) {
-  TableOfForces t(
-      sheet, fmt::format("{}: reactions in the joints, balancing torque", sheet.mechanisms.front().mechanism.name));
+  TableOfForces t(fmt::format("{}: reactions in the joints, balancing torque", sheet.mechanisms.front().mechanism.name),
+                  rows_of(sheet));
   const double scale = heaviest(sheet);
-  t.add(load_rocks(sheet) ? "M_load" : "F", load_rocks(sheet) ? "N·m" : "N",
-        [](const ForcesAt& at) { return at.load; });
+  t.add(load_rocks(sheet) ? "M_load" : "F", load_rocks(sheet) ? "N·m" : "N", load_of);
   std::string words;
   for (std::size_t k = 0; k < sheet.joints.size(); ++k) {
     const ForcesSheet::Joint& joint = sheet.joints[k];
-    const auto magnitude = [k](const ForcesAt& at) { return at.reactions[k].force.magnitude(); };
-    if (joint.slides &&
-        largest_of(sheet, [k](const ForcesAt& at) { return at.reactions[k].force.x; }) <= 1e-12 * scale) {
-      t.add(
-          joint.symbol, "N", [k](const ForcesAt& at) { return at.reactions[k].force.y; },
-          scale);  // across +x, with its sign
+    const auto across = [k](P p) { return p.forces.joints[k].force.y; };
+    if (joint.slides && largest_of(sheet, [k](P p) { return p.forces.joints[k].force.x; }) <= 1e-12 * scale) {
+      t.add(joint.symbol, "N", across, scale);  // to +x, with its sign
     } else {
-      t.add(joint.symbol, "N", magnitude, scale);
-      t.add("α_" + joint.symbol.substr(2), "°", [k, scale](const ForcesAt& at) {
-        const Force2 f = at.reactions[k].force;
+      t.add(joint.symbol, "N", reaction_of(k), scale);
+      t.add("α_" + joint.symbol.substr(2), "°", [k, scale](P p) {
+        const Force2 f = p.forces.joints[k].force;
         return f.magnitude() <= 1e-12 * scale ? std::nan("") : f.direction() * in_degrees;
       });
     }
     words += fmt::format("{} {}; ", joint.symbol, joint.words);
   }
-  t.add("M_b", "N·m", [](const ForcesAt& at) { return at.torque; });
-  t.table().note = fmt::format(
+  t.add("M_b", "N·m", torque_of);
+  t.table.note = fmt::format(
       "{}α: direction from +x, counter-clockwise; a guide's reaction along +y; M_b: balancing torque of the shaft on "
-      "the crank; {}: load on the output, positive {}; {}.{}",
+      "the crank; {}: load on the output, positive {}; {}{}.",
       words, load_rocks(sheet) ? "M_load" : "F", load_rocks(sheet) ? "counter-clockwise" : "along +x", sheet.speed,
       notes_of(sheet));
-  return t.table();
+  return t.table;
 }
 
 SheetTable inertia_table(const ForcesSheet& sheet) {
-  TableOfForces t(sheet, fmt::format("{}: inertia forces of the links", sheet.mechanisms.front().mechanism.name));
+  TableOfForces t(fmt::format("{}: inertia forces of the links", sheet.mechanisms.front().mechanism.name),
+                  rows_of(sheet));
+  const auto force_of = [](std::size_t link) -> Get {
+    return [link](P p) { return p.forces.links[link].inertia_force.magnitude(); };
+  };
+  const auto couple_of = [](std::size_t link) -> Get {
+    return [link](P p) { return p.forces.links[link].inertia_couple; };
+  };
   double scale = 0, couple_scale = 0;
   for (std::size_t i = 0; i < sheet.links.size(); ++i) {
-    scale = std::max(scale, largest_of(sheet, [i](const ForcesAt& at) { return at.inertia[i].force.magnitude(); }));
-    couple_scale = std::max(couple_scale, largest_of(sheet, [i](const ForcesAt& at) { return at.inertia[i].couple; }));
+    scale = std::max(scale, largest_of(sheet, force_of(i)));
+    couple_scale = std::max(couple_scale, largest_of(sheet, couple_of(i)));
   }
   std::string words;
   for (std::size_t i = 0; i < sheet.links.size(); ++i) {
     const std::string number = std::to_string(i + 1);
     words += fmt::format("{} {}; ", number, sheet.links[i]);
-    const Get force = [i](const ForcesAt& at) { return at.inertia[i].force.magnitude(); };
-    const Get couple = [i](const ForcesAt& at) { return at.inertia[i].couple; };
-    if (largest_of(sheet, force) > 1e-12 * scale) {
-      t.add(
-          "F_x" + number, "N", [i](const ForcesAt& at) { return at.inertia[i].force.x; }, scale);
-      t.add(
-          "F_y" + number, "N", [i](const ForcesAt& at) { return at.inertia[i].force.y; }, scale);
+    if (largest_of(sheet, force_of(i)) > 1e-12 * scale) {
+      const auto along = [i](P p) { return p.forces.links[i].inertia_force.x; };
+      const auto across = [i](P p) { return p.forces.links[i].inertia_force.y; };
+      t.add("F_x" + number, "N", along, scale);
+      t.add("F_y" + number, "N", across, scale);
     }
-    if (largest_of(sheet, couple) > 1e-12 * couple_scale) t.add("M_" + number, "N·m", couple, couple_scale);
+    if (largest_of(sheet, couple_of(i)) > 1e-12 * couple_scale) t.add("M_" + number, "N·m", couple_of(i), couple_scale);
   }
-  t.table().note = fmt::format(
+  t.table.note = fmt::format(
       "links: {}F = −m a_S in the centre of mass and M = −I ε, in the axes of the mechanism: +x along {}, +y 90° ahead "
       "of it; {}.",
       words, load_rocks(sheet) ? "the ground link" : "the stroke", sheet.speed);
-  return t.table();
+  return t.table;
 }
 
 SheetCurve curve_of(const ForcesSheet& sheet, const std::string& symbol, Pen pen, const Get& get) {
-  SheetCurve curve{symbol, sheet.way, {}, {}, pen};
-  for (const ForcesAt& at : sheet.curve) curve.value.push_back(get(at));
-  for (const ForcesAt& at : sheet.at) curve.at_positions.push_back(get(at));
+  SheetCurve curve{symbol, {}, {}, {}, pen};
+  for (const auto& [way, p] : by_way(sheet.motion.cycle, sheet.forces.prescribed->curve, phi_of))
+    curve.way.push_back(way), curve.value.push_back(get(*p));
+  for (std::size_t k = 0; k < sheet.motion.positions.size(); ++k)
+    curve.at_positions.push_back(get(sheet.forces.also[3 * k + 1]));
   return curve;
 }
 
-void add_diagrams(Sheets& sheets, const ForcesSheet& sheet) {
-  const Box room = sheets.room();
-  const AngleAxis axis = angle_axis(sheet.motion.cycle.length, room.x + 6, room.width - 24);
-  Canvas& c =
-      sheets.add(fmt::format("{}: load and balancing torque", sheet.mechanisms.front().mechanism.name), axis.words());
-  const double height = room.height / 2;
-  draw_diagram(
-      c, {room.x, room.y, room.width, height - 2}, axis,
-      {"Load on the output",
-       load_rocks(sheet) ? "μ_M" : "μ_F",
-       load_rocks(sheet) ? "N·m" : "N",
-       {curve_of(sheet, load_rocks(sheet) ? "M_load" : "F", Pen::load, [](const ForcesAt& at) { return at.load; })}},
-      sheet.motion.positions);
-  draw_diagram(c, {room.x, room.y + height, room.width, height - 2}, axis,
-               {"Balancing torque of the shaft on the crank",
-                "μ_M",
-                "N·m",
-                {curve_of(sheet, "M_b", Pen::main, [](const ForcesAt& at) { return at.torque; })}},
-               sheet.motion.positions);
-  add_lines(c, sheets.foot(), fmt::format("{}; {}.", axis.words(), sheet.speed));
+void add_torques(Sheets& sheets, const ForcesSheet& sheet) {
+  const bool rocks = load_rocks(sheet);
+  add_diagrams(
+      sheets, fmt::format("{}: load and balancing torque", sheet.mechanisms.front().mechanism.name),
+      sheet.motion.cycle.length, sheet.motion.positions,
+      {{"Load on the output",
+        rocks ? "μ_M" : "μ_F",
+        rocks ? "N·m" : "N",
+        {curve_of(sheet, rocks ? "M_load" : "F", Pen::load, load_of)}},
+       {"Balancing torque of the shaft on the crank", "μ_M", "N·m", {curve_of(sheet, "M_b", Pen::main, torque_of)}}},
+      sheet.speed);
 }
 
 // Two a diagram: reactions of neighbours are alike and would hide each other.
 void add_reactions(Sheets& sheets, const ForcesSheet& sheet) {
-  constexpr Pen pens[] = {Pen::main, Pen::load};
-  const Box room = sheets.room();
-  const AngleAxis axis = angle_axis(sheet.motion.cycle.length, room.x + 6, room.width - 24);
-  const std::size_t n = sheet.joints.size(), per_sheet = 4;
-  for (std::size_t from = 0; from < n; from += per_sheet) {
-    Canvas& c =
-        sheets.add(fmt::format("{}: reactions in the joints", sheet.mechanisms.front().mechanism.name), axis.words());
-    const double height = room.height / 2;
-    for (std::size_t k = from; k < std::min(n, from + per_sheet); k += 2) {
-      SheetDiagram d{"", "μ_F", "N", {}};
-      for (std::size_t j = k; j < std::min({n, k + 2, from + per_sheet}); ++j) {
-        d.title += (j > k ? ", " : "") + sheet.joints[j].symbol + " " + sheet.joints[j].words;
-        d.curves.push_back(curve_of(sheet, sheet.joints[j].symbol, pens[j - k],
-                                    [j](const ForcesAt& at) { return at.reactions[j].force.magnitude(); }));
-      }
-      const double top = room.y + height * static_cast<double>((k - from) / 2);
-      draw_diagram(c, {room.x, top, room.width, height - 2}, axis, d, sheet.motion.positions);
-    }
-    add_lines(c, sheets.foot(), fmt::format("{}; magnitudes; {}.{}", axis.words(), sheet.speed, notes_of(sheet)));
+  std::vector<SheetDiagram> diagrams;
+  for (std::size_t k = 0; k < sheet.joints.size(); ++k) {
+    const ForcesSheet::Joint& joint = sheet.joints[k];
+    const bool second = k % 2 == 1;
+    if (!second) diagrams.push_back({"", "μ_F", "N", {}});
+    diagrams.back().title += (second ? ", " : "") + joint.symbol + " " + joint.words;
+    diagrams.back().curves.push_back(curve_of(sheet, joint.symbol, second ? Pen::load : Pen::main, reaction_of(k)));
+  }
+  constexpr std::size_t per_sheet = 2;
+  for (auto d = diagrams.begin(); d < diagrams.end();) {
+    const auto end = d + std::min<std::ptrdiff_t>(per_sheet, diagrams.end() - d);
+    add_diagrams(sheets, fmt::format("{}: reactions in the joints", sheet.mechanisms.front().mechanism.name),
+                 sheet.motion.cycle.length, sheet.motion.positions, {d, end},
+                 fmt::format("magnitudes; {}{}", sheet.speed, notes_of(sheet)), per_sheet);
+    d = end;
   }
 }
 
@@ -282,7 +231,7 @@ std::string ForcesSheet::html() const {
   add_table(sheets, reaction_table(*this));
   add_table(sheets, inertia_table(*this));
   add_polygons(sheets, *this);
-  add_diagrams(sheets, *this);
+  add_torques(sheets, *this);
   add_reactions(sheets, *this);
   return sheets.html();
 }
@@ -309,7 +258,6 @@ ForcesSheet sheet_of(const Scene& scene, const ForcesOptions& options, const Pap
   };
   sheet.forces = find_forces(scene, asked);
   name_parts(sheet, sheet.forces.prescribed->positions.front().forces);
-  take_forces(sheet);
   return sheet;
 }
 

@@ -13,21 +13,6 @@
 
 namespace kurbel {
 
-// Forces at one position, of any mechanism.
-struct ForcesAt {
-  struct Reaction {
-    Force2 force;       // [N]
-    double moment = 0;  // of a slide [N·m]
-  };
-  struct Inertia {
-    Force2 force;       // −m a_S [N]
-    double couple = 0;  // −I ε [N·m]
-  };
-  double phi = 0, load = 0, torque = 0;  // [rad], [N] or [N·m], [N·m]
-  std::vector<Reaction> reactions;       // of the joints
-  std::vector<Inertia> inertia;          // of the links
-};
-
 struct ForcesSheet {
   struct Joint {
     std::string symbol, words;  // "R_12", "crank pin: crank on rod"
@@ -41,10 +26,9 @@ struct ForcesSheet {
   SheetMotion motion;
   std::vector<Joint> joints;
   std::vector<std::string> links;
-  std::vector<ForcesAt> looks;  // before, at and after each position
-  std::vector<ForcesAt> at;     // at each
-  std::vector<ForcesAt> curve;  // over the cycle, ascending
-  std::vector<double> way;
+
+  // At a position; before, at and after each: forces.also.
+  const LinkageForces& at(std::size_t position) const { return forces.also[3 * position + 1].forces; }
 
   std::string html() const;
 };

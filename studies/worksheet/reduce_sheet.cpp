@@ -31,12 +31,6 @@ double torques_at(const MachineReduction& r, double phi) {
   return p.load - p.drive;
 }
 
-// How much the torques jump or bend at an angle.
-double bend_at(const MachineReduction& r, double phi) {
-  constexpr double step = 2 / in_degrees;
-  return std::abs(torques_at(r, phi + step) - 2 * torques_at(r, phi) + torques_at(r, phi - step));
-}
-
 std::vector<double> load_edges(const Scene& scene, const ReduceOptions& options, double sense) {
   try {
     RigidMachine rigid(compile_at(scene, classical_effects(scene), options.at));
@@ -66,16 +60,10 @@ std::optional<double> greatest_load(const MachineReduction& r, const std::vector
 }
 
 std::vector<SheetPosition> positions_of(const MachineReduction& r, const SheetCycle& cycle,
-                                        const std::vector<double>& all_edges) {
-  constexpr double visible = 2e-3;  // of the largest torque: a dead centre of a load that opposes is none
-  std::vector<double> edges, weight;
-  for (const double edge : all_edges) {
-    if (edge >= r.cycle * (1 - 1e-12)) continue;
-    const double bend = bend_at(r, edge);
-    if (bend < visible * largest_load(r)) continue;
-    edges.push_back(edge), weight.push_back(bend);
-  }
-  return sheet_positions(cycle, edges, greatest_load(r, edges), weight);
+                                        const std::vector<double>& edges) {
+  const auto load = [&r](double phi) { return torques_at(r, phi); };
+  const BentEdges bent = bent_edges(edges, r.cycle, load, largest_load(r));
+  return sheet_positions(cycle, bent.at, greatest_load(r, bent.at), bent.bend);
 }
 
 void look_along(ReduceSheet& sheet) {
@@ -85,7 +73,7 @@ void look_along(ReduceSheet& sheet) {
     sheet.at.push_back(r.also[3 * k + 1]);
     sheet.motion.at.push_back(motion(sheet.at.back()));
   }
-  for (const auto& [way, p] : by_way(sheet.motion.cycle, r.curve))
+  for (const auto& [way, p] : by_way(sheet.motion.cycle, r.curve, &ReducedPosition::phi))
     sheet.motion.way.push_back(way), sheet.motion.between.push_back(motion(*p));
 }
 
@@ -138,38 +126,32 @@ std::vector<ReducedRow> rows_of(const ReduceSheet& sheet) {
 
 SheetTable torque_table(const ReduceSheet& sheet) {
   const MachineReduction& r = sheet.reduction;
-  const std::vector<ReducedRow> rows = rows_of(sheet);
-  SheetTable t = table_of_positions(fmt::format("Reduced to {}: torques, inertia, works", r.link), rows);
-  const auto add = [&](const std::string& symbol, const std::string& unit, const auto& get) {
-    SheetColumn column{symbol, unit, {}};
-    for (const ReducedRow& row : rows) column.values.push_back(get(row));
-    t.columns.push_back(std::move(column));
-  };
-  add("M_d", "N·m", [](const ReducedRow& row) { return row.values->drive; });
-  add("M_c", "N·m", [](const ReducedRow& row) { return row.values->load; });
-  add("I_em", "kg·m²", [](const ReducedRow& row) { return row.values->mechanism_inertia; });
-  add("I_r", "kg·m²", [](const ReducedRow& row) { return row.values->inertia; });
-  add("I_r′", "kg·m²/rad", [](const ReducedRow& row) { return row.values->slope; });
-  t.note = fmt::format(
+  TableOfPositions t(fmt::format("Reduced to {}: torques, inertia, works", r.link), rows_of(sheet));
+  t.add("M_d", "N·m", &ReducedPosition::drive);
+  t.add("M_c", "N·m", &ReducedPosition::load);
+  t.add("I_em", "kg·m²", &ReducedPosition::mechanism_inertia);
+  t.add("I_r", "kg·m²", &ReducedPosition::inertia);
+  t.add("I_r′", "kg·m²/rad", &ReducedPosition::slope);
+  t.table.note = fmt::format(
       "M_d, M_c: driving and resisting torque reduced to {}, at {}; I_em: reduced inertia of the mechanisms, I_r: of "
       "the whole machine; letters: edges of the load and its greatest value, ⁻ just before, ⁺ just after.",
       r.link, speed_words(r));
   if (sheet.works) {
     const WorkDiagram& d = sheet.works->sizing.diagram;
     const auto work = [&](const std::string& symbol, const Piecewise& f) {
-      add(symbol, "J", [&](const ReducedRow& row) { return sheet.from_origin(f, row.position->way); });
+      t.add(symbol, "J", [&](const ReducedRow& row) { return sheet.from_origin(f, row.position->way); });
     };
     work("A_d", d.drive_work), work("A_c", d.load_work), work("ΔT", d.excess);
-    t.note += fmt::format(
+    t.table.note += fmt::format(
         " A_d, A_c, ΔT = A_d − A_c from position 0 on; A_d by the {} {:.6g} N·m that balances the cycle.",
         sheet.works->sizing.engine ? "drive; the load is its own and" : "constant torque of", d.mean_torque());
   }
-  return t;
+  return t.table;
 }
 
 SheetCurve of_positions(const ReduceSheet& sheet, const std::string& symbol, Pen pen, double ReducedPosition::*value) {
   SheetCurve curve{symbol, {}, {}, {}, pen};
-  for (const auto& [way, p] : by_way(sheet.motion.cycle, sheet.reduction.curve))
+  for (const auto& [way, p] : by_way(sheet.motion.cycle, sheet.reduction.curve, &ReducedPosition::phi))
     curve.way.push_back(way), curve.value.push_back(p->*value);
   for (const ReducedPosition& p : sheet.at) curve.at_positions.push_back(p.*value);
   return curve;
@@ -198,46 +180,36 @@ void add_balanced(const ReduceSheet& sheet, SheetDiagram& torques) {
 }
 
 void add_torques_and_works(Sheets& sheets, const ReduceSheet& sheet) {
-  const Box room = sheets.room();
-  const AngleAxis axis = angle_axis(sheet.reduction.cycle, room.x + 6, room.width - 24);
-  Canvas& c = sheets.add(sheet.works ? "Torques and works over the cycle" : "Torques over the cycle", axis.words());
-  SheetDiagram torques{fmt::format("Torques reduced to {}", sheet.reduction.link),
-                       "μ_M",
-                       "N·m",
-                       {of_positions(sheet, "M_c", Pen::load, &ReducedPosition::load),
-                        of_positions(sheet, "M_d", Pen::drive, &ReducedPosition::drive)}};
-  if (sheet.works) add_balanced(sheet, torques);
-  const double height = sheet.works ? room.height / 2 : room.height;
-  draw_diagram(c, {room.x, room.y, room.width, height - 2}, axis, torques, sheet.motion.positions);
-  std::string note = fmt::format("{}; torques at {}.", axis.words(), speed_words(sheet.reduction));
+  const MachineReduction& r = sheet.reduction;
+  std::vector<SheetDiagram> diagrams = {{fmt::format("Torques reduced to {}", r.link),
+                                         "μ_M",
+                                         "N·m",
+                                         {of_positions(sheet, "M_c", Pen::load, &ReducedPosition::load),
+                                          of_positions(sheet, "M_d", Pen::drive, &ReducedPosition::drive)}}};
+  std::string note = fmt::format("torques at {}. ", speed_words(r));
   if (sheet.works) {
     const WorkDiagram& d = sheet.works->sizing.diagram;
-    const SheetDiagram works{
-        "Works",
-        "μ_A",
-        "J",
-        {of_work(sheet, "A_c", Pen::load, d.load_work), of_work(sheet, "A_d", Pen::drive, d.drive_work)}};
-    draw_diagram(c, {room.x, room.y + height, room.width, height - 2}, axis, works, sheet.motion.positions);
-    note += fmt::format(" Work of a cycle {:.6g} J, mean torque {:.6g} N·m.", d.work, d.mean_torque());
+    add_balanced(sheet, diagrams.front());
+    diagrams.push_back(
+        {"Works",
+         "μ_A",
+         "J",
+         {of_work(sheet, "A_c", Pen::load, d.load_work), of_work(sheet, "A_d", Pen::drive, d.drive_work)}});
+    note += fmt::format("Work of a cycle {:.6g} J, mean torque {:.6g} N·m", d.work, d.mean_torque());
   } else {
-    note += " No works: " + sheet.why_no_works + ".";
+    note += "No works: " + sheet.why_no_works;
   }
-  add_lines(c, sheets.foot(), note);
+  add_diagrams(sheets, sheet.works ? "Torques and works over the cycle" : "Torques over the cycle", r.cycle,
+               sheet.motion.positions, diagrams, note);
 }
 
 void add_inertia(Sheets& sheets, const ReduceSheet& sheet) {
-  const Box room = sheets.room();
-  const AngleAxis axis = angle_axis(sheet.reduction.cycle, room.x + 6, room.width - 24);
-  Canvas& c = sheets.add("Reduced inertia over the cycle", axis.words());
-  draw_diagram(c, room, axis,
-               {"Reduced inertia of the mechanisms",
-                "μ_I",
-                "kg·m²",
-                {of_positions(sheet, "I_em", Pen::main, &ReducedPosition::mechanism_inertia)}},
-               sheet.motion.positions);
-  add_lines(
-      c, sheets.foot(),
-      fmt::format("{}; at a constant ratio turn {:.6g} kg·m² more.", axis.words(), sheet.reduction.constant_inertia));
+  add_diagrams(sheets, "Reduced inertia over the cycle", sheet.reduction.cycle, sheet.motion.positions,
+               {{"Reduced inertia of the mechanisms",
+                 "μ_I",
+                 "kg·m²",
+                 {of_positions(sheet, "I_em", Pen::main, &ReducedPosition::mechanism_inertia)}}},
+               fmt::format("at a constant ratio turn {:.6g} kg·m² more", sheet.reduction.constant_inertia));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "engine/events/equations.h"
 #include "engine/run/run.h"
-#include "mechanisms/slider_crank/joint_contact.h"
+#include "mechanisms/deforming/joint_contact.h"
 #include "tests/published/published.h"
 #include "tests/support/elements.h"
 #include "tests/support/scenes.h"

@@ -1,5 +1,5 @@
 // rod_modes_test.cpp — the integrals of a flexible rod's shape functions against quadrature and a rod's own vibrations.
-#include "mechanisms/slider_crank/rod_flexibility.h"
+#include "mechanisms/deforming/rod_flexibility.h"
 
 #include <gtest/gtest.h>
 

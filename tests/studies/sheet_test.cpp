@@ -353,27 +353,25 @@ start = { speed = "300 rpm" }
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_EQ(sheet.joints[k].symbol, (std::array{"R_01", "R_12", "R_23", "R_03"}[k]));
   const auto cells = cells_of(sheet.html());
-  for (std::size_t k = 0; k < sheet.at.size(); ++k) {
-    const ForcesAt& at = sheet.at[k];
-    const auto left = [&](Force2 sum) {
-      EXPECT_LT(sum.magnitude(), 1e-9 * (1 + at.reactions[1].force.magnitude())) << k;
-    };
-    left(at.reactions[0].force - at.reactions[1].force + at.inertia[0].force);
-    left(at.reactions[1].force - at.reactions[2].force + at.inertia[1].force);
-    left(at.reactions[2].force + at.reactions[3].force + at.inertia[2].force);
+  for (std::size_t k = 0; k < sheet.motion.positions.size(); ++k) {
+    const LinkageForces& at = sheet.at(k);
+    const auto left = [&](Force2 sum) { EXPECT_LT(sum.magnitude(), 1e-9 * (1 + at.joints[1].force.magnitude())) << k; };
+    left(at.joints[0].force - at.joints[1].force + at.links[0].inertia_force);
+    left(at.joints[1].force - at.joints[2].force + at.links[1].inertia_force);
+    left(at.joints[2].force + at.joints[3].force + at.links[2].inertia_force);
     const LinkAt& motion = sheet.motion.at[k];
     const MechanismMotionAt m = motion_at(sheet.mechanisms.front(), motion.phi, motion.omega, 0);
     double rate = 0;  // dT/dt = Σ (m a·v + I ε ω) = −Σ (inertia force · v + couple · ω)
-    const PlanarLinkage l = sheet.mechanisms.front().mechanism.data.linkage(at.phi);
+    const PlanarLinkage l = sheet.mechanisms.front().mechanism.data.linkage(at.state.phi);
     for (std::size_t i = 0; i < 3; ++i) {
       const Path& com = l.bodies[i].com;
-      rate -= motion.omega * (at.inertia[i].force.x * static_cast<double>(com.x.slope()) +
-                              at.inertia[i].force.y * static_cast<double>(com.y.slope())) +
-              at.inertia[i].couple * m.links[i].omega;
+      rate -= motion.omega * (at.links[i].inertia_force.x * static_cast<double>(com.x.slope()) +
+                              at.links[i].inertia_force.y * static_cast<double>(com.y.slope())) +
+              at.links[i].inertia_couple * m.links[i].omega;
     }
-    EXPECT_NEAR(at.torque * motion.omega + at.load * m.velocity, rate, 1e-8 * (1 + std::abs(rate)));
+    EXPECT_NEAR(at.torque * motion.omega + at.state.load * m.velocity, rate, 1e-8 * (1 + std::abs(rate)));
     const std::string& row = sheet.motion.positions[k].label;
-    EXPECT_NEAR(cell_at(cells, row, "R_12"), at.reactions[1].force.magnitude(), 1e-8);
+    EXPECT_NEAR(cell_at(cells, row, "R_12"), at.joints[1].force.magnitude(), 1e-8);
     EXPECT_NEAR(cell_at(cells, row, "M_load"), -25, 1e-12);
   }
 }

@@ -164,7 +164,7 @@ TEST(VectorPlans, PolygonsOfForcesAreClosedAndOfTheTablesForces) {
     PlanarLinkage linkage = sheet.mechanisms.front().mechanism.data.linkage(0);
     if (sheet.weightless) linkage.gravity = 0;
     double greatest = 0;
-    for (std::size_t k = 1; k < sheet.looks.size(); k += 3) {
+    for (std::size_t k = 1; k < sheet.forces.also.size(); k += 3) {
       const LinkageForces& f = sheet.forces.also[k].forces;
       const std::vector<VectorPlan> plans = force_polygons(f, linkage, "");
       ASSERT_EQ(plans.size(), sheet.links.size());
@@ -177,7 +177,7 @@ TEST(VectorPlans, PolygonsOfForcesAreClosedAndOfTheTablesForces) {
       }
       for (std::size_t j = 0; j < sheet.joints.size(); ++j) {
         const std::string& symbol = sheet.joints[j].symbol;  // "R_12"
-        const double force = sheet.looks[k].reactions[j].force.magnitude();
+        const double force = f.joints[j].force.magnitude();
         if (force > 0) {
           EXPECT_NEAR(length(arrow_in(plans[static_cast<std::size_t>(symbol.back() - '1')], symbol)), force,
                       1e-12 * greatest)

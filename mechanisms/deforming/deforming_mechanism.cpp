@@ -1,5 +1,5 @@
 // deforming_mechanism.cpp — valid combinations of deformations, internal states with scales, and the description.
-#include "mechanisms/reduced/deforming_mechanism.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ std::vector<InternalState> internal_states_of(const Mechanism& m, const RodModes
   };
   std::vector<Name> names;
   const double mass = std::max(data.slider_mass + data.rod_mass, 1e-300);
-  for (const JointClearance& c : m.clearances) {
+  for (const JointClearance& c : deformation_of(m).clearances) {
     const double gap = c.contact.gap, rate = gap * std::sqrt(c.contact.stiffness / mass);
     const std::string word = joint_word(c);
     if (c.joint == JointClearance::Joint::guide) {
@@ -86,11 +86,33 @@ std::string joint_word(const JointClearance& joint) {
   return word;
 }
 
+std::shared_ptr<const DeformingParts> Deformation::under(const Effects& effects) const {
+  auto left = std::make_shared<Deformation>();
+  if (effects.joint_clearance) left->clearances = clearances;
+  if (effects.flexible_rod) left->flexibility = flexibility;
+  return left->clearances.empty() && !left->flexibility ? nullptr : left;
+}
+
+ShaftForm Deformation::form(Mechanism mechanism) const {
+  return std::make_shared<DeformingMechanismElement>(std::move(mechanism));
+}
+
+const Deformation& deformation_of(const Mechanism& mechanism) {
+  static const Deformation none;
+  return mechanism.deforming ? static_cast<const Deformation&>(*mechanism.deforming) : none;
+}
+
+const SliderCrankDynamics* dynamics_of(const Network::ShaftElement& element) {
+  const auto* const deforming = dynamic_cast<const DeformingMechanismElement*>(mechanism_of(element));
+  return deforming ? &deforming->dynamics() : nullptr;
+}
+
 DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : MechanismElement(std::move(given)) {
   const Mechanism& m = mechanism();
-  const std::string what = m.clearances.empty() ? "a flexible rod"
-                           : m.flexibility      ? "joint clearance and a flexible rod"
-                                                : "joint clearance";
+  const Deformation& parts = deformation_of(m);
+  const std::string what = parts.clearances.empty() ? "a flexible rod"
+                           : parts.flexibility      ? "joint clearance and a flexible rod"
+                                                    : "joint clearance";
   if (m.friction)
     throw std::invalid_argument(what +
                                 " and joint_friction cannot both be on: reactions with friction are those of ideal "
@@ -101,8 +123,8 @@ DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : Mechanis
           fmt::format("{} cannot be had with the load \"{}\" of kind \"opposing\", which holds a slider that stands; "
                       "take kind \"medium\", or switch the effect off",
                       what, load.name));
-  dynamics_ = std::make_shared<const SliderCrankDynamics>(*m.data.as<SliderCrankData>(), m.clearances, m.flexibility,
-                                                          m.weightless);
+  dynamics_ = std::make_shared<const SliderCrankDynamics>(*m.data.as<SliderCrankData>(), parts.clearances,
+                                                          parts.flexibility, m.weightless);
   constexpr int n = 64;
   least_inertia = HUGE_VAL;
   for (int i = 0; i < n; ++i)
@@ -115,14 +137,14 @@ DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : Mechanis
   uses_speed = true;
   internal_states = internal_states_of(m, dynamics_->rod());
   modes += static_cast<int>(dynamics_->contacts().size());
-  if (!m.clearances.empty()) further_accounts.emplace_back(m.name + ".contact", Account::harmful);
+  if (!parts.clearances.empty()) further_accounts.emplace_back(m.name + ".contact", Account::harmful);
   if (dynamics_->rod().count() > 0) further_accounts.emplace_back(m.name + ".rod", Account::harmful);
 }
 
 std::string DeformingMechanismElement::describe() const {
   const Mechanism& m = mechanism();
   std::string text = MechanismElement::describe();
-  for (const JointClearance& c : m.clearances)
+  for (const JointClearance& c : dynamics_->clearances())
     text += fmt::format(
         "; {} of {}: gap {:.6g} m, contact after Hunt and Crossley with {:.6g} N/m at the depth of the gap, exponent "
         "{:.3g}, damping {:.4g} s/m{}",
@@ -141,8 +163,7 @@ std::string DeformingMechanismElement::describe() const {
 std::size_t further_coordinates(const Model& model) {
   std::size_t sum = 0;
   for (const Network::ShaftElement& e : model.network.elements)
-    if (const MechanismElement* element = mechanism_of(e); element && element->dynamics())
-      sum += element->dynamics()->free().size() - 1;
+    if (const SliderCrankDynamics* dynamics = dynamics_of(e)) sum += dynamics->free().size() - 1;
   return sum;
 }
 

@@ -1,5 +1,5 @@
 // rod_flexibility.cpp — integrals of the shape functions in closed form.
-#include "mechanisms/slider_crank/rod_flexibility.h"
+#include "mechanisms/deforming/rod_flexibility.h"
 
 #include <cmath>
 #include <numbers>

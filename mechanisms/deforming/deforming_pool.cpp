@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanisms/reduced/deforming_mechanism.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -119,7 +119,7 @@ void DeformingMechanismPool::add_work(const Placed& p, const Instant& now, const
   work_rate[p.at.account] += p.dynamics->weight_power(m);
   for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k)
     work_rate[p.at.account + 1 + static_cast<int>(k)] += m.x_rate * force_of(p, now, m, k);
-  if (!p.mechanism.clearances.empty())
+  if (!p.dynamics->clearances().empty())
     work_rate[p.contact_account()] -= p.dynamics->contact_loss_power(m, now.mode + p.contact_mode());
   if (p.dynamics->rod().count() > 0) work_rate[p.rod_account()] -= p.dynamics->damping_power(m);
 }
@@ -318,7 +318,7 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
     const auto& free = placed.dynamics->free();
     if (std::find(free.begin(), free.end(), std::size_t{C::y}) == free.end())
       add_own("guide_reaction", "N", [this, i](const Snapshot& s) { return reactions(placed_[i], s)[C::y]; });
-    for (std::size_t k = 0; k < placed.mechanism.clearances.size(); ++k) {
+    for (std::size_t k = 0; k < placed.dynamics->clearances().size(); ++k) {
       const auto greatest = [this, i, k](const Snapshot& s, bool force) {
         const Placed& p = placed_[i];
         const Motion m = motion(p, s.now);
@@ -330,14 +330,14 @@ void DeformingMechanismPool::add_channels(std::vector<Channel>& channels) const 
         }
         return found;
       };
-      const std::string word = joint_word(placed.mechanism.clearances[k]);
+      const std::string word = joint_word(placed.dynamics->clearances()[k]);
       add_own(word + "_force", "N", [greatest](const Snapshot& s) { return greatest(s, true); });
       add_own(word + "_penetration", "m", [greatest](const Snapshot& s) { return greatest(s, false); });
     }
     if (placed.dynamics->rod().bending == 0) continue;
     add_own("rod_deflection", "m",
             [this, i, here](const Snapshot& s) { return placed_[i].dynamics->deflection(here(s), 0.5); });
-    const RodFlexibility& rod = *placed.mechanism.flexibility;
+    const RodFlexibility& rod = *deformation_of(placed.mechanism).flexibility;
     if (rod.edge > 0)
       add_own("rod_bending_stress", "Pa", [this, i, here, rod](const Snapshot& s) {
         return rod.modulus * rod.edge * placed_[i].dynamics->greatest_bending(here(s));

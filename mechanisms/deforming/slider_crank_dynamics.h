@@ -18,9 +18,9 @@
 
 #include "engine/base/enumerators.h"
 #include "engine/numerics/dual.h"
+#include "mechanisms/deforming/joint_contact.h"
+#include "mechanisms/deforming/rod_flexibility.h"
 #include "mechanisms/linkages/slider_crank.h"
-#include "mechanisms/slider_crank/joint_contact.h"
-#include "mechanisms/slider_crank/rod_flexibility.h"
 
 namespace kurbel {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanisms/reduced/deforming_mechanism.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 
 namespace kurbel {
 namespace {

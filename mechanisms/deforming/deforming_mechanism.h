@@ -5,21 +5,34 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/model/model.h"
+#include "mechanisms/deforming/slider_crank_dynamics.h"
 #include "mechanisms/reduced/mechanism.h"
-#include "mechanisms/slider_crank/slider_crank_dynamics.h"
 
 namespace kurbel {
+
+// Clearances and flexibility of a slider-crank.
+struct Deformation final : DeformingParts {
+  std::vector<JointClearance> clearances;
+  std::optional<RodFlexibility> flexibility;
+
+  std::shared_ptr<const DeformingParts> under(const Effects& effects) const override;
+  ShaftForm form(Mechanism mechanism) const override;
+};
+// Those of a mechanism; none: empty.
+const Deformation& deformation_of(const Mechanism& mechanism);
 
 class DeformingMechanismElement final : public MechanismElement {
  public:
   // Throws std::invalid_argument for data that cannot be combined with clearance or flexibility.
   explicit DeformingMechanismElement(Mechanism mechanism);
 
-  const SliderCrankDynamics* dynamics() const override { return dynamics_.get(); }
+  bool deforms() const override { return true; }
+  const SliderCrankDynamics& dynamics() const { return *dynamics_; }
 
   std::string describe() const override;
   ShaftForm form_under(const Effects&) const override { return nullptr; }
@@ -28,6 +41,9 @@ class DeformingMechanismElement final : public MechanismElement {
  private:
   std::shared_ptr<const SliderCrankDynamics> dynamics_;
 };
+
+// The equations of a shaft's element; null: it is no mechanism that deforms.
+const SliderCrankDynamics* dynamics_of(const Network::ShaftElement& element);
 
 // Number of degrees of freedom of the mechanisms of a model in addition to their cranks.
 std::size_t further_coordinates(const Model& model);
@@ -75,7 +91,7 @@ class DeformingMechanismPool final : public ElementPool {
     std::size_t inputs() const { return 2 * dynamics->free().size(); }
     int contact_mode() const { return at.mode + 1 + static_cast<int>(mechanism.loads.size()); }
     int contact_account() const { return at.account + 1 + static_cast<int>(mechanism.loads.size()); }
-    int rod_account() const { return contact_account() + (mechanism.clearances.empty() ? 0 : 1); }
+    int rod_account() const { return contact_account() + (dynamics->clearances().empty() ? 0 : 1); }
   };
   struct GuardOwner {
     enum class Kind { travel, load, contact } kind;

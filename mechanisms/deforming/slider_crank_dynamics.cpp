@@ -1,5 +1,5 @@
 // slider_crank_dynamics.cpp — what is free, energies and powers, and the outputs of the slider-crank that deforms.
-#include "mechanisms/slider_crank/slider_crank_dynamics.h"
+#include "mechanisms/deforming/slider_crank_dynamics.h"
 
 #include <algorithm>
 #include <utility>
