@@ -42,7 +42,7 @@ class Search {
     state_.y = equations_.start(0);
     state_.modes = equations_.modes();
     try {
-      while (!done_ && out_.rounds < most_periods()) go_on();
+      while (!done_ && run_periods_ < most_periods()) go_on();
     } catch (const std::runtime_error& error) {  // an element without solution, such as jamming joints
       end(Orbit::Kind::failed, error.what());
     }
@@ -120,10 +120,10 @@ class Search {
       run.stop = [this, angle, begin](double, std::span<const double> y) {
         return std::min(1.0, round_angle() - std::abs(equations_.angle_with_turns(angle, y) - begin));
       };
-    if (options_.progress) options_.progress(fmt::format("steady motion: cycle {}", out_.rounds + 1), 0);
+    if (options_.progress) options_.progress(fmt::format("steady motion: cycle {}", out_.cycles + 1), 0);
     LinkSpeeds speeds(m_);
     const RunOutcome outcome = integrate(equations_, run, {&speeds, &last_motion_});
-    ++out_.rounds;
+    ++run_periods_, out_.cycles += options_.cycles;
     const State before = std::exchange(state_, {outcome.t, outcome.state, equations_.modes()});
     if (!outcome.complete) {
       const bool stopped = options_.interrupted && options_.interrupted->load();
@@ -189,12 +189,32 @@ class Search {
       changes_most_ = section.name(equations_, static_cast<std::size_t>(most));
       angle_changes_most_ = section.is_angle(static_cast<std::size_t>(most));
     }
+    ends_.push_back(before);
+    if (repeats_after_several()) return;
     const bool repeats = out_.still_changes <= enough_by_run, repeats_anew = repeats && !repeated_;
     if ((settled_periods_ < next_trial_ && !repeats_anew) || out_.still_changes > near_enough) return;
     next_trial_ = 2 * settled_periods_;
     repeated_ = repeats;
     polish();
     if (!done_ && !found_unstable_ && repeats) rest_on_run(new_map());
+  }
+
+  // A subharmonic motion: the state is that of several periods before, and not that of one before; these are then one period.
+  bool repeats_after_several() {
+    constexpr std::size_t most = 6;
+    constexpr double as_before = 1e-4;  // of the change over one period
+    if (ends_.size() > most) ends_.erase(ends_.begin());
+    if (settled_periods_ < next_look_back_ || out_.still_changes < as_before) return false;
+    next_look_back_ = settled_periods_ + static_cast<int>(most);
+    for (std::size_t k = 2; k <= ends_.size(); ++k) {
+      PoincareSection section(equations_, ends_[ends_.size() - k], {!period_.by_time, {}});
+      if (section.read(state_.modes, state_.y).cwiseAbs().maxCoeff() > as_before * out_.still_changes) continue;
+      options_.cycles *= static_cast<int>(k);
+      map_ = new_map();
+      settled_periods_ = 0, next_trial_ = 1, next_look_back_ = most_periods();
+      return true;
+    }
+    return false;
   }
 
   std::shared_ptr<ReturnMap> new_map() const { return std::make_shared<ReturnMap>(shared_, map_options(options_)); }
@@ -379,7 +399,7 @@ class Search {
   }
 
   void drift() {
-    const std::string where = fmt::format("after {} cycles, at {:.4g} s, ", out_.rounds, state_.t);
+    const std::string where = fmt::format("after {} cycles, at {:.4g} s, ", out_.cycles, state_.t);
     if (settled_periods_ == 0 && is_settled())
       return end(
           Orbit::Kind::drifting,
@@ -412,7 +432,7 @@ class Search {
 
   std::shared_ptr<const Model> shared_;
   const Model& m_;
-  const OrbitOptions& options_;
+  OrbitOptions options_;
   Equations equations_;
   std::shared_ptr<ReturnMap> map_;
   Periodicity period_;
@@ -422,7 +442,8 @@ class Search {
   bool slow_ = false;                                       // a period has changed little
   bool repeated_ = false;                                   // the run did, at the last trial
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
-  int settled_periods_ = 0, next_trial_ = 1;
+  int run_periods_ = 0, settled_periods_ = 0, next_trial_ = 1, next_look_back_ = 16;
+  std::vector<State> ends_;  // of the last settled periods before this one
   LastOscillation swings_;
   LastMotion last_motion_;
   std::string why_not_, changes_most_;

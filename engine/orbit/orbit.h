@@ -18,7 +18,7 @@ namespace kurbel {
 struct OrbitOptions {
   double tolerance = 1e-12;  // of the return map; that of the run is at least 1e-9
   std::string method = "auto";
-  int cycles = 1;          // cycles of the machine in one period
+  int cycles = 1;          // cycles of the machine in one period; up to six times as many where the motion needs them
   double budget = 300;     // of processor time, for one integration [s]
   int most_periods = 600;  // periods; the default: four times as many once a period has changed by less than 1e-3
   const std::atomic<bool>* interrupted = nullptr;
@@ -48,7 +48,7 @@ struct Orbit {
   bool stable = true;              // by its multipliers; false if they are uncertain or unknown
   bool polished = false;           // found by Newton's method on the return map; else by the run only
   double still_changes = 0;        // change per period, over the rated values
-  int rounds = 0;                  // periods of the run
+  int cycles = 0;                  // of the run
   double cost = 0;                 // total, in cycles
   State state;                     // a state of the steady motion; for a cycle on its section
   SteadyPoint point;               // for a cycle or a rotating equilibrium: the fixed point and its multipliers

@@ -88,10 +88,11 @@ Question steady_question() {
                 .doc = "COMPONENT.KEY, e.g. \"load.torque\": the quantity of the scene that is scaled to keep that "
                        "speed (default: a torque is added to the drive)"},
                &SteadyOptions::hold_by)
-          .add({.name = "periods",
-                .doc = "cycles after which the motion repeats (default: 1)",
-                .domain = {.low = 1, .high = 64}},
-               &SteadyOptions::periods)
+          .add(
+              {.name = "periods",
+               .doc = "cycles after which the motion repeats; up to six times as many where it needs them (default: 1)",
+               .domain = {.low = 1, .high = 64}},
+              &SteadyOptions::periods)
           .add(measurement_options(), &SteadyRequest::measured)
           .add({.name = "no_start", .doc = "skip the start from rest and the gearbox ratio that starts fastest"},
                &SteadyOptions::start_search, false),

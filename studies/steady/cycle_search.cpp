@@ -112,9 +112,10 @@ class Search {
     Orbit orbit = find_orbit(out_.model, search_options());
     out_.kind = orbit.kind;
     out_.orbit = orbit.words;
-    out_.rounds = orbit.rounds;
+    out_.run_cycles = orbit.cycles;
     out_.cost = orbit.cost;
-    out_.cost_limit = orbit_cost_limit * options_.periods;
+    out_.repeats_after = orbit.map ? orbit.map->options().cycles : options_.periods;
+    out_.cost_limit = orbit_cost_limit * out_.repeats_after;
     out_.found = orbit.repeats();
     out_.why = orbit.words;
     out_.uncertain = !orbit.stable;
@@ -275,10 +276,12 @@ class Search {
 
   // An equilibrium has no cycles: the time is given instead.
   std::string stability_in_words() {
-    const std::string text = stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error);
+    const std::string text =
+        stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error, map_->options().cycles);
     if (out_.kind != Orbit::Kind::equilibrium || !out_.halving) return text;
     const std::size_t after = text.find(" cycles");
-    return text.substr(0, text.find(" in ") + 4) + fmt::format("{:.3g} s", *out_.halving * out_.cycle_time) +
+    return text.substr(0, text.find(" in ") + 4) +
+           fmt::format("{:.3g} s", *out_.halving * out_.cycle_time / map_->options().cycles) +
            text.substr(after + std::string_view(" cycles").size());
   }
 

@@ -189,7 +189,7 @@ class Study {
     log(
         fmt::format("{}: {} unknowns; {} after a run of {} cycles and {} of Newton's, {} with derivative; cost {:.1f} "
                     "cycles (target {:.0f}); residual {:.1e}; {:.3g} ms",
-                    cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.rounds,
+                    cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.run_cycles,
                     cycle.point.rounds, cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual,
                     1e3 * cycle.cpu_seconds));
     if (!cycle.found) {
@@ -274,6 +274,7 @@ class Study {
                                                                    : fmt::format("Steady cycle of \"{}\", ", out_.link);
       text += fmt::format("{}{}: {}, {}", text.empty() ? begin : "; ", c.label,
                           c.kind == Orbit::Kind::vibrating ? vibration_text(c) : speed_text(c), c.stability);
+      if (c.repeats_after > options_.periods) text += fmt::format(", repeats after {} cycles only", c.repeats_after);
       if (c.held_quantity)
         text += fmt::format(", with {} = {} instead of {}", c.held_quantity->key,
                             with_unit(c.held_quantity->value, c.held_quantity->unit, 6),

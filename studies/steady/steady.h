@@ -26,7 +26,7 @@ struct SteadyOptions {
   // Quantity that holds this speed, COMPONENT.KEY: it is scaled; empty: a torque added to the drive.
   std::string hold_by = {};
   Moment at = {};            // state of the machine at that moment; default: after all switching
-  int periods = 1;           // cycles after which the motion repeats
+  int periods = 1;           // cycles after which the motion repeats; up to six times as many where it needs them
   bool traces = false;       // for plots
   bool start_search = true;  // also the start from rest and the gearbox ratio of the fastest start
   bool every_order = false;  // figures of all orders, not only of the significant ones
@@ -77,7 +77,8 @@ struct SteadyCycle {
   double section = 0;  // link angle of the return map's section [rad]
   SteadyPoint point;
   std::size_t unknowns = 0;
-  int rounds = 0;                         // of the run before Newton's method
+  int run_cycles = 0;                     // of the run before Newton's method
+  int repeats_after = 1;                  // one period [cycles]
   double cost = 0, cost_limit = 0;        // of the search including the run [cycles]
   double cycle_time = 0;                  // of one period [s]
   std::string stability;                  // in words
@@ -123,9 +124,10 @@ std::vector<Effects> effects_side_by_side(const Scene& scene);
 // periods without common multiple, a mean speed for a machine driven by a law over time.
 SteadyStudy steady(const Scene& scene, const std::vector<Effects>& effects, const SteadyOptions& options);
 
-// "stable: the slowest deviation halves in 3.2 cycles"; neutral if it differs from 1 by no more than the error.
+// "stable: the slowest deviation halves in 3.2 cycles"; neutral if it differs from 1 by no more than the error. `period`
+// [cycles]: of the multipliers.
 std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving,
-                           double error);
+                           double error, int period = 1);
 
 // Files: operating_points.csv, and steady.LABEL.csv per model with traces. The study must outlive the findings.
 Findings findings_of(const SteadyStudy& study);

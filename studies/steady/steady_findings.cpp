@@ -108,7 +108,7 @@ List drive_list(const SteadyCycle& c) {
 Record cycle_record(const SteadyCycle& c) {
   Record r = {{"label", c.label}, {"effects", c.effects}, {"found", c.found}};
   if (!c.orbit.empty())
-    r.push_back({"steady_motion", Record{{"kind", name_of(c.kind)}, {"words", c.orbit}, {"cycles", c.rounds}}});
+    r.push_back({"steady_motion", Record{{"kind", name_of(c.kind)}, {"words", c.orbit}, {"cycles", c.run_cycles}}});
   const auto report = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   if (!c.found) {
     report("why", c.why);

@@ -94,9 +94,10 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
       "{} unknown{} on the section at {:.4g}°; {}{} cycle{} of Newton's method ({} with derivative), cost {:.3g} "
       "cycles (target {:.0f}{}), {}; P(z) − z = {:.1e}; works of the cycle close to {:.1e}",
       c.unknowns, c.unknowns == 1 ? "" : "s", std::abs(c.section) < 1e-9 ? 0 : c.section * in_degrees,
-      c.rounds > 0 ? fmt::format("a run of {} cycle{} from its start, ", c.rounds, c.rounds == 1 ? "" : "s") : "",
+      c.run_cycles > 0 ? fmt::format("a run of {} cycle{} from its start, ", c.run_cycles, c.run_cycles == 1 ? "" : "s")
+                       : "",
       c.point.rounds, c.point.rounds == 1 ? "" : "s", c.point.derivatives, c.cost, c.cost_limit,
-      c.cost > c.cost_limit && 2 * c.rounds > c.cost ? "; mostly the run-up" : "", duration_text(c.cpu_seconds),
+      c.cost > c.cost_limit && 2 * c.run_cycles > c.cost ? "; mostly the run-up" : "", duration_text(c.cpu_seconds),
       c.point.residual, c.work_residual));
   if (c.point.grazed)
     words.push_back("an event is only just touched on the way: there the multipliers depend on the side");
@@ -191,7 +192,7 @@ std::vector<std::string> words_of_start(const SteadyStudy& s) {
 }
 
 std::string stability_text(const std::vector<std::complex<double>>& multipliers, std::optional<double>* halving,
-                           double error) {
+                           double error, int period) {
   if (halving) halving->reset();
   const std::complex<double> slowest = multipliers.empty() ? 0 : multipliers.front();
   const double size = std::abs(slowest);
@@ -199,10 +200,12 @@ std::string stability_text(const std::vector<std::complex<double>>& multipliers,
   if (!multipliers.empty() && std::abs(size - 1) <= error)
     return "neutral: a deviation neither fades nor grows (multiplier 1), the cycle is one of a family";
   if (size > 1)
-    return fmt::format("unstable: a deviation doubles in {:.3g} cycles{}", std::log(2.0) / std::log(size), swinging);
+    return fmt::format("unstable: a deviation doubles in {:.3g} cycles{}", period * std::log(2.0) / std::log(size),
+                       swinging);
   if (size < 1e-3)
-    return fmt::format("stable: a cycle leaves less than {:.0e} of any deviation", std::max(size, 1e-12));
-  const double cycles = std::log(2.0) / -std::log(size);
+    return fmt::format("stable: {} less than {:.0e} of any deviation",
+                       period == 1 ? "a cycle leaves" : fmt::format("{} cycles leave", period), std::max(size, 1e-12));
+  const double cycles = period * std::log(2.0) / -std::log(size);
   if (halving) *halving = cycles;
   return fmt::format("stable: the slowest deviation halves in {:.3g} cycles{}", cycles, swinging);
 }

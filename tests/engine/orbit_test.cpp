@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -361,7 +362,7 @@ TEST(Orbit, ASequenceOfManyStepsRepeats) {
   const Orbit orbit = orbit_of(scene);
   ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
   EXPECT_NEAR(orbit.point.time, strokes * 2 * pulse + pause, 1e-9);
-  EXPECT_LT(orbit.rounds, 390);  // turns until e^(-κ t) is 1e-7
+  EXPECT_LT(orbit.cycles, 390);  // turns until e^(-κ t) is 1e-7
   // Speed at the section, in the middle of the widest gap: of its round from there on, in which every interval brings it
   // nearer to where the motor balances, e^(-κ t).
   double factor = 1, offset = 0;
@@ -551,8 +552,51 @@ TEST(Orbit, WaitingIsNoCycle) {
       "no_load_speed = \"40 rad/s\", inertia = \"0.5 kg*m2\" }\nbrake = { kind = \"brake\", torque = \"100 N*m\" }\n"
       "load = { kind = \"load\", torque = \"15 N*m\", inertia = \"0.3 kg*m2\", stop = \"200 s\" }\n");
   EXPECT_EQ(orbit.kind, Orbit::Kind::at_rest) << orbit.words;
-  EXPECT_GT(orbit.rounds, 1);
+  EXPECT_GT(orbit.cycles, 1);
   EXPECT_LT(orbit.cost, 1);
+}
+
+// A press on a belt that slips: a turn is not like the one before, but like the one before that. The machine itself, run for
+// 300 turns, tells the time of its last ones.
+TEST(Orbit, AMotionThatRepeatsAfterTwoCyclesOnly) {
+  const Scene scene = scene_from(R"(
+line = ["motor", "flywheel", "belt", "press"]
+motor = { kind = "induction motor", rated_power = "101.15 W", rated_speed = "11.463 rad/s", synchronous_speed = "12.068 rad/s", breakdown_ratio = 2.38, inertia = "0.070837 kg*m2" }
+flywheel = { kind = "flywheel", inertia = "0.20879 kg*m2" }
+belt = { kind = "belt", diameter_in = "200 mm", diameter_out = "200 mm", friction_coefficient = 0.4, wrap_angle = "160 deg", pretension = "547.03 N", stiffness = "557.73 N*m/rad", damping_ratio = 0.05 }
+press = { kind = "slider-crank", radius = "0.08235 m", rod = "0.40675 m", crank_inertia = "0.045247 kg*m2", slider_mass = "0.45907 kg", load = { kind = "press", nominal_force = "895.01 N", nominal_travel = "0.02738 m", rise = "0.002738 m" } }
+[effects]
+elasticity = true
+)");
+  const auto model = compile(scene, scene.effects);
+  Equations equations(model, false);
+  std::array<double, 4> passed{};  // turns 297 … 300
+  State state{0, equations.start(0), equations.modes()};
+  for (std::size_t k = 0; k < passed.size(); ++k) {
+    RunOptions run{
+        .tolerance = 1e-9, .method = "auto", .until = 1000, .budget = 60, .interrupted = nullptr, .progress = {}};
+    run.from = {state.t, state.y};
+    run.stop = [&](double, std::span<const double> y) {
+      return 2 * pi * (297.0 + static_cast<double>(k)) -
+             equations.angle_with_turns(static_cast<std::size_t>(model->reduction_angle), y);
+    };
+    const RunOutcome outcome = integrate(equations, run, {});
+    ASSERT_TRUE(outcome.stopped);
+    state = {outcome.t, outcome.state, equations.modes()};
+    passed[k] = outcome.t;
+  }
+  const double first = passed[1] - passed[0], second = passed[2] - passed[1], third = passed[3] - passed[2];
+  ASSERT_GT(std::abs(second - first), 1e-3 * first);
+  ASSERT_NEAR(third, first, 1e-6 * first);
+  const Orbit orbit = find_orbit(model, {});
+  ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
+  EXPECT_TRUE(orbit.polished);
+  EXPECT_EQ(orbit.map->options().cycles, 2);
+  EXPECT_NEAR(orbit.point.turned, 4 * pi, 1e-9);
+  EXPECT_NEAR(orbit.point.time, first + second, 1e-6 * first);
+  // Asked for two cycles, it is the same motion, in the same number of cycles.
+  EXPECT_NEAR(orbit.point.time, find_orbit(model, {.cycles = 2}).point.time, 1e-9);
+  EXPECT_EQ(find_orbit(model, {.cycles = 3, .most_rounds = 40}).cycles, 120);  // no multiple of two
 }
 
 }  // namespace

@@ -102,11 +102,17 @@ class MotionJudge {
     for (const Moment& m : p_) most = std::max(most, std::abs(m.speed));
     return most;
   }
-  double rests_since() const {
-    for (auto m = p_.rbegin(); m != p_.rend(); ++m)
-      if (turns_at(*m)) return m->t;
+  // When the speed enters this range for good, on the straight line between two points; 0 where it is never outside.
+  double within_from(double low, double high) const {
+    for (std::size_t k = p_.size(); k-- > 0;) {
+      const double speed = p_[k].speed, border = speed > high ? high : low;
+      if (speed >= low && speed <= high) continue;
+      if (k + 1 == p_.size()) return p_[k].t;
+      return p_[k].t + (p_[k + 1].t - p_[k].t) * (speed - border) / (speed - p_[k + 1].speed);
+    }
     return 0;
   }
+  double rests_since() const { return within_from(-turns * usual_, turns * usual_); }
   // From its last reversal but one to the last one, where the time between the two before is that within a factor of two: a
   // vibration; else 0.
   double half_swing() const {
@@ -335,10 +341,7 @@ class MotionJudge {
       j["stands_within"] = stands_within(first.begin, end.end);
       const auto entered = [&](double part) {
         const double margin = part * std::abs(mean_speed(first.begin, end.end));
-        double last = 0;
-        for (const Moment& m : p_)
-          if (m.speed < least - margin || m.speed > greatest + margin) last = m.t;
-        return last;
+        return within_from(least - margin, greatest + margin);
       };
       j["run_up"] = entered(0.01), j["run_up_earliest"] = entered(0.011), j["run_up_latest"] = entered(0.009);
     } else if (!list.empty()) {
@@ -365,7 +368,8 @@ bool closed(double command) { return command >= 1 - 1e-12; }
 json facts_of(const Contact& c, double until) {
   using State = Stretch::State;
   json j{{"component", c.component}, {"kind", c.kind}, {"capacity", c.capacity}, {"usual_speed", c.usual_speed}};
-  double open = 0, holds = 0, slips = 0, longest = 0, deepest = 0, held_torque = 0, heat = 0, hottest = 0;
+  double open = 0, holds = 0, slips = 0, longest = 0, deepest = 0, held_torque = 0, heat = 0, hottest = 0,
+         stopped_within = 0;
   int lets_go = 0, lets_go_at_all = 0, engages = 0, slipping = 0;
   json first;
   for (std::size_t k = 0; k < c.stretches.size(); ++k) {
@@ -377,6 +381,8 @@ json facts_of(const Contact& c, double until) {
       held_torque = std::max(held_torque, s.torque);
     const bool held_before =
         k > 0 && c.stretches[k - 1].state == State::holds && closed(c.stretches[k - 1].command_end);
+    if (s.state == State::holds && k > 0 && c.stretches[k - 1].state == State::slips)
+      stopped_within = std::max(stopped_within, c.stretches[k - 1].end - c.stretches[k - 1].begin);
     const bool lets = s.state == State::slips && held_before && closed(s.command_begin);
     if (lets) ++lets_go_at_all;
     if (!counts(s, c)) continue;
@@ -392,7 +398,7 @@ json facts_of(const Contact& c, double until) {
   j["times_slipping"] = slipping, j["lets_go"] = lets_go, j["lets_go_at_all"] = lets_go_at_all, j["engages"] = engages,
   j["first_let_go"] = first;
   j["longest"] = longest, j["deepest"] = deepest, j["greatest_held_torque"] = held_torque;
-  j["heat"] = heat, j["hottest"] = hottest;
+  j["heat"] = heat, j["hottest"] = hottest, j["stopped_within"] = stopped_within;
   if (!c.stretches.empty()) {
     const Stretch& last = c.stretches.back();
     j["at_end"] = last.state == State::open ? "open" : last.state == State::holds ? "holds" : "slips";

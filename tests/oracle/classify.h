@@ -15,7 +15,7 @@
 //   to_and_fro  the smaller one of these two shares of the way; 1: it does not turn to and fro
 //   fastest_late     the speed at the end; of one that vibrates the greatest of its last half swing, or of the last 2 % of the
 //               time
-//   rests_since the last point at which it turned, of one that rests; 0 where it never did
+//   rests_since when it last turned, of one that rests; 0 where it never did
 //   held_since  the last point at which its shaft neither was tied to the frame nor stood (gears hold without a tie), of one
 //               that does so at the end
 //   driven      a source is within its window of time and not told 0;  drives: and gives a torque that acts
@@ -49,6 +49,7 @@
 //   two_periods a torque depends on time and something on the link's angle: nothing need ever come again
 //   contacts    lets_go: slips at a command of 1 that has not changed since it held; engages: slips otherwise while it is told
 //               more than 0; open: told 0;  a slip counts from 1e-3 of the usual speed, or 1e-2 rad in all; lets_go_at_all: without that
+//               stopped_within: the longest time of slip that ended in a hold
 //   motors      late_rms_torque: the smaller one of the last two eighths of the time: a motor may run up while the link is steady
 //   limits      of ratings that the scene states: greatest value sampled over the limit
 #pragma once

@@ -278,7 +278,9 @@ class Judge:
             turns = c["at_end"] == "slips" and abs(c["slip_at_end"]) > TURNS * c["usual_speed"]
             if said and not turns:
                 self.contradiction("does not stop it, but has", f"\"{name}\" {c['at_end']} at the end")
-            if turns and not said and c["command_at_end"] > 0 and m["until"] - c["slips_since"] > CLEARLY * m["until"] and not r.mentions(name):
+            # A brake that has stopped the machine before may take as long again.
+            as_before = max(CLEARLY * m["until"], c["stopped_within"])
+            if turns and not said and c["command_at_end"] > 0 and m["until"] - c["slips_since"] > as_before and not r.mentions(name):
                 self.omission("brake is on and the machine turns", f"\"{name}\" slips at {c['slip_at_end']:.4g} rad/s since {c['slips_since']:.4g} s; said: {r.sentences[0]}")
 
     WORDS = {"heat": "heat of an engagement", "heat power": "mean heat power", "tension": "strand force", "reserve": "reserve against slip",

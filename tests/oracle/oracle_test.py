@@ -24,7 +24,7 @@ def motion(**changes):
 def contact(kind="clutch", **changes):
     return {"component": "clutch", "kind": kind, "capacity": 100.0, "usual_speed": 30.0, "open": 0.0, "holds": 9.0, "slips": 1.0,
             "times_slipping": 1, "lets_go": 0, "lets_go_at_all": changes.get("lets_go", 0), "engages": 1, "first_let_go": None, "longest": 0.0, "deepest": 0.0,
-            "greatest_held_torque": 50.0, "heat": 10.0, "hottest": 10.0, "at_end": "holds", "slips_since": 1.0, "command_at_end": 1.0,
+            "greatest_held_torque": 50.0, "heat": 10.0, "hottest": 10.0, "stopped_within": 0.0, "at_end": "holds", "slips_since": 1.0, "command_at_end": 1.0,
             "slip_at_end": 0.0, "torque_of_last": 50.0, "slips_to_the_end": False, **changes}
 
 
@@ -174,6 +174,8 @@ TRUE = {
                                              sequence=3, contacts=[contact(command_at_end=0.0, open=2.0, at_end="open")], steady=NOTHING),
     "a motor held while the machine vibrates": answer('"press" vibrates to the end.', {"end": "vibrates", "steady": "no"}, steady=NOTHING, motors=[
         {**MOTOR, "speed": 0.0, "stands": True}], claims=[("vibrates", "press"), ("held_by", "motor")]),
+    "brakes at the end, for less time than before": answer(contacts=[
+        contact("brake", at_end="slips", slip_at_end=30.0, slips_since=8.0, stopped_within=2.5)], sequence=3),
     "rests": answer('"press" is at rest after 10 s.', REST, periods={"standstill": 5.0}, steady=NOTHING),
     "held": answer('"press" is at rest after 10 s: "brake" holds the 8.8 N·m that act.', REST, held=HELD, steady=NOTHING),
     "does not start": answer('"press" does not start: its loads hold the 5 N·m that drive it.', {**NEVER, "does_not_start": True, "pushed_at_end": True},
