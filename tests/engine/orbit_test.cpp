@@ -596,7 +596,7 @@ elasticity = true
   EXPECT_NEAR(orbit.point.time, first + second, 1e-6 * first);
   // Asked for two cycles, it is the same motion, in the same number of cycles.
   EXPECT_NEAR(orbit.point.time, find_orbit(model, {.cycles = 2}).point.time, 1e-9);
-  EXPECT_EQ(find_orbit(model, {.cycles = 3, .most_rounds = 40}).cycles, 120);  // no multiple of two
+  EXPECT_EQ(find_orbit(model, {.cycles = 3, .most_periods = 40}).cycles, 120);  // no multiple of two
 }
 
 }  // namespace
