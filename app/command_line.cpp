@@ -227,7 +227,7 @@ int present(StudyOutput output, const StudyOptions& options) {
   if (!output.aside.empty()) complain(fmt::format("kurbel: {}\n", output.aside));
   if (!output.words.empty()) return exit_done;
   // Settings are recorded in every summary.
-  if (!options.set.empty()) output.tell("set", options.set);
+  if (!options.set.empty()) output.record("set", options.set);
   // Read once: files and exit code must agree.
   const bool stopped = interrupt_seen;
   if (options.json)

@@ -34,7 +34,7 @@ int run(int argc, char** argv) {
 }
 
 // Runs the command; reports errors as a message and an exit code.
-int run_and_tell(int argc, char** argv) {
+int run_and_report(int argc, char** argv) {
   using namespace kurbel::app;
   try {
     return run(argc, argv);
@@ -68,10 +68,10 @@ int main(int argc, char** argv) {
   // program as usual.
   catch_signals();
   open_standard_streams();
-  const int code = run_and_tell(argc, argv);
+  const int code = run_and_report(argc, argv);
   bool reader_left = false;
-  const std::string unsaid = why_unsaid(reader_left);
-  if (unsaid.empty()) return code;
-  if (!reader_left) complain(fmt::format("kurbel: what there was to say could not be written: {}\n", unsaid));
+  const std::string unwritten = why_unsaid(reader_left);
+  if (unwritten.empty()) return code;
+  if (!reader_left) complain(fmt::format("kurbel: what there was to say could not be written: {}\n", unwritten));
   return code == exit_done ? exit_run_failed : code;
 }

@@ -76,7 +76,7 @@ void costs_of_steady_cycles();
 // What a sweep costs over bare runs, two threads over two processes, a shell loop over it; `program`: kurbel itself.
 void rates_of_sweeps(BenchBook& book, const std::string& program);
 // Every verb against the settled run of every scene whose name holds `only`: half 0 steady, reduce, size; half 1 modes,
-// forces, advise. Writes FOLDER/agreement.md or agreement_of_swings.md, too. Throws std::invalid_argument in words.
+// forces, advise. Writes FOLDER/agreement.md or agreement_of_vibrations.md, too. Throws std::invalid_argument in words.
 void agreement_of_verbs(BenchBook& book, int half, const std::string& only, int jobs, const std::string& folder);
 // Families or cases whose names hold `only` ("": all), with at most this much processor time an integration [s];
 // heavy ones take what they ask for.

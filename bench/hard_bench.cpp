@@ -23,7 +23,7 @@ struct CaseMatrix {
   std::vector<std::vector<CaseOutcome>> cells;
 };
 
-constexpr std::array verdicts = {Verdict::passed,     Verdict::told,     Verdict::refused,
+constexpr std::array verdicts = {Verdict::passed,     Verdict::reported, Verdict::refused,
                                  Verdict::unfinished, Verdict::excluded, Verdict::failed};
 
 Tone tone_of(Verdict verdict) {
@@ -31,7 +31,7 @@ Tone tone_of(Verdict verdict) {
     case Verdict::passed:
     case Verdict::refused:
       return Tone::good;
-    case Verdict::told:
+    case Verdict::reported:
     case Verdict::unfinished:
       return Tone::fair;
     case Verdict::excluded:
@@ -294,7 +294,7 @@ CaseMatrix run_all(const HardCase& hard_case, double budget) {
       row.push_back(hard::run_case(hard_case, method, accuracy, hard_case.heavy ? hard_case.budget : budget));
       if (row.back().verdict == Verdict::unfinished) spent = &row.back();
       const CaseOutcome& o = row.back();
-      if (o.verdict == Verdict::failed || o.verdict == Verdict::unfinished || o.verdict == Verdict::told)
+      if (o.verdict == Verdict::failed || o.verdict == Verdict::unfinished || o.verdict == Verdict::reported)
         std::fprintf(stderr, "%s %s (%s), %s: %s\n", hard_case.family.c_str(), hard_case.name.c_str(),
                      hard_case.parameter.c_str(), method.c_str(), words_of(o).c_str());
     }

@@ -55,7 +55,7 @@ Waited wait_for(const std::shared_ptr<const Model>& model, const ReturnMap& map,
     RunOptions options{
         .tolerance = 1e-11, .method = "auto", .until = 1e6, .budget = 600, .interrupted = nullptr, .progress = {}};
     options.from = {0, y};
-    options.stop = map.round_end(equations, y, cycles);
+    options.stop = map.period_end(equations, y, cycles);
     return integrate(equations, options, {});
   });
   waited.seconds = run.median_seconds;

@@ -24,7 +24,7 @@ struct Worker {
   File file;
 };
 
-constexpr int told_in_words = 3;  // exit code of a task that threw
+constexpr int reported_in_words = 3;  // exit code of a task that threw
 
 [[noreturn]] void work(std::size_t task, int seconds, std::FILE* file,
                        const std::function<std::string(std::size_t)>& function) {
@@ -37,7 +37,7 @@ constexpr int told_in_words = 3;  // exit code of a task that threw
     text = function(task);
   } catch (const std::exception& error) {
     text = error.what();
-    code = told_in_words;
+    code = reported_in_words;
   }
   std::fwrite(text.data(), 1, text.size(), file);
   std::fflush(file);

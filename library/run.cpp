@@ -23,7 +23,7 @@ namespace {
 FigureValues figures_of(const Result& result) {
   std::vector<FigureValue> all;
   for (const Figure& f : result.figures)
-    if (is_told(f, result)) all.push_back({f, f.name, f.unit, f.at});
+    if (is_reported(f, result)) all.push_back({f, f.name, f.unit, f.at});
   return FigureValues(std::move(all));
 }
 
@@ -57,12 +57,12 @@ Run run(const Machine& machine, const RunChoices& choices) {
   return asked_of(machine.parts(), [&] {
     Inquiry inquiry = inquiry_of(machine.parts(), choices.watcher);
     inquiry.page = choices.page;
-    SingleRunAsked asked = single_run_options().read(options_of(choices), "run", inquiry.scene);
+    SingleRunRequest asked = single_run_options().read(options_of(choices), "run", inquiry.scene);
     asked.state = choices.from_state;
-    const auto told = single_run(inquiry, asked);
-    const std::shared_ptr<const Result> result(told, &told->tried.study);
+    const auto reported = single_run(inquiry, asked);
+    const std::shared_ptr<const Result> result(reported, &reported->tried.study);
     return Run(std::make_shared<const RunParts>(
-        RunParts{result, study_of(output_of(told)), figures_of(*result), trajectory_of(*result)}));
+        RunParts{result, study_of(output_of(reported)), figures_of(*result), trajectory_of(*result)}));
   });
 }
 

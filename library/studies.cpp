@@ -57,7 +57,7 @@ Study study(const std::string& name, const Options& given, const Watcher& watche
 
 Study diff(const Machine& a, const Machine& b, const Options& given, const Watcher& watcher) {
   return answered([&] {  // an error of either scene is placed in its file
-    const MachineAsked asked = machine_options().read(given, "diff", a.parts().scene);
+    const MachineRequest asked = machine_options().read(given, "diff", a.parts().scene);
     return study_of(output_of(difference_between(question_of(inquiry_of(a.parts(), watcher), asked),
                                                  question_of(inquiry_of(b.parts(), watcher), asked), asked.of)));
   });

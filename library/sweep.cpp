@@ -124,7 +124,7 @@ SweepRows rows_in(const std::string& file, const std::function<void(const SweepL
 
 Study sweep_report(const std::string& file, const std::vector<std::string>& limits) {
   return answered([&] {
-    return study_of(output_of(std::make_shared<const KeptSweep>(std::make_unique<SweepStore>(file), limits)));
+    return study_of(output_of(std::make_shared<const StoredSweep>(std::make_unique<SweepStore>(file), limits)));
   });
 }
 

@@ -35,8 +35,8 @@ std::string sentences_on(const Definition& d, const std::string& asked) {
       text += fmt::format("  {} is its greatest magnitude in {}, with its sign\n", asked, whole);
       break;
     }
-  const auto line = [&](const char* what, const std::string& told) {
-    if (!told.empty()) text += fmt::format("  {:<11}{}\n", what, told);
+  const auto line = [&](const char* what, const std::string& reported) {
+    if (!reported.empty()) text += fmt::format("  {:<11}{}\n", what, reported);
   };
   line("is", std::string(d.is));
   line("formula", std::string(d.formula));

@@ -138,7 +138,7 @@ Fields<ShaftKeys> shaft_fields() {
 // k = G J_p/L, J = ρ J_p L. By its dimensions it is continuous; else, and where its segments are told, it is cut into
 // equal springs with the inertia between and at the ends.
 void build_shaft(const Section& s, const Reading<ShaftKeys>& shaft, Network& net) {
-  if (!shaft.sound()) return;
+  if (!shaft.valid()) return;
   net.data.add<ShaftKeys>(s.name, shaft);
   const double stiffness = shaft.length ? shaft.shear_modulus * shaft.polar_moment() / *shaft.length : *shaft.stiffness;
   const double inertia =

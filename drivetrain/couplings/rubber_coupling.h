@@ -23,7 +23,7 @@ struct MaxwellBranch {
 
 template <int branches>
 struct RubberCoupling {
-  static constexpr ConnectionTraits is{.spring_takes_motion = true, .tells_loss = true, .states = branches};
+  static constexpr ConnectionTraits is{.spring_takes_motion = true, .reports_loss = true, .states = branches};
   double stiffness = 0;  // k [N·m/rad], > 0
   double damping = 0;    // c [N·m·s/rad], ≥ 0
   std::array<MaxwellBranch, branches> branch{};
@@ -57,7 +57,7 @@ struct RubberCoupling {
   void first_states(const Twist<double>& x, double* own) const {
     for (std::size_t j = 0; j < branches; ++j) own[j] = x.angle;
   }
-  OwnState state(int k) const { return {branches == 1 ? "creep" : "creep" + std::to_string(k + 1), "rad", 1e-3}; }
+  InternalState state(int k) const { return {branches == 1 ? "creep" : "creep" + std::to_string(k + 1), "rad", 1e-3}; }
   double twist_at(double torque) const { return torque / stiffness; }
   double stiffness_at_rest() const { return stiffness; }
 };

@@ -47,7 +47,7 @@ struct UniversalJoint {
                                        .uses_speeds = true,
                                        .turns_unevenly = true,
                                        .spring_takes_motion = true,
-                                       .tells_loss = true,
+                                       .reports_loss = true,
                                        .described = true};
   double stiffness = 0;  // k [N·m/rad], > 0
   double damping = 0;    // c [N·m·s/rad], ≥ 0

@@ -99,7 +99,7 @@ struct BristleBearing {
   void first_states(const ShaftState<double>& x, double* own) const {
     own[0] = x.rate == 0 ? 0 : std::copysign(curve.dry(std::abs(x.rate)) / stiffness, x.rate);
   }
-  OwnState state(int) const { return {"bristle", "rad", curve.breakaway / stiffness}; }
+  InternalState state(int) const { return {"bristle", "rad", curve.breakaway / stiffness}; }
   double stored(const double* own) const { return 0.5 * stiffness * own[0] * own[0]; }
   double loss_power(const ShaftState<double>& x) const {
     double bend_rate = 0;

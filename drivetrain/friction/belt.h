@@ -33,7 +33,7 @@ inline double open_belt_wrap(double diameter_1, double diameter_2, double centre
 struct Belt {
   enum Mode : int { slips_back = -1, grips = 0, slips_ahead = 1 };
   static constexpr ConnectionTraits is{
-      .spring_takes_motion = true, .tells_loss = true, .guards = 2, .states = 1, .described = true};
+      .spring_takes_motion = true, .reports_loss = true, .guards = 2, .states = 1, .described = true};
   double stiffness = 0;    // k [N·m/rad], > 0
   double damping = 0;      // c [N·m·s/rad], ≥ 0
   double limit = 0;        // M [N·m], > 0
@@ -60,7 +60,7 @@ struct Belt {
     const double most = limit / stiffness;
     own[0] = std::abs(x.angle) <= most ? 0 : x.angle - std::copysign(most, x.angle);
   }
-  OwnState state(int) const { return {"slipped_angle", "rad", limit / stiffness}; }
+  InternalState state(int) const { return {"slipped_angle", "rad", limit / stiffness}; }
   double twist_at(double torque) const { return torque / stiffness; }
   double stiffness_at_rest() const { return stiffness; }
 

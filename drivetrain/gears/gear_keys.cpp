@@ -79,8 +79,8 @@ Fields<GearGeometryKeys> gear_geometry_fields(const std::string& gap_effect) {
 
 std::optional<GearPair> gear_pair_of(const GearGeometryKeys& geometry, const std::vector<int>& teeth,
                                      const std::function<void(const std::string&)>& refuse) {
-  const auto sound = [](const auto& list) { return !list || list->size() == 2; };
-  if (!geometry.is_given() || !sound(geometry.shifts) || !sound(geometry.tip_diameters) || !sound(geometry.bores))
+  const auto valid = [](const auto& list) { return !list || list->size() == 2; };
+  if (!geometry.is_given() || !valid(geometry.shifts) || !valid(geometry.tip_diameters) || !valid(geometry.bores))
     return {};
   GearPairData d = geometry;
   d.teeth = {teeth.at(0), teeth.at(1) * (geometry.is_internal ? -1 : 1)};

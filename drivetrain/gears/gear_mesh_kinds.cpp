@@ -102,7 +102,7 @@ void build_gear_mesh(const Section& s, const Reading<MeshKeys>& m, Network& net)
   if (!has_two(m, &MeshKeys::teeth) || !has_two(m, &MeshKeys::inertia)) return;
   const std::optional<GearPair> pair =
       gear_pair_of(m.geometry, m.teeth, [&](const std::string& text) { m.refuse(&MeshKeys::geometry, text); });
-  if (!m.sound()) return;
+  if (!m.valid()) return;
   std::array<double, 2> inertia{};
   if (m.inertia)
     inertia = {m.inertia->at(0), m.inertia->at(1)};

@@ -24,9 +24,9 @@ class Verdicts {
     play();
     wear();
     if (list_.empty() || list_.front().finding != Finding::fault) {
-      bool sound = true;
-      for (const GearVerdict& v : list_) sound = sound && v.finding < Finding::warning;
-      if (sound) list_.insert(list_.begin(), {Finding::good, "No undercut, no interference, no pointed tips."});
+      bool valid = true;
+      for (const GearVerdict& v : list_) valid = valid && v.finding < Finding::warning;
+      if (valid) list_.insert(list_.begin(), {Finding::good, "No undercut, no interference, no pointed tips."});
     }
     return list_;
   }

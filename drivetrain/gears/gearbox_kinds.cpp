@@ -165,11 +165,11 @@ std::optional<Stage> stage_of(const Reading<StageKeys>& s) {
 // All of them, or none where one is unsound.
 std::vector<Stage> stages_of(const Reading<GearboxKeys>& box) {
   std::vector<Stage> all;
-  bool sound = !box.stages.empty();
-  if (!sound) box.refuse(&GearboxKeys::stages, "stages = []; give one or more { teeth = [z1, z2] }");
+  bool valid = !box.stages.empty();
+  if (!valid) box.refuse(&GearboxKeys::stages, "stages = []; give one or more { teeth = [z1, z2] }");
   for (const Reading<StageKeys>& keys : box.stages) {
     const std::optional<Stage> stage = stage_of(keys);
-    sound = sound && stage;
+    valid = valid && stage;
     if (stage) all.push_back(*stage);
     const bool housed = box.support_stiffness.has_value(), whole = housed || box.given(&GearboxKeys::losses);
     if (stage && whole && (stage->losses || stage->mesh)) {
@@ -181,7 +181,7 @@ std::vector<Stage> stages_of(const Reading<GearboxKeys>& box) {
                          box.what() + ": " + text);
     }
   }
-  return sound ? all : std::vector<Stage>{};
+  return valid ? all : std::vector<Stage>{};
 }
 
 // A housing that may turn against the frame: φ_a − φ_h = σ i (σ φ_b − φ_h), σ = −1 where the output reverses.

@@ -93,7 +93,7 @@ void TwoAxisMotor::switched(const ShaftState<double>& x, double* own) const {
   }
 }
 
-OwnState TwoAxisMotor::state(int k) const {
+InternalState TwoAxisMotor::state(int k) const {
   static const char* const names[] = {"stator_current_d", "stator_current_q", "rotor_current_d", "rotor_current_q"};
   const double starting = phase_peak() / (circuit.stator_leakage + circuit.rotor_leakage);
   return {names[k], "A", starting};

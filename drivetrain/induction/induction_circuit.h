@@ -72,7 +72,7 @@ struct TwoAxisMotor {
   void rates(const ShaftState<T>& x, T* rate) const;
   void first_states(const ShaftState<double>& x, double* own) const;
   void switched(const ShaftState<double>& x, double* own) const;
-  OwnState state(int k) const;
+  InternalState state(int k) const;
   bool opens_at_zero() const { return true; }
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }

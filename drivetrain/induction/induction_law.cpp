@@ -151,8 +151,8 @@ int pole_pairs_of(const Motor& m, double synchronous_speed) {
 
 // What the two-axis model cannot have.
 bool suits_two_axes(const Motor& m) {
-  bool sound = true;
-  const auto refuse = [&](const std::string& text) { sound = m.refuse(&Keys::frequency, text); };
+  bool valid = true;
+  const auto refuse = [&](const std::string& text) { valid = m.refuse(&Keys::frequency, text); };
   if (m.starting_ratio)
     refuse(
         "\"frequency\" selects the two-axis model, whose characteristic is Kloss'; drop it, or "
@@ -162,7 +162,7 @@ bool suits_two_axes(const Motor& m) {
         fmt::format("\"frequency\" selects the two-axis model, which starting = \"{}\" does not know; drop one of "
                     "them",
                     name_of(m.starting)));
-  return sound;
+  return valid;
 }
 
 // The circuit that has the catalogue's characteristic.

@@ -53,7 +53,7 @@ struct LaggingMotor : Motor {
   void first_states(const ShaftState<double>& x, double* own) const {
     own[0] = x.on && x.rate != 0 ? Motor::torque(x) : 0;
   }
-  OwnState state(int) const { return {"lagging_torque", "N*m", this->rated().torque, false, true}; }
+  InternalState state(int) const { return {"lagging_torque", "N*m", this->rated().torque, false, true}; }
   std::string describe() const {
     return fmt::format(
         "induction motor on its static curve with the lag of the fluxes, T_e dM/dt + M = M(ω), T_e = 1/(s_b 2π f) = "

@@ -50,41 +50,41 @@ struct StartedMotor {
   int mode_anew(const ShaftState<double>& x) const { return first_mode(x); }
   int next_mode(const ShaftState<double>& x, int which) const {
     Mode m = unpacked(x.mode);
-    m.told = nothing;
+    m.last_event = nothing;
     if (which < 2) {
       m.piece = motor.next_piece(m.piece, which);
     } else if (which < 4) {
       m.limit = m.limit != free ? free : which == 2 ? upper : lower;
-      m.told = torque_limited;
+      m.last_event = torque_limited;
     } else {
       m = entered(starter.next_stage(m.stage, since(x)), x);
-      m.told = new_stage;
+      m.last_event = new_stage;
     }
     return packed(m);
   }
   std::string mode_name(int mode) const {
     const Mode m = unpacked(mode);
-    if (m.told == new_stage) return starter.name(m.stage);
-    if (m.told == torque_limited) return m.limit == free ? "below its torque limit" : "at its torque limit";
+    if (m.last_event == new_stage) return starter.name(m.stage);
+    if (m.last_event == torque_limited) return m.limit == free ? "below its torque limit" : "at its torque limit";
     return {};
   }
 
  private:
   static double since(const ShaftState<double>& x) { return x.t - x.on_since; }  // time since switching on [s]
   enum Limit { free, upper, lower };
-  enum Told { nothing, new_stage, torque_limited };  // kind of the last event
+  enum LastEvent { nothing, new_stage, torque_limited };  // kind of the last event
   struct Mode {
     int stage = 0, piece = 0;
     Limit limit = free;
-    Told told = nothing;
+    LastEvent last_event = nothing;
   };
   static Mode unpacked(int mode) {
     if (mode < 0) return {mode, 0, free, new_stage};
     return {mode / (9 * Motor::pieces), mode / 9 % Motor::pieces, static_cast<Limit>(mode / 3 % 3),
-            static_cast<Told>(mode % 3)};
+            static_cast<LastEvent>(mode % 3)};
   }
   static int packed(const Mode& m) {
-    return m.stage < 0 ? m.stage : ((m.stage * Motor::pieces + m.piece) * 3 + m.limit) * 3 + m.told;
+    return m.stage < 0 ? m.stage : ((m.stage * Motor::pieces + m.piece) * 3 + m.limit) * 3 + m.last_event;
   }
   template <class T>
   T unlimited(const Mode& m, double t, const T& speed) const {

@@ -96,7 +96,7 @@ struct DcShuntCircuit {
   void switched(const ShaftState<double>&, double* own) const { own[0] = 0; }
   double current(const ShaftState<double>& x) const { return x.own[0]; }
   double steady_current(const ShaftState<double>& x) const { return line.current(x); }
-  OwnState state(int) const { return {"current", "A", line.voltage / line.resistance, true}; }
+  InternalState state(int) const { return {"current", "A", line.voltage / line.resistance, true}; }
   bool opens_at_zero() const { return line.brake.resistance == 0; }
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }
@@ -139,7 +139,7 @@ struct DcSeriesCircuit {
   void switched(const ShaftState<double>&, double* own) const { own[0] = 0; }
   double current(const ShaftState<double>& x) const { return x.own[0]; }
   double steady_current(const ShaftState<double>& x) const { return line.current(x); }
-  OwnState state(int) const { return {"current", "A", stall_current(), true}; }
+  InternalState state(int) const { return {"current", "A", stall_current(), true}; }
   double stall_current() const { return line.voltage / line.resistance; }
   bool opens_at_zero() const { return true; }
   bool uses_time() const { return false; }

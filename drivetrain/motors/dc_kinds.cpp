@@ -242,7 +242,7 @@ void put_weakened(const Reading<ShuntKeys>& m, const std::string& name, Network&
 
 void build_dc_shunt(const Section& s, const Reading<ShuntKeys>& m, Network& net) {
   const int node = single_shaft(s, m.inertia, net);
-  if (!m.sound()) return;
+  if (!m.valid()) return;
   MotorRating rating{.duty = m.duty};
   if (m.rated_torque > 0) rating.torque = m.rated_torque;
   net.data.add(s.name, rating);

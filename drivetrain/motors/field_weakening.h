@@ -109,7 +109,7 @@ struct WeakenedShuntCircuit : FieldPart<over> {
     own[0] = x.on ? initial_current.value_or(steady) : 0;
   }
   void switched(const ShaftState<double>&, double* own) const { own[0] = 0; }
-  OwnState state(int) const { return {"current", "A", line.voltage / line.resistance, true}; }
+  InternalState state(int) const { return {"current", "A", line.voltage / line.resistance, true}; }
   bool opens_at_zero() const { return true; }
   bool uses_time() const { return over == FieldOver::time; }
   bool uses_speed() const { return true; }

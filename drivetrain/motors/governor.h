@@ -50,7 +50,7 @@ struct SpeedGovernor {
   }
   void first_states(const ShaftState<double>& x, double* own) const { own[0] = x.on ? initial_torque : 0; }
   void switched(const ShaftState<double>&, double* own) const { own[0] = 0; }
-  OwnState state(int) const { return {"integral", "N*m", scale()}; }
+  InternalState state(int) const { return {"integral", "N*m", scale()}; }
   bool opens_at_zero() const { return true; }
   bool uses_time() const { return false; }
   bool uses_speed() const { return true; }

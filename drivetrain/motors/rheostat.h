@@ -33,12 +33,12 @@ struct RheostatStages {
   static constexpr int most_own = 4;  // modes of a motor
   struct Mode {
     int stage = 0, own = 0;
-    bool past_peak = false, told = false;  // told: the last event was a change of stage
+    bool past_peak = false, announced = false;  // told: the last event was a change of stage
   };
   static Mode unpacked(int mode) {
     return {mode / (4 * most_own), mode / 4 % most_own, (mode & 2) != 0, (mode & 1) != 0};
   }
-  static int packed(const Mode& m) { return ((m.stage * most_own + m.own) * 2 + m.past_peak) * 2 + m.told; }
+  static int packed(const Mode& m) { return ((m.stage * most_own + m.own) * 2 + m.past_peak) * 2 + m.announced; }
   template <class T>
   static ShaftState<T> inner(ShaftState<T> x) {
     x.mode = unpacked(x.mode).own;
@@ -65,7 +65,7 @@ struct RheostatCurrent<Motor, true> : RheostatStages<Motor> {
     this->motor(this->unpacked(x.mode)).first_states(this->inner(x), own);
   }
   void switched(const ShaftState<double>& x, double* own) const { this->stages.back().switched(x, own); }
-  OwnState state(int k) const { return this->stages.back().state(k); }
+  InternalState state(int k) const { return this->stages.back().state(k); }
 };
 
 // Members that only stages by time have.
@@ -115,7 +115,7 @@ struct OnRheostat : RheostatTimes<Motor, when> {
   int mode_anew(const ShaftState<double>& x) const { return begun(x, !has_peak); }
   int next_mode(const ShaftState<double>& x, int which) const {
     Mode m = unpacked(x.mode);
-    m.told = false;
+    m.announced = false;
     if (which < own_guards) {
       m.own = motor(m).next_mode(inner(x), which);
       return packed(m);
@@ -129,12 +129,12 @@ struct OnRheostat : RheostatTimes<Motor, when> {
       ++m.stage;
     } while (when == CutOut::by_current && m.stage < last() && steady(m, x) <= switch_current);
     m.past_peak = !has_peak;
-    m.told = true;
+    m.announced = true;
     return packed(m);
   }
   std::string mode_name(int mode) const {
     const Mode m = unpacked(mode);
-    if (!m.told) return stages.back().mode_name(m.own);
+    if (!m.announced) return stages.back().mode_name(m.own);
     if (m.stage == last()) return "starting resistance cut out";
     return "starting resistance " + std::to_string(m.stage + 1) + " of " + std::to_string(last());
   }

@@ -44,13 +44,13 @@ namespace {
 void go_on_as_drive(Curve& curve) {
   const double first = curve.x().front(), last = curve.x().back();
   Beyond before = curve.beyond_first(), after = curve.beyond_last();
-  if (last > 0 && curve.y().back() > 0 && after == Beyond::unsaid) {
+  if (last > 0 && curve.y().back() > 0 && after == Beyond::unspecified) {
     if (curve.last_slope() < 0)
       curve.follow_last_slope();
     else
       after = Beyond::refuse;
   }
-  if (first < 0 && curve.before() < 0 && before == Beyond::unsaid) {
+  if (first < 0 && curve.before() < 0 && before == Beyond::unspecified) {
     if (curve.first_slope() < 0)
       curve.follow_first_slope();
     else

@@ -32,21 +32,21 @@ struct Slide {
 // Does nothing but tell: no torque, no event, no state.
 class SlideChannels final : public ElementPool {
  public:
-  void tell(const Slide& slide, const ShaftPorts& ports, bool counts) {
-    for (Told& told : told_)
-      if (told.slide.name == slide.name) {
-        told.forces.push_back(ports.id);
-        if (counts) told.travelled = ports.own;
+  void add(const Slide& slide, const ShaftPorts& ports, bool counts) {
+    for (Entry& entry : entries_)
+      if (entry.slide.name == slide.name) {
+        entry.forces.push_back(ports.id);
+        if (counts) entry.travelled = ports.own;
         return;
       }
-    told_.push_back({slide, ports.shaft, ports.gain, {ports.id}, counts ? ports.own : -1});
+    entries_.push_back({slide, ports.shaft, ports.gain, {ports.id}, counts ? ports.own : -1});
   }
   void add(const Instant&, Sums&) const override {}
   void register_jacobian(JacobianPattern&) override {}
   void add_jacobian(const Instant&, const double*, double*) const override {}
   void add_channels(std::vector<Channel>& channels) const override {
-    for (const Told& told : told_) {
-      const auto& [slide, shaft, gain, forces, travelled] = told;
+    for (const Entry& entry : entries_) {
+      const auto& [slide, shaft, gain, forces, travelled] = entry;
       const double k = slide.per_radian, rate = k * gain, start = slide.start;
       channels.push_back({Name::make(quantities::position, slide.name), "m",
                           [=, node = slide.node, own = travelled](const Snapshot& s) {
@@ -65,14 +65,14 @@ class SlideChannels final : public ElementPool {
   }
 
  private:
-  struct Told {
+  struct Entry {
     Slide slide;
     int shaft;
     double gain;
     std::vector<int> forces;  // shaft elements
     int travelled = -1;       // own state that counts it; −1: the angle does
   };
-  std::vector<Told> told_;
+  std::vector<Entry> entries_;
 };
 
 // A torque on the slide's shaft that its channels count as a force.
@@ -87,7 +87,7 @@ class ForceOnSlide final : public AnyShaftElement {
   }
   void place(PoolSet& pools, const ShaftPorts& ports, const ShaftElementLabel& label) const override {
     torque_->place(pools, ports, label);
-    pools.of<SlideChannels>().tell(slide_, ports, !own_states.empty());
+    pools.of<SlideChannels>().add(slide_, ports, !internal_states.empty());
   }
 
  private:

@@ -67,7 +67,7 @@ struct ForceOverTravel {
     rate[0] = per_radian * x.rate;
   }
   void first_states(const ShaftState<double>&, double* own) const { own[0] = 0; }
-  OwnState state(int) const { return {"travelled", "m", span()}; }
+  InternalState state(int) const { return {"travelled", "m", span()}; }
   template <class T>
   T travel(const ShaftState<T>& x) const {
     return start + x.own[0];

@@ -95,7 +95,7 @@ Fields<ScrewKeys> screw_fields() {
 }
 
 void build_screw(const Section& s, const Reading<ScrewKeys>& g, Network& net) {
-  if (!g.sound()) {
+  if (!g.valid()) {
     single_shaft(s, g.inertia, net);
     return;
   }
@@ -157,7 +157,7 @@ Fields<WedgeKeys> wedge_fields() {
 }
 
 void build_wedge(const Section& s, const Reading<WedgeKeys>& g, Network& net) {
-  if (!g.sound()) {
+  if (!g.valid()) {
     single_shaft(s, g.inertia, net);
     return;
   }

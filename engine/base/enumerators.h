@@ -13,11 +13,12 @@ namespace enumerators_detail {
 // "at_rest" of Orbit::Kind::at_rest, zero-terminated, with `underscore` in place of its underscores.
 template <auto value, char underscore>
 constexpr auto text() {
-  constexpr std::string_view told = __PRETTY_FUNCTION__;  // "… [with auto value = kurbel::Method::bdf; char …]"
-  constexpr std::size_t end = told.find_first_of(";,]", told.find("value = ")), begin = told.rfind(':', end) + 1;
+  constexpr std::string_view signature = __PRETTY_FUNCTION__;  // "… [with auto value = kurbel::Method::bdf; char …]"
+  constexpr std::size_t end = signature.find_first_of(";,]", signature.find("value = ")),
+                        begin = signature.rfind(':', end) + 1;
   static_assert(begin > 1 && begin < end && end != std::string_view::npos);
   std::array<char, end - begin + 1> name{};
-  std::replace_copy(told.begin() + begin, told.begin() + end, name.begin(), '_', underscore);
+  std::replace_copy(signature.begin() + begin, signature.begin() + end, name.begin(), '_', underscore);
   return name;
 }
 template <auto value, char underscore>

@@ -27,7 +27,7 @@ class AnyConnection {
   double damping = 0;              // dτ/dθ̇ at rest [N·m·s/rad]; 0 if it slips or has states
   double capacity = 0;             // of a slipping connection [N·m]
   bool knows_torque_rate = false;  // the torque depends only on twist and mode
-  std::vector<OwnState> own_states = {};
+  std::vector<InternalState> internal_states = {};
   std::shared_ptr<const SpringRow> row = {};  // of coupled springs in a row (coupled_springs.h), else null
   int row_part = 0;                           // index in the row
 
@@ -47,8 +47,8 @@ class AnyConnection {
 
 // List of the internal states of an element.
 template <class E>
-std::vector<OwnState> own_states_of(const E& element) {
-  std::vector<OwnState> states;
+std::vector<InternalState> internal_states_of(const E& element) {
+  std::vector<InternalState> states;
   if constexpr (E::is.states > 0)
     for (int k = 0; k < E::is.states; ++k) states.push_back(element.state(k));
   return states;
@@ -57,7 +57,7 @@ std::vector<OwnState> own_states_of(const E& element) {
 // For a final element, or a specification that becomes one when the inertias are known.
 template <class E, class Given = E>
 class ConnectionOf final : public AnyConnection {
-  static_assert(demand_sound_connection<E>());
+  static_assert(demand_valid_connection<E>());
 
  public:
   explicit ConnectionOf(Given given) : given_(std::move(given)) {
@@ -149,7 +149,7 @@ class ConnectionOf final : public AnyConnection {
     if constexpr (is_given)
       return E::is.other_forms;
     else
-      return demand_sound_specification<Given>() && requires { requires Given::other_forms; };
+      return demand_valid_specification<Given>() && requires { requires Given::other_forms; };
   }();
 
   void take(E element) {
@@ -160,7 +160,7 @@ class ConnectionOf final : public AnyConnection {
     if constexpr (E::is.slips) capacity = element_.capacity();
     knows_torque_rate =
         !E::is.slips && E::is.states == 0 && !E::is.uses_angle && !E::is.uses_speeds && !E::is.commanded;
-    own_states = own_states_of(element_);
+    internal_states = internal_states_of(element_);
   }
   Twist<Dual<1>> moving([[maybe_unused]] const Twist<double>& x, Dual<1> angle, Dual<1> rate) const {
     Twist<Dual<1>> y{angle, rate};

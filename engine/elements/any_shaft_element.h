@@ -29,7 +29,7 @@ class AnyShaftElement {
   double time_period = 0;                      // period of its law over time [s]; 0: not periodic
   double settled_from = -HUGE_VAL;  // time from which a law without period is constant, or time after switching on [s]
   bool opens_at_zero = false;       // command 0 switches it off
-  std::vector<OwnState> own_states = {};
+  std::vector<InternalState> internal_states = {};
   int modes = 1;                               // number of mode slots
   double mean_inertia = 0, least_inertia = 0;  // of a mechanism over a turn, on its own shaft [kg·m²]
   double cycle = 0;  // angle of a cycle of a mechanism [rad]; 0: no mechanism, ∞: its crank rocks
@@ -49,7 +49,7 @@ class AnyShaftElement {
 
 template <class E>
 class ShaftElementOf final : public AnyShaftElement {
-  static_assert(demand_sound_shaft_element<E>());
+  static_assert(demand_valid_shaft_element<E>());
 
  public:
   explicit ShaftElementOf(E element) : element_(std::move(element)) {
@@ -65,7 +65,7 @@ class ShaftElementOf final : public AnyShaftElement {
     if constexpr (E::is.periodic) time_period = element_.time_period();
     if constexpr (E::is.settles) settled_from = element_.settled_from();
     if constexpr (E::is.commanded) opens_at_zero = element_.opens_at_zero();
-    own_states = own_states_of(element_);
+    internal_states = internal_states_of(element_);
   }
   std::string describe() const override {
     if constexpr (E::is.described)

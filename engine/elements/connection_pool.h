@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/elements/element_pool.h"
-#include "engine/elements/sound.h"
+#include "engine/elements/valid.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -33,8 +33,8 @@ struct ConnectionExtras {
 
 template <class E>
 class ConnectionPool final : public ElementPool {
-  static_assert(demand_sound_connection<E>());
-  static constexpr int own_states = E::is.states;
+  static_assert(demand_valid_connection<E>());
+  static constexpr int internal_states = E::is.states;
   static constexpr bool needs_extras = Guarded<E> || HasStates<E> || Commanded<E> || UsesAngle<E>;
   struct Nothing {};
   using Extras = std::conditional_t<needs_extras, ConnectionExtras, Nothing>;
@@ -68,8 +68,8 @@ class ConnectionPool final : public ElementPool {
       for (std::size_t k = 0; k < inputs; ++k) {
         s.a[k] = pattern.entry(a, column[k]);
         s.b[k] = pattern.entry(b, column[k]);
-        if constexpr (own_states > 0)
-          for (int i = 0; i < own_states; ++i)
+        if constexpr (internal_states > 0)
+          for (int i = 0; i < internal_states; ++i)
             s.own[static_cast<std::size_t>(i)][k] = pattern.entry(pattern.own(p.more.own + i), column[k]);
       }
       slots_.push_back(s);
@@ -88,10 +88,10 @@ class ConnectionPool final : public ElementPool {
       if constexpr (UsesAngle<E>) on_a = on_a + p.element.turning_torque(in.dual);
       scatter(on_a, p, p.at.gain_a, slot.a, slots);
       scatter(tau, p, p.at.gain_b, slot.b, slots);
-      if constexpr (own_states > 0) {
-        std::array<Number, own_states> rate;
+      if constexpr (internal_states > 0) {
+        std::array<Number, internal_states> rate;
         p.element.rates(in.dual, rate.data());
-        for (std::size_t k = 0; k < own_states; ++k) scatter(rate[k], p, 1, slot.own[k], slots);
+        for (std::size_t k = 0; k < internal_states; ++k) scatter(rate[k], p, 1, slot.own[k], slots);
       }
     }
   }
@@ -104,9 +104,9 @@ class ConnectionPool final : public ElementPool {
       const Number tau = p.element.torque(Inputs(p, now).dual);
       slopes.push_back({p.at.id, By::twist, p.at.id, tau.d[0]});
       slopes.push_back({p.at.id, By::rate, p.at.id, tau.d[1]});
-      if constexpr (own_states > 0)
-        for (int k = 0; k < own_states; ++k) slopes.push_back({p.at.id, By::own, p.more.own + k, tau.d[2 + k]});
-      if constexpr (UsesAngle<E>) slopes.push_back({p.at.id, By::angle, p.more.angle, tau.d[2 + own_states]});
+      if constexpr (internal_states > 0)
+        for (int k = 0; k < internal_states; ++k) slopes.push_back({p.at.id, By::own, p.more.own + k, tau.d[2 + k]});
+      if constexpr (UsesAngle<E>) slopes.push_back({p.at.id, By::angle, p.more.angle, tau.d[2 + internal_states]});
       if constexpr (UsesSpeeds<E>) slopes.push_back({p.at.id, By::speed_of_a, p.at.shaft_a, tau.d[derivatives - 1]});
     }
   }
@@ -173,35 +173,35 @@ class ConnectionPool final : public ElementPool {
 
  private:
   // Derivatives by θ, θ̇, internal states, the angle, the speed of a.
-  static constexpr int derivatives = 2 + own_states + (UsesAngle<E> ? 1 : 0) + (UsesSpeeds<E> ? 1 : 0);
+  static constexpr int derivatives = 2 + internal_states + (UsesAngle<E> ? 1 : 0) + (UsesSpeeds<E> ? 1 : 0);
   using Number = Dual<derivatives>;
   // A connection's motion with unit derivatives.
   struct Inputs {
     Inputs(const Placed& p, const Instant& now) : x(motion(p, now)) {
-      for (int k = 0; k < own_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 2 + k);
+      for (int k = 0; k < internal_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 2 + k);
       dual = {
           Number::input(x.angle, 0), Number::input(x.rate, 1), x.t, x.mode, x.direction, x.command, own.data(), {}, {}};
-      if constexpr (UsesAngle<E>) dual.turn = Number::input(x.turn, 2 + own_states);
+      if constexpr (UsesAngle<E>) dual.turn = Number::input(x.turn, 2 + internal_states);
       if constexpr (UsesSpeeds<E>) dual.turn_rate = Number::input(x.turn_rate, derivatives - 1);
     }
     Inputs(const Inputs&) = delete;  // `dual` points to `own`
     Inputs& operator=(const Inputs&) = delete;
     Twist<double> x;
-    std::array<Number, own_states + 1> own;
+    std::array<Number, internal_states + 1> own;
     Twist<Number> dual;
   };
   // Columns: θ, ω_a, ω_b, internal states, the angle.
-  static constexpr std::size_t inputs = 3 + own_states + (UsesAngle<E> ? 1 : 0);
+  static constexpr std::size_t inputs = 3 + internal_states + (UsesAngle<E> ? 1 : 0);
   struct Slots {
     std::array<int, inputs> a, b;
-    std::array<std::array<int, inputs>, own_states> own;
+    std::array<std::array<int, inputs>, internal_states> own;
   };
 
   static std::array<int, inputs> columns(const Placed& p, JacobianPattern& pattern) {
     std::array<int, inputs> c{};
     c[0] = pattern.twist(p.at.id), c[1] = pattern.speed(p.at.shaft_a), c[2] = pattern.speed(p.at.shaft_b);
-    if constexpr (own_states > 0)
-      for (int k = 0; k < own_states; ++k) c[static_cast<std::size_t>(3 + k)] = pattern.own(p.more.own + k);
+    if constexpr (internal_states > 0)
+      for (int k = 0; k < internal_states; ++k) c[static_cast<std::size_t>(3 + k)] = pattern.own(p.more.own + k);
     if constexpr (UsesAngle<E>) c[inputs - 1] = pattern.angle(p.more.angle);
     return c;
   }
@@ -259,7 +259,7 @@ class ConnectionPool final : public ElementPool {
       if constexpr (UsesAngle<E>) from_a -= sums.turning_torque[p.at.id] = p.element.turning_torque(x);
       sums.torque[p.at.shaft_a] -= p.at.gain_a * from_a;
       sums.torque[p.at.shaft_b] += p.at.gain_b * tau;
-      if constexpr (HasStates<E>) p.element.rates(x, sums.own_rate + p.more.own);
+      if constexpr (HasStates<E>) p.element.rates(x, sums.internal_rate + p.more.own);
       if constexpr (with_work) add_work(p, x, tau, sums);
     }
   }
@@ -270,7 +270,7 @@ class ConnectionPool final : public ElementPool {
     else if constexpr (E::is.has_spring())
       spring = p.element.spring_torque(x.angle);
     sums.spring_torque[p.at.id] = spring;
-    if constexpr (E::is.tells_loss)
+    if constexpr (E::is.reports_loss)
       sums.work_rate[p.at.loss_account] -= p.element.loss_power(x);
     else
       sums.work_rate[p.at.loss_account] -= (tau - spring) * x.rate;

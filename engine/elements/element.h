@@ -27,7 +27,7 @@
 //     double rest_ratio(double turn) const;                  i ω_b/ω_a without load; default 1
 //     double rest_ratio_slope(double turn) const;            derivative of rest_ratio by φ_a; default 0
 // .spring_takes_motion  spring_torque and energy take x instead of the twist; required with states or an angle
-// .tells_loss   required with states
+// .reports_loss   required with states
 //     double loss_power(x) const;                            its power −dE/dt; default (τ − spring torque) θ̇
 //
 // A **shaft element** sits on one shaft and exerts a torque M on it, positive in the direction of positive rotation.
@@ -66,7 +66,7 @@
 // .states = n   internal states x.own[0 … n−1]
 //     template <class T> void rates(const X<T>& x, T* rate) const;   their time derivatives
 //     void first_states(x, double* own) const;               at the start
-//     OwnState state(int k) const;                           its name, unit and order of magnitude
+//     InternalState state(int k) const;                           its name, unit and order of magnitude
 // .commanded    an operating sequence sets x.command (default 1); for a shaft element:
 //     bool opens_at_zero() const;                            command 0 switches it off, as outside its window; a ramp
 //                                                            through 0 does not
@@ -119,7 +119,7 @@ struct ShaftState {
 };
 
 // An internal state of an element.
-struct OwnState {
+struct InternalState {
   std::string name;   // "current"
   std::string unit;   // SI
   double scale = 1;   // order of magnitude, for error control
@@ -158,7 +158,7 @@ struct ConnectionTraits {
   bool uses_speeds = false;
   bool turns_unevenly = false;
   bool spring_takes_motion = false;
-  bool tells_loss = false;
+  bool reports_loss = false;
   int guards = 0;
   std::optional<int> regularised_mode = {};
   int states = 0;

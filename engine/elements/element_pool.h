@@ -39,7 +39,7 @@ struct Sums {
   double* element_torque = nullptr;     // per shaft element
   double* element_inertia = nullptr;    // per shaft element: its variable inertia
   double* work_rate = nullptr;          // per work account; null: not needed
-  double* own_rate = nullptr;           // per internal state: its derivative
+  double* internal_rate = nullptr;      // per internal state: its derivative
   double* turning_torque = nullptr;     // per elastic connection that uses the angle: additional torque on a
 };
 
@@ -124,7 +124,7 @@ class ElementPool {
   // Additional degrees of freedom, coupled to a shaft by inertia: add() gives the shaft the effective inertia and torque,
   // follow() their rates from the acceleration of the shaft (per shaft).
   virtual bool follows() const { return false; }
-  virtual void follow(const Instant&, const double* /*alpha*/, double* /*own_rate*/) const {}
+  virtual void follow(const Instant&, const double* /*alpha*/, double* /*internal_rate*/) const {}
   // Kinetic energy beyond ½ (variable inertia) ω².
   virtual double further_kinetic_energy(const Instant&) const { return 0; }
   // Internal states in equilibrium relative to the shaft, for starts in equilibrium.

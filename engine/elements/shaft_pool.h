@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/elements/element_pool.h"
-#include "engine/elements/sound.h"
+#include "engine/elements/valid.h"
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
@@ -42,17 +42,17 @@ struct ShaftElementLabel {
 
 template <class E>
 class ShaftPool final : public ElementPool {
-  static_assert(demand_sound_shaft_element<E>());
-  static constexpr int own_states = E::is.states;
+  static_assert(demand_valid_shaft_element<E>());
+  static constexpr int internal_states = E::is.states;
   // Columns of the derivatives: ω, internal states, the angle.
-  static constexpr std::size_t inputs = 1 + own_states + (UsesAngle<E> ? 1 : 0);
+  static constexpr std::size_t inputs = 1 + internal_states + (UsesAngle<E> ? 1 : 0);
 
  public:
   struct Placed {
     E element;
     ShaftPorts at;
-    std::array<int, inputs> slot{};                              // of the torque
-    std::array<std::array<int, inputs>, own_states> own_slot{};  // of the rates of the internal states
+    std::array<int, inputs> slot{};                                        // of the torque
+    std::array<std::array<int, inputs>, internal_states> internal_slot{};  // of the rates of the internal states
   };
   void place(E element, const ShaftPorts& at, ShaftElementLabel label) {
     placed_.push_back({std::move(element), at});
@@ -65,7 +65,7 @@ class ShaftPool final : public ElementPool {
       const double torque = now.active[p.at.id] ? p.element.torque(x) : 0.0;
       sums.element_torque[p.at.id] = torque;
       sums.torque[p.at.shaft] += p.at.gain * torque;
-      if constexpr (HasStates<E>) p.element.rates(x, sums.own_rate + p.at.own);
+      if constexpr (HasStates<E>) p.element.rates(x, sums.internal_rate + p.at.own);
       if (sums.work_rate) {
         if constexpr (E::is.stores)
           sums.work_rate[p.at.account] -= now.active[p.at.id] ? p.element.loss_power(x) : 0;
@@ -80,12 +80,12 @@ class ShaftPool final : public ElementPool {
       const int speed = pattern.speed(p.at.shaft);
       std::array<int, inputs> column{};
       column[0] = speed;
-      for (int k = 0; k < own_states; ++k) column[static_cast<std::size_t>(1 + k)] = pattern.own(p.at.own + k);
+      for (int k = 0; k < internal_states; ++k) column[static_cast<std::size_t>(1 + k)] = pattern.own(p.at.own + k);
       if constexpr (UsesAngle<E>) column[inputs - 1] = pattern.angle(p.at.angle);
       for (std::size_t k = 0; k < inputs; ++k) {
         p.slot[k] = pattern.entry(speed, column[k]);
-        for (int i = 0; i < own_states; ++i)
-          p.own_slot[static_cast<std::size_t>(i)][k] = pattern.entry(pattern.own(p.at.own + i), column[k]);
+        for (int i = 0; i < internal_states; ++i)
+          p.internal_slot[static_cast<std::size_t>(i)][k] = pattern.entry(pattern.own(p.at.own + i), column[k]);
       }
     }
   }
@@ -94,8 +94,8 @@ class ShaftPool final : public ElementPool {
     using Number = Dual<static_cast<int>(inputs)>;
     for (const Placed& p : placed_) {
       const ShaftState<double> x = state(p, now);
-      std::array<Number, own_states + 1> own;
-      for (int k = 0; k < own_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 1 + k);
+      std::array<Number, internal_states + 1> own;
+      for (int k = 0; k < internal_states; ++k) own[static_cast<std::size_t>(k)] = Number::input(x.own[k], 1 + k);
       ShaftState<Number> dual{x.t,  {},        Number::input(x.rate, 0), x.mode, x.direction, x.command, own.data(),
                               x.on, x.on_since};
       if constexpr (UsesAngle<E>) dual.angle = Number::input(x.angle, static_cast<int>(inputs) - 1);
@@ -105,9 +105,9 @@ class ShaftPool final : public ElementPool {
       };
       if (now.active[p.at.id]) scatter(p.element.torque(dual), p.at.gain, p.slot);
       if constexpr (HasStates<E>) {
-        std::array<Number, own_states> rate;
+        std::array<Number, internal_states> rate;
         p.element.rates(dual, rate.data());
-        for (std::size_t k = 0; k < own_states; ++k) scatter(rate[k], 1, p.own_slot[k]);
+        for (std::size_t k = 0; k < internal_states; ++k) scatter(rate[k], 1, p.internal_slot[k]);
       }
     }
   }

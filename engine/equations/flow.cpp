@@ -39,7 +39,7 @@ Flow::Flow(std::shared_ptr<const Model> model, bool audit)
       joint_torques_(*model_),
       twists_begin_(model_->angle_count()),
       speeds_begin_(twists_begin_ + model_->twist_count()),
-      own_begin_(speeds_begin_ + model_->free_shafts),
+      internal_begin_(speeds_begin_ + model_->free_shafts),
       states_(model_->state_count()) {
   const Model& m = *model_;
   const std::size_t shafts = m.shafts.size(), elements = m.network.elements.size();
@@ -61,7 +61,7 @@ Flow::Flow(std::shared_ptr<const Model> model, bool audit)
   for (auto* per_element : {&element_torque_, &element_inertia_}) per_element->assign(elements, 0);
   node_angle_.assign(m.network.nodes.size(), 0);
   work_rate_.assign(m.accounts.size() + 2 * m.torque_joints.size(), 0);
-  own_rate_.assign(m.own_states.size(), 0);
+  internal_rate_.assign(m.internal_states.size(), 0);
   command_value_.assign(m.commands.size(), 1);
   Sums& sums = snapshot_.sums;
   sums.torque = torque_.data(), sums.inertia = inertia_.data();
@@ -143,7 +143,7 @@ std::vector<double> Flow::shaft_angles_by_twist(std::size_t elastic) const {
   now.on_since = modes_.on_since.data();
   now.slip = modes_.slip.data();
   now.command = command_value_.data();
-  now.own = y.data() + own_begin();
+  now.own = y.data() + internal_begin();
 }
 
 Instant Flow::instant(double t, std::span<const double> y) {
@@ -156,7 +156,7 @@ void Flow::look(double t, std::span<const double> y) { look_at(t, y, snapshot_.n
 
 // Stages: clear, elements, accelerations, torques in merged joints where somebody asks.
 void Flow::evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
-                    double* own_rate) {
+                    double* internal_rate) {
   const Model& m = *model_;
   std::fill(torque_.begin(), torque_.end(), 0.0);
   for (const int s : variable_) inertia_[at(s)] = constant_inertia_[at(s)];
@@ -164,14 +164,14 @@ void Flow::evaluate(double t, std::span<const double> y, double* twist_rate, dou
   look_at(t, y, snapshot_.now);
   snapshot_.sums.twist_rate = twist_rate;
   snapshot_.sums.work_rate = work_rate;
-  snapshot_.sums.own_rate = own_rate ? own_rate : own_rate_.data();
+  snapshot_.sums.internal_rate = internal_rate ? internal_rate : internal_rate_.data();
   for (const auto& pool : m.pools) pool->add(snapshot_.now, snapshot_.sums);
   if (plain_) {
     const volatile double* const torque = torque_.data();  // word by word, as in look_at()
     for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = torque[s] * inverse_inertia_[s];
     for (const int s : variable_)
       if (at(s) < m.free_shafts) alpha[s] = torque_[at(s)] / inertia_[at(s)];
-    if (!following_.empty()) let_follow(t, alpha, snapshot_.sums.own_rate);
+    if (!following_.empty()) let_follow(t, alpha, snapshot_.sums.internal_rate);
     return;
   }
   ties_.add_known(snapshot_.now, torque_.data());
@@ -179,7 +179,7 @@ void Flow::evaluate(double t, std::span<const double> y, double* twist_rate, dou
   ties_.accelerate(t, free_torque_, inertia_, alpha);
   if (reactions_.any()) settle_reactions(t, alpha);
   ties_.publish(snapshot_.now, snapshot_.sums);
-  if (!following_.empty()) let_follow(t, alpha, snapshot_.sums.own_rate);
+  if (!following_.empty()) let_follow(t, alpha, snapshot_.sums.internal_rate);
 }
 
 void Flow::settle_reactions(double t, double* alpha) {
@@ -195,12 +195,12 @@ void Flow::settle_reactions(double t, double* alpha) {
 }
 
 // What is coupled to the shafts by inertia accelerates with them.
-void Flow::let_follow(double t, const double* alpha, double* own_rate) {
+void Flow::let_follow(double t, const double* alpha, double* internal_rate) {
   const Model& m = *model_;
   std::copy(alpha, alpha + m.free_shafts, followed_alpha_.begin());
   for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s)
     followed_alpha_[s] = prescribed_acceleration(m, modes_, s, t);
-  for (const ElementPool* pool : following_) pool->follow(snapshot_.now, followed_alpha_.data(), own_rate);
+  for (const ElementPool* pool : following_) pool->follow(snapshot_.now, followed_alpha_.data(), internal_rate);
 }
 
 void Flow::flow(double t, std::span<const double> y, std::span<double> ydot) {
@@ -212,7 +212,7 @@ void Flow::flow(double t, std::span<const double> y, std::span<double> ydot) {
   // After a stage that jammed.
   if (reactions_.any() && !std::all_of(y.begin(), y.end(), [](double v) { return std::isfinite(v); })) return lose();
   try {
-    evaluate(t, y, ydot.data() + twists_begin(), alpha, work_rate, ydot.data() + own_begin());
+    evaluate(t, y, ydot.data() + twists_begin(), alpha, work_rate, ydot.data() + internal_begin());
   } catch (const Jam&) {  // a step too long: it is tried again, shorter
     return lose();
   }
@@ -259,8 +259,8 @@ void Flow::write_quadratures(double* rate) {
   for (std::size_t i = 0; i < m.torque_joints.size(); ++i) {
     const TorqueJoint& joint = m.torque_joints[i];
     const double tau = is_rigid(joint) ? joint.torque(joint_torques_.torque().data())
-                                       : joint.told(connection_torque_.data(), joint.elastic);
-    const double spring = is_rigid(joint) ? tau : joint.told(spring_torque_.data(), joint.elastic);
+                                       : joint.reported(connection_torque_.data(), joint.elastic);
+    const double spring = is_rigid(joint) ? tau : joint.reported(spring_torque_.data(), joint.elastic);
     rate[m.accounts.size() + 2 * i] = tau * tau;
     rate[m.accounts.size() + 2 * i + 1] = spring * spring;
   }
@@ -337,7 +337,7 @@ ErrorControl Flow::error_control(double tolerance) const {
   for (const TrackedAngle& angle : m.angles) control.scale.push_back(std::max(1.0, m.scale_ratio[at(angle.node)]));
   for (const ElasticJoint& joint : m.elastic) control.scale.push_back(twist_scale(m, joint, tolerance));
   for (std::size_t s = 0; s < m.free_shafts; ++s) control.scale.push_back(m.shafts[s].speed_scale);
-  for (const OwnStatePlace& own : m.own_states) control.scale.push_back(own.state.scale);
+  for (const PlacedInternalState& own : m.internal_states) control.scale.push_back(own.state.scale);
   control.scale.resize(size(), 0.0);
   if (!audit() || m.free_shafts == m.shafts.size()) return control;
   // Beside a prescribed motion the states may be smoother than the torques: only the quadratures keep the steps short.
@@ -356,10 +356,11 @@ std::string Flow::state_name(std::size_t state) const {
   if (state < m.angle_count()) return fmt::format("angle of {}", m.node_label(m.angles[state].node));
   if (state < speed_index(0))
     return fmt::format("twist of {}", m.network.joints[at(m.elastic[state - twists_begin()].joint)].component);
-  if (state < own_begin()) return fmt::format("speed of {}", m.node_label(m.shafts[state - speed_index(0)].reference));
+  if (state < internal_begin())
+    return fmt::format("speed of {}", m.node_label(m.shafts[state - speed_index(0)].reference));
   if (state < states_)
-    return fmt::format("{} of {}", m.own_states[state - own_begin()].state.name,
-                       m.own_states[state - own_begin()].component);
+    return fmt::format("{} of {}", m.internal_states[state - internal_begin()].state.name,
+                       m.internal_states[state - internal_begin()].component);
   if (state < states_ + m.accounts.size()) return fmt::format("work of {}", m.accounts[state - states_].name);
   return "a squared torque";
 }

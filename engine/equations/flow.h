@@ -120,7 +120,7 @@ class Flow : public OdeSystem {
   bool has_followers() const { return !following_.empty(); }
   std::size_t state_count() const { return states_; }
   std::size_t twists_begin() const { return twists_begin_; }
-  std::size_t own_begin() const { return own_begin_; }
+  std::size_t internal_begin() const { return internal_begin_; }
 
  private:
   struct ElasticStep {  // over an elastic joint, in order outwards from the reduction link
@@ -130,9 +130,9 @@ class Flow : public OdeSystem {
   void list_elastic_tree();
   void look_at(double t, std::span<const double> y, Instant& now);
   void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
-                double* own_rate = nullptr);
+                double* internal_rate = nullptr);
   void settle_reactions(double t, double* alpha);
-  void let_follow(double t, const double* alpha, double* own_rate);
+  void let_follow(double t, const double* alpha, double* internal_rate);
   void find_joint_torques();  // from alpha_, of all shafts
   JointTorques::Given given_torques() const;
   void write_quadratures(double* rate);
@@ -143,7 +143,7 @@ class Flow : public OdeSystem {
   ReactionBalance reactions_;
   JointTorques joint_torques_;
   bool plain_ = false;  // no contact, no relation, no reaction: ω̇ = M/I
-  std::size_t twists_begin_, speeds_begin_, own_begin_, states_, quadratures_ = 0;
+  std::size_t twists_begin_, speeds_begin_, internal_begin_, states_, quadratures_ = 0;
   std::vector<int> directional_;  // shafts with elements opposing motion
   std::vector<int> variable_;     // shafts with mechanisms
   std::vector<double> constant_inertia_, inverse_inertia_;
@@ -152,7 +152,7 @@ class Flow : public OdeSystem {
   std::vector<const ElementPool*> following_;  // pools with additional degrees of freedom
 
   // working arrays
-  std::vector<double> speed_, torque_, inertia_, free_torque_, twist_rate_, alpha_, own_rate_, work_rate_;
+  std::vector<double> speed_, torque_, inertia_, free_torque_, twist_rate_, alpha_, internal_rate_, work_rate_;
   std::vector<double> connection_torque_, turning_torque_, spring_torque_, element_torque_, element_inertia_;
   std::vector<double> node_angle_, shaft_angle_, followed_alpha_, command_value_, slot_;
   std::vector<JointTorques::Held> held_shafts_;

@@ -67,7 +67,7 @@ void JointTorques::find(const Given& given, std::span<const Held> held, const Ho
   // Links that close loops are no steps of the trees: their torques are zero until the loops share.
   for (const auto& loop : loops_.loops())
     for (const auto& [link, part] : loop) torque_[at(link)] = 0;
-  walk_to_the_roots();
+  eliminate_leaves();
   bear_reactions();
   if (loops_.any()) loops_.share(torque_.data());
 }
@@ -142,7 +142,7 @@ JointTorques::Open JointTorques::open(const Given& given) const {
   return worst;
 }
 
-void JointTorques::walk_to_the_roots() {
+void JointTorques::eliminate_leaves() {
   double *const torque = torque_.data(), *const balance = balance_.data();
   for (const LoadStep& step : std::span<const LoadStep>(steps_)) pass_on(step, balance, torque);
 }

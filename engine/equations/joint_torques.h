@@ -65,7 +65,7 @@ class JointTorques {
   void add_inertia_and_elements(const Given& given);
   void add_connections(const Given& given);
   void add_held(const Held& held, const Hold& shaft_hold, const Hold* element_hold);
-  void walk_to_the_roots();
+  void eliminate_leaves();
   void bear_reactions();
 
   const Model* model_;

@@ -44,7 +44,7 @@ struct Modes {
   std::vector<Command> command;
   std::size_t next_step = 0;
   double armed_time = 1e300, armed_angle = 0, last_step_time = 0;  // [s], [rad], [s]
-  double round_began = 1e300;                                      // of a sequence with a fixed period [s]
+  double cycle_began = 1e300;                                      // of a sequence with a fixed period [s]
 
   bool operator==(const Modes&) const = default;
 };

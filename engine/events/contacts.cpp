@@ -259,7 +259,7 @@ void Contacts::settle(double t, std::span<double> y, const Changes& changes, Eve
   const bool fits = change_worst(t, y, among, count) || try_all(t, y, among, {});
   if (fits) release_otherwise(t, y, among, changes.released);
   if (!log) return;
-  tell(t, among, before, always, *log);
+  report(t, among, before, always, *log);
   if (always.size() < 2) return;
   log->push_back(modes_event(t, always.size(), fits, count));
 }

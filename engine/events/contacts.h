@@ -83,9 +83,9 @@ class Contacts {
                          const std::vector<std::pair<std::size_t, int>>& released);
   std::vector<std::size_t> jammed_contacts(std::span<const std::size_t> guards) const;
   int account_of_friction(const Contact& contact) const;
-  // words (contacts_told.cpp)
-  void tell(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
-            const std::vector<std::size_t>& always, EventLog& log) const;
+  // words (contact_reports.cpp)
+  void report(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
+              const std::vector<std::size_t>& always, EventLog& log) const;
   Shares sharing(const Contact& contact) const;
   std::string holders(const Contact& contact) const;
 

@@ -95,7 +95,7 @@ Event command_event(double t, const std::string& component, double before, doubl
           .value = to};
 }
 
-Event late_round_event(double t, double took, double every) {
+Event late_cycle_event(double t, double took, double every) {
   return {.t = t,
           .component = "sequence",
           .what = fmt::format("begins a repetition late: the one before took {:.5g} s, every = {:.5g} s", took, every),

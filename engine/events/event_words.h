@@ -24,7 +24,7 @@ Event jam_event(double t, const Contact& contact);
 // A command changes from one value to another, at once or over a time [s].
 Event command_event(double t, const std::string& component, double before, double to, double over);
 // A cycle of the operating sequence took longer than its period [s].
-Event late_round_event(double t, double took, double every);
+Event late_cycle_event(double t, double took, double every);
 Event window_event(double t, const std::string& component, bool on);
 // Number of contacts that changed at one instant; a consistent set of modes was found after so many changes, or none.
 Event modes_event(double t, std::size_t contacts, bool fits, int changes);

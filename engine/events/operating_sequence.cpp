@@ -44,7 +44,7 @@ bool OperatingSequence::begin(Modes& modes, double t, std::span<const double> y)
   std::fill(modes.command.begin(), modes.command.end(), Command{});
   modes.next_step = 0;
   modes.last_step_time = t;
-  modes.armed_time = modes.round_began = never;
+  modes.armed_time = modes.cycle_began = never;
   if (!any()) return false;
   arm(modes, t, y);
   return modes.armed_time <= t;
@@ -54,8 +54,8 @@ void OperatingSequence::arm(Modes& modes, double t, std::span<const double> y) c
   const Sequence& sequence = model_->scene.sequence;
   modes.armed_time = never;
   if (modes.next_step >= sequence.steps.size()) return;
-  if (sequence.every > 0 && modes.next_step == 0 && modes.round_began < never) {  // the clock begins the next round
-    modes.armed_time = std::max(t, modes.round_began + sequence.every);
+  if (sequence.every > 0 && modes.next_step == 0 && modes.cycle_began < never) {  // the clock begins the next round
+    modes.armed_time = std::max(t, modes.cycle_began + sequence.every);
     return;
   }
   const SequenceStep& step = sequence.steps[modes.next_step];
@@ -87,7 +87,7 @@ void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, 
       const double over = step.law.empty() ? step.over : step.law.x().back();
       if (log) log->push_back(command_event(t, component, value, to, over));
     }
-    if (modes.next_step == 0) begin_round(modes, t, log);
+    if (modes.next_step == 0) begin_cycle(modes, t, log);
     modes.last_step_time = t;
     ++modes.next_step;
     if (modes.next_step == sequence.steps.size() && sequence.repeat) modes.next_step = 0;
@@ -96,12 +96,12 @@ void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, 
   }
 }
 
-void OperatingSequence::begin_round(Modes& modes, double t, EventLog* log) const {
+void OperatingSequence::begin_cycle(Modes& modes, double t, EventLog* log) const {
   const double every = model_->scene.sequence.every;
   if (every == 0) return;
-  const double took = t - modes.round_began;
-  if (log && modes.round_began < never && took > every * (1 + 1e-12)) log->push_back(late_round_event(t, took, every));
-  modes.round_began = t;
+  const double took = t - modes.cycle_began;
+  if (log && modes.cycle_began < never && took > every * (1 + 1e-12)) log->push_back(late_cycle_event(t, took, every));
+  modes.cycle_began = t;
 }
 
 double OperatingSequence::guard(const Modes& modes, std::span<const double> y, const double* speed) const {

@@ -30,7 +30,7 @@ class OperatingSequence {
 
  private:
   void arm(Modes& modes, double t, std::span<const double> y) const;
-  void begin_round(Modes& modes, double t, EventLog* log) const;
+  void begin_cycle(Modes& modes, double t, EventLog* log) const;
 
   const Model* model_;
 };

@@ -119,7 +119,7 @@ void Start::first_pieces(double t, std::span<const double> y) {
 }
 
 void Start::first_states(double t, std::span<double> y) {
-  for (const auto& pool : model_.pools) pool->first_states(flow_.instant(t, y), y.data() + flow_.own_begin());
+  for (const auto& pool : model_.pools) pool->first_states(flow_.instant(t, y), y.data() + flow_.internal_begin());
 }
 
 // If several sets of modes are consistent, the search must not start from the end of an earlier run; a law that lost its
@@ -160,7 +160,7 @@ void Start::settle_modes(double t, std::span<double> y, bool equilibrium) {
   first_states(t, y);
   if (equilibrium && flow_.has_followers()) {
     flow_.evaluate(t, y);
-    flow_.balance_followers(y.data() + flow_.own_begin());
+    flow_.balance_followers(y.data() + flow_.internal_begin());
   }
   contacts_.settle(t, y, changes, nullptr);
   refuse_impossible_slip(t, y);

@@ -34,16 +34,16 @@ void Switching::take_steps(double t, std::span<double> y, EventLog* log) {
   const std::vector<char> before = flow_.modes().active;
   sequence_.take(flow_.changing_modes(), t, y, log);
   set_timed_modes(t);
-  tell_switched(t, y, before);
+  report_switched(t, y, before);
 }
 
-void Switching::tell_switched(double t, std::span<double> y, const std::vector<char>& before) {
+void Switching::report_switched(double t, std::span<double> y, const std::vector<char>& before) {
   Modes& modes = flow_.changing_modes();
   if (modes.active == before) return;
   for (std::size_t e = 0; e < before.size(); ++e)
     if (modes.active[e] && !before[e]) modes.on_since[e] = t;
   for (const auto& pool : flow_.model().pools) {
-    pool->switched(flow_.instant(t, y), before.data(), y.data() + flow_.own_begin());
+    pool->switched(flow_.instant(t, y), before.data(), y.data() + flow_.internal_begin());
     pool->start_anew(flow_.instant(t, y), before.data(), modes.piece.data());
   }
 }
@@ -56,7 +56,7 @@ void Switching::pass_edge(double t, std::span<double> y, EventLog& log) {
   for (std::size_t e = 0; e < modes.active.size(); ++e)
     if (modes.active[e] != before[e])
       log.push_back(window_event(t, flow_.model().network.elements[e].component, modes.active[e] != 0));
-  tell_switched(t, y, before);
+  report_switched(t, y, before);
   if (modes.armed_time <= t) take_steps(t, y, &log);
 }
 

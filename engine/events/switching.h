@@ -33,7 +33,7 @@ class Switching {
   }
 
  private:
-  void tell_switched(double t, std::span<double> y, const std::vector<char>& before);
+  void report_switched(double t, std::span<double> y, const std::vector<char>& before);
 
   Flow& flow_;
   OperatingSequence sequence_;

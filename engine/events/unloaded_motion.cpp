@@ -26,9 +26,9 @@ double input_at(const AnyConnection& joint, double output) {
   return x;
 }
 
-class Walk {
+class Traversal {
  public:
-  Walk(const Model& model, const KnownMotion& known)
+  Traversal(const Model& model, const KnownMotion& known)
       : m_(model),
         given_(known),
         joints_at_(model.shafts.size()),
@@ -201,6 +201,8 @@ class Walk {
 
 }  // namespace
 
-UnloadedMotion unloaded_motion(const Model& model, const KnownMotion& known) { return Walk(model, known).motion(); }
+UnloadedMotion unloaded_motion(const Model& model, const KnownMotion& known) {
+  return Traversal(model, known).motion();
+}
 
 }  // namespace kurbel

@@ -224,8 +224,8 @@ BaseMotion::Residual BaseMotion::residual(const Position& position) {
   Eigen::VectorXd torque = Eigen::VectorXd::Zero(shaft_inertia_.size());
   for (std::size_t s = 0; s < m_.free_shafts; ++s)
     torque[static_cast<Eigen::Index>(s)] = inertia[s] * ydot_[equations_.speed_index(static_cast<int>(s))];
-  const Eigen::Map<const Eigen::VectorXd> own(ydot_.data() + equations_.own_begin(),
-                                              static_cast<Eigen::Index>(m_.own_states.size()));
+  const Eigen::Map<const Eigen::VectorXd> own(ydot_.data() + equations_.internal_begin(),
+                                              static_cast<Eigen::Index>(m_.internal_states.size()));
   return {coordinates_.motion.transpose() * torque - inertia_.cwiseProduct(acceleration_), own, {}, {}};
 }
 

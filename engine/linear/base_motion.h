@@ -35,9 +35,10 @@ struct LinearisationPoint {
 
 // Derivatives of Zᵀ I ω̇ and of ż by the states, averaged.
 struct MeanDerivatives {
-  SparseMatrix torque_by_twist, torque_by_speed, torque_by_own;  // coordinates × joints, coordinates, internal states
-  SparseMatrix own_by_twist, own_by_speed, own_by_own;
-  SparseMatrix torque_by_angle, own_by_angle;  // by the coordinates' angles; only at a given angle of the link
+  SparseMatrix torque_by_twist, torque_by_speed,
+      torque_by_internal;  // coordinates × joints, coordinates, internal states
+  SparseMatrix internal_by_twist, internal_by_speed, internal_by_internal;
+  SparseMatrix torque_by_angle, internal_by_angle;  // by the coordinates' angles; only at a given angle of the link
 };
 
 class BaseMotion {

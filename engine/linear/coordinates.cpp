@@ -104,9 +104,9 @@ class Maker {
 };
 
 // Rows of at most two coordinates: connected parts turn by their gear ratios.
-class Walk {
+class Traversal {
  public:
-  explicit Walk(const SparseMatrix& twists)
+  explicit Traversal(const SparseMatrix& twists)
       : by_row_(twists), by_column_(twists), value_(at(twists.cols()), 0.0), part_(at(twists.cols()), -1) {}
 
   MatrixXd motions() {
@@ -176,7 +176,7 @@ MatrixXd motions_without_twist(const SparseMatrix& twists) {
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, r); it; ++it) entries += it.value() != 0;
     pairs = pairs && entries <= 2;
   }
-  if (pairs) return Walk(twists).motions();
+  if (pairs) return Traversal(twists).motions();
   MatrixXd kernel = FullLu(MatrixXd(twists)).kernel();
   for (Index k = 0; k < kernel.cols(); ++k) {
     Index largest = 0;

@@ -47,7 +47,7 @@ class Sampler final : public Observer {
     }
     for (const TorqueJoint& joint : m_.torque_joints)
       if (joint.elastic >= 0)
-        out_.torque[at(joint.elastic)][next_] = joint.told(s.sums.connection_torque, joint.elastic);
+        out_.torque[at(joint.elastic)][next_] = joint.reported(s.sums.connection_torque, joint.elastic);
   }
 
   const Model& m_;

@@ -24,54 +24,57 @@ struct FirstOrder {
 
 // Twists of joints that anything depends on.
 FirstOrder by_twists(const LinearDrive& drive) {
-  const Index n = drive.size(), z = drive.own_states();
+  const Index n = drive.size(), z = drive.internal_states();
   std::vector<Index> joints;
   VectorXd root(static_cast<Index>(drive.joints.size()));
   for (Index j = 0; j < root.size(); ++j) {
     const double k = drive.joints[at(j)].stiffness;
     root[j] = k > 0 ? std::sqrt(k) : 1;
-    if (drive.torque_by_twist.col(j).norm() > 0 || (z > 0 && drive.own_by_twist.col(j).norm() > 0)) joints.push_back(j);
+    if (drive.torque_by_twist.col(j).norm() > 0 || (z > 0 && drive.internal_by_twist.col(j).norm() > 0))
+      joints.push_back(j);
   }
   const auto t = static_cast<Index>(joints.size());
   const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
   const MatrixXd twists = MatrixXd(drive.twists) * scale.asDiagonal(),
                  torque = scale.asDiagonal() * MatrixXd(drive.torque_by_twist);
-  const MatrixXd own = z > 0 ? MatrixXd(drive.own_by_twist) : MatrixXd(0, root.size());
+  const MatrixXd own = z > 0 ? MatrixXd(drive.internal_by_twist) : MatrixXd(0, root.size());
   FirstOrder f{MatrixXd::Zero(t + n + z, t + n + z), t, t + n};
   for (Index i = 0; i < t; ++i) {
     const Index j = joints[at(i)];
     f.a.block(i, t, 1, n) = root[j] * twists.row(j);
     f.a.block(t, i, n, 1) = torque.col(j) / root[j];
-    if (z > 0) f.a.block(t + n, i, z, 1) = drive.own_scale.cwiseInverse().cwiseProduct(own.col(j)) / root[j];
+    if (z > 0) f.a.block(t + n, i, z, 1) = drive.internal_scale.cwiseInverse().cwiseProduct(own.col(j)) / root[j];
   }
   return f;
 }
 
 // With the link held at an angle: x = [√J q, √J ω, z/scale].
 FirstOrder by_angles(const LinearDrive& drive) {
-  const Index n = drive.size(), z = drive.own_states();
+  const Index n = drive.size(), z = drive.internal_states();
   const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
   FirstOrder f{MatrixXd::Zero(2 * n + z, 2 * n + z), n, 2 * n};
   f.a.block(0, n, n, n).setIdentity();
   f.a.block(n, 0, n, n) =
       -(scale.asDiagonal() * MatrixXd(drive.stiffness + drive.other_stiffness) * scale.asDiagonal());
   if (z > 0)
-    f.a.block(2 * n, 0, z, n) = drive.own_scale.cwiseInverse().asDiagonal() *
-                                MatrixXd(product(drive.own_by_twist, drive.twists) + drive.own_by_angle) *
+    f.a.block(2 * n, 0, z, n) = drive.internal_scale.cwiseInverse().asDiagonal() *
+                                MatrixXd(product(drive.internal_by_twist, drive.twists) + drive.internal_by_angle) *
                                 scale.asDiagonal();
   return f;
 }
 
 FirstOrder first_order(const LinearDrive& drive) {
-  const Index n = drive.size(), z = drive.own_states();
+  const Index n = drive.size(), z = drive.internal_states();
   FirstOrder f = drive.at.angle ? by_angles(drive) : by_twists(drive);
   const VectorXd scale = drive.inertia.cwiseSqrt().cwiseInverse();
   f.a.block(f.speeds, f.speeds, n, n) = -(scale.asDiagonal() * MatrixXd(drive.damping) * scale.asDiagonal());
   if (z == 0) return f;
-  const VectorXd per_own = drive.own_scale.cwiseInverse();
-  f.a.block(f.speeds, f.own, n, z) = scale.asDiagonal() * MatrixXd(drive.torque_by_own) * drive.own_scale.asDiagonal();
-  f.a.block(f.own, f.speeds, z, n) = per_own.asDiagonal() * MatrixXd(drive.own_by_speed) * scale.asDiagonal();
-  f.a.block(f.own, f.own, z, z) = per_own.asDiagonal() * MatrixXd(drive.own_by_own) * drive.own_scale.asDiagonal();
+  const VectorXd per_internal = drive.internal_scale.cwiseInverse();
+  f.a.block(f.speeds, f.own, n, z) =
+      scale.asDiagonal() * MatrixXd(drive.torque_by_internal) * drive.internal_scale.asDiagonal();
+  f.a.block(f.own, f.speeds, z, n) = per_internal.asDiagonal() * MatrixXd(drive.internal_by_speed) * scale.asDiagonal();
+  f.a.block(f.own, f.own, z, z) =
+      per_internal.asDiagonal() * MatrixXd(drive.internal_by_internal) * drive.internal_scale.asDiagonal();
   return f;
 }
 
@@ -132,7 +135,7 @@ std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
     DampedMode mode =
         normalised(lambda, scale.cast<std::complex<double>>().cwiseProduct(v.segment(system.speeds, drive.size())));
     mode.error = error[i];
-    mode.in_own_states = v.tail(drive.own_states()).squaredNorm() / v.squaredNorm();
+    mode.in_internal_states = v.tail(drive.internal_states()).squaredNorm() / v.squaredNorm();
     mode.energy = energy_parts(system, left.row(i).transpose(), v);
     modes.push_back(std::move(mode));
   }
@@ -147,7 +150,7 @@ class DampedNewton {
   using Complex = std::complex<double>;
 
   explicit DampedNewton(const LinearDrive& drive)
-      : drive_(drive), n_(drive.size()), states_(drive.own_states()), pencil_(pencil_of(drive)) {}
+      : drive_(drive), n_(drive.size()), states_(drive.internal_states()), pencil_(pencil_of(drive)) {}
 
   // False where it does not converge. `change`: of λ in the last step, what its error is of the order of.
   bool refine(Complex& lambda, Eigen::VectorXcd& v, double& change) {
@@ -184,11 +187,11 @@ class DampedNewton {
     }
     if (states_ > 0) {
       const Eigen::VectorXcd z = left.tail(states_);
-      const Eigen::VectorXcd by_own = drive_.own_by_twist.transpose() * z;
+      const Eigen::VectorXcd by_internal = drive_.internal_by_twist.transpose() * z;
       if (drive_.at.angle)
-        by_twist += drive_.twists.transpose() * by_own + drive_.own_by_angle.transpose() * z;
+        by_twist += drive_.twists.transpose() * by_internal + drive_.internal_by_angle.transpose() * z;
       else
-        by_twist += by_own;
+        by_twist += by_internal;
     }
     const VectorXd own = left.tail(states_).cwiseProduct(refined_.tail(states_)).cwiseAbs();
     EnergyParts parts{.springs = by_twist.cwiseProduct(twist).cwiseAbs().sum() / std::abs(lambda),
@@ -258,7 +261,7 @@ std::vector<DampedMode> sparse_damped(const LinearDrive& drive, const UndampedMo
 QuadraticPencil pencil_of(const LinearDrive& drive) {
   using Complex = std::complex<double>;
   using Entries = std::vector<Eigen::Triplet<Complex>>;
-  const Index n = drive.size(), z = drive.own_states();
+  const Index n = drive.size(), z = drive.internal_states();
   const auto add = [](const SparseMatrix& from, Index row, Index column, double factor, Entries& to) {
     for (Index c = 0; c < from.outerSize(); ++c)
       for (SparseMatrix::InnerIterator it(from, c); it; ++it)
@@ -276,17 +279,17 @@ QuadraticPencil pencil_of(const LinearDrive& drive) {
   add(drive.stiffness, 0, 0, 1, stiffness);
   add(drive.other_stiffness, 0, 0, 1, stiffness);
   if (z > 0) {
-    add(drive.torque_by_own, 0, n, -1, stiffness);
-    add(product(drive.own_by_twist, drive.twists), n, 0, -1, stiffness);
-    add(drive.own_by_angle, n, 0, -1, stiffness);
-    add(drive.own_by_speed, n, 0, -1, damping);
-    add(drive.own_by_own, n, n, -1, stiffness);
+    add(drive.torque_by_internal, 0, n, -1, stiffness);
+    add(product(drive.internal_by_twist, drive.twists), n, 0, -1, stiffness);
+    add(drive.internal_by_angle, n, 0, -1, stiffness);
+    add(drive.internal_by_speed, n, 0, -1, damping);
+    add(drive.internal_by_internal, n, n, -1, stiffness);
     for (Index k = 0; k < z; ++k) damping.emplace_back(n + k, n + k, 1.0);
   }
   return {matrix(mass), matrix(damping), matrix(stiffness)};
 }
 
-double EnergyParts::in_own() const { return std::accumulate(own.begin(), own.end(), 0.0); }
+double EnergyParts::in_internal_states() const { return std::accumulate(own.begin(), own.end(), 0.0); }
 
 std::vector<DampedMode> damped_modes(const LinearDrive& drive, const UndampedModes& undamped,
                                      const ModesWanted& wanted) {

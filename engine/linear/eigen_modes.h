@@ -38,9 +38,9 @@ UndampedModes undamped_modes(const LinearDrive& drive, const ModesWanted& wanted
 // does not depend on the states' units. Springs, inertias, windings, dampers and resistors are reciprocal; there w_i is
 // ± v_i in units of √(2 E_i), and the share is that of the stored energy E_i itself: ½ k θ², ½ J ω², ½ L i².
 struct EnergyParts {
-  double springs = 0, inertias = 0;  // at a given angle of the link `springs` includes weights
-  std::vector<double> own;           // per internal state; the sum of all shares is 1; empty: unknown, or none
-  double in_own() const;             // Σ of `own`
+  double springs = 0, inertias = 0;   // at a given angle of the link `springs` includes weights
+  std::vector<double> own;            // per internal state; the sum of all shares is 1; empty: unknown, or none
+  double in_internal_states() const;  // Σ of `own`
 };
 
 // λ² M + λ C + K over [q, z], the coordinates and the internal states: its nullspaces are the damped modes.
@@ -50,10 +50,10 @@ struct QuadraticPencil {
 QuadraticPencil pencil_of(const LinearDrive& drive);
 
 struct DampedMode {
-  std::complex<double> lambda;  // [1/s], Im ≥ 0; Im = 0: aperiodic
-  Eigen::VectorXcd shape;       // per coordinate; largest entry 1
-  double error = 0;             // of λ [1/s]
-  double in_own_states = 0;     // share of its vector in internal states of elements; 1: the machine hardly moves
+  std::complex<double> lambda;    // [1/s], Im ≥ 0; Im = 0: aperiodic
+  Eigen::VectorXcd shape;         // per coordinate; largest entry 1
+  double error = 0;               // of λ [1/s]
+  double in_internal_states = 0;  // share of its vector in internal states of elements; 1: the machine hardly moves
   EnergyParts energy = {};
   double natural() const { return std::abs(lambda); }                      // [rad/s]
   double ratio() const { return (0 - lambda.real()) / std::abs(lambda); }  // ζ, never −0; < 0: unstable

@@ -21,7 +21,7 @@ constexpr int positions_of_balance = 64;       // a turn: enough to find a speed
 constexpr double left_by_differences = 1e-11;  // of the largest entry: rounding in a difference of equal ones
 
 // At a given angle of the link, weights and loads that depend on it add stiffness.
-void refuse_what_cannot_swing(const Model& m, const LinearisationPoint& point) {
+void refuse_what_cannot_vibrate(const Model& m, const LinearisationPoint& point) {
   const auto& elements = m.network.elements;
   if (point.angle && std::any_of(elements.begin(), elements.end(),
                                  [](const Network::ShaftElement& e) { return e.element->is.uses_angle; }))
@@ -29,7 +29,7 @@ void refuse_what_cannot_swing(const Model& m, const LinearisationPoint& point) {
   const bool springs = std::any_of(m.elastic.begin(), m.elastic.end(), [&](const ElasticJoint& e) {
     return m.network.joints[at(e.joint)].element->is.has_spring();
   });
-  if (!springs && m.own_states.empty())
+  if (!springs && m.internal_states.empty())
     throw std::invalid_argument(
         "nothing is elastic, so the drive has no modes; switch elasticity on in [effects], or with --effects "
         "elasticity");
@@ -79,7 +79,7 @@ class Lineariser {
     using By = TorqueSlope::By;
     drive_.joints.resize(m_.elastic.size());
     std::vector<TorqueSlope> slopes;
-    Triplets by_twist, by_rate, by_own;
+    Triplets by_twist, by_rate, by_internal;
     std::vector<double> of_a(m_.elastic.size(), 0.0);
     const double share = 1.0 / static_cast<double>(base_.positions().size());
     for (const BaseMotion::Position& position : base_.positions()) {
@@ -90,7 +90,7 @@ class Lineariser {
         const double value = share * slope.value;
         if (slope.by == By::twist) by_twist.emplace_back(slope.connection, slope.index, value);
         if (slope.by == By::rate) by_rate.emplace_back(slope.connection, slope.index, value);
-        if (slope.by == By::own && value != 0) by_own.emplace_back(slope.connection, slope.index, value);
+        if (slope.by == By::own && value != 0) by_internal.emplace_back(slope.connection, slope.index, value);
         if (slope.by == By::speed_of_a) of_a[at(slope.connection)] += value;
       }
     }
@@ -119,8 +119,8 @@ class Lineariser {
     if (rows) drive_.row_stiffness = beyond_diagonal(torque_by_twist, &LinearDrive::Joint::stiffness);
     if (rows) drive_.row_damping = beyond_diagonal(torque_by_rate, &LinearDrive::Joint::damping);
     drive_.joint_by_speed = of_shafts * base_.coordinates().motion;
-    drive_.joint_by_own = SparseMatrix(joints, static_cast<Index>(m_.own_states.size()));
-    drive_.joint_by_own.setFromTriplets(by_own.begin(), by_own.end());
+    drive_.joint_by_internal = SparseMatrix(joints, static_cast<Index>(m_.internal_states.size()));
+    drive_.joint_by_internal.setFromTriplets(by_internal.begin(), by_internal.end());
   }
 
   SparseRows beyond_diagonal(const SparseMatrix& all, double LinearDrive::Joint::*own) const {
@@ -166,14 +166,14 @@ class Lineariser {
     rest.prune([&](Index, Index, double v) { return std::abs(v) > left_by_differences * scale; });
     if (base_.point().angle) rest -= j.torque_by_angle;
     drive_.other_stiffness = rest.nonZeros() > 0 ? rest : SparseMatrix(n, n);
-    drive_.torque_by_own = std::move(j.torque_by_own);
-    drive_.own_by_twist = std::move(j.own_by_twist);
-    drive_.own_by_speed = std::move(j.own_by_speed);
-    drive_.own_by_angle = std::move(j.own_by_angle);
-    drive_.own_by_own = std::move(j.own_by_own);
-    drive_.own_scale.resize(static_cast<Index>(m_.own_states.size()));
-    for (std::size_t i = 0; i < m_.own_states.size(); ++i)
-      drive_.own_scale[static_cast<Index>(i)] = m_.own_states[i].state.scale;
+    drive_.torque_by_internal = std::move(j.torque_by_internal);
+    drive_.internal_by_twist = std::move(j.internal_by_twist);
+    drive_.internal_by_speed = std::move(j.internal_by_speed);
+    drive_.internal_by_angle = std::move(j.internal_by_angle);
+    drive_.internal_by_internal = std::move(j.internal_by_internal);
+    drive_.internal_scale.resize(static_cast<Index>(m_.internal_states.size()));
+    for (std::size_t i = 0; i < m_.internal_states.size(); ++i)
+      drive_.internal_scale[static_cast<Index>(i)] = m_.internal_states[i].state.scale;
   }
   static double largest(const SparseMatrix& m) {
     double most = 0;
@@ -251,12 +251,12 @@ void LinearDrive::stiffen(double factor) {
 }
 
 LinearDrive linearise(BaseMotion& base) {
-  refuse_what_cannot_swing(base.model(), base.point());
+  refuse_what_cannot_vibrate(base.model(), base.point());
   return Lineariser(base).drive(base.equations().shared_model());
 }
 
 LinearDrive linearise(std::shared_ptr<const Model> model, const LinearisationPoint& point) {
-  refuse_what_cannot_swing(*model, point);
+  refuse_what_cannot_vibrate(*model, point);
   BaseMotion base(std::move(model), point);
   return linearise(base);
 }

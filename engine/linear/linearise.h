@@ -42,16 +42,18 @@ struct LinearDrive {
   SparseMatrix stiffness;        // Tᵀ k T of the springs, symmetric
   SparseMatrix other_stiffness;  // other terms of K: losses by torque; by the angle, if one is given
   SparseMatrix damping;          // C
-  SparseMatrix torque_by_own, own_by_twist, own_by_speed, own_by_angle, own_by_own;  // B, G, H, by a given angle, F
-  SparseMatrix torque_by_twist;               // −K = torque_by_twist · T + …
-  SparseMatrix joint_by_speed, joint_by_own;  // of the joints' torques, by speeds of coordinates and internal states
-  Eigen::VectorXd own_scale;                  // orders of magnitude of z
-  double mean_torque = 0;                     // Σ of all shares on the reduction link: 0 in steady motion [N·m]
-  std::string mode_set;                       // for reports: the assumed pieces, directions and stuck shafts
+  SparseMatrix torque_by_internal, internal_by_twist, internal_by_speed, internal_by_angle,
+      internal_by_internal;      // B, G, H, by a given angle, F
+  SparseMatrix torque_by_twist;  // −K = torque_by_twist · T + …
+  SparseMatrix joint_by_speed,
+      joint_by_internal;           // of the joints' torques, by speeds of coordinates and internal states
+  Eigen::VectorXd internal_scale;  // orders of magnitude of z
+  double mean_torque = 0;          // Σ of all shares on the reduction link: 0 in steady motion [N·m]
+  std::string mode_set;            // for reports: the assumed pieces, directions and stuck shafts
 
   Eigen::Index size() const { return inertia.size(); }
-  Eigen::Index own_states() const { return own_scale.size(); }
-  bool is_symmetric() const { return other_stiffness.nonZeros() == 0 && own_states() == 0; }
+  Eigen::Index internal_states() const { return internal_scale.size(); }
+  bool is_symmetric() const { return other_stiffness.nonZeros() == 0 && internal_states() == 0; }
   // Torques of the springs by the twists, of the dampers by their rates.
   Eigen::VectorXcd spring_torques(const Eigen::VectorXcd& twist) const;
   Eigen::VectorXcd damper_torques(const Eigen::VectorXcd& rate) const;

@@ -42,7 +42,7 @@ MeanDerivatives BaseMotion::mean_derivatives() {
   const SparsityPattern& pattern = equations_.jacobian_pattern();
   std::vector<double> values(pattern.row.size()), sum(pattern.row.size(), 0.0);
   const std::size_t speeds = equations_.speed_index(0), twists = equations_.twist_index(0),
-                    own = equations_.own_begin();
+                    own = equations_.internal_begin();
   const double share = 1.0 / static_cast<double>(positions_.size());
   for (const Position& position : positions_) {
     at(position);
@@ -53,7 +53,7 @@ MeanDerivatives BaseMotion::mean_derivatives() {
       if (row >= speeds) sum[k] += share * values[k] * (row < own ? inertia[row - speeds] : 1);
     }
   }
-  Triplets by_angle[2], by_twist[2], by_speed[2], by_own[2];  // of torques, of own states' rates
+  Triplets by_angle[2], by_twist[2], by_speed[2], by_internal[2];  // of torques, of own states' rates
   for (std::size_t c = 0; c < m_.state_count(); ++c)
     for (auto k = kurbel::at(pattern.column_start[c]); k < kurbel::at(pattern.column_start[c + 1]); ++k) {
       const auto row = static_cast<std::size_t>(pattern.row[k]);
@@ -63,7 +63,7 @@ MeanDerivatives BaseMotion::mean_derivatives() {
       const std::size_t of = row < own ? 0 : 1;
       const auto r = static_cast<int>(row - (row < own ? speeds : own));
       if (c >= own) {
-        by_own[of].emplace_back(r, static_cast<int>(c - own), sum[k]);
+        by_internal[of].emplace_back(r, static_cast<int>(c - own), sum[k]);
       } else if (c >= speeds) {
         by_speed[of].emplace_back(r, static_cast<int>(c - speeds), sum[k]);
       } else if (c >= twists) {
@@ -73,16 +73,16 @@ MeanDerivatives BaseMotion::mean_derivatives() {
       }
     }
   const auto shafts = static_cast<Index>(m_.shafts.size()), joints = static_cast<Index>(m_.elastic.size()),
-             states = static_cast<Index>(m_.own_states.size());
+             states = static_cast<Index>(m_.internal_states.size());
   const SparseMatrix &z = coordinates_.motion, across = z.transpose();
   return {.torque_by_twist = across * matrix(shafts, joints, by_twist[0]),
           .torque_by_speed = across * matrix(shafts, shafts, by_speed[0]) * z,
-          .torque_by_own = across * matrix(shafts, states, by_own[0]),
-          .own_by_twist = matrix(states, joints, by_twist[1]),
-          .own_by_speed = matrix(states, shafts, by_speed[1]) * z,
-          .own_by_own = matrix(states, states, by_own[1]),
+          .torque_by_internal = across * matrix(shafts, states, by_internal[0]),
+          .internal_by_twist = matrix(states, joints, by_twist[1]),
+          .internal_by_speed = matrix(states, shafts, by_speed[1]) * z,
+          .internal_by_internal = matrix(states, states, by_internal[1]),
           .torque_by_angle = across * matrix(shafts, shafts, by_angle[0]) * z,
-          .own_by_angle = matrix(states, shafts, by_angle[1]) * z};
+          .internal_by_angle = matrix(states, shafts, by_angle[1]) * z};
 }
 
 VectorXd BaseMotion::mean_joint_torques() {
@@ -99,7 +99,7 @@ VectorXd BaseMotion::mean_joint_torques() {
 class BaseMotion::Balance {
  public:
   explicit Balance(BaseMotion& base)
-      : b_(base), m_(base.m_), n_(base.coordinates_.size()), states_(static_cast<Index>(m_.own_states.size())) {
+      : b_(base), m_(base.m_), n_(base.coordinates_.size()), states_(static_cast<Index>(m_.internal_states.size())) {
     Triplets kept;
     for (std::size_t j = 0; j < m_.elastic.size(); ++j)
       if (b_.has_spring(j) && b_.twists_.row(static_cast<Index>(j)).norm() > 0) springs_.push_back(static_cast<int>(j));
@@ -126,7 +126,7 @@ class BaseMotion::Balance {
         b_.words_ = "no twists and internal states were found with which the mean torques balance exactly here";
     }
     b_.acceleration_ = free_ * free_alpha_;
-    tell_left_over();
+    report_left_over();
   }
 
  private:
@@ -233,7 +233,7 @@ class BaseMotion::Balance {
             entries.emplace_back(row + static_cast<int>(it.row()), place[kurbel::at(c)], it.value());
     };
     add_twists(j.torque_by_twist, 0);
-    add_twists(j.own_by_twist, static_cast<int>(n_));
+    add_twists(j.internal_by_twist, static_cast<int>(n_));
     add_free(springs, -1, entries);
     for (Index c = 0; c < states_; ++c) {
       const int column = springs + free + static_cast<int>(c);
@@ -241,9 +241,9 @@ class BaseMotion::Balance {
         entries.emplace_back(static_cast<int>(n_ + c), column, 1.0);
         continue;
       }
-      for (SparseMatrix::InnerIterator it(j.torque_by_own, c); it; ++it)
+      for (SparseMatrix::InnerIterator it(j.torque_by_internal, c); it; ++it)
         entries.emplace_back(static_cast<int>(it.row()), column, it.value());
-      for (SparseMatrix::InnerIterator it(j.own_by_own, c); it; ++it)
+      for (SparseMatrix::InnerIterator it(j.internal_by_internal, c); it; ++it)
         if (!is_held_[kurbel::at(it.row())]) entries.emplace_back(static_cast<int>(n_ + it.row()), column, it.value());
     }
     add_loops(static_cast<int>(n_ + states_), VectorXd::Ones(springs), entries);
@@ -269,7 +269,7 @@ class BaseMotion::Balance {
       b_.begin_[b_.equations_.twist_index(springs_[k])] += change[static_cast<Index>(k)];
     free_alpha_ += change.segment(static_cast<Index>(springs_.size()), free_.cols());
     for (Index k = 0; k < states_; ++k)
-      b_.begin_[b_.equations_.own_begin() + kurbel::at(k)] += change[change.size() - states_ + k];
+      b_.begin_[b_.equations_.internal_begin() + kurbel::at(k)] += change[change.size() - states_ + k];
   }
   double measure(const VectorXd& residual) const {
     double largest = 0;
@@ -278,7 +278,7 @@ class BaseMotion::Balance {
           largest, std::abs(residual[k]) / m_.shafts[kurbel::at(b_.coordinates_.shaft[kurbel::at(k)])].torque_scale);
     for (Index k = 0; k < states_; ++k)
       largest = std::max(largest, std::abs(residual[n_ + k]) /
-                                      (m_.own_states[kurbel::at(k)].state.scale * std::max(1.0, m_.speed_scale)));
+                                      (m_.internal_states[kurbel::at(k)].state.scale * std::max(1.0, m_.speed_scale)));
     return std::isfinite(residual.sum()) ? largest : HUGE_VAL;
   }
 
@@ -286,7 +286,7 @@ class BaseMotion::Balance {
   int hold_states_of_elements() {
     int held = 0;
     for (Index k = 0; k < states_; ++k) {
-      const std::string& component = m_.own_states[kurbel::at(k)].component;
+      const std::string& component = m_.internal_states[kurbel::at(k)].component;
       const bool of_joint = std::any_of(m_.elastic.begin(), m_.elastic.end(), [&](const ElasticJoint& e) {
         const Network::Joint& joint = m_.network.joints[kurbel::at(e.joint)];
         return joint.component == component && joint.element->is.states > 0;
@@ -296,7 +296,7 @@ class BaseMotion::Balance {
     return held;
   }
 
-  void tell_left_over() {
+  void report_left_over() {
     std::vector<double> geared;
     for (const Shaft& shaft : m_.shafts) geared.push_back(m_.node_ratio[kurbel::at(shaft.reference)]);
     const VectorXd ratio = b_.coordinates_.rates(geared, b_.shaft_inertia_);

@@ -76,7 +76,7 @@ void add_continuous_shaft(Network& net, const std::string& component, const Cont
             last = net.add_node(component, "out", shaft.inertia / 2), out = net.add_node(component, "out_end", 0);
   net.ports[component] = {in, out, {}};
   const auto end = [&](int a, int b, const char* label) {
-    net.joints.push_back({.a = a, .b = b, .component = component, .label = label, .told = true});
+    net.joints.push_back({.a = a, .b = b, .component = component, .label = label, .reported = true});
   };
   end(in, first, "in");
   net.joints.push_back({.a = first,

@@ -90,7 +90,8 @@ bool Model::has_contacts() const {
 }
 
 bool Model::has_memory() const {
-  return std::any_of(own_states.begin(), own_states.end(), [](const OwnStatePlace& own) { return !own.state.lags; });
+  return std::any_of(internal_states.begin(), internal_states.end(),
+                     [](const PlacedInternalState& own) { return !own.state.lags; });
 }
 
 std::string Model::explain() const {
@@ -108,7 +109,7 @@ std::string Model::explain() const {
                         relation.lossy ? ", with losses" : "");
     if (relation.lossy && !relation.words.empty()) text += "    " + relation.words + "\n";
   }
-  for (const OwnStatePlace& own : own_states)
+  for (const PlacedInternalState& own : internal_states)
     text += fmt::format("  state of its own: {} of {}\n", own.state.name, own.component);
   for (const Network::ShaftElement& e : network.elements)
     if (const std::string words = e.element->describe(); !words.empty()) text += "  " + words + "\n";

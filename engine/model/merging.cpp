@@ -22,9 +22,9 @@ bool may_slip(const Network::Joint& joint) {
 }
 
 // Breadth-first search over the nodes, with the speed of each relative to the first.
-class Walk {
+class Traversal {
  public:
-  Walk(const Network& network, const std::function<bool(const Network::Joint&)>& is_rigid, Through relations)
+  Traversal(const Network& network, const std::function<bool(const Network::Joint&)>& is_rigid, Through relations)
       : network_(network), through_(relations), joints_at_(network.nodes.size()), relations_at_(network.nodes.size()) {
     for (std::size_t j = 0; j < network.joints.size(); ++j)
       if (is_rigid(network.joints[j])) {
@@ -34,7 +34,7 @@ class Walk {
       }
     for (const Network::Relation& relation : network.relations)
       for (int k = 0; k < relation.members(); ++k)
-        if (is_walked(relation, k)) relations_at_[at(relation.node[at(k)])].push_back(&relation);
+        if (is_followed(relation, k)) relations_at_[at(relation.node[at(k)])].push_back(&relation);
   }
 
   Merging merging() {
@@ -48,11 +48,11 @@ class Walk {
       // Joints that may slip come last: they follow the ratios of gears on their sides and define none.
       for (std::size_t next = 0, late = 0; next < queue_.size() || (any_slips_ && late < queue_.size());) {
         if (next == queue_.size()) {
-          walk_joints(queue_[late++], true);
+          visit_joints(queue_[late++], true);
           continue;
         }
-        walk_joints(queue_[next], false);
-        walk_relations(queue_[next++]);
+        visit_joints(queue_[next], false);
+        visit_relations(queue_[next++]);
       }
       ++merging_.groups;
     }
@@ -60,10 +60,10 @@ class Walk {
   }
 
  private:
-  bool is_walked(const Network::Relation& relation, int k) const {
+  bool is_followed(const Network::Relation& relation, int k) const {
     return through_ == Through::all || (through_ == Through::turning && relation.usual[at(k)] != 0);
   }
-  void walk_joints(std::size_t node, bool slipping) {
+  void visit_joints(std::size_t node, bool slipping) {
     for (const std::size_t j : joints_at_[node]) {
       const Network::Joint& joint = network_.joints[j];
       if (may_slip(joint) != slipping) continue;
@@ -75,13 +75,13 @@ class Walk {
       queue_.push_back(other);
     }
   }
-  void walk_relations(std::size_t node) {
+  void visit_relations(std::size_t node) {
     for (const Network::Relation* relation : relations_at_[node]) {
       const auto own = static_cast<std::size_t>(
           std::find(relation->node.begin(), relation->node.end(), static_cast<int>(node)) - relation->node.begin());
       for (int k = 0; k < relation->members(); ++k) {
         const std::size_t other = at(relation->node[at(k)]);
-        if (merging_.group[other] >= 0 || !is_walked(*relation, k)) continue;
+        if (merging_.group[other] >= 0 || !is_followed(*relation, k)) continue;
         merging_.group[other] = merging_.groups;
         const double usual = relation->usual[own];
         merging_.gain[other] =
@@ -125,8 +125,8 @@ void check_start(Compilation& c, const Merging& firm) {
   const struct {
     std::optional<double> ComponentStart::*of;
     const char *words, *unit;
-  } told[] = {{&ComponentStart::speed, "speeds", "rad/s"}, {&ComponentStart::angle, "angles", "rad"}};
-  for (const auto& what : told) {
+  } given[] = {{&ComponentStart::speed, "speeds", "rad/s"}, {&ComponentStart::angle, "angles", "rad"}};
+  for (const auto& what : given) {
     std::map<int, std::pair<std::string, double>> first;  // per shaft: the component that gives it, value at first node
     for (const auto& [component, start] : c.model.scene.run.start.components) {
       const auto port = c.net().ports.find(component);
@@ -147,7 +147,7 @@ void check_start(Compilation& c, const Merging& firm) {
 }  // namespace
 
 Merging merge(const Network& network, const std::function<bool(const Network::Joint&)>& is_rigid, Through relations) {
-  return Walk(network, is_rigid, relations).merging();
+  return Traversal(network, is_rigid, relations).merging();
 }
 
 Merging merge_shafts(const Network& network) {

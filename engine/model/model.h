@@ -65,9 +65,9 @@ struct GearTorque {
 };
 
 // An internal state of an element.
-struct OwnStatePlace {
+struct PlacedInternalState {
   std::string component;
-  OwnState state;
+  InternalState state;
 };
 
 // A component that the operating sequence switches or sets.
@@ -85,7 +85,7 @@ struct TrackedAngle {
 
 // Reported torque of a joint: its torque or, for a shaft by dimensions, the torque in its middle from those of its parts
 // (lobatto_element.h).
-struct ToldTorque {
+struct ReportedTorque {
   std::vector<double> weight = {};  // of the parts in their order; empty: the torque of the joint
   // `own`: index of the joint; for a shaft, of its middle part.
   template <class T>
@@ -105,8 +105,8 @@ struct TorqueJoint {
   int elastic = -1;           // index of the elastic joint; −1: merged, torque by d'Alembert
   int first = -1, last = -1;  // elastic joints whose twists add up to that of the component
   double torque_scale = 1;    // [N·m]
-  ToldTorque told = {};
-  double torque(const double* of_joints) const { return told(of_joints, joint); }  // per joint of the network [N·m]
+  ReportedTorque reported = {};
+  double torque(const double* of_joints) const { return reported(of_joints, joint); }  // per joint of the network [N·m]
 };
 
 // A motor: the driving elements of a component with a rated torque and speed. Or the drive of a shaft with prescribed speed:
@@ -159,7 +159,7 @@ struct Model {
   std::vector<TrackedAngle> angles;
   std::vector<ShaftRelation> relations;
   std::vector<GearTorque> gear_torques;
-  std::vector<OwnStatePlace> own_states;
+  std::vector<PlacedInternalState> internal_states;
   std::vector<CommandTarget> commands;
   std::vector<int> trigger_angle;  // per step of the sequence: tracked angle that it waits for, −1: none
   std::vector<TorqueJoint> torque_joints;
@@ -179,7 +179,7 @@ struct Model {
 
   std::size_t angle_count() const { return angles.size(); }
   std::size_t twist_count() const { return elastic.size(); }
-  std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts + own_states.size(); }
+  std::size_t state_count() const { return angles.size() + elastic.size() + free_shafts + internal_states.size(); }
   // Relations or slipping joints; the work equation and the reduction need a machine without them.
   bool has_contacts() const;
   // Internal states that do not follow a constant motion at once: all except those that only lag.

@@ -51,7 +51,7 @@ class Network {
     ConnectionForm element = nullptr;  // null: always rigid
     bool elastic = false;              // by the present effects
     std::string label = {};            // distinguishes several joints of a component
-    bool told = false;                 // always rigid, with its torque as a result
+    bool reported = false;             // always rigid, with its torque as a result
     int chain = -1;                    // index of its chain; −1: none
   };
   // A discretised shaft: joints in a row, consecutive in the network.
@@ -96,7 +96,7 @@ class Network {
     std::string channel = {};  // or a channel: offset + sign · its value
     double sign = 1, offset = 0, low = 0, high = 0;  // in SI
     std::string unit = {};                           // SI, of these
-    Beyond below = Beyond::unsaid, above = Beyond::unsaid;
+    Beyond below = Beyond::unspecified, above = Beyond::unspecified;
     bool line_below = false, line_above = false;  // continued by its slope; else constant
     Location at = {};                             // of its table in the scene
   };

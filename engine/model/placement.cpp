@@ -65,9 +65,9 @@ void set_whole_loads(Model& m) {
     }
 }
 
-int own_places(Model& m, const std::string& component, const std::vector<OwnState>& states) {
-  const int first = static_cast<int>(m.own_states.size());
-  for (const OwnState& state : states) m.own_states.push_back({component, state});
+int place_internal_states(Model& m, const std::string& component, const std::vector<InternalState>& states) {
+  const int first = static_cast<int>(m.internal_states.size());
+  for (const InternalState& state : states) m.internal_states.push_back({component, state});
   return first;
 }
 
@@ -86,7 +86,7 @@ void place_connections(Model& m, PoolSet& pools) {
     if (joint.component != last || loss < 0) loss = account(m, joint.component, Account::harmful);
     last = joint.component;
     e.loss_account = loss;
-    ConnectionExtras extras{.own = own_places(m, joint.component, joint.element->own_states),
+    ConnectionExtras extras{.own = place_internal_states(m, joint.component, joint.element->internal_states),
                             .component = joint.component};
     if (joint.element->is.guards > 0) extras.mode = static_cast<int>(m.mode_slots++);
     if (joint.element->is.commanded) extras.command = command_of(m, joint.component);
@@ -113,7 +113,7 @@ void place_on_shafts(Model& m, PoolSet& pools) {
     }
     ports.mode = static_cast<int>(m.mode_slots);
     m.mode_slots += at(e.element->modes);
-    ports.own = own_places(m, e.component, e.element->own_states);
+    ports.own = place_internal_states(m, e.component, e.element->internal_states);
     ports.command = command_of(m, e.component);
     if (ports.command >= 0 && !e.element->is.commanded)
       m.commands[at(ports.command)].switched.push_back(static_cast<int>(i));
@@ -234,7 +234,7 @@ void list_torque_joints(Compilation& c) {
   int elastic = 0;
   for (std::size_t j = 0; j < m.network.joints.size(); ++j) {
     const Network::Joint& joint = m.network.joints[j];
-    if (!joint.element && !joint.told) continue;
+    if (!joint.element && !joint.reported) continue;
     TorqueJoint listed{.component = joint.component,
                        .joint = static_cast<int>(j),
                        .torque_scale = m.torque_scale / m.scale_ratio[at(joint.a)]};
@@ -245,7 +245,7 @@ void list_torque_joints(Compilation& c) {
       if (joint.chain >= 0 && m.network.chains[at(joint.chain)].degree > 0) {
         if (2 * k != total + 1) continue;  // the torque of a continuous shaft is that in its middle
         if (joint.elastic) listed.first -= k - 1, listed.last += total - k;
-        listed.told = {lobatto_element(total).middle};
+        listed.reported = {lobatto_element(total).middle};
       } else if (total > 20 && k != 1 && k != total) {
         continue;  // both ends of a long chain
       } else if (joint.label.empty() && total > 1) {

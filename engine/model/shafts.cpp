@@ -99,7 +99,7 @@ void check_dead_centres(Compilation& c, const Shaft& shaft) {
     c.refuse(mechanism->component,
              fmt::format("\"{}\" has no inertia {}, so the crank's motion is undefined; give it a crank_inertia",
                          mechanism->component,
-                         mechanism->element->own_states.empty()
+                         mechanism->element->internal_states.empty()
                              ? "at a dead centre (its output stands still there)"
                              : "while its rod flies free of the crank or stands at a dead centre"));
 }

@@ -50,11 +50,11 @@ void switch_joints(Model& m) {
 // With clutches locked the machine runs: brakes of the operating sequence are released, and the sequence has
 // ended.
 void release_brakes(Model& m) {
-  std::set<std::string> told;
-  for (const SequenceStep& step : m.scene.sequence.steps) told.insert(step.set.begin(), step.set.end());
+  std::set<std::string> commanded;
+  for (const SequenceStep& step : m.scene.sequence.steps) commanded.insert(step.set.begin(), step.set.end());
   m.scene.sequence.steps.clear();
   std::erase_if(m.network.elements, [&](const Network::ShaftElement& e) {
-    const bool brake = told.count(e.component) && e.element->is.directional && e.element->is.commanded;
+    const bool brake = commanded.count(e.component) && e.element->is.directional && e.element->is.commanded;
     if (brake) m.merged.push_back(fmt::format("\"{}\" counts as released", e.component));
     return brake;
   });
@@ -71,7 +71,7 @@ Effects effects_on_elements(const Model& m) {
   return effects;
 }
 
-void leave_out_what_is_gone(Model& m) {
+void remove_unconnected(Model& m) {
   std::vector<Network::ShaftElement>& elements = m.network.elements;
   for (std::size_t e = elements.size(); e-- > 0;)
     if (elements[e].element == no_element()) {
@@ -123,7 +123,7 @@ void switch_effects(Compilation& c) {
     } catch (const std::invalid_argument& cannot) {  // effects that it cannot have together
       c.refuse(e.component, fmt::format("\"{}\": {}", e.component, cannot.what()));
     }
-  leave_out_what_is_gone(m);
+  remove_unconnected(m);
   if (m.effects.joint_friction && !any)
     c.messages.add(c.place_of_line(),
                    "joint_friction is on, but no joint of a mechanism has friction; give one a coefficient: of a "

@@ -17,7 +17,7 @@ namespace kurbel {
 // constant, or continued by the slope at the end, unless periodic. Pieces are numbered −1 (before the first point), 0 … n−2,
 // n−1 (after the last), points at the same x counted once. For a formula its knots take the role of the points.
 // Continuation of a curve beyond its data as defined in the scene; it then counts as data. refuse: no continuation.
-enum class Beyond { unsaid, hold, line, refuse };
+enum class Beyond { unspecified, hold, line, refuse };
 
 class Curve {
  public:
@@ -124,7 +124,7 @@ class Curve {
   bool seamless_ = false;
   double before_ = 0, max_abs_ = 0;
   double slope_before_ = 0, slope_after_ = 0;  // beyond the ends
-  Beyond beyond_first_ = Beyond::unsaid, beyond_last_ = Beyond::unsaid;
+  Beyond beyond_first_ = Beyond::unspecified, beyond_last_ = Beyond::unspecified;
   std::shared_ptr<const std::vector<FormulaProgram>> programs_;  // null: by points
 };
 

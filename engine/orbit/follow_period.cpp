@@ -16,7 +16,7 @@ RunOutcome follow_period(const ReturnMap& map, const Eigen::VectorXd& z, Equatio
                  .progress = {},
                  .stop = options.stop,
                  .extension = options.extension};
-  if (!run.stop) run.stop = map.round_end(equations, y, options.periods);
+  if (!run.stop) run.stop = map.period_end(equations, y, options.periods);
   y.resize(options.extension ? options.extension->size() : equations.size(), 0.0);
   run.from = {map.start_time(), std::move(y)};
   return integrate(equations, run, observers);

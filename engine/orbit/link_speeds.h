@@ -33,7 +33,7 @@ class LinkSpeeds final : public Observer {
 };
 
 // Vibration as fast as in the previous interval of hundreds of periods: it will neither complete a turn nor stop.
-class LastSwing {
+class LastOscillation {
  public:
   bool as_before(const LinkSpeeds& speeds) {
     constexpr double same = 1e-4;

@@ -42,7 +42,7 @@ class Search {
     state_.y = equations_.start(0);
     state_.modes = equations_.modes();
     try {
-      while (!done_ && out_.rounds < most_rounds()) go_on();
+      while (!done_ && out_.rounds < most_periods()) go_on();
     } catch (const std::runtime_error& error) {  // an element without solution, such as jamming joints
       end(Orbit::Kind::failed, error.what());
     }
@@ -72,9 +72,9 @@ class Search {
            (!waits_for_angle(m_, state_.modes) && state_.t >= switched_until(m_, period_, state_));
   }
   // More for what changes slowly: a shaft that drag brings to the speed of another one takes its time.
-  int most_rounds() const {
+  int most_periods() const {
     constexpr int times = 4;
-    return options_.most_rounds * (slow_ && options_.most_rounds >= OrbitOptions{}.most_rounds ? times : 1);
+    return options_.most_periods * (slow_ && options_.most_periods >= OrbitOptions{}.most_periods ? times : 1);
   }
   bool has_own_period() const { return kurbel::has_own_period(m_, period_); }
   Pace pace() { return pace_of(equations_, state_); }
@@ -94,7 +94,7 @@ class Search {
   }
 
   double round_angle() const { return period_.angle * options_.cycles; }
-  double round_time() const { return period_.time * options_.cycles; }
+  double period_time() const { return period_.time * options_.cycles; }
   // Time limit for a period of the link at this speed [s].
   double patience(double omega) const { return 3 * round_angle() / std::max(std::abs(omega), 0.05 * m_.speed_scale); }
 
@@ -112,9 +112,9 @@ class Search {
     const double begin = equations_.angle_with_turns(angle, state_.y);
     const bool by_time = period_.by_time && is_settled();
     const bool aligning = by_time && !aligned_;  // start at a multiple of the period of time
-    const double periods = std::floor(state_.t / round_time() + 1e-9) + 1;
-    RunOptions run = on_until(aligning  ? periods * round_time()
-                              : by_time ? state_.t + round_time()
+    const double periods = std::floor(state_.t / period_time() + 1e-9) + 1;
+    RunOptions run = on_until(aligning  ? periods * period_time()
+                              : by_time ? state_.t + period_time()
                                         : state_.t + patience_factor_ * patience(omega));
     if (!period_.by_time)
       run.stop = [this, angle, begin](double, std::span<const double> y) {
@@ -177,7 +177,7 @@ class Search {
 
   // A period without switching: its change, and whether it is small enough.
   void look(const State& before, const Pace& now) {
-    ++settled_rounds_;
+    ++settled_periods_;
     speeds_.push_back(now.speed);
     PoincareSection section(equations_, before, {!period_.by_time, {}});
     const Eigen::VectorXd change = section.read(state_.modes, state_.y);
@@ -190,8 +190,8 @@ class Search {
       angle_changes_most_ = section.is_angle(static_cast<std::size_t>(most));
     }
     const bool repeats = out_.still_changes <= enough_by_run, repeats_anew = repeats && !repeated_;
-    if ((settled_rounds_ < next_trial_ && !repeats_anew) || out_.still_changes > near_enough) return;
-    next_trial_ = 2 * settled_rounds_;
+    if ((settled_periods_ < next_trial_ && !repeats_anew) || out_.still_changes > near_enough) return;
+    next_trial_ = 2 * settled_periods_;
     repeated_ = repeats;
     polish();
     if (!done_ && !found_unstable_ && repeats) rest_on_run(new_map());
@@ -203,7 +203,7 @@ class Search {
   void rest_on_run(const std::shared_ptr<ReturnMap>& map) {
     const ReturnMap::Image way = map->approach_from(state_);
     if (way.end != ReturnMap::End::returned) return spend(*map);
-    SteadyPoint point = find_by_rounds(*map, way.z, 10 * enough_by_run);
+    SteadyPoint point = find_by_periods(*map, way.z, 10 * enough_by_run);
     if (!point.found) return spend(*map);
     if (point.vibrates()) point.to_come += uncertainty_of_member(*map);
     spend(*map);
@@ -230,7 +230,7 @@ class Search {
     return outcome.complete;
   }
 
-  std::size_t commands_in_a_round() const {
+  std::size_t commands_in_a_cycle() const {
     std::size_t count = 0;
     for (const SequenceStep& step : m_.scene.sequence.steps) count += step.set.size();
     return std::max<std::size_t>(1, count);
@@ -244,7 +244,7 @@ class Search {
     const bool sequence = m_.scene.sequence.repeat;
     std::vector<double> times;  // of the last event of its kind, latest first
     if (sequence) {
-      const std::size_t round = commands_in_a_round();
+      const std::size_t round = commands_in_a_cycle();
       std::size_t commands = 0;
       for (auto e = events_.rbegin(); e != events_.rend(); ++e)
         if (e->kind == EventKind::command && commands++ % round == 0) times.push_back(e->t);
@@ -332,7 +332,7 @@ class Search {
   // The member of a family is that of the run: conserved quantities have their initial values.
   bool keeps_its_member(const ReturnMap& map, SteadyPoint& point) {
     constexpr int patient = 64;  // periods: without decay there is no convergence either
-    if (!point.neutral() || is_member_of_run(map, point) || settled_rounds_ >= patient) return true;
+    if (!point.neutral() || is_member_of_run(map, point) || settled_periods_ >= patient) return true;
     why_not_ = "the motion is one of a family, and the run is still too far from it to decide which";
     return false;
   }
@@ -365,26 +365,26 @@ class Search {
     out_.state.y.resize(equations_.state_count());
     out_.cost -= map->cost();  // counted at the end
     state_ = out_.state;
-    const bool nothing_swings = !period_.angle_matters && !period_.by_time && pace().rate <= 100 * still;
-    if (nothing_swings)
+    const bool nothing_vibrates = !period_.angle_matters && !period_.by_time && pace().rate <= 100 * still;
+    if (nothing_vibrates)
       return end(Orbit::Kind::equilibrium, "all speeds are constant: no law depends on an angle or on time");
     end(point.vibrates() ? Orbit::Kind::vibrating : Orbit::Kind::cycle, cycle_words());
   }
   std::string cycle_words() const {
     if (period_.by_time)
       return fmt::format("the motion repeats after {:.6g} s, the common period of all that depends on time{}",
-                         round_time(), period_.angle_matters ? " and on an angle" : "");
+                         period_time(), period_.angle_matters ? " and on an angle" : "");
     const double turns = round_angle() / (2 * std::numbers::pi);
     return fmt::format("the motion repeats after {:.6g} turn{} of \"{}\"", turns, turns == 1 ? "" : "s", link());
   }
 
   void drift() {
     const std::string where = fmt::format("after {} cycles, at {:.4g} s, ", out_.rounds, state_.t);
-    if (settled_rounds_ == 0 && is_settled())
+    if (settled_periods_ == 0 && is_settled())
       return end(
           Orbit::Kind::drifting,
           where + fmt::format("\"{}\" has neither completed a cycle nor come to rest: it moves to and fro", link()));
-    if (settled_rounds_ == 0)
+    if (settled_periods_ == 0)
       return end(Orbit::Kind::drifting,
                  where + (m_.scene.sequence.repeat ? "the operating sequence still repeats without the motion repeating"
                                                    : "something is still being switched"));
@@ -422,8 +422,8 @@ class Search {
   bool slow_ = false;                                       // a period has changed little
   bool repeated_ = false;                                   // the run did, at the last trial
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
-  int settled_rounds_ = 0, next_trial_ = 1;
-  LastSwing swings_;
+  int settled_periods_ = 0, next_trial_ = 1;
+  LastOscillation swings_;
   LastMotion last_motion_;
   std::string why_not_, changes_most_;
   std::vector<double> speeds_;  // fastest shaft at the ends of settled periods, over its rated speed

@@ -66,8 +66,8 @@ Pace pace_of(Equations& equations, const State& state) {
       consider(equations.twist_index(static_cast<int>(k)), m.elastic[k].twist_scale);
   for (std::size_t s = 0; s < m.free_shafts; ++s)
     consider(equations.speed_index(static_cast<int>(s)), m.shafts[s].speed_scale);
-  for (std::size_t k = 0; k < m.own_states.size(); ++k)
-    consider(equations.own_begin() + k, m.own_states[k].state.scale);
+  for (std::size_t k = 0; k < m.internal_states.size(); ++k)
+    consider(equations.internal_begin() + k, m.internal_states[k].state.scale);
   return pace;
 }
 

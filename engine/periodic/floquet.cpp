@@ -35,7 +35,7 @@ struct BrokenOff : std::runtime_error {
 };
 
 // Transition matrices A_k from section to section; filled up with zeros where sections have fewer directions than others.
-struct Round {
+struct Period {
   std::vector<MatrixXd> factors;
   std::vector<MatrixXd> directions;  // before each: δy over the scales = directions · coordinates
   Index rank = 0;                    // least
@@ -50,7 +50,7 @@ MatrixXd filled(const MatrixXd& m, Index rows, Index columns) {
 }
 
 // Sets entries below the accuracy of the integration to zero.
-void wipe_out(MatrixXd& factor, double least, Round& round) {
+void wipe_out(MatrixXd& factor, double least, Period& round) {
   if (factor.size() == 0) return;
   const Svd svd = thin_svd(factor);
   Eigen::VectorXd values = svd.values;
@@ -91,13 +91,13 @@ class Machine {
   }
 
   // Over intervals that end at these times; the last one ends the period.
-  Round round(const Eigen::VectorXd& z, const std::vector<double>& ends) {
+  Period round(const Eigen::VectorXd& z, const std::vector<double>& ends) {
     State here;
     here.t = map_.start_time();
     here.y = map_.place(equations_, z);
     here.modes = equations_.modes();
     std::vector<PoincareSection> sections = {map_.section()};
-    Round round{{}, {}, static_cast<Index>(map_.size()), 0};
+    Period round{{}, {}, static_cast<Index>(map_.size()), 0};
     Index largest = round.rank;
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const MatrixXd moved = advance(here, map_.start_time() + ends[k], sections.back().directions());
@@ -330,7 +330,7 @@ void find(const ReturnMap& map, const Eigen::VectorXd& z, const FloquetOptions& 
   if (map.size() == 0) return;
   out.intervals = options.intervals > 0 ? options.intervals : intervals_for(way.time, of_mean);
   std::vector<double> ends = ends_away_from(way.events, way.time, out.intervals);
-  Round round = machine.round(z, ends);
+  Period round = machine.round(z, ends);
   // Motions that decay faster than the mean survive in shorter intervals; sticking ones vanish in any interval.
   for (int shorter = 0; options.intervals == 0 && shorter < 2 && round.wiped_out > 0; ++shorter) {
     out.intervals *= 2;

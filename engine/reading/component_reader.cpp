@@ -43,13 +43,13 @@ void refuse_top_key(SceneReading& r, const DocumentEntry& entry) {
 // `on = "flywheel"` is a branch of one component.
 void read_on(SceneReading& r, const Section& section, const DocumentValue& value) {
   if (section.kind->placement == Placement::inline_two) {
-    r.lines_sound = false;
+    r.lines_valid = false;
     return r.refuse(value.at,
                     fmt::format("{} \"{}\": on = {}; it has two shafts and stands in a `line` or a [[branch]]",
                                 section.kind->name, section.name, value.describe()));
   }
   if (value.type != Type::text || value.text.empty()) {
-    r.lines_sound = false;
+    r.lines_valid = false;
     return r.refuse(value.at, fmt::format("{} \"{}\": on = {}; must be the name of a component in quotes",
                                           section.kind->name, section.name, value.describe()));
   }

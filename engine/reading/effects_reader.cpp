@@ -50,7 +50,7 @@ void read_elasticity(SceneReading& r, const DocumentEntry& entry) {
 // What the file does not mention is on where there are parameters for it.
 void complete_effects(SceneReading& r, const std::set<std::string>& said) {
   for (const EffectFlag& effect : effect_flags())
-    if (effect.unsaid == EffectFlag::Unsaid::where_given && !said.count(effect.name))
+    if (effect.by_default == EffectFlag::Default::where_given && !said.count(effect.name))
       r.scene.effects.*(effect.flag) = has_parameters(r.scene, effect);
 }
 
@@ -80,8 +80,8 @@ void read_effects_table(SceneReading& r, std::set<std::string>& said) {
     } else {
       r.scene.effects.*(known->flag) = entry.value.flag;
       said.insert(entry.key);
-      if (entry.value.flag && known->unsaid == EffectFlag::Unsaid::where_given && !has_parameters(r.scene, *known) &&
-          r.unreadable.empty())
+      if (entry.value.flag && known->by_default == EffectFlag::Default::where_given &&
+          !has_parameters(r.scene, *known) && r.unreadable.empty())
         r.refuse(entry.at, fmt::format("[effects]: {} = true, but no component has parameters for it; give {}, or drop "
                                        "the line",
                                        entry.key, known->parameters));

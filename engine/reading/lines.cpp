@@ -21,13 +21,13 @@ Line read_line(SceneReading& r, const DocumentValue& value, const std::string& w
   if (value.type != Type::list || value.items.empty()) {
     r.refuse(value.at, fmt::format("{} = {}; must be a list of component names, e.g. [\"motor\", \"press\"]", what,
                                    value.type == Type::list ? "[]" : value.describe()));
-    r.lines_sound = false;
+    r.lines_valid = false;
     return line;
   }
   for (const DocumentValue& item : value.items) {
     if (item.type != Type::text) {
       r.refuse(item.at, fmt::format("{}: {} is no component name in quotes", what, item.describe()));
-      r.lines_sound = false;
+      r.lines_valid = false;
       continue;
     }
     line.names.push_back(item.text);
@@ -66,7 +66,7 @@ void read_branch(SceneReading& r, const DocumentValue& branch) {
     if (from) begin = read_port(r, *from);
     if (to) end = read_port(r, *to);
   }
-  if (!begin || begin->empty() || !line || (to && !end)) r.lines_sound = false;
+  if (!begin || begin->empty() || !line || (to && !end)) r.lines_valid = false;
   if (!line) return;
   Line read = read_line(r, line->value, "branch: line", begin.value_or(""));
   if (!begin || begin->empty()) return;
@@ -81,7 +81,7 @@ void read_lines(SceneReading& r) {
   const DocumentEntry* line = r.document.find("line");
   if (!line) line = r.misplaced_line;
   if (!line) {
-    r.lines_sound = false;
+    r.lines_valid = false;
     r.scene.lines.insert(r.scene.lines.begin(), Line{});
     r.refuse({1, 1},
              "\"line\" is missing: the components in the order of the drive, e.g. line = [\"motor\", \"coupling\", "
@@ -92,7 +92,7 @@ void read_lines(SceneReading& r) {
   const DocumentEntry* branches = r.document.find("branch");
   if (!branches) return;
   if (branches->value.type != Type::list) {
-    r.lines_sound = false;
+    r.lines_valid = false;
     return r.refuse(branches->at,
                     "branch is no list of tables; each branch is written as [[branch]] with `from` and `line`");
   }
@@ -210,7 +210,7 @@ void check_connections(SceneReading& r) {
     }
   for (const Line& line : r.scene.lines) check_ends(r, line, names, placed);
   for (const Section& section : r.scene.components)
-    if (r.lines_sound && !placed.count(section.name) && !meant.count(section.name))
+    if (r.lines_valid && !placed.count(section.name) && !meant.count(section.name))
       r.refuse(section.at,
                fmt::format(
                    "{} \"{}\" is not connected; put it into `line` or a [[branch]]{}", section.kind->name, section.name,

@@ -49,11 +49,11 @@ class Output {
   bool turns() const { return std::isfinite(cycle_); }
   double cycle() const { return cycle_; }
   bool rocks() const { return position_->unit == "rad"; }
-  double x(double phi) const { return told(*position_, phi); }
-  double slope(double phi) const { return told(*velocity_, phi); }  // at ω = 1
+  double x(double phi) const { return stated(*position_, phi); }
+  double slope(double phi) const { return stated(*velocity_, phi); }  // at ω = 1
 
  private:
-  double told(const Channel& channel, double phi) const {
+  double stated(const Channel& channel, double phi) const {
     const std::vector<double> angle(model_->angles.size(), phi), node_angle(model_->network.nodes.size(), phi),
         speed(model_->shafts.size(), 1.0);
     Snapshot s{};
@@ -105,33 +105,33 @@ std::vector<double> angles_at(const Output& output, const Way& way, double x, bo
   return places;
 }
 
-struct Told {
+struct StatedMotion {
   double position = 0, velocity = 0;
   bool rising = false;
 };
 
-std::optional<Told> read_told(SceneReading& r, bool rocks) {
+std::optional<StatedMotion> read_motion(SceneReading& r, bool rocks) {
   const OutputStart& given = r.output_start;
-  Told told;
+  StatedMotion stated;
   const char* const ends[] = {rocks ? "least" : "folded", rocks ? "greatest" : "extended"};
-  bool sound = read_quantity(given.position->value, rocks ? "rad" : "m", any_number, "start: position", r.messages,
-                             told.position);
+  bool valid = read_quantity(given.position->value, rocks ? "rad" : "m", any_number, "start: position", r.messages,
+                             stated.position);
   if (given.velocity)
-    sound = read_quantity(given.velocity->value, rocks ? "rad/s" : "m/s", any_number, "start: velocity", r.messages,
-                          told.velocity) &&
-            sound;
-  told.rising = told.velocity > 0;
+    valid = read_quantity(given.velocity->value, rocks ? "rad/s" : "m/s", any_number, "start: velocity", r.messages,
+                          stated.velocity) &&
+            valid;
+  stated.rising = stated.velocity > 0;
   if (given.towards) {
     const std::string& end = given.towards->value.text;
-    told.rising = end == ends[1];
+    stated.rising = end == ends[1];
     if (end != ends[0] && end != ends[1]) {
       r.refuse(given.towards->value.at, fmt::format("start: towards = {}; allowed: \"{}\" or \"{}\"",
                                                     given.towards->value.describe(), ends[1], ends[0]));
-      sound = false;
+      valid = false;
     }
   }
-  if (!sound) return {};
-  return told;
+  if (!valid) return {};
+  return stated;
 }
 
 }  // namespace
@@ -157,12 +157,12 @@ void place_by_output(SceneReading& r) {
         given.on->value.at,
         fmt::format("the crank of \"{}\" cannot turn; give the angle of the crank within its arc, on = \"{}\"",
                     start.on, start.on));
-  const std::optional<Told> told = read_told(r, output.rocks());
-  if (!told) return;
+  const std::optional<StatedMotion> stated = read_motion(r, output.rocks());
+  if (!stated) return;
   const Way way = way_of(output);
-  double x = told->position;
+  double x = stated->position;
   if (output.rocks()) x += turn * std::round((0.5 * (way.least + way.greatest) - x) / turn);
-  const std::vector<double> places = angles_at(output, way, x, told->rising);
+  const std::vector<double> places = angles_at(output, way, x, stated->rising);
   const std::string said = given.position->value.describe();
   if (places.empty()) {
     const double unit = output.rocks() ? degree : 1e-3;
@@ -175,14 +175,14 @@ void place_by_output(SceneReading& r) {
                                                         "of the crank; give angle and speed of the crank, on = \"{}\"",
                                                         said, places.size(), start.on));
   start.angle = places.front();
-  if (told->velocity == 0) return;
+  if (stated->velocity == 0) return;
   const double slope = output.slope(start.angle);
   if (std::abs(slope) <= 1e-6 * (way.greatest - way.least))
     return refuse(given.velocity->value.at,
                   fmt::format("velocity = {}: there it stands at a dead centre whatever the crank does (v = x' ω with "
                               "x' = 0); leave it out, or give angle and speed of the crank, on = \"{}\"",
                               given.velocity->value.describe(), start.on));
-  start.speed = told->velocity / slope;
+  start.speed = stated->velocity / slope;
 }
 
 }  // namespace kurbel

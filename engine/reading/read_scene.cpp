@@ -78,7 +78,7 @@ void find_speed_unit(const DocumentValue& table, Location& first, SpeedUnit& uni
 void try_components(SceneReading& r) {
   for (const Section& section : r.scene.components) {
     Network scratch;
-    if (section.sound) build_component(section, scratch, r.messages);
+    if (section.valid) build_component(section, scratch, r.messages);
   }
 }
 

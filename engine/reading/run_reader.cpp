@@ -178,7 +178,7 @@ void read_run(SceneReading& r) {
   r.scene.run.model_at = section.where("model");
   r.scene.run.samples = static_cast<int>(section.number("samples"));
   r.scene.run.budget = section.number("budget");
-  if (section.sound) try {
+  if (section.valid) try {
       check_method(r.scene.run.method, r.scene.run.model);
     } catch (const std::invalid_argument& does_not_fit) {
       r.refuse(section.where("method"), fmt::format("[run]: {}", does_not_fit.what()));
@@ -201,12 +201,12 @@ bool parse_harmonic(std::string_view text, Operation::Harmonic& harmonic) {
     else if (!first)
       return false;
     const auto [end, fault] = std::from_chars(text.data() + i, text.data() + text.size(), number);
-    const bool told = fault == std::errc{};
-    if (told) i = static_cast<std::size_t>(end - text.data()), skip();
+    const bool given = fault == std::errc{};
+    if (given) i = static_cast<std::size_t>(end - text.data()), skip();
     const std::size_t begin = i;
     while (i < text.size() && text[i] >= 'a' && text[i] <= 'z') ++i;
     const std::string_view name = text.substr(begin, i - begin);
-    if ((name.empty() && !told) || !(number > 0 && number <= 1e4)) return false;
+    if ((name.empty() && !given) || !(number > 0 && number <= 1e4)) return false;
     if (!name.empty() && name != "output" && name != "mains") return false;
     (name == "mains" ? harmonic.mains : harmonic.output) += sign * number;
   }
@@ -286,7 +286,7 @@ void read_operation(SceneReading& r) {
   check_component(r, section, "on", o.on);
   check_component(r, section, "motor", o.motor);
   if (const DocumentEntry* converter = table.find("converter")) read_converter(r, converter->value);
-  if (!section.sound) return;
+  if (!section.valid) return;
   if (o.speeds.size() > 2 || (o.speeds.size() == 2 && !(o.speeds[0] < o.speeds[1])))
     r.refuse(section.where("speeds"), "[operation]: speeds: give one speed, or the slowest and the fastest");
   check_converter(r, section.at);

@@ -28,7 +28,7 @@ struct SceneReading {
   std::set<std::string> unreadable = {};          // keys and tables rejected as a whole
   const DocumentEntry* misplaced_line = nullptr;  // a `line` within a table
   OutputStart output_start = {};
-  bool lines_sound = true;  // false: missing connections are a consequence of a reported error
+  bool lines_valid = true;  // false: missing connections are a consequence of a reported error
 
   void refuse(Location at, const std::string& text) { messages.add(at, text); }
   std::vector<std::string> component_names() const;

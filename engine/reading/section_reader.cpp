@@ -93,7 +93,7 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
                                        example_of(key)));
     return false;
   }
-  bool sound = true;  // else something was said, be it of a table used by name, before this component was come to
+  bool valid = true;  // else something was said, be it of a table used by name, before this component was come to
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const DocumentValue& table = *tables[i];
     const std::string name = value.type == Type::table ? what : fmt::format("{}[{}]", what, i + 1);
@@ -103,12 +103,12 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
       setting.sections.push_back(read_section(table, *kind, key.name, name, messages,
                                               one_kind ? std::vector<std::string>{} : std::vector<std::string>{"kind"},
                                               allowed));
-      sound = sound && setting.sections.back().sound;
+      valid = valid && setting.sections.back().valid;
     } else {
-      sound = false;
+      valid = false;
     }
   }
-  return sound;
+  return valid;
 }
 
 // { A = [0, 0], B = { at = [1, 0] } }: what is no table is the value of the first key of one.
@@ -120,7 +120,7 @@ bool read_named(const DocumentValue& value, const Key& key, const std::string& w
     return false;
   }
   const Kind& kind = key.nested->front();
-  bool sound = true;
+  bool valid = true;
   for (const DocumentEntry& entry : value.entries) {
     DocumentValue table = entry.value;
     if (table.type != Type::table) {
@@ -130,9 +130,9 @@ bool read_named(const DocumentValue& value, const Key& key, const std::string& w
     }
     const std::string name = what + "." + entry.key;
     setting.sections.push_back(read_section(table, kind, entry.key, name, messages, {}, allowed));
-    sound = sound && setting.sections.back().sound;
+    valid = valid && setting.sections.back().valid;
   }
-  return sound;
+  return valid;
 }
 
 bool read_setting(const DocumentValue& value, const Key& key, const std::string& what, Messages& messages,
@@ -242,7 +242,7 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
                                            std::string_view(key.doc), key.name, example_of(key)));
     }
   }
-  section.sound = all_read && messages.all().size() == errors_before;
+  section.valid = all_read && messages.all().size() == errors_before;
   return section;
 }
 

@@ -53,7 +53,7 @@ class StepReader {
 
  private:
   void read_law(const Section& section, SequenceStep& step, const std::string& what) {
-    if (!section.given("law") || !section.sound) return;
+    if (!section.given("law") || !section.valid) return;
     const auto refuse = [&](const std::string& text) { messages_.add(section.where("law"), what + ": law: " + text); };
     for (const char* key : {"to", "over"})
       if (section.given(key)) return refuse(fmt::format("\"law\" and \"{}\" both given; keep one", key));
@@ -133,7 +133,7 @@ void read_steps(const DocumentValue& list, StepReader& reader, Messages& message
 }
 
 // The begin of the next repetition: by its first step, or by time.
-void read_rounds(const Section& section, Location table, Messages& messages, Sequence& sequence) {
+void read_repetition(const Section& section, Location table, Messages& messages, Sequence& sequence) {
   using When = SequenceStep::When;
   const SequenceStep& first = sequence.steps.front();
   const bool by_rate = section.has("rate"), clocked = by_rate || section.has("every");
@@ -206,7 +206,7 @@ Sequence read_sequence(const DocumentValue& table, const std::vector<std::string
     read_steps(steps->value, reader, messages, sequence);
   else
     messages.add(table.at, "[sequence]: \"steps\" is missing");
-  if (section.sound && !sequence.steps.empty()) read_rounds(section, table.at, messages, sequence);
+  if (section.valid && !sequence.steps.empty()) read_repetition(section, table.at, messages, sequence);
   return sequence;
 }
 

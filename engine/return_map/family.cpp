@@ -85,11 +85,11 @@ std::optional<Family> family_of(const Eigen::MatrixXd& derivative, double uncert
   const Eigen::Index directions = std::min(tangents.cols(), quantities.cols());
   if (directions == 0) return {};
   const Svd slopes = thin_svd(transposed_product(quantities.rightCols(directions), tangents.rightCols(directions)));
-  const auto told = static_cast<Eigen::Index>((slopes.values.array() >= least_slope).count());
-  if (told == 0) return {};
-  return Family{product(tangents.rightCols(directions), slopes.v.leftCols(told)),
-                product(quantities.rightCols(directions), slopes.u.leftCols(told)) *
-                    slopes.values.head(told).cwiseInverse().asDiagonal()};
+  const auto resolved = static_cast<Eigen::Index>((slopes.values.array() >= least_slope).count());
+  if (resolved == 0) return {};
+  return Family{product(tangents.rightCols(directions), slopes.v.leftCols(resolved)),
+                product(quantities.rightCols(directions), slopes.u.leftCols(resolved)) *
+                    slopes.values.head(resolved).cwiseInverse().asDiagonal()};
 }
 
 Family Family::kept(const Eigen::VectorXd& residual, double unchanged) const {

@@ -11,21 +11,21 @@ namespace kurbel {
 namespace {
 
 constexpr double slowest_shrinking = 0.999;  // ratio from period to period; nearer to 1 it is not significant
-constexpr double floor_of_rounds = 1e-10;    // of the rated values: smaller changes are noise
+constexpr double floor_of_change = 1e-10;    // of the rated values: smaller changes are noise
 constexpr double same_motion = 1e-3;         // of the rated values, and of the time of a period
-constexpr int rounds_looked_at = 6;
+constexpr int periods_examined = 6;
 constexpr double most_missed = 1e-8;    // of the usual speeds
 constexpr double looser_residual = 10;  // at which a looser search ends, over its tolerance
 
 // Sensitivity of the largest eigenvalue to an entry of the matrix.
 double condition_of_largest(const Eigen::MatrixXd& derivative) {
-  if (!derivative.allFinite()) return 1 / floor_of_rounds;
+  if (!derivative.allFinite()) return 1 / floor_of_change;
   const auto [values, vectors] = eigenpairs(derivative);
   Eigen::Index largest = 0;
   values.cwiseAbs().maxCoeff(&largest);
   const Eigen::VectorXcd left = ComplexLu(vectors).inverse().row(largest).transpose();
   const double condition = left.lpNorm<1>() * vectors.col(largest).lpNorm<1>();
-  return std::isfinite(condition) ? condition : 1 / floor_of_rounds;
+  return std::isfinite(condition) ? condition : 1 / floor_of_change;
 }
 
 }  // namespace
@@ -110,14 +110,14 @@ void SteadyPoint::take(const Eigen::VectorXd& at, const ReturnMap::Image& image)
 }
 
 // Iterates z, P(z), P(P(z)) … converge with the ratio q: the distance remaining after the last one is r q/(1 − q).
-SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double enough) {
+SteadyPoint find_by_periods(ReturnMap& map, const Eigen::VectorXd& guess, double enough) {
   SteadyPoint out;
   const double cost_before = map.cost();
   out.z = guess;
   std::vector<double> changes;
   Eigen::VectorXd change = Eigen::VectorXd::Zero(guess.size());
   ReturnMap::Image round;
-  for (int i = 0; i < rounds_looked_at; ++i) {
+  for (int i = 0; i < periods_examined; ++i) {
     round = map.image(out.z, false);
     ++out.rounds;
     out.cost = map.cost() - cost_before;
@@ -133,7 +133,7 @@ SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double 
     if (out.first.size() == 0) out.first = round.z;
     changes.push_back(out.residual);
     const bool begins_loose = i == 0;  // with the errors of the run that led here
-    if ((out.residual > enough && !begins_loose) || out.residual <= floor_of_rounds) break;
+    if ((out.residual > enough && !begins_loose) || out.residual <= floor_of_change) break;
   }
   if (out.residual > enough) {
     out.why = "cycles still change";
@@ -141,7 +141,7 @@ SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double 
   }
   double shrinking = 0;
   for (std::size_t i = 0; i + 1 < changes.size(); ++i) shrinking = std::max(shrinking, changes[i + 1] / changes[i]);
-  shrinking = std::max(out.residual <= floor_of_rounds ? 0.5 : 0, std::min(shrinking, slowest_shrinking));
+  shrinking = std::max(out.residual <= floor_of_change ? 0.5 : 0, std::min(shrinking, slowest_shrinking));
   out.to_come = change * shrinking / (1 - shrinking);
   out.find(round);
   return out;

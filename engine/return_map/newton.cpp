@@ -11,7 +11,7 @@
 namespace kurbel {
 namespace {
 
-constexpr int most_rounds = 60, most_derivatives = 12;
+constexpr int most_periods = 60, most_derivatives = 12;
 constexpr int most_run_on = 8;
 constexpr double residual_floor = 30;  // times the required residual is accepted if round-off stops the descent
 
@@ -65,7 +65,7 @@ class Newton {
   }
 
   void iterate() {
-    while ((norm_ > enough_ || correction(residual_).cwiseAbs().maxCoeff() > enough_) && out_.rounds < most_rounds &&
+    while ((norm_ > enough_ || correction(residual_).cwiseAbs().maxCoeff() > enough_) && out_.rounds < most_periods &&
            out_.derivatives < most_derivatives) {
       const Progress progress = advance(-correction(residual_));
       if (progress == Progress::ended) return;
@@ -106,7 +106,7 @@ class Newton {
         }
       }
       if (system_.stopped && system_.stopped()) return Progress::ended;
-      if (out_.rounds >= most_rounds) break;
+      if (out_.rounds >= most_periods) break;
       if (!fresh || norm_from <= residual_floor * enough_) break;
     }
     x_ = from;

@@ -91,7 +91,7 @@ class PoincareSection::Maker {
     section_.directions_.resize(row(equations.state_count()), 0);
     add_angles(motions(always.matrix(), shafts));
     add_speeds(motions(now.matrix(), shafts));
-    add_own_states();
+    add_internal_states();
   }
 
  private:
@@ -185,12 +185,12 @@ class PoincareSection::Maker {
     }
   }
 
-  void add_own_states() {
-    const std::vector<int> joint = joints_of_own_states();
-    for (std::size_t k = 0; k < m_.own_states.size(); ++k) {
-      const std::size_t state = equations_.own_begin() + k;
-      if (joint[k] >= 0 && m_.own_states[k].state.unit == "rad" && drifts_along(joint[k], state)) continue;
-      const double scale = m_.own_states[k].state.scale;
+  void add_internal_states() {
+    const std::vector<int> joint = joints_of_internal_states();
+    for (std::size_t k = 0; k < m_.internal_states.size(); ++k) {
+      const std::size_t state = equations_.internal_begin() + k;
+      if (joint[k] >= 0 && m_.internal_states[k].state.unit == "rad" && drifts_along(joint[k], state)) continue;
+      const double scale = m_.internal_states[k].state.scale;
       Eigen::VectorXd direction = Eigen::VectorXd::Zero(section_.directions_.rows());
       direction[row(state)] = scale;
       push({{{state, 1}}, scale, 0}, direction);
@@ -198,12 +198,12 @@ class PoincareSection::Maker {
   }
 
   // The elastic joint that brings each own state; −1: a shaft element. In the order in which they were placed.
-  std::vector<int> joints_of_own_states() const {
+  std::vector<int> joints_of_internal_states() const {
     std::vector<int> joint;
     for (std::size_t k = 0; k < m_.elastic.size(); ++k)
-      joint.insert(joint.end(), m_.network.joints[at(m_.elastic[k].joint)].element->own_states.size(),
+      joint.insert(joint.end(), m_.network.joints[at(m_.elastic[k].joint)].element->internal_states.size(),
                    static_cast<int>(k));
-    joint.resize(m_.own_states.size(), -1);
+    joint.resize(m_.internal_states.size(), -1);
     return joint;
   }
 
@@ -280,8 +280,8 @@ double PoincareSection::missed(const Equations& equations, const Eigen::VectorXd
   double most = 0;
   for (std::size_t s = 0; s < equations.model().free_shafts; ++s) {
     const std::size_t i = equations.speed_index(static_cast<int>(s));
-    const double told = z.size() > 0 ? directions_.row(row(i)).dot(z) : 0;
-    most = std::max(most, std::abs(y[i] - state_.y[i] - told) / equations.model().shafts[s].speed_scale);
+    const double predicted = z.size() > 0 ? directions_.row(row(i)).dot(z) : 0;
+    most = std::max(most, std::abs(y[i] - state_.y[i] - predicted) / equations.model().shafts[s].speed_scale);
   }
   return most;
 }

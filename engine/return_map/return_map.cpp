@@ -28,9 +28,9 @@ constexpr double grazes = 0.05;              // difference of one-sided differen
 Eigen::Index entry(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 // Positions of events: angles of the link at the ends of steps; and contacts that stick over the whole period.
-class RoundLog final : public Observer {
+class PeriodLog final : public Observer {
  public:
-  explicit RoundLog(const Model& m) : contacts_(contacts_of(m)), sticks_(contacts_.size(), 1) {}
+  explicit PeriodLog(const Model& m) : contacts_(contacts_of(m)), sticks_(contacts_.size(), 1) {}
   void begin(double t, std::span<const double> y, Equations& equations) override { see(t, y, equations); }
   void step(StepView& view) override { see(view.t(), view.y(), view.equations()); }
   double angle_at(double t) const {
@@ -128,9 +128,9 @@ void ReturnMap::learn_effort(const RunOutcome& outcome) {
   if (most_flow_calls_ == 0) most_flow_calls_ = dearest * std::max(least_effort, outcome.statistics.stepper.flow_calls);
 }
 
-std::function<double(double, std::span<const double>)> ReturnMap::round_end(Equations& equations,
-                                                                            std::span<const double> y,
-                                                                            double rounds) const {
+std::function<double(double, std::span<const double>)> ReturnMap::period_end(Equations& equations,
+                                                                             std::span<const double> y,
+                                                                             double rounds) const {
   const std::size_t link = at(shared_->reduction_angle);
   if (periodicity_.by_time) return {};
   const double target = equations.angle_with_turns(link, y) + sense_ * periodicity_.angle * options_.cycles * rounds;
@@ -195,20 +195,20 @@ RunOptions ReturnMap::run_options(double from, double until) const {
 ReturnMap::Image ReturnMap::image(const Eigen::VectorXd& z, bool with_derivative,
                                   const std::vector<Observer*>& observers) {
   try {
-    return round_of(z, with_derivative, observers);
+    return image_of(z, with_derivative, observers);
   } catch (const Jam& jam) {
     return broken(jam);
   }
 }
 
-ReturnMap::Image ReturnMap::round_of(const Eigen::VectorXd& z, bool with_derivative,
+ReturnMap::Image ReturnMap::image_of(const Eigen::VectorXd& z, bool with_derivative,
                                      const std::vector<Observer*>& observers) {
   const std::vector<double> y = place(equations_, z);
   const double begin = equations_.angle_with_turns(at(shared_->reduction_angle), y), from = start_time();
   const bool variational = with_derivative && variational_;
   Sensitivities sensitivities(equations_, variational ? size() : 0, loose_directions);
   RunOptions run = run_options(from, from + (periodicity_.by_time ? periodicity_.time * options_.cycles : time_limit_));
-  run.stop = round_end(equations_, y);
+  run.stop = period_end(equations_, y);
   run.from->y = variational ? sensitivities.start(y, section_->directions()) : y;
   if (variational) run.extension = &sensitivities;
   const RunOutcome outcome = integrate(equations_, run, observers);
@@ -294,7 +294,7 @@ ReturnMap::Image ReturnMap::approach_as_given(double from) {
 
 ReturnMap::Image ReturnMap::approach_from(State state) {
   try {
-    return round_from(std::move(state));
+    return period_from(std::move(state));
   } catch (const Jam& jam) {
     return broken(jam);
   }
@@ -309,7 +309,7 @@ Eigen::VectorXd ReturnMap::along_the_motion(const Eigen::VectorXd& z) {
   return section_->read_directions(Eigen::Map<const Eigen::VectorXd>(rate.data(), section_->directions().rows()));
 }
 
-ReturnMap::Image ReturnMap::round_from(State state) {
+ReturnMap::Image ReturnMap::period_from(State state) {
   const Model& m = *shared_;
   equations_.bind(state.modes);
   const auto link_speed = [&](double t, std::span<const double> y) {
@@ -320,11 +320,11 @@ ReturnMap::Image ReturnMap::round_from(State state) {
   section_.reset();
   const double round = periodicity_.time * options_.cycles;
   const double begin = equations_.angle_with_turns(at(m.reduction_angle), state.y);
-  RoundLog log(m);
+  PeriodLog log(m);
   RunOptions run = run_options(state.t, state.t + (periodicity_.by_time ? round : time_limit_));
   run.tolerance = std::max(options_.tolerance, 1e-9);
   run.from->y = state.y;
-  run.stop = round_end(equations_, state.y, 1 + overlap);  // detects an event at the begin
+  run.stop = period_end(equations_, state.y, 1 + overlap);  // detects an event at the begin
   const RunOutcome first = integrate(equations_, run, {&log});
   cost_ += options_.cycles;
   Image image = judge(first, state.t, begin, equations_);
@@ -343,7 +343,7 @@ ReturnMap::Image ReturnMap::round_from(State state) {
     run = run_options(first.t, first.t + time_limit_);
     run.tolerance = std::max(options_.tolerance, 1e-9);
     run.from->y = first.state;
-    run.stop = round_end(equations_, first.state, way / (periodicity_.angle * options_.cycles));
+    run.stop = period_end(equations_, first.state, way / (periodicity_.angle * options_.cycles));
     const RunOutcome second = integrate(equations_, run, {});
     cost_ += way / periodicity_.angle;
     image = judge(second, first.t, here, equations_);

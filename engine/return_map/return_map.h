@@ -79,8 +79,8 @@ class ReturnMap {
   }
   double start_time() const { return section_->state().t; }
   // End of a period for other integrations of the machine: falls through zero after `rounds` periods.
-  std::function<double(double, std::span<const double>)> round_end(Equations& equations, std::span<const double> y,
-                                                                   double rounds = 1) const;
+  std::function<double(double, std::span<const double>)> period_end(Equations& equations, std::span<const double> y,
+                                                                    double rounds = 1) const;
   // Effort so far, in cycles: a period counts as its cycles; with derivative (size() + 1) times as much by variational
   // equations, 2 size() + 1 times by differences.
   double cost() const { return cost_; }
@@ -96,8 +96,8 @@ class ReturnMap {
 
  private:
   Image approach_as_given(double from);
-  Image round_from(State state);
-  Image round_of(const Eigen::VectorXd& z, bool with_derivative, const std::vector<Observer*>& observers);
+  Image period_from(State state);
+  Image image_of(const Eigen::VectorXd& z, bool with_derivative, const std::vector<Observer*>& observers);
   RunOptions run_options(double from, double until) const;
   void learn_effort(const RunOutcome& outcome);
   void take_period(const Periodicity& periodicity);
@@ -150,7 +150,7 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
 
 // By integration only: a few periods, and the decrease of their changes. Not found if a period changes more than `enough`,
 // or if no decrease can be shown.
-SteadyPoint find_by_rounds(ReturnMap& map, const Eigen::VectorXd& guess, double enough);
+SteadyPoint find_by_periods(ReturnMap& map, const Eigen::VectorXd& guess, double enough);
 
 // A map of the same or a similar machine with this tolerance, and with section, period and limits of the given map.
 std::shared_ptr<ReturnMap> looser_map(const ReturnMap& map, double tolerance,

@@ -35,12 +35,12 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
   if (model->free_shafts != 1)
     throw std::invalid_argument(
         "the rigid machine has no free coordinate: a prescribed speed fixes its motion; replace it by a motor");
-  if (!model->own_states.empty())
+  if (!model->internal_states.empty())
     throw std::invalid_argument(fmt::format(
         "the {} of \"{}\" is a state besides angle and speed, which this question does not include; replace \"{}\" "
         "by a motor or a load, or switch its effect off",
-        model->own_states.front().state.name, model->own_states.front().component,
-        model->own_states.front().component));
+        model->internal_states.front().state.name, model->internal_states.front().component,
+        model->internal_states.front().component));
   for (const Network::ShaftElement& e : model->network.elements)
     if (std::isinf(e.element->cycle))
       throw std::invalid_argument(
@@ -160,7 +160,7 @@ class RigidMachine::EdgeSearch {
   }
 
   std::vector<double> run() {
-    if (!watched_.empty()) walk_round();
+    if (!watched_.empty()) visit_one_period();
     std::sort(found_.begin(), found_.end());
     const auto same = [](double a, double b) { return b - a < 1e-12; };
     found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
@@ -174,7 +174,7 @@ class RigidMachine::EdgeSearch {
     double s = nowhere, value_at_begin = 1;
   };
 
-  void walk_round() {
+  void visit_one_period() {
     // Starts away from round angles, which are often edges.
     const double cell = turn / cells_a_turn, begin = -0.37 * cell, end = begin + machine_.cycle_;
     machine_.set_modes(sign_ * begin, sign_);

@@ -67,7 +67,7 @@ class WorkOverAngle {
     double s(double u) const;      // u = −1 … 1
     double ds_du(double u) const;  //
   };
-  class Walk;
+  class Traversal;
 
   void add_panels(RigidMachine& machine, double begin, double end, double largest_torque);
   void close_cycle();

@@ -36,9 +36,9 @@ double WorkOverAngle::Stretch::ds_du(double u) const {
 }
 
 // Walks through the panels with a constant E = T − W, adding up time until it is over or the machine at rest.
-class WorkOverAngle::Walk {
+class WorkOverAngle::Traversal {
  public:
-  Walk(const WorkOverAngle& diagram, double s, double speed, double until) : diagram_(diagram), until_(until) {
+  Traversal(const WorkOverAngle& diagram, double s, double speed, double until) : diagram_(diagram), until_(until) {
     motion_.s = place_within(s, diagram.cycle_);
     motion_.cycles = static_cast<std::int64_t>(std::round((s - motion_.s) / diagram.cycle_));
     motion_.speed = speed;
@@ -55,7 +55,7 @@ class WorkOverAngle::Walk {
       Deadline::check();
       if (motion_.s == 0 && !from_rest_) skip_cycles();
       auto k = static_cast<std::size_t>(&diagram_.panel_at(motion_.s) - diagram_.panel_.data());
-      for (; k < diagram_.panel_.size() && !over_; ++k) walk_panel(diagram_.panel_[k], first);
+      for (; k < diagram_.panel_.size() && !over_; ++k) cross_panel(diagram_.panel_[k], first);
       if (over_) break;
       motion_.s = 0;
       ++motion_.cycles;
@@ -98,7 +98,7 @@ class WorkOverAngle::Walk {
     return true;
   }
 
-  void walk_panel(const Panel& panel, bool& first) {
+  void cross_panel(const Panel& panel, bool& first) {
     const double end = panel.begin + 2 * panel.half;
     double time = 0;
     if (!first && whole_panel(panel, time) && motion_.t + time < until_) {
@@ -111,7 +111,7 @@ class WorkOverAngle::Walk {
     if (end - begin <= 0) return;
     double from = begin;
     if (from_rest_) from = leave_rest(panel, begin, end);
-    if (!over_ && from < end) walk_stretch(panel, {Stretch::Rest::none, from, end}, 0);
+    if (!over_ && from < end) cross_stretch(panel, {Stretch::Rest::none, from, end}, 0);
   }
 
   // From rest T = ∫M ds: as far as the torque drives all along, at most the whole panel.
@@ -138,7 +138,7 @@ class WorkOverAngle::Walk {
   }
 
   // Bisects until T is mild or its zero is bracketed.
-  void walk_stretch(const Panel& panel, const Stretch& stretch, int depth) {
+  void cross_stretch(const Panel& panel, const Stretch& stretch, int depth) {
     double before = stretch.begin, least = HUGE_VAL, most = 0, stop = HUGE_VAL;
     const auto see = [&](double s) {
       const double t = kinetic(panel, s);
@@ -158,8 +158,8 @@ class WorkOverAngle::Walk {
       return;
     }
     const double middle = 0.5 * (stretch.begin + stretch.end);
-    walk_stretch(panel, {Stretch::Rest::none, stretch.begin, middle}, depth + 1);
-    if (!over_) walk_stretch(panel, {Stretch::Rest::none, middle, stretch.end}, depth + 1);
+    cross_stretch(panel, {Stretch::Rest::none, stretch.begin, middle}, depth + 1);
+    if (!over_) cross_stretch(panel, {Stretch::Rest::none, middle, stretch.end}, depth + 1);
   }
 
   // T falls to zero between `moving` and `beyond`.
@@ -225,7 +225,7 @@ WorkOverAngle::Motion WorkOverAngle::advance(double s0, double speed, double unt
     throw std::invalid_argument(
         fmt::format("work diagram: start at s = {} rad with {} rad/s until {} s; must be numbers, the speed ≥ 0", s0,
                     speed, until));
-  return Walk(*this, s0, speed, until).run();
+  return Traversal(*this, s0, speed, until).run();
 }
 
 }  // namespace kurbel

@@ -20,10 +20,10 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
                        model->network.relations.front().component);
   if (model->free_shafts != 1)
     return "a prescribed speed leaves no coordinate free; replace it by a motor or choose another method";
-  if (!model->own_states.empty())
+  if (!model->internal_states.empty())
     return fmt::format(
         "the {} of \"{}\" is a state besides angle and speed; switch that effect off or choose another method",
-        model->own_states.front().state.name, model->own_states.front().component);
+        model->internal_states.front().state.name, model->internal_states.front().component);
   if (!model->scene.sequence.steps.empty())
     return "the operating sequence switches at times or events, which over the angle nobody knows beforehand; choose "
            "another method";

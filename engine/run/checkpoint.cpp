@@ -12,7 +12,7 @@ namespace kurbel {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Command, value, rate, from, until, to, law, piece)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, on_since, direction, slip, loss_direction,
                                    loss_sign, regularised, carries, capacity, turns, first_two_turns, command,
-                                   next_step, armed_time, armed_angle, last_step_time, round_began)
+                                   next_step, armed_time, armed_angle, last_step_time, cycle_began)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory::Recent, time, fired)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory, implicit, last_event, last_jam, events_here, jams_here, shortened,
                                    last_step, recent, held_needed, explicit_step)
@@ -44,7 +44,7 @@ void check(const Checkpoint& c, const Equations& equations) {
                     alike(m.regularised, own.regularised) && alike(m.carries, own.carries) &&
                     alike(m.capacity, own.capacity) && alike(m.turns, own.turns) && alike(m.command, own.command);
   if (!fits) throw UnfitCheckpoint("is of a machine with other elements, contacts or commands than this scene's");
-  const bool sound = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
+  const bool valid = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
                      all_finite(m.capacity) && all_finite(m.on_since) && all_finite(m.turns) &&
                      std::all_of(c.observers.begin(), c.observers.end(), all_finite) && c.loop.held_needed > 0 &&
                      c.loop.explicit_step >= 0 && m.next_step <= equations.model().scene.sequence.steps.size();
@@ -60,7 +60,7 @@ void check(const Checkpoint& c, const Equations& equations) {
   const auto senses = [](const std::vector<int>& list) {
     return std::all_of(list.begin(), list.end(), [](int v) { return v >= -1 && v <= 1; });
   };
-  if (!sound || !std::all_of(m.command.begin(), m.command.end(), follows) || !pieces(m.piece) ||
+  if (!valid || !std::all_of(m.command.begin(), m.command.end(), follows) || !pieces(m.piece) ||
       !pieces(m.prescribed_piece) || !senses(m.direction) || !senses(m.slip) || !senses(m.loss_direction) ||
       !senses(m.loss_sign))
     throw UnfitCheckpoint("holds values that no run leaves behind");

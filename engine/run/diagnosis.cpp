@@ -15,7 +15,7 @@ namespace {
 
 using Cause = Breakdown::Kind;
 
-constexpr std::size_t events_told = 3, parameters_told = 3;
+constexpr std::size_t events_reported = 3, parameters_reported = 3;
 const std::string edges = "edges in time", turns = "quarter turns";  // as step_limits tells them
 
 // "twist of c3" and "c3", as far as they are known; or what ends the steps from outside: "edges in time".
@@ -52,7 +52,7 @@ Culprit culprit_of(const Breakdown& broken, Equations& equations, const RunOutco
 std::string last_events(const std::vector<Event>& events) {
   if (events.empty()) return "no events before";
   std::string text = "last events: ";
-  const std::size_t first = events.size() - std::min(events.size(), events_told);
+  const std::size_t first = events.size() - std::min(events.size(), events_reported);
   for (std::size_t k = first; k < events.size(); ++k)
     text +=
         fmt::format("{}\"{}\" {} at {:.6g} s", k > first ? ", " : "", events[k].component, events[k].what, events[k].t);
@@ -65,7 +65,7 @@ std::vector<std::string> parameters_of(const Scene& scene, const std::string& co
   const Section* section = scene.find(component);
   if (!section || !section->kind) return list;
   for (const Setting& setting : section->settings) {
-    if (!setting.given || list.size() == parameters_told) continue;
+    if (!setting.given || list.size() == parameters_reported) continue;
     const auto& keys = section->kind->keys;
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
     if (key == keys.end() || key->type != KeyType::quantity) continue;

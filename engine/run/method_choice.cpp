@@ -47,7 +47,7 @@ Method MethodChoice::first() {
     reason_ = "rigid, torques of angle and speed: load edges lie at known angles";
   } else {
     first_ = explicit_;
-    reason_ = m.elastic.empty() && m.own_states.empty()
+    reason_ = m.elastic.empty() && m.internal_states.empty()
                   ? "rigid: not stiff, and a method of high order takes the longest steps"
                   : "explicit, as accuracy limits its steps and not stability";
   }
@@ -97,7 +97,7 @@ bool MethodChoice::work_equation_pays() const {
 
 std::optional<Method> MethodChoice::after(const Stepper& stepper, Method now) {
   const Model& m = equations_.model();
-  if (!automatic() || (m.elastic.empty() && m.own_states.empty()) || now == Method::work_equation) return {};
+  if (!automatic() || (m.elastic.empty() && m.internal_states.empty()) || now == Method::work_equation) return {};
   const double t = stepper.t(), h = t - stepper.t_previous(), left = options_.until - t;
   double& explicit_step = memory_.explicit_step;
   if (now == explicit_) {

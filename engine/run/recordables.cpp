@@ -43,14 +43,14 @@ Channel torque_of(const TorqueJoint& joint) {
 }
 Channel spring_torque_of(const TorqueJoint& joint) {
   return {Name::make(quantities::spring_torque, joint.component), "N*m",
-          [joint](const Snapshot& s) { return joint.told(s.sums.spring_torque, joint.elastic); }};
+          [joint](const Snapshot& s) { return joint.reported(s.sums.spring_torque, joint.elastic); }};
 }
 Channel torque_of(const GearTorque& torque) {
   return {Name::make(quantities::torque, torque.name), "N*m",
           [torque](const Snapshot& s) { return torque.value(s.joint_torque, s.relation_torque, s.relation_loss); }};
 }
-Channel own_state(const Model& model, std::size_t k) {
-  const auto& [component, state] = model.own_states[k];
+Channel internal_state(const Model& model, std::size_t k) {
+  const auto& [component, state] = model.internal_states[k];
   return {Name::own(state.name, component), state.unit, [k](const Snapshot& s) { return s.now.own[k]; }};
 }
 
@@ -78,8 +78,8 @@ class ChannelList {
       if (is_wanted(wanted_, component_of(joint.component))) add_joint(joint);
     for (const GearTorque& torque : model_.gear_torques)
       if (is_wanted(wanted_, component_of(torque.name))) channels_.push_back(torque_of(torque));
-    for (std::size_t k = 0; k < model_.own_states.size(); ++k)
-      if (is_wanted(wanted_, model_.own_states[k].component)) channels_.push_back(own_state(model_, k));
+    for (std::size_t k = 0; k < model_.internal_states.size(); ++k)
+      if (is_wanted(wanted_, model_.internal_states[k].component)) channels_.push_back(internal_state(model_, k));
     for (const Channel& channel : model_.pool_channels)
       if (is_wanted(wanted_, channel.name.of) || is_wanted(wanted_, component_of(channel.name.of)))
         channels_.push_back(channel);
@@ -157,14 +157,14 @@ class ChannelList {
 };
 
 // A part of a row: its torque, and that in the middle of all, follows the twists and their rates of all parts.
-void tell_rates_of_row(const Model& model, const TorqueJoint& joint, const AnyConnection& part, ExtremeOf& transmitted,
-                       ExtremeOf& spring) {
+void report_rates_of_row(const Model& model, const TorqueJoint& joint, const AnyConnection& part,
+                         ExtremeOf& transmitted, ExtremeOf& spring) {
   const SpringRow* row = part.row.get();
   const int k = part.row_part, first = joint.first;
-  const auto by_twists = [row, k, told = joint.told](const double* twist) {
+  const auto by_twists = [row, k, reported = joint.reported](const double* twist) {
     std::array<double, highest_lobatto_degree> torque{};
     for (int l = 0; l < row->size; ++l) torque[at(l)] = row->spring_torque(l, twist);
-    return told(torque.data(), k);
+    return reported(torque.data(), k);
   };
   spring.slope = spring.rate = [by_twists, first](const Snapshot& s) { return by_twists(s.sums.twist_rate + first); };
   const auto* const elastic = model.elastic.data() + first;
@@ -209,7 +209,7 @@ void add_peaks(const Model& model, const TorqueJoint& joint, std::vector<Extreme
     }
     // The spring torque rises and falls with the twist: its rate vanishes with θ̇.
     if (known) spring.rate = [e](const Snapshot& s) { return s.sums.twist_rate[e]; };
-    if (element->row) tell_rates_of_row(model, joint, *element, transmitted, spring);
+    if (element->row) report_rates_of_row(model, joint, *element, transmitted, spring);
   }
   wanted.push_back(std::move(transmitted));
   wanted.push_back(std::move(spring));
@@ -253,10 +253,10 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
   for (const GearTorque& torque : model.gear_torques)
     wanted.push_back(peak_of(torque_of(torque), model.torque_scale / model.scale_ratio[at(torque.node)]));
   add_link_speeds(model, wanted);
-  for (std::size_t k = 0; k < model.own_states.size(); ++k)
-    if (const OwnState& state = model.own_states[k].state; state.peak) {
-      wanted.push_back(peak_of(own_state(model, k), state.scale));
-      wanted.back().rate = [k](const Snapshot& s) { return s.sums.own_rate[k]; };
+  for (std::size_t k = 0; k < model.internal_states.size(); ++k)
+    if (const InternalState& state = model.internal_states[k].state; state.peak) {
+      wanted.push_back(peak_of(internal_state(model, k), state.scale));
+      wanted.back().rate = [k](const Snapshot& s) { return s.sums.internal_rate[k]; };
     }
   for (const Channel& channel : model.pool_channels)
     if (channel.name.what != quantities::position) wanted.push_back(peak_of(channel));

@@ -137,9 +137,9 @@ void ExtremeRecorder::step(StepView& view) {
 
 // What round-off leaves of a change tells nothing.
 void ExtremeRecorder::learn_steepness(std::size_t i) {
-  constexpr double told = 1e-9;
+  constexpr double reported = 1e-9;
   const double change = std::abs(last_.value[i] - first_.value[i]);
-  if (change > told * std::abs(last_.value[i]))
+  if (change > reported * std::abs(last_.value[i]))
     steepness_[i] = std::max(steepness_[i], change / std::abs(last_.argument[i] - first_.argument[i]));
 }
 

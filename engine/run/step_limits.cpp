@@ -14,20 +14,20 @@ namespace kurbel {
 namespace {
 
 // The elements behind states, with the Jacobian evaluated once.
-class Blame {
+class ErrorShares {
  public:
-  Blame(Equations& equations, double t, std::span<const double> y)
+  ErrorShares(Equations& equations, double t, std::span<const double> y)
       : m_(equations.model()), pattern_(equations.jacobian_pattern()) {
     values_.resize(pattern_.row.size());
     equations.jacobian(t, y.first(equations.size()), values_);
     begin_twists_ = m_.angle_count();
     begin_speeds_ = begin_twists_ + m_.twist_count();
-    begin_own_ = begin_speeds_ + m_.free_shafts;
+    begin_internal_ = begin_speeds_ + m_.free_shafts;
   }
 
   std::string of(std::size_t state) {
     if (state >= m_.state_count()) return of_quadrature(state - m_.state_count());
-    if (state >= begin_own_) return m_.own_states[state - begin_own_].component;
+    if (state >= begin_internal_) return m_.internal_states[state - begin_internal_].component;
     if (state >= begin_speeds_) return of_speed(state);
     if (state >= begin_twists_) return joint(state - begin_twists_);
     return of_speed(begin_speeds_ + at(m_.angles[state].shaft));
@@ -59,11 +59,11 @@ class Blame {
         if (column < begin_twists_) name = own_label(shaft);
       } else if (column < begin_speeds_) {
         name = joint(column - begin_twists_);
-      } else if (column < begin_own_) {
+      } else if (column < begin_internal_) {
         name = between(shaft, column - begin_speeds_);
         towards_others += size;
       } else {
-        name = m_.own_states[column - begin_own_].component;
+        name = m_.internal_states[column - begin_internal_].component;
       }
       if (!name.empty() && size > most) most = size, largest = name;
     }
@@ -101,7 +101,7 @@ class Blame {
   const SparsityPattern& pattern_;
   std::vector<double> values_;
   std::vector<std::vector<std::pair<std::size_t, double>>> rows_;
-  std::size_t begin_twists_ = 0, begin_speeds_ = 0, begin_own_ = 0;
+  std::size_t begin_twists_ = 0, begin_speeds_ = 0, begin_internal_ = 0;
 };
 
 }  // namespace
@@ -140,7 +140,7 @@ std::vector<LimitedSteps> StepLimits::ranked(Equations& equations, double t, std
   std::stable_sort(states.begin(), states.end(), [](const OfState& a, const OfState& b) { return a.steps > b.steps; });
   if (!states.empty()) {
     constexpr std::size_t most_named = 200;  // of a chain of thousands
-    Blame blame(equations, t, y);
+    ErrorShares blame(equations, t, y);
     for (std::size_t k = 0; k < states.size(); ++k) {
       const bool of_machine = states[k].state < equations.size();
       const bool named = k < most_named && of_machine;
@@ -165,13 +165,13 @@ std::vector<LimitedSteps> StepLimits::ranked(Equations& equations, double t, std
 }
 
 std::string element_behind(Equations& equations, std::size_t state, double t, std::span<const double> y) {
-  return Blame(equations, t, y).of(state);
+  return ErrorShares(equations, t, y).of(state);
 }
 
-std::string told(const std::vector<LimitedSteps>& limits) {
-  constexpr std::size_t most_told = 5;
+std::string reported(const std::vector<LimitedSteps>& limits) {
+  constexpr std::size_t most_reported = 5;
   std::string text;
-  for (std::size_t k = 0; k < limits.size() && k < most_told; ++k) {
+  for (std::size_t k = 0; k < limits.size() && k < most_reported; ++k) {
     const LimitedSteps& l = limits[k];
     if (l.share < 0.005 && k > 0) break;
     text += fmt::format("{}{}{:.0f} %", text.empty() ? "" : ", ",

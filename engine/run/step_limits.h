@@ -60,6 +60,6 @@ class StepLimits {
 std::string element_behind(Equations& equations, std::size_t state, double t, std::span<const double> y);
 
 // "c3: accuracy 61 %, stability 12 % (twist of c3); events of clutch 9 %"; empty for a run without steps.
-std::string told(const std::vector<LimitedSteps>& limits);
+std::string reported(const std::vector<LimitedSteps>& limits);
 
 }  // namespace kurbel

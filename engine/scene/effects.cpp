@@ -78,7 +78,7 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
         fmt::format("effects {}{}; allowed: {}; several joined by commas, or -NAME to take one away", in_quotes(name),
                     near, listed(names)));
   }
-  if (on && known->unsaid == EffectFlag::Unsaid::where_given && !has_parameters(scene, *known))
+  if (on && known->by_default == EffectFlag::Default::where_given && !has_parameters(scene, *known))
     throw std::invalid_argument(fmt::format("effects {}: no component of the scene has parameters for it; give {}",
                                             in_quotes(name), known->parameters));
   effects.*(known->flag) = on;
@@ -87,50 +87,50 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
 }  // namespace
 
 std::span<const EffectFlag> effect_flags() {
-  using Unsaid = EffectFlag::Unsaid;
+  using Default = EffectFlag::Default;
   static constexpr std::array<EffectFlag, 14> flags = {{
-      {"joint_friction", &Effects::joint_friction, "joint friction", Unsaid::off,
+      {"joint_friction", &Effects::joint_friction, "joint friction", Default::off,
        "friction in the joints of mechanisms, found together with the reactions", "a joint's friction_coefficient",
        "none; dead centres and standstill are events", "efficiency, heat in the joints, starting under load"},
-      {"backlash", &Effects::backlash, "backlash", Unsaid::where_given,
+      {"backlash", &Effects::backlash, "backlash", Default::where_given,
        "gaps between flanks, with contact and flight as modes", "the backlash of a coupling or a gear stage",
        "none; flanks part and touch at events", "where the torque changes its sign", true},
-      {"mesh_variation", &Effects::mesh_variation, "mesh variation", Unsaid::where_given,
+      {"mesh_variation", &Effects::mesh_variation, "mesh variation", Default::where_given,
        "tooth stiffness that varies at the frequency of mesh", "mesh_variation of a gear mesh", "an angle",
        "where the frequency of mesh meets a mode", true},
-      {"transients", &Effects::transients, "electrical transients", Unsaid::where_given,
+      {"transients", &Effects::transients, "electrical transients", Default::where_given,
        "currents and fluxes of motors as states", "the inductance of a DC motor or the frequency of an induction motor",
        "a current of a DC motor, four currents of an induction motor", "at switching, and for fast changes of load"},
-      {"torque_lag", &Effects::torque_lag, "torque lag", Unsaid::with_elasticity,
+      {"torque_lag", &Effects::torque_lag, "torque lag", Default::with_elasticity,
        "the lag of the fluxes behind an induction motor's static curve, T_e dM/dt + M = M(ω), T_e = 1/(s_b 2π f)",
        "an induction motor and anything elastic", "a torque per motor",
        "where the speed of a motor oscillates faster than a tenth of s_b f; transients, where data allow, replace it"},
-      {"relaxation", &Effects::relaxation, "relaxation", Unsaid::where_given,
+      {"relaxation", &Effects::relaxation, "relaxation", Default::where_given,
        "Maxwell branches of rubber couplings as states", "the branches of a rubber coupling", "a twist per branch",
        "where damping must fit over a range of frequencies", true},
-      {"bearing_friction", &Effects::bearing_friction, "bearing friction", Unsaid::where_given,
+      {"bearing_friction", &Effects::bearing_friction, "bearing friction", Default::where_given,
        "dry and mixed friction of bearings, with sticking", "a bearing",
        "none, of LuGre's law a deflection; standstill is an event", "at low speed, for starts and stops"},
-      {"gear_losses", &Effects::gear_losses, "gear losses", Unsaid::where_given,
+      {"gear_losses", &Effects::gear_losses, "gear losses", Default::where_given,
        "losses of gears by the direction of power, with self-locking", "the efficiency of a gearbox",
        "none; changes of flank and standstill are events", "efficiency, lowering loads, self-locking gears"},
-      {"joint_clearance", &Effects::joint_clearance, "joint clearance", Unsaid::where_given,
+      {"joint_clearance", &Effects::joint_clearance, "joint clearance", Default::where_given,
        "gaps in the joints of a slider-crank, with contact and flight as modes", "the clearance of a slider-crank",
        "two displacements and their rates per joint; contact and flight are events",
        "noise, wear and impact forces; where a joint's reaction reverses"},
-      {"flexible_rod", &Effects::flexible_rod, "flexible rod", Unsaid::where_given,
+      {"flexible_rod", &Effects::flexible_rod, "flexible rod", Default::where_given,
        "bending and stretching of a slider-crank's rod", "the rod_flexibility of a slider-crank",
        "an amplitude and its rate per mode", "slender rods at high speed; stress in the rod", true},
-      {"gravity", &Effects::gravity, "gravity", Unsaid::part_of_machine, "weight of a mechanism's links",
+      {"gravity", &Effects::gravity, "gravity", Default::part_of_machine, "weight of a mechanism's links",
        "the gravity of a mechanism", "none", "heavy links at low speed"},
-      {"variable_inertia", &Effects::variable_inertia, "variable inertia", Unsaid::part_of_machine,
+      {"variable_inertia", &Effects::variable_inertia, "variable inertia", Default::part_of_machine,
        "the reduced inertia of a mechanism varies with its angle; off: its mean", "a mechanism", "none",
        "speed fluctuation and torques at the frequency of revolution"},
-      {"load_edges", &Effects::load_edges, "load edges", Unsaid::part_of_machine,
+      {"load_edges", &Effects::load_edges, "load edges", Default::part_of_machine,
        "edges of a force over travel or angle, located as events; off: rounded, with the same work",
        "the rounding of a mechanism's load", "none; every edge is an event",
        "vibration after a shock or a break-through"},
-      {"multibody", &Effects::multibody, "multibody in the loop", Unsaid::off,
+      {"multibody", &Effects::multibody, "multibody in the loop", Default::off,
        "mechanisms evaluated body by body by Simbody at every step; off: by tables extracted from it", "a mechanism",
        "none", "never, but to check the tables: the same physics at many times the cost"},
   }};

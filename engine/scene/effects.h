@@ -40,15 +40,15 @@ struct EffectFlag {
   const char* name;  // in [effects] and --effects
   bool Effects::*flag;
   const char* words;  // "joint friction"
-  enum class Unsaid { off, where_given, with_elasticity, part_of_machine };
-  Unsaid unsaid;           // default: off; on if the scene has parameters; on in elastic machines; always on
+  enum class Default { off, where_given, with_elasticity, part_of_machine };
+  Default by_default;      // default: off; on if the scene has parameters; on in elastic machines; always on
   const char* adds;        // what it simulates
   const char* parameters;  // parameters needed in a scene
   const char* states;      // additional states and events
   const char* matters;     // when it is relevant
   // A flexible body, or an effect of elastic connections only: switched off together with elasticity.
   bool of_elasticity = false;
-  bool is_usual() const { return unsaid >= Unsaid::with_elasticity; }  // only its absence is reported
+  bool is_usual() const { return by_default >= Default::with_elasticity; }  // only its absence is reported
 };
 std::span<const EffectFlag> effect_flags();
 

@@ -208,7 +208,7 @@ class Reading : public D {
   const Section& section() const { return *place_.section; }
   Messages& messages() const { return *place_.messages; }
   const std::string& what() const { return place_.what; }
-  bool sound() const { return place_.messages->all().size() == place_.before; }  // no fault since its reading began
+  bool valid() const { return place_.messages->all().size() == place_.before; }  // no fault since its reading began
 
   // The name of the key of a member; for a group the first given one.
   template <class M, class B>

@@ -119,7 +119,7 @@ struct CurveData {
   std::vector<double> x_back, y_back;  // branch of the return stroke, if given
   Curve::Form form = Curve::Form::linear;
   double period = 0;
-  Beyond beyond = Beyond::unsaid;               // of both ends
+  Beyond beyond = Beyond::unspecified;          // of both ends
   Curve by_formula = {}, by_formula_back = {};  // empty: by points
   // Allowed error of an approximation by fewer pieces over the maximum; 0: as given. Set by studies (dense_tables.h).
   double within = 0;
@@ -149,7 +149,7 @@ struct Section {
   const Kind* kind = nullptr;
   Location at;
   std::vector<Setting> settings = {};
-  bool sound = true;  // read without an error
+  bool valid = true;  // read without an error
 
   const Setting* find(std::string_view key) const;
   bool has(std::string_view key) const { return find(key) != nullptr; }

@@ -136,7 +136,7 @@ std::size_t first_not_finite(const double* values, std::size_t size) {
 // The finer the tolerance, the further below the limit of stability are steps that it holds: what a fast state has left
 // over, at last its rounding, counts for more (measured for DOP853: 0.91 of the limit at 1e-8, 0.42 … 0.8 at 1e-14).
 // Accuracy alone holds the steps of a motion at that speed far below.
-double part_told_as_stiff(double tolerance) {
+double part_reported_as_stiff(double tolerance) {
   constexpr double least = 0.4, rough = 1e-5, fine = 1e-11;
   const double between = std::clamp(std::log(rough / tolerance) / std::log(rough / fine), 0.0, 1.0);
   return 1 - (1 - least) * between;
@@ -148,7 +148,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const EmbeddedTable& table, OdeSystem& sy
     : table_(table), system_(system), size_(system.size()), tolerance_(control.tolerance) {
   assert(control.scale.size() == size_ && tolerance_ > 0);
   for (const double s : control.scale) weight_.push_back(s > 0 ? 1 / (tolerance_ * s) : 0);
-  stiff_from_ = table.stability_limit * part_told_as_stiff(tolerance_);
+  stiff_from_ = table.stability_limit * part_reported_as_stiff(tolerance_);
   error_needs_end_slope_ = table.error.back().stage == table.stages;
 
   // A few doubles between the vectors keep them off the same cache sets when the size is a power of two.
@@ -329,7 +329,7 @@ void ExplicitRungeKutta::watch_stability(double h) {
   const bool stiff = h * h * slopes > stiff_from_ * stiff_from_ * states;
   if (stiff) {
     mild_steps_ = 0;
-    stiff_steps_ = std::min(stiff_steps_ + 1, stiff_steps_to_tell);
+    stiff_steps_ = std::min(stiff_steps_ + 1, stiff_steps_to_report);
   } else if (++mild_steps_ >= mild_steps_to_forget) {
     stiff_steps_ = 0;
   }

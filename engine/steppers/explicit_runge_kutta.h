@@ -24,12 +24,12 @@ class ExplicitRungeKutta final : public Stepper {
   std::span<const double> y_previous() const override { return {y_previous_, size_}; }
   std::span<const double> ydot() const override { return {slope_[table_.stages], size_}; }
   std::span<const double> ydot_previous() const override { return {slope_[0], size_}; }
-  bool held_by_stability() const override { return stiff_steps_ >= stiff_steps_to_tell; }
+  bool held_by_stability() const override { return stiff_steps_ >= stiff_steps_to_report; }
   StepLimit limited_by() override { return {limit_, worst_}; }
 
  private:
-  static constexpr int stiff_steps_to_tell = 15;  // successive steps to detect stiffness, and
-  static constexpr int mild_steps_to_forget = 6;  // to reset the detection (Hairer–Wanner II, section IV.2)
+  static constexpr int stiff_steps_to_report = 15;  // successive steps to detect stiffness, and
+  static constexpr int mild_steps_to_forget = 6;    // to reset the detection (Hairer–Wanner II, section IV.2)
 
   struct Aim {
     double t, h;

@@ -27,7 +27,7 @@ std::string identifier(const std::string& text) {
   return name;
 }
 
-void refuse_what_is_not_in_the_run_time(const Scene& scene) {
+void refuse_unsupported_effects(const Scene& scene) {
   if (scene.run.model != "reduced" || scene.effects.multibody)
     refuse(
         "its mechanisms are evaluated by Simbody (model, multibody), which a component does not hold; the reduced "
@@ -189,10 +189,10 @@ std::string front_page(const ExportedMachine& machine) {
 
 }  // namespace
 
-ExportedComponent component_of(const Scene& given, const ExportAsked& asked) {
+ExportedComponent component_of(const Scene& given, const ExportRequest& asked) {
   Scene scene = given;
   if (!asked.effects.empty()) scene.effects = parse_effects(asked.effects, scene);
-  refuse_what_is_not_in_the_run_time(scene);
+  refuse_unsupported_effects(scene);
   const std::filesystem::path path(scene.file);
   const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
   ExportedMachine machine{.name = identifier(asked.name.empty() ? path.stem().string() : asked.name),

@@ -12,7 +12,7 @@ namespace kurbel {
 
 enum class ExportKind { both, co_simulation, model_exchange };
 
-struct ExportAsked {
+struct ExportRequest {
   int fmi = 3;
   ExportKind kind = ExportKind::both;
   std::vector<std::string> inputs, parameters, outputs;
@@ -28,7 +28,7 @@ struct ExportedComponent {
 };
 
 // Throws SceneError for a scene that makes no machine, std::invalid_argument with the reason for what cannot be exported.
-ExportedComponent component_of(const Scene& scene, const ExportAsked& asked);
+ExportedComponent component_of(const Scene& scene, const ExportRequest& asked);
 
 // The archive. `fmi` 2 or 3.
 std::string packed(const ExportedComponent& component, int fmi, const std::string& scene_folder);

@@ -10,7 +10,7 @@
 namespace kurbel {
 namespace {
 
-StudyOutput exported(const Inquiry& inquiry, ExportAsked asked) {
+StudyOutput exported(const Inquiry& inquiry, ExportRequest asked) {
   const std::filesystem::path path(inquiry.scene.file);
   ExportedComponent component = component_of(inquiry.scene, asked);
   component.machine.version = program_version();
@@ -59,8 +59,8 @@ StudyOutput exported(const Inquiry& inquiry, ExportAsked asked) {
   return output;
 }
 
-OptionsOf<ExportAsked> options() {
-  using Asked = ExportAsked;
+OptionsOf<ExportRequest> options() {
+  using Asked = ExportRequest;
   return OptionsOf<Asked>()
       .add({.name = "fmi", .doc = "version of the standard: 3 (default) or 2"}, &Asked::fmi,
            std::vector{std::pair("3", 3), std::pair("2", 2)})

@@ -69,7 +69,7 @@ struct Component {
   bool logging = false;                      // errors are always logged
   std::vector<std::string> categories = {};  // categories to log; empty: all
   std::unique_ptr<Instance> instance;
-  std::function<void(Status, const char* category, const std::string&)> tell;
+  std::function<void(Status, const char* category, const std::string&)> report;
   std::function<bool(double t)> look;  // called at the end of each integrator step; false: the importer stops
   double last_time = 0;                // end of the importer's last step
 
@@ -84,8 +84,8 @@ struct Component {
   void log(Status status, const char* category, const std::string& text) const {
     const bool always = status >= Status::error;
     const bool wanted = categories.empty() || std::count(categories.begin(), categories.end(), category) > 0;
-    if (!tell || (!always && !(logging && wanted))) return;
-    tell(status, category, instance ? fmt::format("t = {:.9g} s: {}", instance->time(), text) : text);
+    if (!report || (!always && !(logging && wanted))) return;
+    report(status, category, instance ? fmt::format("t = {:.9g} s: {}", instance->time(), text) : text);
   }
   void log_events() const {
     for (const Event& event : instance->take_events())

@@ -38,7 +38,7 @@ class Tangent {
       torque_[at(m_.elastic[at(slope.connection)].joint)] += slope.value * moved(slope, of, along, twist);
     }
     snapshot_.now.angle = along.data(), snapshot_.now.twist = twist, snapshot_.now.speed = speed_.data();
-    snapshot_.now.own = along.data() + flow.own_begin();
+    snapshot_.now.own = along.data() + flow.internal_begin();
     snapshot_.node_angle = node_angle_.data(), snapshot_.joint_torque = torque_.data();
   }
   Tangent(const Tangent&) = delete;
@@ -54,7 +54,7 @@ class Tangent {
         return joint.component == channel.name.of && joint.elastic >= 0 &&
                !(m_.elastic[at(joint.elastic)].slips && flow_.modes().slip[at(joint.elastic)] == 0);
       });
-    return std::any_of(m_.own_states.begin(), m_.own_states.end(), [&](const OwnStatePlace& own) {
+    return std::any_of(m_.internal_states.begin(), m_.internal_states.end(), [&](const PlacedInternalState& own) {
       return Name::own(own.state.name, own.component).text == channel.name.text;
     });
   }
@@ -69,7 +69,7 @@ class Tangent {
       case TorqueSlope::By::rate:
         return a - of.gain_b * speed_[at(of.shaft_b)];
       case TorqueSlope::By::own:
-        return along[flow_.own_begin() + at(slope.index)];
+        return along[flow_.internal_begin() + at(slope.index)];
       case TorqueSlope::By::angle:
         return along[at(slope.index)];
       case TorqueSlope::By::speed_of_a:

@@ -77,8 +77,8 @@ KURBEL_FMI_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, 
   c->name = name ? name : "";
   c->logging = logging != 0;
   if (functions->logger)
-    c->tell = [whose = functions->componentEnvironment, logger = functions->logger, name = c->name](
-                  Status status, const char* category, const std::string& text) {
+    c->report = [whose = functions->componentEnvironment, logger = functions->logger, name = c->name](
+                    Status status, const char* category, const std::string& text) {
       logger(whose, name.c_str(), as2(status), category, "%s", text.c_str());
     };
   if (c->name.empty() || !location) {

@@ -18,7 +18,7 @@ Component* instantiate(fmi3String name, fmi3String token, fmi3String folder, boo
   c->name = name ? name : "";
   c->logging = logging;
   if (logger)
-    c->tell = [whose, logger](Status status, const char* category, const std::string& text) {
+    c->report = [whose, logger](Status status, const char* category, const std::string& text) {
       logger(whose, as3(status), category, text.c_str());
     };
   if (c->name.empty()) why_not = "an instance needs a name";

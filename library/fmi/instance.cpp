@@ -29,9 +29,9 @@ std::string method_of(const RunSettings& run) {
 }
 
 // Passes steps of the integrator on.
-class Onlooker final : public Observer {
+class StepCallback final : public Observer {
  public:
-  explicit Onlooker(std::function<void(StepView&)> look) : look_(std::move(look)) {}
+  explicit StepCallback(std::function<void(StepView&)> look) : look_(std::move(look)) {}
   void step(StepView& view) override { look_(view); }
 
  private:
@@ -217,9 +217,9 @@ double Instance::apply_inputs() {
   equations_->pass_edge(t, state.y, events_);
   for (std::size_t k = 0; k < s_.inputs.size(); ++k) {
     const ExportedInput& in = machine_.inputs[k];
-    const auto told = [&](const Event& event) { return event.component == in.of; };
+    const auto reported = [&](const Event& event) { return event.component == in.of; };
     if (in.what == ExportedInput::What::command && s_.inputs[k] != s_.applied[k] &&
-        std::none_of(events_.begin() + static_cast<std::ptrdiff_t>(known), events_.end(), told))
+        std::none_of(events_.begin() + static_cast<std::ptrdiff_t>(known), events_.end(), reported))
       events_.push_back(command_event(t, in.of, s_.applied[k], s_.inputs[k], 0));
   }
   equations_->wrap(state.y);
@@ -248,7 +248,7 @@ double Instance::go(double step, const std::function<bool(double t)>& look) {
     mine.until = to;
     mine.interrupted = &interrupted;
     ExtremeRecorder extremes(view_->peaks);
-    Onlooker onlooker([&](StepView& view) {
+    StepCallback onlooker([&](StepView& view) {
       if (!seen || interrupted || view.t() >= to) return;
       moment_ = Moment{view.t(), {view.y().begin(), view.y().end()}};
       const bool on = look(view.t());

@@ -15,7 +15,7 @@ namespace {
 std::string unit_of_state(const Flow& flow, std::size_t state) {
   const Model& m = flow.model();
   if (state < flow.speed_index(0)) return "rad";  // angles, twists
-  return state < flow.own_begin() ? "rad/s" : m.own_states[state - flow.own_begin()].state.unit;
+  return state < flow.internal_begin() ? "rad/s" : m.internal_states[state - flow.internal_begin()].state.unit;
 }
 std::string unit_of_rate(const std::string& unit) {
   if (unit == "rad/s") return "rad/s2";
@@ -118,8 +118,8 @@ class Reach {
     for (const ElasticJoint& joint : m_.elastic)
       if (m_.network.joints[at(joint.joint)].component == name)
         torque_on(joint.shaft_a, rows), torque_on(joint.shaft_b, rows);
-    for (std::size_t k = 0; k < m_.own_states.size(); ++k)
-      if (m_.own_states[k].component == name) rows[flow_.own_begin() + k] = 1;
+    for (std::size_t k = 0; k < m_.internal_states.size(); ++k)
+      if (m_.internal_states[k].component == name) rows[flow_.internal_begin() + k] = 1;
   }
   // The speed and acceleration of a shaft that are given.
   void given_speed(int shaft, std::vector<char>& rows) const {
@@ -181,7 +181,7 @@ ExportedDependency on_states(const Flow& flow, const Channel& channel, const Exp
   const AnyConnection& element = *m.network.joints[static_cast<std::size_t>(elastic.joint)].element;
   const bool spring = (channel.name.what == quantities::torque || channel.name.what == quantities::spring_torque) &&
                       element.is.has_spring() && element.is.states == 0 && !element.is.uses_angle &&
-                      !element.is.commanded && !element.row && joint->told.weight.empty();
+                      !element.is.commanded && !element.row && joint->reported.weight.empty();
   if (channel.name.what != quantities::slip && !spring) return {.known = false};
   if (spring) add(found.states, flow.twists_begin() + static_cast<std::size_t>(joint->elastic));
   shaft(elastic.shaft_a), shaft(elastic.shaft_b);

@@ -41,7 +41,7 @@ double inertia_felt(const SliderCrankDynamics& dynamics, double phi) {
 
 // Scales: gaps, a ten thousandth of the length for bending, and a hundredth of that for stretching; rates by what an
 // impact of that depth or a vibration of that amplitude has.
-std::vector<OwnState> own_states_of(const Mechanism& m, const RodModes& rod) {
+std::vector<InternalState> internal_states_of(const Mechanism& m, const RodModes& rod) {
   const SliderCrankData& data = *m.data.as<SliderCrankData>();
   struct Name {
     std::string name, unit;
@@ -72,7 +72,7 @@ std::vector<OwnState> own_states_of(const Mechanism& m, const RodModes& rod) {
     names.push_back({"stretching_middle", "m", scale, scale * omega, false});
     names.push_back({"stretching_end", "m", scale, scale * omega, true});
   }
-  std::vector<OwnState> states;
+  std::vector<InternalState> states;
   for (const Name& n : names) states.push_back({n.name, n.unit, n.scale, n.peak});
   for (const Name& n : names) states.push_back({n.name + "_rate", n.unit + "/s", n.rate_scale, false});
   return states;
@@ -135,7 +135,7 @@ DeformingMechanismElement::DeformingMechanismElement(Mechanism given) : Mechanis
                                 "rod rod_mass · rod²/12) and slider_mass");
   is.directional = false;
   uses_speed = true;
-  own_states = own_states_of(m, dynamics_->rod());
+  internal_states = internal_states_of(m, dynamics_->rod());
   modes += static_cast<int>(dynamics_->contacts().size());
   if (!parts.clearances.empty()) further_accounts.emplace_back(m.name + ".contact", Account::harmful);
   if (dynamics_->rod().count() > 0) further_accounts.emplace_back(m.name + ".rod", Account::harmful);

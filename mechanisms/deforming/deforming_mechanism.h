@@ -57,7 +57,7 @@ class DeformingMechanismPool final : public ElementPool {
 
   void add(const Instant& now, Sums& sums) const override;
   bool follows() const override { return true; }
-  void follow(const Instant& now, const double* alpha, double* own_rate) const override;
+  void follow(const Instant& now, const double* alpha, double* internal_rate) const override;
   void balance(const Instant& now, const double* alpha, double* own) const override;
   double further_kinetic_energy(const Instant& now) const override;
   double kinetic_energy_of_bodies(const Instant& now) const override;
@@ -82,9 +82,9 @@ class DeformingMechanismPool final : public ElementPool {
     Mechanism mechanism;
     std::shared_ptr<const SliderCrankDynamics> dynamics;
     ShaftPorts at;
-    bool watches_travel = false;       // some load depends on the direction of travel
-    std::vector<int> own_slot = {};    // per free coordinate except φ, and input: of its acceleration
-    std::vector<int> shaft_slot = {};  // per input
+    bool watches_travel = false;          // some load depends on the direction of travel
+    std::vector<int> internal_slot = {};  // per free coordinate except φ, and input: of its acceleration
+    std::vector<int> shaft_slot = {};     // per input
     std::vector<int> rate_slot = {}, follower_slot = {};
 
     std::size_t further() const { return dynamics->free().size() - 1; }
@@ -104,7 +104,7 @@ class DeformingMechanismPool final : public ElementPool {
     Vector free, by_alpha;   // accelerations of the additional coordinates at α = 0, and their decrease per α
   };
   // Indices of the k-th additional coordinate and of its rate among all internal states.
-  static int at_own(const Placed& p, std::size_t k) { return p.at.own + static_cast<int>(k); }
+  static int at_internal(const Placed& p, std::size_t k) { return p.at.own + static_cast<int>(k); }
   static int at_rate(const Placed& p, std::size_t k) { return p.at.own + static_cast<int>(p.further() + k); }
   Vector coordinates(const Placed& p, const Instant& now) const;
   Vector rates(const Placed& p, const Instant& now) const;

@@ -37,7 +37,7 @@ void DeformingMechanismPool::place(Mechanism mechanism, std::shared_ptr<const Sl
 DeformingMechanismPool::Vector DeformingMechanismPool::coordinates(const Placed& p, const Instant& now) const {
   Vector z{};
   z[SliderCrankDynamics::phi] = now.angle[p.at.angle] + p.at.phase;
-  for (std::size_t k = 0; k < p.further(); ++k) z[p.dynamics->free()[1 + k]] = now.own[at_own(p, k)];
+  for (std::size_t k = 0; k < p.further(); ++k) z[p.dynamics->free()[1 + k]] = now.own[at_internal(p, k)];
   return z;
 }
 DeformingMechanismPool::Vector DeformingMechanismPool::rates(const Placed& p, const Instant& now) const {
@@ -130,8 +130,8 @@ void DeformingMechanismPool::add(const Instant& now, Sums& sums) const {
     const Motion m = motion(p, now);
     const Solved solved = solve(p, now, m);
     for (std::size_t k = 0; k < p.further(); ++k) {
-      sums.own_rate[at_own(p, k)] = solved.by_alpha[k];
-      sums.own_rate[at_rate(p, k)] = solved.free[k];
+      sums.internal_rate[at_internal(p, k)] = solved.by_alpha[k];
+      sums.internal_rate[at_rate(p, k)] = solved.free[k];
     }
     sums.element_torque[p.at.id] = solved.torque;
     sums.element_inertia[p.at.id] = solved.inertia;
@@ -141,11 +141,11 @@ void DeformingMechanismPool::add(const Instant& now, Sums& sums) const {
   }
 }
 
-void DeformingMechanismPool::follow(const Instant& now, const double* alpha, double* own_rate) const {
+void DeformingMechanismPool::follow(const Instant& now, const double* alpha, double* internal_rate) const {
   for (const Placed& p : placed_)
     for (std::size_t k = 0; k < p.further(); ++k) {
-      own_rate[at_rate(p, k)] -= own_rate[at_own(p, k)] * p.at.gain * alpha[p.at.shaft];
-      own_rate[at_own(p, k)] = now.own[at_rate(p, k)];
+      internal_rate[at_rate(p, k)] -= internal_rate[at_internal(p, k)] * p.at.gain * alpha[p.at.shaft];
+      internal_rate[at_internal(p, k)] = now.own[at_rate(p, k)];
     }
 }
 
@@ -173,7 +173,7 @@ void DeformingMechanismPool::balance(const Instant& now, const double* alpha, do
       for (std::size_t k = 0; k < n; ++k) z[first + k] -= change(ix(k));
       if (change.cwiseAbs().maxCoeff() < 1e-15 * rod.length) break;
     }
-    for (std::size_t k = 0; k < n; ++k) own[at_own(p, p.further() - n + k)] = z[first + k];
+    for (std::size_t k = 0; k < n; ++k) own[at_internal(p, p.further() - n + k)] = z[first + k];
   }
 }
 
@@ -212,13 +212,13 @@ void DeformingMechanismPool::register_jacobian(JacobianPattern& pattern) {
   for (Placed& p : placed_) {
     const int speed = pattern.speed(p.at.shaft);
     std::vector<int> column = {pattern.angle(p.at.angle), speed};
-    for (std::size_t k = 0; k < p.further(); ++k) column.push_back(pattern.own(at_own(p, k)));
+    for (std::size_t k = 0; k < p.further(); ++k) column.push_back(pattern.own(at_internal(p, k)));
     for (std::size_t k = 0; k < p.further(); ++k) column.push_back(pattern.own(at_rate(p, k)));
     for (const int c : column) p.shaft_slot.push_back(pattern.entry(speed, c));
     for (std::size_t k = 0; k < p.further(); ++k) {
       const int row = pattern.own(at_rate(p, k));
-      for (const int c : column) p.own_slot.push_back(pattern.entry(row, c));
-      p.rate_slot.push_back(pattern.entry(pattern.own(at_own(p, k)), row));
+      for (const int c : column) p.internal_slot.push_back(pattern.entry(row, c));
+      p.rate_slot.push_back(pattern.entry(pattern.own(at_internal(p, k)), row));
       p.follower_slot.push_back(pattern.follower(row, p.at.shaft));
     }
   }
@@ -269,7 +269,7 @@ void DeformingMechanismPool::add_jacobian(const Instant& now, const double* alph
         }
         slots[p.shaft_slot[input]] += p.at.gain * gain * on_shaft;
         const Column rate = factors.solve(change);
-        for (std::size_t k = 0; k < n; ++k) slots[p.own_slot[k * inputs + input]] += gain * rate(ix(k));
+        for (std::size_t k = 0; k < n; ++k) slots[p.internal_slot[k * inputs + input]] += gain * rate(ix(k));
       }
     }
     for (std::size_t k = 0; k < n; ++k) {
@@ -284,7 +284,7 @@ void DeformingMechanismPool::add_jacobian(const Instant& now, const double* alph
 DeformingMechanismPool::Vector DeformingMechanismPool::acceleration(const Placed& p, const Snapshot& s) const {
   Vector a{};
   a[SliderCrankDynamics::phi] = p.at.gain * s.alpha[p.at.shaft];
-  for (std::size_t k = 0; k < p.further(); ++k) a[p.dynamics->free()[1 + k]] = s.sums.own_rate[at_rate(p, k)];
+  for (std::size_t k = 0; k < p.further(); ++k) a[p.dynamics->free()[1 + k]] = s.sums.internal_rate[at_rate(p, k)];
   return a;
 }
 

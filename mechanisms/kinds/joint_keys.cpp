@@ -128,16 +128,16 @@ bool fits(const Reading<RubbingJoint>& joint, bool slides) {
     return !joint.given(member) ||
            joint.refuse(member, fmt::format("belongs to a {}; this joint is a {}", of, slides ? "slide" : "pin"));
   };
-  bool sound = !slides || keep_off(&RubbingJoint::radius, "pin");
+  bool valid = !slides || keep_off(&RubbingJoint::radius, "pin");
   if (slides)
-    for (const FilmKey& key : film_keys) sound = keep_off(key.member, "pin") && sound;
-  if (slides) return sound;
+    for (const FilmKey& key : film_keys) valid = keep_off(key.member, "pin") && valid;
+  if (slides) return valid;
   for (const auto member : {&RubbingJoint::length, &RubbingJoint::middle, &RubbingJoint::width,
                             &RubbingJoint::rolling_arm, &RubbingJoint::roller_radius})
-    sound = keep_off(member, "slide") && sound;
+    valid = keep_off(member, "slide") && valid;
   if (!joint.friction.none() && joint.radius == 0)
-    sound = joint.refuse("has friction but no radius; give radius = \"20 mm\", of a rolling bearing half its bore");
-  return sound;
+    valid = joint.refuse("has friction but no radius; give radius = \"20 mm\", of a rolling bearing half its bore");
+  return valid;
 }
 
 }  // namespace
@@ -173,23 +173,23 @@ MechanismJoints joints_of(const MechanismData& data, const std::vector<Reading<R
     if (names.insert(j.name).second) list.emplace_back(j.name);
   const std::string why = refusal_of_joint_friction(data, CrankCycle(data));
   std::vector<RubbingJoint> rubbing;
-  bool sound = true;
+  bool valid = true;
   for (const Reading<RubbingJoint>& joint : joints) {
     RubbingJoint to = joint;
     to.name = joint_named(joint.section().name, names);
     if (to.name.empty()) {
-      sound = joint.refuse(fmt::format("no joint of this name{}; joints are {}", suggestion(joint.section().name, list),
+      valid = joint.refuse(fmt::format("no joint of this name{}; joints are {}", suggestion(joint.section().name, list),
                                        shortened_list(list, "and")));
       continue;
     }
     for (const PlanarLinkage::Joint& j : linkage.joints)
-      if (to.name == j.name) sound = fits(joint, j.slides) && sound;
+      if (to.name == j.name) valid = fits(joint, j.slides) && valid;
     if (!why.empty())
-      sound = joint.refuse(
+      valid = joint.refuse(
           fmt::format("friction of its joints cannot be found: {}; leave the joints out, or change the lengths", why));
     rubbing.push_back(std::move(to));
   }
-  if (!sound) return {};
+  if (!valid) return {};
   return {std::move(rubbing), {}};
 }
 

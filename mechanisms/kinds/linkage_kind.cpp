@@ -139,22 +139,22 @@ class SketchReader {
     read_points();
     read_links();
     s_.frame_points =
-        points_of(k_.frame, [&](const std::string& text) { sound_ = k_.refuse(&LinkageKeys::frame, text); });
+        points_of(k_.frame, [&](const std::string& text) { valid_ = k_.refuse(&LinkageKeys::frame, text); });
     read_slides();
     const std::vector<LinkageSketch::Length> given = lengths();
-    if (sound_) read_roles();
-    if (sound_) check_use();
-    if (!sound_) return {};
+    if (valid_) read_roles();
+    if (valid_) check_use();
+    if (!valid_) return {};
     s_.gravity = k_.gravity, s_.elevation = k_.sketch_angle;
-    tell(take_lengths(s_, given));
-    if (!sound_) return {};
+    report(take_lengths(s_, given));
+    if (!valid_) return {};
     return s_;
   }
 
-  void tell(const LinkageFaults& faults) {
+  void report(const LinkageFaults& faults) {
     for (const LinkageFault& fault : faults) {
       k_.messages().add(place_of(fault.at), fmt::format("{}: {}", k_.what(), fault.text));
-      sound_ = false;
+      valid_ = false;
     }
   }
 
@@ -193,14 +193,14 @@ class SketchReader {
       else
         points.push_back(p);
     }
-    if (points.empty() && sound_) refuse("names no point; write e.g. \"A B\"");
+    if (points.empty() && valid_) refuse("names no point; write e.g. \"A B\"");
     return points;
   }
 
   void read_points() {
     for (const Reading<PointKeys>& p : k_.points) {
       if (p.at.size() != 2) {
-        sound_ = p.refuse(&PointKeys::at, fmt::format("has {} numbers; must be [x, y]", p.at.size()));
+        valid_ = p.refuse(&PointKeys::at, fmt::format("has {} numbers; must be [x, y]", p.at.size()));
         s_.points.push_back({p.section().name, 0, 0});
         continue;
       }
@@ -211,12 +211,12 @@ class SketchReader {
     for (const Reading<LinkKeys>& link : k_.links) {
       LinkageSketch::Link to;
       to.name = link.section().name;
-      if (to.name == "frame") sound_ = link.refuse("\"frame\" is what stands still; give the link another name");
+      if (to.name == "frame") valid_ = link.refuse("\"frame\" is what stands still; give the link another name");
       to.points =
-          points_of(link.points, [&](const std::string& text) { sound_ = link.refuse(&LinkKeys::points, text); });
+          points_of(link.points, [&](const std::string& text) { valid_ = link.refuse(&LinkKeys::points, text); });
       to.mass = link.mass, to.inertia = link.inertia;
       if (link.com && link.com->size() != 2)
-        sound_ = link.refuse(&LinkKeys::com, fmt::format("has {} numbers; must be [x, y]", link.com->size()));
+        valid_ = link.refuse(&LinkKeys::com, fmt::format("has {} numbers; must be [x, y]", link.com->size()));
       else if (link.com)
         to.com_x = link.com->at(0) * k_.unit, to.com_y = link.com->at(1) * k_.unit;
       else
@@ -233,23 +233,23 @@ class SketchReader {
       LinkageSketch::Slide to;
       to.link = index_of(s_.links, slide.section().name);
       if (to.link < 0)
-        sound_ = slide.refuse(fmt::format("no link of this name{}; links are {}",
+        valid_ = slide.refuse(fmt::format("no link of this name{}; links are {}",
                                           suggestion(slide.section().name, names_of(s_.links)),
                                           shortened_list(names_of(s_.links), "and")));
       to.on = slide.on == "frame" ? LinkageSketch::frame : index_of(s_.links, slide.on);
       if (slide.on != "frame" && to.on < 0)
-        sound_ = slide.refuse(&SlideKeys::on, fmt::format("on = \"{}\"{}; must be \"frame\" or a link: {}", slide.on,
+        valid_ = slide.refuse(&SlideKeys::on, fmt::format("on = \"{}\"{}; must be \"frame\" or a link: {}", slide.on,
                                                           suggestion(slide.on, names_of(s_.links)),
                                                           shortened_list(names_of(s_.links), "and")));
       to.angle = slide.along.value_or(0);
       if (slide.through) {
         const std::vector<int> two = points_of(
-            *slide.through, [&](const std::string& text) { sound_ = slide.refuse(&SlideKeys::through, text); });
+            *slide.through, [&](const std::string& text) { valid_ = slide.refuse(&SlideKeys::through, text); });
         if (two.size() == 2) {
           const auto &a = s_.points[static_cast<std::size_t>(two[0])], &b = s_.points[static_cast<std::size_t>(two[1])];
           to.angle = std::atan2(b.y - a.y, b.x - a.x);
-        } else if (sound_) {
-          sound_ = slide.refuse(&SlideKeys::through, "must name two points");
+        } else if (valid_) {
+          valid_ = slide.refuse(&SlideKeys::through, "must name two points");
         }
       }
       s_.slides.push_back(to);
@@ -261,7 +261,7 @@ class SketchReader {
     if (k_.driver) {
       s_.driver = index_of(s_.links, *k_.driver);
       if (s_.driver < 0)
-        sound_ = k_.refuse(&LinkageKeys::driver,
+        valid_ = k_.refuse(&LinkageKeys::driver,
                            fmt::format("driver = \"{}\"{}; must be a link: {}", *k_.driver,
                                        suggestion(*k_.driver, names_of(s_.links)), shortened_list(names_of(s_.links))));
     }
@@ -273,7 +273,7 @@ class SketchReader {
         if (slide.link == to.link && slide.on == LinkageSketch::frame)
           to.point = s_.links[static_cast<std::size_t>(to.link)].points.front(), to.angle = slide.angle;
       if (k_.output_along)
-        sound_ =
+        valid_ =
             k_.refuse(&LinkageKeys::output_along, "belongs to a point as the output; of a link it follows from it");
     } else if (to.point = index_of(s_.points, output); to.point >= 0) {
       to.angle = k_.output_along.value_or(0);
@@ -281,20 +281,20 @@ class SketchReader {
         if (s_.has(static_cast<int>(k), to.point) && (to.link < 0 || static_cast<int>(k) != s_.driver))
           to.link = static_cast<int>(k);
       if (to.link < 0)
-        sound_ = k_.refuse(&LinkageKeys::output, fmt::format("the point \"{}\" is on no moving link", output));
+        valid_ = k_.refuse(&LinkageKeys::output, fmt::format("the point \"{}\" is on no moving link", output));
     } else {
       std::vector<std::string> names = names_of(s_.links), points = names_of(s_.points);
       names.insert(names.end(), points.begin(), points.end());
-      sound_ = k_.refuse(&LinkageKeys::output, fmt::format("output = \"{}\"{}; must be a link or a point", output,
+      valid_ = k_.refuse(&LinkageKeys::output, fmt::format("output = \"{}\"{}; must be a link or a point", output,
                                                            suggestion(output, names)));
     }
-    if (!sound_) return;
+    if (!valid_) return;
     if (to.rocks() && !k_.mounting.loads.empty())
-      sound_ = k_.refuse("load", fmt::format("load: {} rocks, so that torques act on it; write torque = …, or name an "
+      valid_ = k_.refuse("load", fmt::format("load: {} rocks, so that torques act on it; write torque = …, or name an "
                                              "output that slides, or a point",
                                              output));
     if (!to.rocks() && !k_.torques.empty())
-      sound_ = k_.refuse(&LinkageKeys::torques,
+      valid_ = k_.refuse(&LinkageKeys::torques,
                          fmt::format("torque: {} has a way, so that forces act on it; write load = …", output));
   }
 
@@ -309,7 +309,7 @@ class SketchReader {
           fmt::format("{}: points.{}: no link and not the frame goes through it; name it there, or leave it "
                       "out",
                       k_.what(), name));
-      sound_ = false;
+      valid_ = false;
     }
   }
 
@@ -328,7 +328,7 @@ class SketchReader {
       if (to.from >= 0)
         list.push_back(to);
       else
-        sound_ = length.refuse(fmt::format("is named by two points of the sketch, as AB or \"A B\"; it has {}",
+        valid_ = length.refuse(fmt::format("is named by two points of the sketch, as AB or \"A B\"; it has {}",
                                            shortened_list(names_of(s_.points), "and")));
     }
     return list;
@@ -336,16 +336,16 @@ class SketchReader {
 
   const Reading<LinkageKeys>& k_;
   LinkageSketch s_;
-  bool sound_ = true;
+  bool valid_ = true;
 };
 
 void build_linkage(const Section& section, const Reading<LinkageKeys>& keys, Network& net) {
   std::shared_ptr<const Linkage> linkage;
-  if (keys.sound()) {
+  if (keys.valid()) {
     SketchReader reader(keys);
     if (const auto sketch = reader.read()) {
       linkage = std::make_shared<const Linkage>(*sketch);
-      reader.tell(linkage->faults());
+      reader.report(linkage->faults());
     }
   }
   if (!linkage || !linkage->faults().empty()) {  // others may refer to its shaft
@@ -361,7 +361,7 @@ void build_linkage(const Section& section, const Reading<LinkageKeys>& keys, Net
                             forces.size(), JointFriction::most_applied));
   if (linkage->sketch().output.rocks()) mounting.loads = keys.torques;
   build_mechanism(section, LinkageData{linkage, linkage->sketch().gravity}, mounting, {}, net, keys.messages());
-  if (keys.sound()) put_linkage_forces(section, std::move(forces), net);
+  if (keys.valid()) put_linkage_forces(section, std::move(forces), net);
 }
 
 }  // namespace

@@ -46,21 +46,21 @@ bool put_rounding(const Reading<Keys>& s, const Mechanism& mechanism, SliderLoad
 }
 
 bool put_law(const Reading<PressLoad>& s, const Mechanism& mechanism, SliderLoad& load) {
-  bool sound = true;
+  bool valid = true;
   if (s.travel > mechanism.stroke())
-    sound = s.refuse(&PressLoad::travel, fmt::format("nominal_travel = {}; must be ≤ the stroke of {}", in_mm(s.travel),
+    valid = s.refuse(&PressLoad::travel, fmt::format("nominal_travel = {}; must be ≤ the stroke of {}", in_mm(s.travel),
                                                      in_mm(mechanism.stroke())));
   if (s.rise > s.travel)
-    sound = s.refuse(&PressLoad::rise,
+    valid = s.refuse(&PressLoad::rise,
                      fmt::format("rise = {}; must be ≤ nominal_travel = {}", in_mm(s.rise), in_mm(s.travel)));
   if (s.breakthrough >= s.travel - s.rise && s.breakthrough > 0 && s.rise <= s.travel)
-    sound = s.refuse(&PressLoad::breakthrough,
+    valid = s.refuse(&PressLoad::breakthrough,
                      fmt::format("breakthrough = {}; must be < nominal_travel − rise = {}, where the full force stands",
                                  in_mm(s.breakthrough), in_mm(s.travel - s.rise)));
   if (s.drop > s.breakthrough)
-    sound = s.refuse(&PressLoad::drop,
+    valid = s.refuse(&PressLoad::drop,
                      fmt::format("drop = {}; must be ≤ breakthrough = {}", in_mm(s.drop), in_mm(s.breakthrough)));
-  if (!sound) return false;
+  if (!valid) return false;
   load.law = PressForce::make(working_end(s.from_greatest, mechanism), mechanism.stroke(), s.force, s.travel, s.rise,
                               s.breakthrough, s.drop);
   return put_rounding(s, mechanism, load);

@@ -157,19 +157,19 @@ void build_slider_crank(const Section& s, const Reading<SliderCrankKeys>& mechan
   Messages& messages = mechanism.messages();
   Mounting mounting = mechanism.mounting;
   put_phase(s, mechanism.firing, mounting, messages);
-  const bool sound = mechanism.sound();
+  const bool valid = mechanism.valid();
   const SliderCrankData& d = mechanism.linkage;
   DataFaults faults = faults_of(d);
   const bool friction = mechanism.joints.rub();
   const bool deforms = !mechanism.deformation.clearances.empty() || mechanism.deformation.flexibility;
-  if (sound && faults.empty() && d.changes() && (friction || deforms))
+  if (valid && faults.empty() && d.changes() && (friction || deforms))
     faults.push_back({"rod", fmt::format("rod = radius + |offset| = {}, so that crank and rod pass change points, "
                                          "where {}; lengthen the rod, or omit {}",
                                          in_mm(d.rod_length),
                                          friction ? "reactions have no bound and friction by them jams the crank"
                                                   : "gaps and bending decide which way the rod goes on",
                                          friction ? "friction of the joints" : "clearance and rod_flexibility")});
-  if (sound && faults.empty() && d.rocks() && deforms)
+  if (valid && faults.empty() && d.rocks() && deforms)
     faults.push_back(
         {"rod",
          fmt::format(

@@ -193,8 +193,8 @@ std::string names_of(Links links, const LinkageSketch& s) {
 }
 
 // Why some links are in no group.
-void tell_left_over(const LinkageSketch& s, const Decomposer& parts, Links left, const LinkageStructure& out,
-                    LinkageFaults& faults) {
+void report_left_over(const LinkageSketch& s, const Decomposer& parts, Links left, const LinkageStructure& out,
+                      LinkageFaults& faults) {
   for (int k = 0; k < static_cast<int>(s.links.size()); ++k)
     if ((left & one(k)) && parts.joints(one(k), static_cast<Links>(~one(k))) == 0) {
       faults.push_back(
@@ -247,7 +247,7 @@ LinkageStructure structure_of(const LinkageSketch& s, LinkageFaults& faults) {
     if (left & one(k)) out.order.push_back(k);
   add_joints(s, out);
   if (left)
-    tell_left_over(s, parts, left, out, faults);
+    report_left_over(s, parts, left, out, faults);
   else
     describe_groups(out);
   return out;

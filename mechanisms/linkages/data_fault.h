@@ -22,7 +22,7 @@ class DataChecks {
   void floating(const std::string& name, const LinkBody& link, double carried_mass = 0);  // central inertia
   void add(const std::string& key, std::string text) { faults_.push_back({key, std::move(text)}); }
 
-  bool sound() const { return faults_.empty(); }
+  bool valid() const { return faults_.empty(); }
   DataFaults take() { return std::move(faults_); }
 
  private:

@@ -12,7 +12,7 @@ DataFaults faults_of(const FourBarData& d) {
   checks.pivoted("crank", d.crank_body);
   checks.floating("coupler", d.coupler_body);
   checks.pivoted("rocker", d.rocker_body);
-  if (checks.sound())
+  if (checks.valid())
     check_loop_closes({d.crank, d.coupler, d.rocker, d.ground, "crank", "coupler", "rocker", "ground"}, checks);
   return checks.take();
 }

@@ -43,7 +43,7 @@ double stroke_of(const KnucklePressData& d) {
 void check_geometry(const KnucklePressData& d, DataChecks& checks) {
   const double ground = std::hypot(d.bearing_x, d.bearing_y);
   check_crank_rocker({d.radius, d.rod, d.upper, ground, "radius", "rod", "upper", "bearing distance"}, checks);
-  if (!checks.sound()) return;
+  if (!checks.valid()) return;
   const Range heights = knee_heights(d);
   const double rise = std::fmax(std::fabs(d.guide - heights.least), std::fabs(d.guide - heights.greatest));
   if (!(d.lower > rise))
@@ -66,7 +66,7 @@ DataFaults faults_of(const KnucklePressData& d) {
   checks.floating("rod", d.rod_body);
   checks.pivoted("upper", d.upper_body);
   checks.floating("lower", d.lower_body, d.ram_mass);
-  if (checks.sound()) check_geometry(d, checks);
+  if (checks.valid()) check_geometry(d, checks);
   return checks.take();
 }
 

@@ -48,7 +48,7 @@ DataFaults faults_of(const QuickReturnData& d) {
   checks.pivoted("lever", d.lever_body);
   checks.floating("block", {d.block_mass, 0, d.block_inertia});
   checks.floating("link", d.link_body, d.ram_mass);
-  if (checks.sound()) check_geometry(d, checks);
+  if (checks.valid()) check_geometry(d, checks);
   return checks.take();
 }
 

@@ -15,7 +15,7 @@ DataFaults faults_of(const SlottedLeverData& d) {
   checks.pivoted("crank", d.crank_body);
   checks.pivoted("lever", d.lever_body);
   checks.floating("block", {d.block_mass, 0, d.block_inertia});
-  if (checks.sound() && !d.loop().changes() && std::fabs(d.ground - d.crank) < least_clearance * d.crank)
+  if (checks.valid() && !d.loop().changes() && std::fabs(d.ground - d.crank) < least_clearance * d.crank)
     checks.add("ground",
                fmt::format("ground = {} against crank = {}: the crank pin passes so close by the lever's bearing "
                            "that the lever's speed has no bound; make it longer for a rocking lever, shorter "

@@ -7,7 +7,7 @@
 
 #include "engine/elements/element.h"
 #include "engine/elements/event_kind.h"
-#include "engine/elements/sound.h"
+#include "engine/elements/valid.h"
 #include "engine/numerics/dual.h"
 #include "mechanisms/loads/slider_state.h"
 
@@ -29,7 +29,7 @@ struct LoadTraits {
 };
 
 // Whether it has exactly the members required by its traits (sound.h).
-namespace sound {
+namespace valid {
 template <class L>
 concept Value = requires(const L& l, const SliderState<double>& s, const SliderState<Dual<1>>& dual) {
   { l.value(s) } -> std::same_as<double>;
@@ -62,9 +62,9 @@ concept TurnsBack = (L::is.turns_back && L::is.in_pieces &&
                        { l.turned_mode(s) } -> std::same_as<int>;
                      }) ||
                     (!L::is.turns_back && requires { &Free<L>::turned_mode; });
-}  // namespace sound
+}  // namespace valid
 template <class L>
-concept SoundLoad = sound::Value<L> && sound::Holds<L> && sound::InPieces<L> && sound::TurnsBack<L>;
+concept SoundLoad = valid::Value<L> && valid::Holds<L> && valid::InPieces<L> && valid::TurnsBack<L>;
 
 template <class... L>
 struct LoadLaws {

@@ -19,7 +19,7 @@ AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& option
   study.fullest = work.levels.size() - 1;
   follow_figures(work);
   climb_ladder(work);
-  for (const LevelAtWork& level : work.levels) study.levels.push_back(level.told);
+  for (const LevelAtWork& level : work.levels) study.levels.push_back(level.reported);
   study.notes = work.levels[study.fullest].reference.notes;
   add_energy_method(work);
   add_multibody(work);

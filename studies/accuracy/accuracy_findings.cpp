@@ -223,7 +223,7 @@ Text how_measured(const AccuracyStudy& study) {
 void show_measured(Findings& f, const AccuracyStudy& study) {
   const Chapter words = f.chapter("What it means"), plane = f.chapter("Model and numbers"),
                 motion = f.chapter("The motion"), figures = f.chapter("The figures"), numbers = f.chapter("Numbers"),
-                left_out = f.chapter("Omitted");
+                omitted = f.chapter("Omitted");
   std::vector<std::string> sentences;
   for (const auto* list : {&study.findings, &study.answers})
     for (const std::string& sentence : *list) sentences.push_back(sentence + ".");
@@ -233,8 +233,8 @@ void show_measured(Findings& f, const AccuracyStudy& study) {
   f.draw(figures, [&study] { return figure_cost_plots(study); });
   f.say(numbers, level_table(study));
   f.say(numbers, settings_table(study));
-  f.say(left_out, omission_table(study));
-  f.show(left_out, how_measured(study));
+  f.say(omitted, omission_table(study));
+  f.show(omitted, how_measured(study));
 }
 
 }  // namespace
@@ -250,10 +250,10 @@ Findings findings_of(const AccuracyStudy& study) {
     words.page = false;
     f.say(terminal, std::move(words));
   };
-  f.tell("fingerprint", fingerprint(study.scene_text));
+  f.record("fingerprint", fingerprint(study.scene_text));
   say({.lines = study.findings, .indent = "  ", .key = "findings"});
   say({.lines = study.answers, .indent = "  ", .key = "answers"});
-  f.tell("key_figure", study.figures.empty() ? Value() : Value(study.figures[study.key].name));
+  f.record("key_figure", study.figures.empty() ? Value() : Value(study.figures[study.key].name));
   if (measured) {
     f.say(terminal, rung_table(study));
     f.say(terminal, front_table(study));
@@ -261,9 +261,9 @@ Findings findings_of(const AccuracyStudy& study) {
     add_key_figures(f, study);
     show_measured(f, study);
   } else {
-    f.tell("models", level_table(study).list());
-    f.tell("settings", settings_table(study).list());
-    f.tell("omissions", omission_table(study).list());
+    f.record("models", level_table(study).list());
+    f.record("settings", settings_table(study).list());
+    f.record("omissions", omission_table(study).list());
   }
   for (auto o = study.omissions.begin(); o != study.omissions.end();) {  // those of one reason together
     const auto other = std::find_if(o, study.omissions.end(), [&](const Omission& next) { return next.why != o->why; });
@@ -275,8 +275,8 @@ Findings findings_of(const AccuracyStudy& study) {
                              machine_info())},
        .indent = "  "});
   f.say(f.chapter("Notes"), Sentences{.lines = study.notes, .indent = "  note: ", .key = "notes"});
-  f.tell("machine", machine_info());
-  f.tell("processor_seconds", study.seconds);
+  f.record("machine", machine_info());
+  f.record("processor_seconds", study.seconds);
   f.tables = {{"settings", [&study] { return settings_table(study).data(); }}};
   return f;
 }

@@ -45,7 +45,7 @@ class Judge {
     return best;
   }
 
-  std::string told(const MeasuredSetting& s) const {
+  std::string reported(const MeasuredSetting& s) const {
     return fmt::format("{}, {}, measured {}", study_.name_of(s), duration_text(s.seconds), percent(total(s)));
   }
 
@@ -102,10 +102,10 @@ class Judge {
   std::string conclusion() const {
     for (const double error : {1e-2, 1e-1}) {
       const MeasuredSetting* s = cheapest_within(error);
-      if (s) return fmt::format("For {:g} % in {}: {}", 100 * error, key(), told(*s));
+      if (s) return fmt::format("For {:g} % in {}: {}", 100 * error, key(), reported(*s));
     }
     const MeasuredSetting* best = best_for(HUGE_VAL);
-    return best ? fmt::format("Nothing tried brings {} within 10 %; the nearest: {}", key(), told(*best))
+    return best ? fmt::format("Nothing tried brings {} within 10 %; the nearest: {}", key(), reported(*best))
                 : fmt::format("Nothing tried yields {}", key());
   }
 
@@ -125,7 +125,7 @@ class Judge {
     }
     if (dearer.empty()) return fmt::format("No setting tried is nearer to {} than 1 %", key());
     return fmt::format("Digit by digit from 1 % to {:.0e} (relative) the time grows by {}; there it is {}", error,
-                       dearer, told(*before));
+                       dearer, reported(*before));
   }
 
   // Where a tighter tolerance is useless because the model error dominates.
@@ -203,13 +203,13 @@ void judge_accuracy(AccuracyStudy& study, const AccuracyOptions& options) {
   if (options.within) {
     const MeasuredSetting* s = judge.cheapest_within(*options.within);
     study.answers.push_back(
-        s ? fmt::format("Cheapest within {} of {}: {}", percent(*options.within), judge.key(), judge.told(*s))
+        s ? fmt::format("Cheapest within {} of {}: {}", percent(*options.within), judge.key(), judge.reported(*s))
           : fmt::format("No setting tried is within {} of {}", percent(*options.within), judge.key()));
   }
   if (options.budget) {
     const MeasuredSetting* s = judge.best_for(*options.budget);
     study.answers.push_back(
-        s ? fmt::format("Most exact for {} of processor time: {}", duration_text(*options.budget), judge.told(*s))
+        s ? fmt::format("Most exact for {} of processor time: {}", duration_text(*options.budget), judge.reported(*s))
           : fmt::format("No setting tried takes less than {}: the cheapest takes longer",
                         duration_text(*options.budget)));
   }

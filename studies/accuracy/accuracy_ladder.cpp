@@ -26,7 +26,7 @@ struct Climber {
 
 std::vector<std::string> methods_for(const AccuracyWork& work, const LevelAtWork& level) {
   std::vector<std::string> methods = work.options.methods;
-  if (methods.empty() && level.between) return {level.told.first, level.told.second};
+  if (methods.empty() && level.between) return {level.reported.first, level.reported.second};
   if (methods.empty())
     methods = {"work", "dopri5", "verner6", "dop853", "fehlberg8", "adams", "esdirk3", "esdirk", "esdirk5", "bdf"};
   if (!level.tables) std::erase(methods, "work");
@@ -72,17 +72,18 @@ void take_rung(AccuracyWork& work, Climber& c, double tolerance) {
   try {
     SimulateOptions o = work.simulate_options(c.method, tolerance);
     o.budget = work.options.time / 15;
-    r = simulate(level.model, level.told.name, o);
+    r = simulate(level.model, level.reported.name, o);
   } catch (const std::invalid_argument& refusal) {
     c.open = false;
-    return work.omit(fmt::format("{}, {}", level.told.name, c.method), refusal.what());
+    return work.omit(fmt::format("{}, {}", level.reported.name, c.method), refusal.what());
   }
   if (!r.complete) {
     c.open = false;
-    return work.omit(fmt::format("{}, {} at {:.0e} and tighter", level.told.name, c.method, tolerance), r.diagnosis);
+    return work.omit(fmt::format("{}, {} at {:.0e} and tighter", level.reported.name, c.method, tolerance),
+                     r.diagnosis);
   }
   const double difference = trajectory_difference(*r.trajectory, *level.reference.trajectory);
-  s.trajectory_error = std::max(difference, level.told.agreement);
+  s.trajectory_error = std::max(difference, level.reported.agreement);
   measure_figures(s, work, level, [&](const std::string& name) {
     const Figure* f = like_in(r, *work.levels[work.study.fullest].reference.find(name));
     return f ? f->value : not_known;
@@ -101,11 +102,11 @@ void take_rung(AccuracyWork& work, Climber& c, double tolerance) {
   c.beaten = times_beaten(work.study, s, s.seconds) > hopeless ? c.beaten + 1 : 0;
   if (c.beaten == hopeless_rungs && !level.between && work.options.methods.empty()) {
     c.open = false;
-    give_up(work, level.told.name, c.method, tolerance);
+    give_up(work, level.reported.name, c.method, tolerance);
   }
   work.study.settings.push_back(s);
   // One more tolerance at the floor confirms it.
-  if (difference <= floor_is_reached * level.told.agreement) c.open = false;
+  if (difference <= floor_is_reached * level.reported.agreement) c.open = false;
   if (level.between && work.options.methods.empty() && difference <= enough_between) c.open = false;
 }
 
@@ -125,10 +126,11 @@ void climb_ladder(AccuracyWork& work) {
       done += 1;
       if (!c.open) continue;
       if (work.interrupted()) return;
-      work.progress(fmt::format("{}, {} at {:.0e}", work.levels[c.level].told.name, c.method, tolerance), done / rungs);
+      work.progress(fmt::format("{}, {} at {:.0e}", work.levels[c.level].reported.name, c.method, tolerance),
+                    done / rungs);
       const double expected = c.growth * c.last_cost;
       if (expected > rung_limit || work.spent() + expected > work.options.time) {
-        work.omit(fmt::format("{}, {} at {:.0e} and tighter", work.levels[c.level].told.name, c.method, tolerance),
+        work.omit(fmt::format("{}, {} at {:.0e} and tighter", work.levels[c.level].reported.name, c.method, tolerance),
                   fmt::format("would take some {:.2g} s of the study's {:g} s", expected, work.options.time));
         c.open = false;
         continue;

@@ -132,38 +132,38 @@ std::vector<std::string> reference_methods(const LevelAtWork& level) {
 
 // False: no reliable reference, which is reported.
 bool make_reference(AccuracyWork& work, LevelAtWork& level) {
-  ModelLevel& told = level.told;
-  told.effects = level.model->effects.describe();
-  told.coordinates = level.model->free_shafts + level.model->twist_count();
+  ModelLevel& reported = level.reported;
+  reported.effects = level.model->effects.describe();
+  reported.coordinates = level.model->free_shafts + level.model->twist_count();
   if (!is_elastic(*level.model)) {
     if (const std::string why = WorkTables::refusal(level.model); !why.empty())
-      work.omit(told.name + ", work equation", why);
+      work.omit(reported.name + ", work equation", why);
     else
       level.tables = std::make_shared<WorkTables>(level.model);
   }
   std::vector<Result> found;
   for (const std::string& method : reference_methods(level)) {
     if (found.size() == 2 || work.interrupted()) break;
-    work.progress(fmt::format("reference of {} by {}", told.name, method), 0);
+    work.progress(fmt::format("reference of {} by {}", reported.name, method), 0);
     SimulateOptions o = work.simulate_options(method, reference_tolerance);
     o.budget = work.options.time / (level.between ? 12 : 4);
-    Result r = simulate(level.model, told.name, o);
-    work.log(fmt::format("reference of {} by {}: {:.3g} s{}", told.name, method, r.statistics.cpu_seconds,
+    Result r = simulate(level.model, reported.name, o);
+    work.log(fmt::format("reference of {} by {}: {:.3g} s{}", reported.name, method, r.statistics.cpu_seconds,
                          r.complete ? "" : "; " + r.diagnosis));
     if (!r.complete) {
       work.last_diagnosis = r.diagnosis;
-      work.omit(fmt::format("{}, reference by {}", told.name, method), r.diagnosis);
+      work.omit(fmt::format("{}, reference by {}", reported.name, method), r.diagnosis);
       continue;
     }
-    (found.empty() ? told.first : told.second) = method;
+    (found.empty() ? reported.first : reported.second) = method;
     found.push_back(std::move(r));
   }
   if (found.size() < 2) {
-    work.omit(told.name, "no two methods give a reference that can be trusted");
+    work.omit(reported.name, "no two methods give a reference that can be trusted");
     return false;
   }
-  told.tolerance = reference_tolerance;
-  told.agreement = std::max(trajectory_difference(*found[1].trajectory, *found[0].trajectory), reference_tolerance);
+  reported.tolerance = reference_tolerance;
+  reported.agreement = std::max(trajectory_difference(*found[1].trajectory, *found[0].trajectory), reference_tolerance);
   for (Figure& f : found[0].figures) {
     const Figure* other = found[1].find(f.name);
     f.error = (other ? std::abs(f.value - other->value) : not_known) + f.resolution;
@@ -172,13 +172,14 @@ bool make_reference(AccuracyWork& work, LevelAtWork& level) {
   const std::string link = link_of(*level.model);
   if (const Figure* f = level.reference.find(quantities::final_angle, link)) level.end_angle = f->value;
   if (const Figure* f = level.reference.find(quantities::final_speed, link)) level.end_speed = f->value;
-  work.log(fmt::format("{}: {} and {} agree to {:.1e}", told.name, told.first, told.second, told.agreement));
+  work.log(
+      fmt::format("{}: {} and {} agree to {:.1e}", reported.name, reported.first, reported.second, reported.agreement));
   return true;
 }
 
 // The level of a model, on top of those before; false: it makes no machine, or no reliable one.
 bool add_level(AccuracyWork& work, const ModelRung& rung, bool between) {
-  LevelAtWork level{.told = {.name = rung.name}, .model = {}, .tables = {}, .reference = {}, .between = between};
+  LevelAtWork level{.reported = {.name = rung.name}, .model = {}, .tables = {}, .reference = {}, .between = between};
   try {
     level.model = compile(work.scene, rung.effects);
   } catch (const SceneError& refusal) {

@@ -19,7 +19,7 @@ inline constexpr double reference_tolerance = 1e-13;
 
 // A level in progress.
 struct LevelAtWork {
-  ModelLevel told;
+  ModelLevel reported;
   std::shared_ptr<const Model> model;
   std::shared_ptr<WorkTables> tables;   // null: the work equation does not apply
   Result reference;                     // of the first method

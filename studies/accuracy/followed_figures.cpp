@@ -17,16 +17,16 @@ namespace {
 std::vector<const Figure*> worth_following(const Result& full, const Model& model,
                                            const std::vector<std::string>& wanted) {
   std::vector<const Figure*> peaks, others;
-  const auto sound = [](const Figure& f) {
+  const auto valid = [](const Figure& f) {
     return std::abs(f.value) > 1e-9 * std::max(f.scale, 1e-300) && f.error && std::isfinite(*f.error);
   };
   for (const Figure& f : full.figures)
-    if (sound(f) && f.what == quantities::peak_torque) peaks.push_back(&f);
+    if (valid(f) && f.what == quantities::peak_torque) peaks.push_back(&f);
   for (const QuantityKind& what :
        {quantities::delta, quantities::cycle_fluctuation, quantities::run_up_time, quantities::final_angle,
         quantities::final_speed, quantities::max_speed, quantities::peak_force})
     for (const Figure& f : full.figures)
-      if (sound(f) && f.what == what && (what.functional != Functional::last || f.of == link_of(model)))
+      if (valid(f) && f.what == what && (what.functional != Functional::last || f.of == link_of(model)))
         others.push_back(&f);
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const Figure* a, const Figure* b) { return std::abs(a->value) > std::abs(b->value); });
@@ -37,7 +37,7 @@ std::vector<const Figure*> worth_following(const Result& full, const Model& mode
     if (!asked) {
       std::vector<std::string> names;
       for (const Figure& f : full.figures) names.push_back(f.name);
-      const std::string instead = told_instead(*name, names);
+      const std::string instead = stated_instead(*name, names);
       throw std::invalid_argument(fmt::format("--figures \"{}\": the scene yields no such figure; {}", *name,
                                               instead.empty() ? fmt::format("it yields {}", fmt::join(names, ", "))
                                                               : fmt::format("what it yields is \"{}\"", instead)));
@@ -58,19 +58,19 @@ void follow_figures(AccuracyWork& work) {
   for (LevelAtWork& level : work.levels)
     for (const FollowedFigure& followed : work.study.figures) {
       const Figure* f = like_in(level.reference, *full.reference.find(followed.name));
-      const bool sound = f && f->error && std::isfinite(*f->error) && f->value != 0;
-      level.told.value.push_back(sound ? f->value : not_known);
+      const bool valid = f && f->error && std::isfinite(*f->error) && f->value != 0;
+      level.reported.value.push_back(valid ? f->value : not_known);
       // Two runs may agree by chance: never below their tolerance.
-      level.told.floor.push_back(sound ? std::max(*f->error / std::abs(f->value), reference_tolerance) : not_known);
+      level.reported.floor.push_back(valid ? std::max(*f->error / std::abs(f->value), reference_tolerance) : not_known);
     }
 }
 
 void measure_figures(MeasuredSetting& s, const AccuracyWork& work, const LevelAtWork& level,
                      const std::function<double(const std::string&)>& value) {
-  const ModelLevel& full = work.levels[work.study.fullest].told;
+  const ModelLevel& full = work.levels[work.study.fullest].reported;
   for (std::size_t i = 0; i < work.study.figures.size(); ++i) {
-    const double v = value(work.study.figures[i].name), reference = level.told.value[i];
-    s.numerical_error.push_back(std::max(std::abs(v / reference - 1), level.told.floor[i]));
+    const double v = value(work.study.figures[i].name), reference = level.reported.value[i];
+    s.numerical_error.push_back(std::max(std::abs(v / reference - 1), level.reported.floor[i]));
     s.total_error.push_back(std::max(std::abs(v / full.value[i] - 1), full.floor[i]));
     if (std::isnan(v) || std::isnan(reference)) s.numerical_error.back() = not_known;
     if (std::isnan(v)) s.total_error.back() = not_known;

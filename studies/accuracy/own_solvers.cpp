@@ -13,9 +13,9 @@ namespace {
 // A level with the rigid model's result that yields only the motion of the link.
 std::size_t motion_level(AccuracyWork& work, const std::string& name) {
   const LevelAtWork& rigid = work.levels.front();
-  ModelLevel told = rigid.told;
-  told.name = name;
-  work.study.levels.push_back(told);
+  ModelLevel reported = rigid.reported;
+  reported.name = name;
+  work.study.levels.push_back(reported);
   return work.study.levels.size() - 1;
 }
 
@@ -26,7 +26,7 @@ void add_motion(AccuracyWork& work, MeasuredSetting s, double angle, double spee
   const std::string link = link_of(m);
   const double difference =
       std::max(std::abs(angle - rigid.end_angle), std::abs(speed - rigid.end_speed) / m.speed_scale);
-  s.trajectory_error = std::max(difference, rigid.told.agreement);
+  s.trajectory_error = std::max(difference, rigid.reported.agreement);
   measure_figures(s, work, rigid, [&](const std::string& name) {
     return name == "final_angle." + link ? angle : name == "final_speed." + link ? speed : not_known;
   });
@@ -43,7 +43,7 @@ double figure_of(const Result& r, const std::string& name) {
 // Motion from the work diagram: T(φ) = T₀ + A(φ), t = ∫dφ/ω. No tolerance, no steps.
 void add_energy_method(AccuracyWork& work) {
   const LevelAtWork& rigid = work.levels.front();
-  if (!rigid.tables || rigid.told.name != "rigid") return;
+  if (!rigid.tables || rigid.reported.name != "rigid") return;
   if (!rigid.tables->of_angle_alone())
     return work.omit("energy method", "a torque depends on the speed: the work done is not known beforehand");
   Equations equations(rigid.model, false);
@@ -73,7 +73,7 @@ void add_energy_method(AccuracyWork& work) {
 // Simbody's closed loop at every step, by its own integrators.
 void add_multibody(AccuracyWork& work) {
   const LevelAtWork& rigid = work.levels.front();
-  if (!work.options.multibody || rigid.told.name != "rigid") return;
+  if (!work.options.multibody || rigid.reported.name != "rigid") return;
   constexpr double seconds_per_turn = 0.004;  // at a loose accuracy, measured
   const double turns = std::abs(rigid.end_angle) / (2 * M_PI);
   const std::string link = link_of(*rigid.model);

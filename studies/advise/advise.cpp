@@ -66,7 +66,7 @@ class Adviser {
       if (known) continue;
       std::vector<std::string> names;
       for (const Figure& f : a_.full.figures) names.push_back(f.name);
-      const std::string instead = told_instead(name, names);
+      const std::string instead = stated_instead(name, names);
       throw std::invalid_argument(fmt::format(
           "--figures: no figure \"{}\"{}; see kurbel figures", name,
           instead.empty() ? suggestion(name, names) : fmt::format(" here; what is reported is \"{}\"", instead)));
@@ -234,7 +234,7 @@ class Adviser {
   void judge_what_does_not_go_with_the_rest() {
     for (std::size_t k = 0; k < a_.units.size(); ++k) {
       if (all_[k]) continue;
-      const LeftOut left = study_in_place_of_others(scene_, a_.units, all_, k, runs_);
+      const OmittedEffect left = study_in_place_of_others(scene_, a_.units, all_, k, runs_);
       const std::string what = a_.units[k].words + ", which does not go with " + left.in_place_of;
       std::vector<FigureChange> changes = left.changes;
       if (!options_.figures.empty())

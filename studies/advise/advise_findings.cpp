@@ -127,7 +127,7 @@ Findings findings_of(const Advice& a) {
              .complete = a.complete,
              .diagnosis = a.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
-             .tells_diagnosis = false};
+             .reports_diagnosis = false};
   f.conclude(a.complete, a.conclusion);
   const TriedSet &full = a.tried.front(), &chosen = a.tried[a.chosen];
   if (a.complete && a.chosen > 0)
@@ -140,11 +140,11 @@ Findings findings_of(const Advice& a) {
                {in_ms(chosen.cpu_seconds), "time of the lean model", "ms", "a run", 3, "processor_time"},
                {sets, "sets run", "", "", 3, "sets_run"}};
   const Chapter advice = f.chapter("Advice"), runs = f.chapter("Runs"), lean = f.chapter("Lean scene");
-  f.tell("within", a.tolerance);
+  f.record("within", a.tolerance);
   f.draw(advice, [&a] { return plane(a); });
   f.say(advice, effect_table(a));
   f.say(runs, tried_table(a));
-  f.tell("tried", each(a.tried, [&](const TriedSet& t) { return tried_record(a, t); }));
+  f.record("tried", each(a.tried, [&](const TriedSet& t) { return tried_record(a, t); }));
   f.say(advice, held_out_table(a));
   f.say(advice, Sentences{.lines = a.warnings, .title = "Warnings", .indent = "warning: ", .key = "warnings"});
   f.say(runs, Sentences{.lines = a.full.notes, .title = "Notes on the full model", .indent = "note: ", .key = "notes"});

@@ -10,11 +10,11 @@
 namespace kurbel {
 namespace {
 
-struct AdviseAsked : AdviseOptions {
+struct AdviseRequest : AdviseOptions {
   std::string write;  // file of the scene with the effects advised
 };
 
-StudyOutput advised(const Inquiry& inquiry, AdviseAsked asked) {
+StudyOutput advised(const Inquiry& inquiry, AdviseRequest asked) {
   if (!asked.write.empty())
     if (const std::string why = why_no_file_at(asked.write); !why.empty())
       throw std::invalid_argument(fmt::format("--write {}: {}", asked.write, why));
@@ -34,7 +34,7 @@ Question advise_question() {
        .help = "the cheapest set of effects whose figures stay within a tolerance",
        .does = "the cheapest set of effects whose figures stay within a tolerance of the fullest model; "
                "screened, then run; `--write lean.toml`"},
-      OptionsOf<AdviseAsked>()
+      OptionsOf<AdviseRequest>()
           .add({.name = "within",
                 .doc = "deviation allowed from the fullest model (default: 1 %)",
                 .example = "1 %",
@@ -44,7 +44,7 @@ Question advise_question() {
           .add({.name = "figures",
                 .doc = "figures that count, joined by commas, e.g. delta,peak_torque.main_coupling (default: all)"},
                &AdviseOptions::figures)
-          .add({.name = "write", .doc = "writes the scene with the effects advised"}, &AdviseAsked::write)
+          .add({.name = "write", .doc = "writes the scene with the effects advised"}, &AdviseRequest::write)
           .add({.name = "no_held_out", .doc = "skips the check at other loads and speeds"}, &AdviseOptions::held_out,
                false),
       advised);

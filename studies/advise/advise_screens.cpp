@@ -83,18 +83,18 @@ class Screening {
     const auto twist = channel_of(full_, Name::make(quantities::twist, component)),
                torque = channel_of(full_, Name::make(quantities::torque, component));
     if (twist && torque) {
-      const auto [share, swing] = activity_and_swing(*twist, *torque);
-      const bool about_zero = !std::isfinite(swing);
+      const auto [share, amplitude] = activity_and_amplitude(*twist, *torque);
+      const bool about_zero = !std::isfinite(amplitude);
       screens.push_back({"activity", share,
                          fmt::format("∫|τ dθ| is {:.2g} of {}: {}", share, base_.name,
                                      share > within_ ? "it takes part in the motion" : "little goes through it"),
                          share > within_});
-      screens.push_back({"swing", swing,
-                         about_zero
-                             ? std::string("its torque alternates about zero")
-                             : fmt::format("the largest torque is {:.3g} × its mean: {}", swing,
-                                           swing > 1.5 ? "it vibrates, or is loaded by shocks" : "it follows the mean"),
-                         swing > 1.5});
+      screens.push_back(
+          {"swing", amplitude,
+           about_zero ? std::string("its torque alternates about zero")
+                      : fmt::format("the largest torque is {:.3g} × its mean: {}", amplitude,
+                                    amplitude > 1.5 ? "it vibrates, or is loaded by shocks" : "it follows the mean"),
+           amplitude > 1.5});
     }
     for (std::size_t j = 0; modes_ && j < modes_->joint_names.size(); ++j) {
       if (modes_->joint_names[j] != component) continue;
@@ -105,7 +105,7 @@ class Screening {
   }
 
   // ∫|τ dθ| over the energy transmitted, and the largest torque over its mean; ∞ for zero mean.
-  std::pair<double, double> activity_and_swing(std::size_t twist, std::size_t torque) const {
+  std::pair<double, double> activity_and_amplitude(std::size_t twist, std::size_t torque) const {
     const TrajectoryRecorder& t = *full_.trajectory;
     double activity = 0, mean = 0, largest = 0;
     const std::size_t n = t.time().size();
@@ -162,11 +162,11 @@ class Screening {
   }
   std::optional<Screen> amplification(std::size_t joint) const {
     if (quasi_static_.joints.size() <= joint || modes_->here.joints.size() <= joint) return {};
-    const double swing = modes_->here.joints[joint].peak, still = quasi_static_.joints[joint].peak;
-    if (!(still > 0) || !std::isfinite(swing)) return {};
-    const double ratio = swing / still;
+    const double amplitude = modes_->here.joints[joint].peak, still = quasi_static_.joints[joint].peak;
+    if (!(still > 0) || !std::isfinite(amplitude)) return {};
+    const double ratio = amplitude / still;
     // Its contribution to the greatest torque, including the mean.
-    const double mean = std::abs(modes_->here.joints[joint].mean), share = std::abs(swing - still) / (mean + still);
+    const double mean = std::abs(modes_->here.joints[joint].mean), share = std::abs(amplitude - still) / (mean + still);
     return Screen{
         "quasi-static amplification", ratio,
         fmt::format("the forced amplitude at the operating point is {:.3g} × the quasi-static one, {:.2g} of its "

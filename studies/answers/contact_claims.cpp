@@ -125,10 +125,10 @@ class ContactJudge {
     for (std::size_t e = 0; e < m_.elastic.size(); ++e)
       if (m_.elastic[e].slips && equations_.modes().slip[e] != 0 && is_kind(owner_of(m_.elastic[e]), "belt"))
         slips_to_the_end(m_.elastic[e], slip_of(m_.elastic[e]));
-    for (std::size_t k = 0; k < m_.own_states.size(); ++k) {
-      if (m_.own_states[k].state.name != "slipped_angle") continue;
+    for (std::size_t k = 0; k < m_.internal_states.size(); ++k) {
+      if (m_.internal_states[k].state.name != "slipped_angle") continue;
       for (const ElasticJoint& joint : m_.elastic)
-        if (owner_of(joint) == m_.own_states[k].component) slips_to_the_end(joint, now_.sums.own_rate[k]);
+        if (owner_of(joint) == m_.internal_states[k].component) slips_to_the_end(joint, now_.sums.internal_rate[k]);
     }
     for (const std::string& component : m_.network.components)
       if (is_kind(component, "belt") && !slipping_.count(component)) slips_at_times(component);

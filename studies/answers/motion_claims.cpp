@@ -114,7 +114,7 @@ class Judge {
     return list;
   }
   // "gear", "bearing": components that oppose motion on standing shafts, and gears locked by their losses.
-  std::string what_holds() const {
+  std::string holding_component() const {
     if (const std::string* brake = brake_that_holds()) return fmt::format("\"{}\"", *brake);
     std::set<std::string> names;
     for (const Network::ShaftElement& e : m_.network.elements)
@@ -133,7 +133,7 @@ class Judge {
       return (e.element->account == Account::useful || e.element->cycle > 0) &&
              equations_.at_standstill(at(m_.shaft_of_node[at(e.node)]));
     });
-    const std::string names = any_load ? std::string() : what_holds();
+    const std::string names = any_load ? std::string() : holding_component();
     return names.empty() ? load : names;
   }
 
@@ -275,7 +275,7 @@ class Judge {
     const bool moves = std::abs(speed()) > dust * m_.speed_scale, ever = fastest > dust * m_.speed_scale;
     if (!rests() && (moves || (ever && gears_that_hold().empty()))) return {};
     const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
-    const std::string holders = what_holds();
+    const std::string holders = holding_component();
     std::optional<Claim> claim;
     if (!holders.empty() && (anything_acts || brake_that_holds()))
       claim =
@@ -298,7 +298,7 @@ class Judge {
     if (!motor || rests()) return {};
     const std::string* brake = brake_that_holds();
     const bool own = brake && m_.shaft_of_node[at(motor->node)] == m_.shaft_of_node[at(m_.network.ports.at(*brake).in)];
-    std::string holders = own || nearly_rests ? what_holds() : std::string();
+    std::string holders = own || nearly_rests ? holding_component() : std::string();
     if (holders.empty() && nearly_rests) holders = "its loads";
     if (holders.empty()) return {};
     return claimed_aside(Predicate::held_by,
@@ -308,7 +308,7 @@ class Judge {
   }
 
   // Less than one turn, and nearly at rest, although something drives; a brake put on meanwhile is meant to stop it.
-  std::optional<Claim> never_gets_round(const Result& r, double fastest) const {
+  std::optional<Claim> never_completes_a_cycle(const Result& r, double fastest) const {
     if (is_commanded() || !r.cycles.empty() || m_.cycle == 0 || r.periods.run_down_begin || brake_that_holds(true))
       return {};
     if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
@@ -416,7 +416,7 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
   } else {
     for (std::optional<Claim> claim :
          std::array{judge.backwards(result), judge.runs_away(result), judge.hangs(result.periods),
-                    judge.never_gets_round(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
+                    judge.never_completes_a_cycle(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
       add(claims, std::move(claim));
     if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); })) {
       std::optional<Claim> vibrates = judge.vibrates(result.periods), held = judge.motor_held();

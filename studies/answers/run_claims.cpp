@@ -108,9 +108,9 @@ class RunWords {
   std::string link() const { return r_.model ? r_.model->network.nodes[at(r_.model->reduction_node)].component : "it"; }
   const Figure* figure(const QuantityKind& what) const { return r_.model ? r_.find(what, link()) : nullptr; }
   std::string speed(double value) const {
-    return told_shortly(value, "rad/s", r_.model ? r_.model->scene.speed_unit : SpeedUnit{});
+    return short_text(value, "rad/s", r_.model ? r_.model->scene.speed_unit : SpeedUnit{});
   }
-  static std::string seconds(double t) { return told_shortly(t, "s"); }
+  static std::string seconds(double t) { return short_text(t, "s"); }
 
   const Result& r_;
   const Periods& p_;
@@ -151,7 +151,7 @@ void sticking_shafts(const Result& r, Claims& claims) {
     if (!(rests.forwards && rests.backwards))
       add(claims, claimed(Predicate::sticks_and_slips,
                           fmt::format("\"{}\" sticks and slips: it rests {} times, first at {}, while \"{}\" turns",
-                                      shaft, rests.count, told_shortly(rests.first, "s"), link),
+                                      shaft, rests.count, short_text(rests.first, "s"), link),
                           shaft, {.at = rests.first, .value = rests.count, .limit = 2}));
 }
 

@@ -247,9 +247,9 @@ std::vector<std::string> concluded(Claims claims) {
     return place(a) < place(b);
   });
   std::vector<std::string> sentences;
-  std::map<std::pair<bool, Topic>, int> told;
+  std::map<std::pair<bool, Topic>, int> reported;
   for (const Claim& claim : claims) {
-    if (claim.is_bad() && ++told[{claim.variant.empty(), claim.topic()}] > most_bad_news) continue;
+    if (claim.is_bad() && ++reported[{claim.variant.empty(), claim.topic()}] > most_bad_news) continue;
     if (std::string sentence = as_sentence(headline(claim.text)); !sentence.empty())
       sentences.push_back(std::move(sentence));
   }

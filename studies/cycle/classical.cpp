@@ -24,7 +24,7 @@ void list_parts(const Model& m, std::vector<std::string>& list) {
                                    [&](const std::string& other) { return other.find(name) != std::string::npos; });
     if (!known) list.push_back(name + what);
   };
-  for (const OwnStatePlace& own : m.own_states)
+  for (const PlacedInternalState& own : m.internal_states)
     add(own.component, fmt::format(", whose {} is a state of its own", own.state.name));
   for (const ElasticJoint& e : m.elastic)
     if (e.slips || e.springless) add(m.network.joints[at(e.joint)].component, ", which may slip");

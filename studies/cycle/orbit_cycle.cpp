@@ -22,10 +22,10 @@ constexpr double shortest = 1e-11;         // way of a step that is worth a piec
 constexpr double slowest_of_rated = 1e-6;  // below that the link stands
 
 // Channels: time shares … of the accounts, then speed, kinetic energy, speeds of nodes; nodes of a piece per step.
-class RoundRecorder final : public Observer {
+class PeriodRecorder final : public Observer {
  public:
   // `origin`: angle from which the way counts [rad].
-  RoundRecorder(const Model& m, double sense, double origin, const std::vector<int>& nodes)
+  PeriodRecorder(const Model& m, double sense, double origin, const std::vector<int>& nodes)
       : m_(m), sense_(sense), origin_(origin), nodes_(nodes), samples_(m.accounts.size() + 2 + nodes.size()) {}
 
   void begin(double, std::span<const double> y, Equations& equations) override { breaks_ = {way(equations, y)}; }
@@ -126,7 +126,7 @@ AnyShaftElement::InertiaAt mechanism_inertia(const Model& m, double phi) {
 // The part of the travel within [begin, begin + length), modulo whole periods.
 double within(double s, double begin, double length) { return s - length * std::floor((s - begin) / length); }
 
-std::vector<double> edges_of_round(const RoundRecorder& recorder, double length) {
+std::vector<double> edges_of_period(const PeriodRecorder& recorder, double length) {
   std::vector<double> edges = {within(recorder.begin_way(), 0, length)};
   for (const double edge : recorder.edges()) edges.push_back(within(edge, 0, length));
   std::sort(edges.begin(), edges.end());
@@ -138,7 +138,8 @@ std::vector<double> edges_of_round(const RoundRecorder& recorder, double length)
   return result;
 }
 
-OrbitCycle assembled(const Model& m, const RoundRecorder& recorder, double sense, double tolerance, std::size_t nodes) {
+OrbitCycle assembled(const Model& m, const PeriodRecorder& recorder, double sense, double tolerance,
+                     std::size_t nodes) {
   const std::vector<Piecewise> raw = recorder.functions();
   const double begin = recorder.begin_way(), length = raw.front().length();
   const std::size_t accounts = m.accounts.size(), own = raw.size();
@@ -152,7 +153,7 @@ OrbitCycle assembled(const Model& m, const RoundRecorder& recorder, double sense
     out[own] = drive, out[own + 1] = -load, out[own + 2] = inertia.value, out[own + 3] = sense * inertia.slope;
   };
   std::vector<Piecewise> all = Piecewise::sample(
-      edges_of_round(recorder, length), own + 4, sampler, [](double) { Deadline::check(); }, tolerance);
+      edges_of_period(recorder, length), own + 4, sampler, [](double) { Deadline::check(); }, tolerance);
   OrbitCycle c;
   c.sense = sense;
   c.cycle.drive = all[own], c.cycle.load = all[own + 1];
@@ -176,7 +177,7 @@ OrbitCycle follow(const ReturnMap& map, const SteadyPoint& point, const std::vec
   // If only time drives, the link may be at any angle when a period begins: its travel is 0 there.
   const bool anywhere = map.periodicity().by_time && !map.periodicity().angle_matters;
   const double origin = anywhere ? equations.angle_with_turns(at(m.reduction_angle), y) : 0;
-  RoundRecorder recorder(m, sense, origin, nodes);
+  PeriodRecorder recorder(m, sense, origin, nodes);
   const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&recorder});
   if (!outcome.diagnosis.empty()) throw std::invalid_argument(outcome.diagnosis);
   if (!recorder.singular().empty())

@@ -203,7 +203,7 @@ const Definition* meant_by(std::string_view asked) {
   return last == std::string_view::npos ? nullptr : find_symbol(asked.substr(last + 1));
 }
 
-std::string told_instead(std::string_view asked, const std::vector<std::string>& names) {
+std::string stated_instead(std::string_view asked, const std::vector<std::string>& names) {
   const std::string_view what = asked.substr(0, asked.find('.'));
   const std::string owner(asked.substr(what.size()));
   std::vector<std::string> others = {"cycle_" + std::string(what)};

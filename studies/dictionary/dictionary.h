@@ -45,7 +45,7 @@ const Definition* definition_of(const Name& name);
 const Definition* meant_by(std::string_view asked);
 // The one of `names` that replaces a figure not given under `asked`: δ of motion that does not repeat; figures of a
 // whole run and of a cycle; empty: none.
-std::string told_instead(std::string_view asked, const std::vector<std::string>& names);
+std::string stated_instead(std::string_view asked, const std::vector<std::string>& names);
 
 // Similar names, nearest first, at most `most`.
 std::vector<std::string> names_like(std::string_view asked, std::size_t most);

@@ -108,13 +108,13 @@ MachineDifference difference_between(const MachineQuestion& a, const MachineQues
   MachineAnswer first = answer_of(a), second = answer_of(b);
   MachineDifference d{.of = of, .a = std::move(first), .b = std::move(second)};
   for (const Figure& f : d.a.figures) {
-    FigureDifference row{.name = f.name, .unit = f.unit, .a = f, .scale = f.scale, .telling = is_telling(f)};
+    FigureDifference row{.name = f.name, .unit = f.unit, .a = f, .scale = f.scale, .reporting = is_informative(f)};
     d.figures.push_back(std::move(row));
   }
   for (const Figure& f : d.b.figures) {
     auto row = std::find_if(d.figures.begin(), d.figures.end(), [&](const auto& r) { return r.name == f.name; });
     if (row == d.figures.end())
-      row = d.figures.insert(row, {.name = f.name, .unit = f.unit, .scale = f.scale, .telling = is_telling(f)});
+      row = d.figures.insert(row, {.name = f.name, .unit = f.unit, .scale = f.scale, .reporting = is_informative(f)});
     row->b = f;
   }
   d.changes = scene_changes(parse_toml(d.a.text, d.a.file), parse_toml(d.b.text, d.b.file));

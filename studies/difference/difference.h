@@ -27,7 +27,7 @@ struct FigureDifference {
   std::string name, unit;
   std::optional<Estimate> a = {}, b = {};  // empty: that machine has no such figure
   double scale = 0;                        // its usual magnitude
-  bool telling = false;                    // a peak, a speed, a fluctuation: relevant for a headline
+  bool reporting = false;                  // a peak, a speed, a fluctuation: relevant for a headline
 
   std::optional<Estimate> change() const;  // b − a
   std::optional<double> relative() const;  // b/a − 1; empty if a does not differ from zero

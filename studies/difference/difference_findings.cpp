@@ -36,7 +36,7 @@ std::vector<const FigureDifference*> by_size(const MachineDifference& d) {
   std::vector<const FigureDifference*> list;
   for (const FigureDifference& f : d.figures)
     if (f.differs() && f.relative()) list.push_back(&f);
-  const auto rank = [](const FigureDifference& f) { return (f.telling ? 10 : 1) * f.weight(); };
+  const auto rank = [](const FigureDifference& f) { return (f.reporting ? 10 : 1) * f.weight(); };
   std::stable_sort(list.begin(), list.end(), [&](const auto* x, const auto* y) { return rank(*x) > rank(*y); });
   return list;
 }
@@ -61,8 +61,8 @@ std::string conclusion(const MachineDifference& d) {
   std::string text;
   for (std::size_t i = 0; i < list.size() && i < 3; ++i)
     text += fmt::format("{}{} {} → {} ({})", i ? ", " : "", list[i]->name,
-                        told_shortly(list[i]->a->value, list[i]->unit, d.speed_unit()),
-                        told_shortly(list[i]->b->value, list[i]->unit, d.speed_unit()), percent(*list[i]->relative()));
+                        short_text(list[i]->a->value, list[i]->unit, d.speed_unit()),
+                        short_text(list[i]->b->value, list[i]->unit, d.speed_unit()), percent(*list[i]->relative()));
   return fmt::format("\"{}\" against \"{}\": {}{}{} of {} figures differ by more than their errors; {}", names.b,
                      names.a, text, text.empty() ? "" : "; ", count, d.figures.size(), keys_in_words(d));
 }
@@ -151,15 +151,15 @@ Findings findings_of(const MachineDifference& d) {
       f.figures.push_back({read_in(d, *figure, *figure->b), figure->name,
                            figure->unit == "rad/s" ? d.speed_unit().name : figure->unit,
                            fmt::format("{} from {}", percent(*figure->relative()),
-                                       told_shortly(figure->a->value, figure->unit, d.speed_unit())),
+                                       short_text(figure->a->value, figure->unit, d.speed_unit())),
                            0, figure->name});
     }
   const Chapter figures = f.chapter("Figures"), scenes = f.chapter("Scenes");
   f.draw(figures, [&d] { return picture(d); });
   f.say(scenes, change_table(d));
   f.say(figures, figure_table(d));
-  f.tell("of", d.of);
-  f.tell("other_scene", d.b.file);
+  f.record("of", d.of);
+  f.record("other_scene", d.b.file);
   f.show_scene(d.a.file, d.a.text);
   if (!d.changes.empty() || d.b.file != d.a.file)
     f.show(f.chapter("The other scene"), Text{.title = d.b.file, .body = d.b.text, .verbatim = true, .folded = true});

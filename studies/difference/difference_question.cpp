@@ -8,12 +8,12 @@
 namespace kurbel {
 namespace {
 
-struct DifferenceAsked : MachineAsked {
+struct DifferenceRequest : MachineRequest {
   std::string other;  // its file; empty: the same scene
   std::vector<std::string> other_set;
 };
 
-StudyOutput difference(const Inquiry& inquiry, DifferenceAsked asked) {
+StudyOutput difference(const Inquiry& inquiry, DifferenceRequest asked) {
   const MachineQuestion one = question_of(inquiry, asked);
   MachineQuestion other = one;
   if (!asked.other.empty()) other.text = read_text_file(asked.other, max_scene_bytes), other.file = asked.other;
@@ -34,12 +34,12 @@ Question difference_question() {
        .does = "puts the same question (`--of`) to two scenes, or to one with other values (`--other-set`): every "
                "figure of both with its error, whether they differ by more than that, and the keys that differ",
        .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | what one value does"}},
-      OptionsOf<DifferenceAsked>()
-          .add({.name = "other", .doc = "scene file of the other machine", .by_place = true}, &DifferenceAsked::other)
+      OptionsOf<DifferenceRequest>()
+          .add({.name = "other", .doc = "scene file of the other machine", .by_place = true}, &DifferenceRequest::other)
           .add({.name = "other_set",
                 .doc = "COMPONENT.KEY=VALUE in the other machine alone; --set holds for both; repeatable",
                 .each_time = true},
-               &DifferenceAsked::other_set)
+               &DifferenceRequest::other_set)
           .add(machine_options()),
       difference);
 }

@@ -72,16 +72,16 @@ void FlywheelFalls::search(StepView& view, const Wheel& w, const See& see) {
                 [&](double t) { see(t, speed(t)); });
 }
 
-void FlywheelFalls::tell(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureTeller& tell) {
+void FlywheelFalls::report(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureReporter& report) {
   for (const auto& [component, flywheel] : model.network.data.all<Flywheel>()) {
     const Wheel* wheel = nullptr;
     for (const Wheel& w : seen ? std::span(seen->wheels_) : std::span<const Wheel>())
       if (w.component == component && w.from > 0) wheel = &w;
-    tell("speed_drop", component, [&]() -> std::optional<Found> {
+    report("speed_drop", component, [&]() -> std::optional<Found> {
       if (!wheel) return {};
       return Found{(wheel->from - wheel->to) / wheel->from, 1, wheel->low_at};
     });
-    tell("energy_given", component, [&]() -> std::optional<Found> {
+    report("energy_given", component, [&]() -> std::optional<Found> {
       if (!wheel) return {};
       return Found{0.5 * wheel->inertia * (wheel->from * wheel->from - wheel->to * wheel->to), energy_scale,
                    wheel->low_at};

@@ -21,7 +21,7 @@ class FlywheelFalls final : public Observer {
   void remember(Tape& tape) override { tape(wheels_); }
 
   // For all flywheels whose inertia is given; `seen`: observed in a run.
-  static void tell(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureTeller& tell);
+  static void report(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureReporter& report);
 
  private:
   struct Wheel {

@@ -51,10 +51,10 @@ std::vector<ExtremeOf> held_torques_of(const Model& model) {
   return wanted;
 }
 
-void tell_reserves(const Model& model, FigureTeller& tell) {
+void report_reserves(const Model& model, FigureReporter& report) {
   for (const Holder& h : holders_of(model))
-    tell("torque_reserve", h.component, [&]() -> std::optional<Found> {
-      const Figure* held = tell.find("held_torque." + h.component);
+    report("torque_reserve", h.component, [&]() -> std::optional<Found> {
+      const Figure* held = report.find("held_torque." + h.component);
       if (!held || !(std::abs(held->value) > least_held * h.capacity)) return {};
       return Found{h.capacity / std::abs(held->value), 1};
     });

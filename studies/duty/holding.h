@@ -13,6 +13,6 @@ namespace kurbel {
 // Largest torques held by clutches, located together with the other extremes.
 std::vector<ExtremeOf> held_torques_of(const Model& model);
 // From the held torques found in the run.
-void tell_reserves(const Model& model, FigureTeller& tell);
+void report_reserves(const Model& model, FigureReporter& report);
 
 }  // namespace kurbel

@@ -17,13 +17,13 @@ double half_square(std::span<const double> y, std::size_t own, const std::vector
 
 }  // namespace
 
-MotorCurrents::MotorCurrents(const Model& m) : own_begin_(m.state_count() - m.own_states.size()) {
+MotorCurrents::MotorCurrents(const Model& m) : internal_begin_(m.state_count() - m.internal_states.size()) {
   for (const MotorTorque& motor : m.motors) {
     Motor found;
     found.component = motor.component;
-    for (std::size_t k = 0; k < m.own_states.size(); ++k) {
-      const OwnState& state = m.own_states[k].state;
-      if (m.own_states[k].component != motor.component) continue;
+    for (std::size_t k = 0; k < m.internal_states.size(); ++k) {
+      const InternalState& state = m.internal_states[k].state;
+      if (m.internal_states[k].component != motor.component) continue;
       if (state.name.starts_with("stator_current")) found.stator.push_back(k), found.usual = state.scale;
       if (state.name.starts_with("rotor_current")) found.rotor.push_back(k);
     }
@@ -44,8 +44,8 @@ void MotorCurrents::step(StepView& view) {
   gauss<4>.over(view.t_previous(), view.t() - view.t_previous(), [&](double t, double weight) {
     const std::span<const double> y = view.at(t);
     for (Motor& motor : motors_) {
-      motor.on_stator.back() += weight * half_square(y, own_begin_, motor.stator);
-      motor.on_rotor.back() += weight * half_square(y, own_begin_, motor.rotor);
+      motor.on_stator.back() += weight * half_square(y, internal_begin_, motor.stator);
+      motor.on_rotor.back() += weight * half_square(y, internal_begin_, motor.rotor);
     }
   });
 }

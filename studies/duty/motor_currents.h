@@ -32,7 +32,7 @@ class MotorCurrents final : public Observer {
   double stator_square(const Motor& motor, double begin, double end) const;
 
  private:
-  std::size_t own_begin_ = 0;
+  std::size_t internal_begin_ = 0;
   std::vector<double> time_;
   std::vector<Motor> motors_;
 };

@@ -17,9 +17,9 @@ bool is_commanded(const Model& m, const MotorTorque& motor) {
 // heat of slip is given.
 std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor) {
   const auto* data = m.network.data.find<InductionData>(motor.component);
-  const bool transient = std::any_of(m.own_states.begin(), m.own_states.end(), [&](const OwnStatePlace& own) {
-    return own.component == motor.component && !own.state.lags;
-  });
+  const bool transient =
+      std::any_of(m.internal_states.begin(), m.internal_states.end(),
+                  [&](const PlacedInternalState& own) { return own.component == motor.component && !own.state.lags; });
   return data && !data->by_converter && !transient && !is_commanded(m, motor) ? std::optional(data->synchronous_speed)
                                                                               : std::nullopt;
 }
@@ -56,19 +56,19 @@ const CycleRecord* cycle_that_heats(const MotorRun& run, std::size_t i) {
 // The figures of one motor, the i-th; `run`: null for a list.
 class OneMotor {
  public:
-  OneMotor(const Model& m, std::size_t i, const MotorRun* run, FigureTeller& tell)
-      : m_(m), motor_(m.motors[i]), i_(i), run_(run), tell_(tell) {}
+  OneMotor(const Model& m, std::size_t i, const MotorRun* run, FigureReporter& report)
+      : m_(m), motor_(m.motors[i]), i_(i), run_(run), report_(report) {}
 
   void of_run() {
-    tell("motor_rms_torque", [&] { return Found{root_mean_square(square(), run_->duration), motor_.rated_torque}; });
-    tell("motor_mean_power", [&] { return Found{work() / run_->duration, run_->energy_scale / run_->duration}; });
+    report("motor_rms_torque", [&] { return Found{root_mean_square(square(), run_->duration), motor_.rated_torque}; });
+    report("motor_mean_power", [&] { return Found{work() / run_->duration, run_->energy_scale / run_->duration}; });
     if (const auto* current = armature_current(m_, motor_)) armature_currents(*current);
     if (const std::optional<double> synchronous = synchronous_speed(m_, motor_)) {
       const double usual = motor_.rated_torque * *synchronous * (run_ ? run_->duration : 0);
-      tell("motor_slip_heat", [&] {
+      report("motor_slip_heat", [&] {
         return Found{*synchronous * mean() - work(), std::max(run_->energy_scale, usual)};
       });
-      tell("start_heat", [&]() -> std::optional<Found> {
+      report("start_heat", [&]() -> std::optional<Found> {
         const std::optional<double> heat = start_heat(*synchronous);
         if (!heat) return {};
         return Found{*heat, std::max(run_->energy_scale, usual)};
@@ -80,7 +80,7 @@ class OneMotor {
   void thermal_use() {
     const std::optional<double> rated = rated_torque(m_, motor_);
     if (!rated) return;
-    tell("thermal_use", [&]() -> std::optional<Found> {
+    report("thermal_use", [&]() -> std::optional<Found> {
       if (!(*rated > 0)) return {};
       // Without a cycle, in steady motion, by the final torque: all that varies has decayed.
       if (m_.cycle == 0 && !run_->last && run_->steady) return Found{std::abs(torque_at_end()) / *rated, 1, run_->end};
@@ -92,7 +92,7 @@ class OneMotor {
   }
   void cycle_power() {
     if (m_.cycle == 0) return;
-    tell("cycle_motor_power", [&]() -> std::optional<Found> {
+    report("cycle_motor_power", [&]() -> std::optional<Found> {
       const CycleRecord* last = run_->last;
       if (!last) return {};
       return Found{driving_work(m_, motor_.component, last->work) / (last->end - last->begin),
@@ -102,8 +102,8 @@ class OneMotor {
 
  private:
   template <class Find>
-  void tell(const char* words, const Find& find) {
-    tell_(words, motor_.component, find);
+  void report(const char* words, const Find& find) {
+    report_(words, motor_.component, find);
   }
   double mean() const { return run_->y[run_->equations.motor_index(i_, false)]; }   // ∫M dt
   double square() const { return run_->y[run_->equations.motor_index(i_, true)]; }  // ∫M² dt
@@ -119,11 +119,11 @@ class OneMotor {
       return std::sqrt(law.by_mean * std::abs(torque) + law.by_square * torque * torque);
     };
     const double rated = motor_.rated_torque;
-    tell("motor_rms_current", [&] {
+    report("motor_rms_current", [&] {
       return Found{rms(mean() / run_->duration, square() / run_->duration), rms(rated, rated * rated)};
     });
-    tell("motor_peak_current", [&]() -> std::optional<Found> {
-      const Figure* torque = tell_.find("motor_peak_torque." + motor_.component);
+    report("motor_peak_current", [&]() -> std::optional<Found> {
+      const Figure* torque = report_.find("motor_peak_torque." + motor_.component);
       if (!torque) return {};
       return Found{peak(torque->value), peak(rated), torque->at};
     });
@@ -139,11 +139,11 @@ class OneMotor {
         const double usual = std::abs(motor_.rated_torque * motor_.rated_speed) * run_->duration;
         return Found{3 * resistance * square, std::max(run_->energy_scale, usual)};
       };
-      tell("motor_rms_current", [&] { return Found{root_mean_square(m.stator_square(), run_->duration), m.usual}; });
-      tell("motor_slip_heat", [&] { return heat(windings->rotor_resistance, m.rotor_square()); });
-      tell("motor_stator_heat", [&] { return heat(windings->stator_resistance, m.stator_square()); });
+      report("motor_rms_current", [&] { return Found{root_mean_square(m.stator_square(), run_->duration), m.usual}; });
+      report("motor_slip_heat", [&] { return heat(windings->rotor_resistance, m.rotor_square()); });
+      report("motor_stator_heat", [&] { return heat(windings->stator_resistance, m.stator_square()); });
       if (m_.cycle > 0)
-        tell("current_use", [&]() -> std::optional<Found> {
+        report("current_use", [&]() -> std::optional<Found> {
           const CycleRecord* cycle = cycle_that_heats(*run_, i_);
           if (!cycle || !(windings->rated_current > 0)) return {};
           const double square = currents.stator_square(m, cycle->begin, cycle->end);
@@ -172,7 +172,7 @@ class OneMotor {
   const MotorTorque& motor_;
   std::size_t i_;
   const MotorRun* run_;
-  FigureTeller& tell_;
+  FigureReporter& report_;
 };
 
 // Between events.
@@ -193,18 +193,18 @@ double driving_work(const Model& m, const std::string& component, std::span<cons
   return sum;
 }
 
-void tell_motors(const MotorRun& run, FigureTeller& tell) {
+void report_motors(const MotorRun& run, FigureReporter& report) {
   const Model& m = run.equations.model();
   if (!(run.duration > 0) || run.work.empty()) return;
   for (std::size_t i = 0; i < m.motors.size(); ++i) {
-    OneMotor motor(m, i, &run, tell);
+    OneMotor motor(m, i, &run, report);
     motor.of_run(), motor.thermal_use(), motor.cycle_power();
   }
 }
 
-void list_motors(const Model& m, FigureTeller& tell) {
+void list_motors(const Model& m, FigureReporter& report) {
   for (std::size_t i = 0; i < m.motors.size(); ++i) {
-    OneMotor motor(m, i, nullptr, tell);
+    OneMotor motor(m, i, nullptr, report);
     motor.of_run(), motor.cycle_power(), motor.thermal_use();
   }
 }

@@ -47,9 +47,9 @@ struct MotorRun {
   std::optional<Span> after_run_up = {};  // from the end of run-up until the drive goes off, if there is one [s]
 };
 // Their peaks are reported before.
-void tell_motors(const MotorRun& run, FigureTeller& tell);
+void report_motors(const MotorRun& run, FigureReporter& report);
 // All figures that a run may yield.
-void list_motors(const Model& model, FigureTeller& tell);
+void list_motors(const Model& model, FigureReporter& report);
 // Peaks located along the run: of torque, of the power of a prescribed shaft's drive, of a current in two axes.
 std::vector<ExtremeOf> motor_extremes_of(const Model& model);
 

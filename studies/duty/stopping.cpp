@@ -8,7 +8,7 @@
 namespace kurbel {
 namespace {
 
-enum class Told { neither, drives, stops };
+enum class Purpose { neither, drives, stops };
 
 // Kind of a component's commands that drive or stop.
 enum class Role { none, motor, clutch, brake };
@@ -23,18 +23,18 @@ Role role_of(const Model& m, const std::string& component) {
   return Role::none;
 }
 
-Told told_by(Role role, double before, double to) {
+Purpose purpose_of(Role role, double before, double to) {
   switch (role) {
     case Role::none:
-      return Told::neither;
+      return Purpose::neither;
     case Role::brake:
-      return to > 0 ? Told::stops : Told::drives;
+      return to > 0 ? Purpose::stops : Purpose::drives;
     case Role::clutch:
-      return to > 0 ? Told::drives : Told::stops;
+      return to > 0 ? Purpose::drives : Purpose::stops;
     case Role::motor:
-      return to == 0 || before * to < 0 ? Told::stops : Told::drives;
+      return to == 0 || before * to < 0 ? Purpose::stops : Purpose::drives;
   }
-  return Told::neither;
+  return Purpose::neither;
 }
 
 }  // namespace
@@ -47,9 +47,9 @@ std::optional<Stopping> first_stopping(const Model& model, const EventLog& event
     if (e.kind == EventKind::lock || (e.component == link && e.kind == EventKind::motion)) signal = nullptr;
     if (e.kind == EventKind::command) {
       const double to = e.value.value_or(0), before = last.try_emplace(e.component, 1).first->second;
-      const Told told = told_by(role_of(model, e.component), before, to);
-      if (told == Told::drives) signal = nullptr;
-      if (told == Told::stops && !signal) signal = &e;
+      const Purpose purpose = purpose_of(role_of(model, e.component), before, to);
+      if (purpose == Purpose::drives) signal = nullptr;
+      if (purpose == Purpose::stops && !signal) signal = &e;
       last[e.component] = to;
     }
     if (e.component == link && e.kind == EventKind::rest && signal)

@@ -81,20 +81,20 @@ std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, con
   return list;
 }
 
-void tell_works(const Model& m, const std::vector<WorkPeriod>& periods, FigureTeller& tell) {
+void report_works(const Model& m, const std::vector<WorkPeriod>& periods, FigureReporter& report) {
   if (m.cycle == 0) return;
   for (const std::string name : names) {
     const auto period =
         std::find_if(periods.begin(), periods.end(), [&](const WorkPeriod& p) { return p.name == name; });
-    const auto tell_one = [&](const char* of, auto value) {
-      tell(Name::own("work_of_" + name, of), [&]() -> std::optional<Found> {
+    const auto report_one = [&](const char* of, auto value) {
+      report(Name::own("work_of_" + name, of), [&]() -> std::optional<Found> {
         if (period == periods.end()) return {};
         return Found{value(*period)};
       });
     };
     for (std::size_t i = 0; i < all_accounts.size(); ++i)
-      tell_one(name_of(all_accounts[i]), [i](const WorkPeriod& p) { return p.work[i]; });
-    tell_one("energy", [](const WorkPeriod& p) { return p.energy; });
+      report_one(name_of(all_accounts[i]), [i](const WorkPeriod& p) { return p.work[i]; });
+    report_one("energy", [](const WorkPeriod& p) { return p.energy; });
   }
 }
 

@@ -54,6 +54,6 @@ std::vector<WorkPeriod> work_periods(const Model& model, const Periods& periods,
 
 // "work_of_run_up.driving" … "work_of_run_up.energy": their errors are reported, not judged, as borders may differ
 // between runs.
-void tell_works(const Model& model, const std::vector<WorkPeriod>& periods, FigureTeller& tell);
+void report_works(const Model& model, const std::vector<WorkPeriod>& periods, FigureReporter& report);
 
 }  // namespace kurbel

@@ -15,7 +15,7 @@ namespace kurbel {
 namespace {
 
 // The greatest change consistent with the errors.
-double largest(const LeftOut& l) {
+double largest(const OmittedEffect& l) {
   double most = 0;
   for (const FigureChange& c : l.changes) most = std::max(most, c.relative + c.error);
   return most;
@@ -24,12 +24,12 @@ double largest(const LeftOut& l) {
 // Effects excluded from the full model, and their greatest change.
 std::string beyond(const EffectStudy& s) {
   std::string text;
-  for (const LeftOut& l : s.left_out) {
+  for (const OmittedEffect& l : s.omitted) {
     if (l.in_place_of.empty()) continue;
     text += fmt::format(" The full model is without {}, which does not go with {}", l.effect.words, l.in_place_of);
     if (!l.failed.empty())
       text += " and does not run: " + l.failed;
-    else if (l.changes.empty() || !l.changes.front().told())
+    else if (l.changes.empty() || !l.changes.front().reported())
       text += "; in their place it changes no figure compared by more than the runs' errors";
     else
       text += fmt::format("; in their place it changes {} by {:.2g} ± {:.1g} %", l.changes.front().figure,
@@ -42,17 +42,17 @@ std::string beyond(const EffectStudy& s) {
 std::string conclusion_of(const EffectStudy& s) {
   if (!s.full.complete) return "The full model did not run to the end: " + s.full.diagnosis;
   std::string text;
-  const auto strongest = std::find_if(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) {
+  const auto strongest = std::find_if(s.omitted.begin(), s.omitted.end(), [](const OmittedEffect& l) {
     return l.failed.empty() && !l.changes.empty() && l.in_place_of.empty();
   });
-  if (strongest == s.left_out.end()) {
+  if (strongest == s.omitted.end()) {
     const bool any_ran =
-        std::any_of(s.left_out.begin(), s.left_out.end(), [](const LeftOut& l) { return l.failed.empty(); });
+        std::any_of(s.omitted.begin(), s.omitted.end(), [](const OmittedEffect& l) { return l.failed.empty(); });
     return any_ran ? "All figures compared are zero, with and without each effect: the effects cannot be ranked."
                    : "No effect of this scene can be omitted: without any of them it does not run.";
   }
   const FigureChange& most = strongest->changes.front();
-  if (!most.told()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);
+  if (!most.reported()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);
   const std::string off = most.from_nothing
                               ? std::string("within its error")
                               : fmt::format("{:.3g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
@@ -60,14 +60,15 @@ std::string conclusion_of(const EffectStudy& s) {
   text = most.relative < 1e-2
              ? fmt::format("The strongest effect is {}: without it {} is {}", strongest->effect.words, most.figure, off)
              : fmt::format("The strongest effect is {}: without it {} is {} instead of {}, {}", strongest->effect.words,
-                           most.figure, told_shortly(most.without, most.unit),
-                           most.from_nothing ? "zero" : told_shortly(most.full, most.unit), off);
+                           most.figure, short_text(most.without, most.unit),
+                           most.from_nothing ? "zero" : short_text(most.full, most.unit), off);
   std::vector<std::string> idle;
-  for (const LeftOut& l : s.left_out)
+  for (const OmittedEffect& l : s.omitted)
     if (l.failed.empty() && !l.changes.empty() && largest(l) < 1e-3) idle.push_back(l.effect.words);
   if (!idle.empty()) text += fmt::format("; less than 0.1 % in any figure compared: {}", listed(idle, "and"));
-  const auto dearest = std::max_element(s.left_out.begin(), s.left_out.end(),
-                                        [](const LeftOut& a, const LeftOut& b) { return a.time_ratio < b.time_ratio; });
+  const auto dearest =
+      std::max_element(s.omitted.begin(), s.omitted.end(),
+                       [](const OmittedEffect& a, const OmittedEffect& b) { return a.time_ratio < b.time_ratio; });
   if (dearest->time_ratio > alike_in_time)
     text +=
         fmt::format("; {} takes most time, {:.2g} × the time without it", dearest->effect.words, dearest->time_ratio);
@@ -75,7 +76,7 @@ std::string conclusion_of(const EffectStudy& s) {
 }
 
 // The figures of the run with the unit against those of the run without.
-void compare(LeftOut& left, const Result& with, const ModelSize& size) {
+void compare(OmittedEffect& left, const Result& with, const ModelSize& size) {
   left.changes = changes_between(with, left.result);
   const ModelSize less = size_of(*left.result.model);
   left.saved = {size.states - less.states, size.nonzeros - less.nonzeros, size.guards - less.guards};
@@ -85,13 +86,13 @@ void compare(LeftOut& left, const Result& with, const ModelSize& size) {
 
 }  // namespace
 
-LeftOut study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
-                                 std::size_t unit, const VariantRuns& runs) {
+OmittedEffect study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units,
+                                       const EffectSet& fullest, std::size_t unit, const VariantRuns& runs) {
   const InPlaceOf sets = in_place_of_others(scene, units, fullest, unit);
   const std::string& words = units[unit].words;
   VariantRun with{{}, "it goes with no other effect of this scene, nor alone"};
   if (sets.with[unit]) with = runs.run("with " + words, scene, effects_of(scene, units, sets.with));
-  LeftOut left{{{}, with.failed}, units[unit]};
+  OmittedEffect left{{{}, with.failed}, units[unit]};
   if (with.failed.empty())
     left = {runs.run("without " + words, scene, effects_of(scene, units, sets.without)), units[unit]};
   left.in_place_of = sets.gives_way;
@@ -121,18 +122,18 @@ EffectStudy study_effects(const Scene& scene, const SimulateOptions& options) {
     const std::string words = "without " + study.units[k].words;
     say(words, k + 1);
     if (!on[k]) {
-      study.left_out.push_back(study_in_place_of_others(scene, study.units, on, k, runs));
+      study.omitted.push_back(study_in_place_of_others(scene, study.units, on, k, runs));
       continue;
     }
-    LeftOut left{runs.run(words, scene, effects_of(scene, study.units, without(on, k))), study.units[k]};
+    OmittedEffect left{runs.run(words, scene, effects_of(scene, study.units, without(on, k))), study.units[k]};
     if (left.failed.empty()) compare(left, study.full, study.size);
     if (left.result.model)
       for (const std::string& note : idle_effects(*left.result.model))
         study.notes.push_back(fmt::format("{}: {}", words, note));
-    study.left_out.push_back(std::move(left));
+    study.omitted.push_back(std::move(left));
   }
-  std::stable_sort(study.left_out.begin(), study.left_out.end(), [](const LeftOut& a, const LeftOut& b) {
-    const auto most = [](const LeftOut& l) {
+  std::stable_sort(study.omitted.begin(), study.omitted.end(), [](const OmittedEffect& a, const OmittedEffect& b) {
+    const auto most = [](const OmittedEffect& l) {
       return !l.failed.empty() ? HUGE_VAL : l.changes.empty() ? 0 : l.changes.front().sure();
     };
     return most(a) > most(b);

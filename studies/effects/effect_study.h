@@ -13,7 +13,7 @@
 namespace kurbel {
 
 // The run without the effect; `failed`: why the machine cannot run without it.
-struct LeftOut : VariantRun {
+struct OmittedEffect : VariantRun {
   EffectUnit effect = {};
   std::vector<FigureChange> changes = {};  // of the figures that both runs have, the greatest first
   ModelSize saved = {};                    // states, nonzeros, guards that the effect adds
@@ -28,12 +28,12 @@ struct EffectStudy : SceneStudy {
   std::vector<EffectUnit> units;
   Result full;
   ModelSize size;
-  std::vector<LeftOut> left_out;  // ranked by their greatest change
+  std::vector<OmittedEffect> omitted;  // ranked by their greatest change
 };
 
 // Two runs, of the fullest machine that has the unit and of the same without it: for a unit that is off in `fullest`.
-LeftOut study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units, const EffectSet& fullest,
-                                 std::size_t unit, const VariantRuns& runs);
+OmittedEffect study_in_place_of_others(const Scene& scene, const std::vector<EffectUnit>& units,
+                                       const EffectSet& fullest, std::size_t unit, const VariantRuns& runs);
 
 // Throws std::invalid_argument if the scene has no effect that can be switched off.
 EffectStudy study_effects(const Scene& scene, const SimulateOptions& options);

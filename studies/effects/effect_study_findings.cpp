@@ -21,13 +21,13 @@ std::string error_of(const FigureChange& change) {
   return change.from_nothing && change.relative > 1 ? std::string("—") : fmt::format("± {:.1g} %", 100 * change.error);
 }
 
-std::string words_of(const LeftOut& l) {
+std::string words_of(const OmittedEffect& l) {
   return l.in_place_of.empty() ? l.effect.words : fmt::format("{} (in place of {})", l.effect.words, l.in_place_of);
 }
 
 Rows ranking(const EffectStudy& s) {
   Lines lines;
-  for (const LeftOut& l : s.left_out) {
+  for (const OmittedEffect& l : s.omitted) {
     if (!l.failed.empty()) {
       lines.push_back({words_of(l), "—", "—", "—", "", "", "", "", "", "does not run: " + l.failed});
       continue;
@@ -51,7 +51,7 @@ std::vector<std::string> figures_shown(const EffectStudy& s) {
   std::vector<std::pair<double, std::string>> most;
   for (const Figure& f : s.full.figures) {
     double change = -1;
-    for (const LeftOut& l : s.left_out)
+    for (const OmittedEffect& l : s.omitted)
       for (const FigureChange& c : l.changes)
         if (c.figure == f.name) change = std::max(change, c.sure());
     if (change >= 0) most.emplace_back(change, f.name);
@@ -63,14 +63,14 @@ std::vector<std::string> figures_shown(const EffectStudy& s) {
 }
 
 Rows matrix(const EffectStudy& s) {
-  std::vector<LeftOut> ran = s.left_out;
-  std::erase_if(ran, [](const LeftOut& l) { return !l.failed.empty(); });
+  std::vector<OmittedEffect> ran = s.omitted;
+  std::erase_if(ran, [](const OmittedEffect& l) { return !l.failed.empty(); });
   const std::vector<std::string> figures = figures_shown(s);
   auto table = table_of("", "Change of each figure", ran);
   table.even_if_empty = !figures.empty();
   table.people_see_it_if(!figures.empty()).only_for_people("change when omitted", words_of);
   for (const std::string& name : figures)
-    table.only_for_people(name, [&](const LeftOut& l) {
+    table.only_for_people(name, [&](const OmittedEffect& l) {
       const auto found =
           std::find_if(l.changes.begin(), l.changes.end(), [&](const FigureChange& c) { return c.figure == name; });
       return found == l.changes.end() ? "—" : percent(*found);
@@ -78,23 +78,23 @@ Rows matrix(const EffectStudy& s) {
   return table;
 }
 
-Record left_out_record(const LeftOut& l) {
+Record omitted_record(const OmittedEffect& l) {
   Record record = {{"effect", l.effect.name}};
   if (!l.in_place_of.empty()) record.push_back({"in_place_of", l.in_place_of});
   if (!l.failed.empty()) {
     record.push_back({"refused", l.failed});
     return record;
   }
-  const Record told = {{"states", l.saved.states},
-                       {"nonzeros", l.saved.nonzeros},
-                       {"guards", l.saved.guards},
-                       {"events_added", l.events_added},
-                       {"time_ratio", l.time_ratio},
-                       {"changes", each(l.changes, [](const FigureChange& c) {
-                          return Record{{"figure", c.figure},   {"unit", c.unit},         {"full", c.full},
-                                        {"without", c.without}, {"relative", c.relative}, {"error", c.error}};
-                        })}};
-  record.insert(record.end(), told.begin(), told.end());
+  const Record reported = {{"states", l.saved.states},
+                           {"nonzeros", l.saved.nonzeros},
+                           {"guards", l.saved.guards},
+                           {"events_added", l.events_added},
+                           {"time_ratio", l.time_ratio},
+                           {"changes", each(l.changes, [](const FigureChange& c) {
+                              return Record{{"figure", c.figure},   {"unit", c.unit},         {"full", c.full},
+                                            {"without", c.without}, {"relative", c.relative}, {"error", c.error}};
+                            })}};
+  record.insert(record.end(), reported.begin(), reported.end());
   return record;
 }
 
@@ -104,7 +104,7 @@ Plot plane(const EffectStudy& s) {
             .x = {"time with the effect over time without", "×"},
             .y = {"greatest change of a figure without it", "%", true}};
   std::size_t k = 0;
-  for (const LeftOut& l : s.left_out) {
+  for (const OmittedEffect& l : s.omitted) {
     if (!l.failed.empty() || l.changes.empty()) continue;
     plot.series.push_back({.name = words_of(l) + " (" + l.changes.front().figure + ")",
                            .role = further_role(k++),
@@ -131,9 +131,9 @@ Findings findings_of(const EffectStudy& s) {
              .complete = s.complete,
              .diagnosis = s.diagnosis,
              .opening = Findings::Opening::title_and_conclusion,
-             .tells_diagnosis = false};
+             .reports_diagnosis = false};
   f.conclude(s.complete, s.conclusion);
-  for (const LeftOut& l : s.left_out)
+  for (const OmittedEffect& l : s.omitted)
     if (l.failed.empty() && !l.changes.empty() && f.figures.size() < 4) {
       const FigureChange& most = l.changes.front();
       f.figures.push_back({Estimate{100 * most.relative, 100 * most.error}, "without " + words_of(l), "%",
@@ -145,13 +145,13 @@ Findings findings_of(const EffectStudy& s) {
   f.draw(ranked, [&s] { return plane(s); });
   f.say(ranked, ranking(s));
   f.say(ranked, matrix(s));
-  f.tell("full", Record{{"effects", s.full.effects},
-                        {"states", s.size.states},
-                        {"nonzeros", s.size.nonzeros},
-                        {"guards", s.size.guards},
-                        {"events", s.full.statistics.events},
-                        {"cpu_seconds", s.full.statistics.cpu_seconds}});
-  f.tell("effects", each(s.left_out, left_out_record));
+  f.record("full", Record{{"effects", s.full.effects},
+                          {"states", s.size.states},
+                          {"nonzeros", s.size.nonzeros},
+                          {"guards", s.size.guards},
+                          {"events", s.full.statistics.events},
+                          {"cpu_seconds", s.full.statistics.cpu_seconds}});
+  f.record("effects", each(s.omitted, omitted_record));
   f.say(full, Sentences{.lines = s.notes, .title = "Notes", .indent = "note: ", .key = "notes"});
   f.show(full, Text{.title = "", .body = s.full.explanation, .verbatim = true});
   f.show_scene(s.scene_file, s.scene_text);

@@ -18,7 +18,7 @@ bool is_judged_by_the_machine(const QuantityKind& what) {
 
 }  // namespace
 
-bool is_telling(const Figure& figure) {
+bool is_informative(const Figure& figure) {
   return figure.scale > 0 &&
          (is_judged_by_the_machine(figure.what) ||
           is_one_of(figure.what,
@@ -54,7 +54,7 @@ std::vector<FigureChange> changes_between(const Result& full, const Result& othe
                                           const std::vector<std::string>& wanted) {
   std::vector<FigureChange> changes;
   for (const Figure& figure : full.figures) {
-    if (wanted.empty() ? !is_telling(figure) : !is_asked_for(figure.name, wanted)) continue;
+    if (wanted.empty() ? !is_informative(figure) : !is_asked_for(figure.name, wanted)) continue;
     const Figure* same = like_in(other, figure);
     if (!same) continue;
     const double nothing = floor_of(figure, full);

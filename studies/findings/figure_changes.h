@@ -22,7 +22,7 @@ struct FigureChange {
   bool from_nothing = false;  // the full model's value is indistinguishable from zero
   double error = 0;           // of `relative`: the errors of both figures over the same size
 
-  bool told() const { return relative > error; }                           // the change is significant
+  bool reported() const { return relative > error; }                       // the change is significant
   double sure() const { return relative > error ? relative - error : 0; }  // at least as much
 };
 
@@ -42,7 +42,7 @@ inline bool is_asked_for(std::string_view name, const std::vector<std::string>& 
   return std::any_of(asked.begin(), asked.end(), [&](const std::string& by) { return is_asked_for(name, by); });
 }
 // Figures worth comparing: peaks, speeds, fluctuation, periods, works; not those of single angles or of rounding.
-bool is_telling(const Figure& figure);
+bool is_informative(const Figure& figure);
 // Significant figures of `other` against `full`, largest certain change first; `wanted`: names or their beginnings; empty: all.
 std::vector<FigureChange> changes_between(const Result& full, const Result& other,
                                           const std::vector<std::string>& wanted = {});

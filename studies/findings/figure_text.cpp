@@ -114,7 +114,7 @@ std::string with_error(const Estimate& estimate, std::string_view unit) {
   return "less than " + readable(rounded_number(std::abs(estimate.value) + *estimate.error, 2)) + its;
 }
 
-std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed) {
+std::string short_text(double value, const std::string& si_unit, const SpeedUnit& speed) {
   const ReadableUnit unit = readable_unit(value, si_unit, speed);
   const std::string number = headline_number(unit.factor * value);
   return unit.unit.empty() ? number : number + " " + pretty_unit(unit.unit);

@@ -37,7 +37,7 @@ TileText tile_text(const Estimate& estimate, int digits = 0);  // digits: 0: by 
 std::string with_error(const Estimate& estimate, std::string_view unit);
 
 // For sentences: four digits in a readable unit: 19092.63 N·m → "19.09 kN·m"; a speed in its unit.
-std::string told_shortly(double value, const std::string& si_unit, const SpeedUnit& speed = {});
+std::string short_text(double value, const std::string& si_unit, const SpeedUnit& speed = {});
 
 // A figure in a row of a table: a speed in the scene's unit, all else in SI.
 struct FigureCells {

@@ -4,7 +4,7 @@
 //   const Chapter results = f.chapter("Results");   // chapters appear on the page in the order of declaration,
 //   f.say(results, table_of(…).column(…));          // statements within them, and on the terminal, in the order of calls
 //   f.draw(results, [&] { return plot_of(study); });
-//   f.tell("operating_point", Record{{"speed", 31.4}});
+//   f.record("operating_point", Record{{"speed", 31.4}});
 #pragma once
 
 #include <fmt/format.h>
@@ -102,9 +102,9 @@ struct Findings {
   std::string diagnosis = {};    // of a run that failed
   std::string unconfirmed = {};  // why the requested accuracy is not confirmed; empty: it is, or it was not requested
   Opening opening = Opening::conclusion;
-  bool tells_diagnosis = true;  // to programs, if incomplete
-  bool tells_complete = true;   // to programs; false for studies that are always complete
-  std::string footer = {};      // versions
+  bool reports_diagnosis = true;  // to programs, if incomplete
+  bool reports_complete = true;   // to programs; false for studies that are always complete
+  std::string footer = {};        // versions
   std::vector<KeyFigure> figures = {};
   std::vector<std::string> chapters = {};
   std::vector<Statement> statements = {};
@@ -129,7 +129,7 @@ struct Findings {
   }
   // The result of a study, in a sentence.
   void conclude(bool whole, std::string sentence) {
-    claim(whole ? Predicate::figures_told : Predicate::incomplete, std::move(sentence));
+    claim(whole ? Predicate::figures_reported : Predicate::incomplete, std::move(sentence));
   }
 
   void key(std::string name, const Estimate& value, std::string means, std::string note = {}, int digits = 0) {
@@ -164,7 +164,7 @@ struct Findings {
     statements.push_back({in, Drawn{[made = std::move(made)] { return cards_of(made()); }}});
   }
   // For programs only.
-  void tell(std::string key, Value value) {
+  void record(std::string key, Value value) {
     statements.push_back({std::nullopt, Field{std::move(key), std::move(value)}});
   }
   // Notes in terminal, JSON and page; for an incomplete study with what is missing.

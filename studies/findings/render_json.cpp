@@ -17,14 +17,14 @@ void put(Record& summary, const std::string& key, Value value) {
     said->value = std::move(value);
 }
 
-void tell(Record& summary, const Rows& rows) {
+void report(Record& summary, const Rows& rows) {
   if (!rows.key.empty()) put(summary, rows.key, rows.list());
 }
-void tell(Record& summary, const Sentences& words) {
+void report(Record& summary, const Sentences& words) {
   if (!words.key.empty()) put(summary, words.key, words.lines);
 }
-void tell(Record& summary, const Field& field) { put(summary, field.key, field.value); }
-void tell(Record&, const Drawn&) {}
+void report(Record& summary, const Field& field) { put(summary, field.key, field.value); }
+void report(Record&, const Drawn&) {}
 
 DataCell cell_of(const Value& value) {
   if (const std::string* words = value.as<std::string>()) return *words;
@@ -87,11 +87,11 @@ Record summary_of(const Findings& f) {
   if (!f.title.empty()) put(summary, "title", f.title);
   if (!f.scene_file.empty()) put(summary, "scene", f.scene_file);
   if (!f.speed_unit.empty()) put(summary, "speed_unit", f.speed_unit);
-  if (f.tells_complete) put(summary, "complete", f.complete);
-  if (!f.complete && f.tells_diagnosis) put(summary, "diagnosis", f.diagnosis);
+  if (f.reports_complete) put(summary, "complete", f.complete);
+  if (!f.complete && f.reports_diagnosis) put(summary, "diagnosis", f.diagnosis);
   put(summary, "conclusion", f.conclusion());
   put(summary, "claims", each(f.claims, claim_record));
-  for (const Statement& s : f.statements) std::visit([&](const auto& what) { tell(summary, what); }, s.what);
+  for (const Statement& s : f.statements) std::visit([&](const auto& what) { report(summary, what); }, s.what);
   return summary;
 }
 

@@ -47,13 +47,13 @@ void say(std::string&, const Drawn&, bool) {}
 
 // At most `columns` columns; the rest, of what goes on in any case, is in the report.
 std::string shortened(const std::string& text, std::size_t columns, bool goes_on = false) {
-  static const std::string told_elsewhere = " … (report)";
-  if (width(text) + (goes_on ? width(told_elsewhere) : 0) <= columns) return text + (goes_on ? told_elsewhere : "");
+  static const std::string stated_elsewhere = " … (report)";
+  if (width(text) + (goes_on ? width(stated_elsewhere) : 0) <= columns) return text + (goes_on ? stated_elsewhere : "");
   std::size_t n = 0, bytes = 0;
-  for (std::size_t i = 0; i < text.size() && n + width(told_elsewhere) <= columns; ++i)
+  for (std::size_t i = 0; i < text.size() && n + width(stated_elsewhere) <= columns; ++i)
     if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) bytes = i, ++n;
   const std::size_t blank = text.find_last_of(' ', bytes);
-  return text.substr(0, blank == std::string::npos || blank < bytes / 2 ? bytes : blank) + told_elsewhere;
+  return text.substr(0, blank == std::string::npos || blank < bytes / 2 ? bytes : blank) + stated_elsewhere;
 }
 
 // Wrapped between words; lines after the first are indented.
@@ -129,16 +129,16 @@ std::vector<std::string> headline_of(const Findings& findings) {
                [](const Claim& c) { return c.is_bad() && c.variant.empty(); });
   const std::size_t bad = concluded(bad_news).size(), last = sentences.size() - 1,
                     answer = std::min<std::size_t>(sentences[last].size(), 2);
-  std::size_t told = 0;
-  for (bool cut = false; told < last && !cut; ++told) {
-    const std::size_t kept = lines.size() + 1 + (told < bad ? 0 : answer), room = most - std::min(kept, most);
-    cut = sentences[told].size() > room;
-    if (cut && (told >= bad || room == 0)) break;
-    take(sentences[told], room);
+  std::size_t reported = 0;
+  for (bool cut = false; reported < last && !cut; ++reported) {
+    const std::size_t kept = lines.size() + 1 + (reported < bad ? 0 : answer), room = most - std::min(kept, most);
+    cut = sentences[reported].size() > room;
+    if (cut && (reported >= bad || room == 0)) break;
+    take(sentences[reported], room);
   }
   const std::size_t room = most - lines.size();
-  const bool has_answer = told == last || room > answer;
-  if (const std::size_t more = last - told + (has_answer ? 0 : 1); more > 0)
+  const bool has_answer = reported == last || room > answer;
+  if (const std::size_t more = last - reported + (has_answer ? 0 : 1); more > 0)
     lines.push_back(fmt::format("{} more sentence{} (report)", more, more == 1 ? "" : "s"));
   if (has_answer) take(sentences[last], most - lines.size());
   return lines;

@@ -19,7 +19,7 @@ const Figure* find(const std::vector<Figure>& figures, std::string_view name) {
   return found == figures.end() ? nullptr : &*found;
 }
 
-void FigureTeller::add(Name name, const Found& found) {
+void FigureReporter::add(Name name, const Found& found) {
   Figure figure = Figure::defined(std::move(name), found.value, found.scale);
   figure.at = found.at, figure.exact = found.exact, figure.resolution = found.resolution;
   figures_.push_back(std::move(figure));

@@ -55,10 +55,10 @@ struct Found {
 
 // Possible figures of a run are declared here, each in one place: to list them before a run, or with the values of
 // the run.
-class FigureTeller {
+class FigureReporter {
  public:
   // Adds to `figures`; `listing`: all figures, without values.
-  explicit FigureTeller(std::vector<Figure>& figures, bool listing) : figures_(figures), listing_(listing) {}
+  explicit FigureReporter(std::vector<Figure>& figures, bool listing) : figures_(figures), listing_(listing) {}
   bool listing() const { return listing_; }
   // A figure already reported; null: none of that name.
   const Figure* find(std::string_view name) const { return kurbel::find(figures_, name); }

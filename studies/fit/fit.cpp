@@ -162,24 +162,26 @@ class FitWork {
       const Unknown& unknown = problem_.unknowns()[k];
       const double range = unknown.range.high - unknown.range.low;
       study_.covariance.row(c) *= range, study_.covariance.col(c) *= range;
-      FittedUnknown& told = study_.unknowns.emplace_back(FittedUnknown{{unknown.at(u[c])}, unknown});
+      FittedUnknown& reported = study_.unknowns.emplace_back(FittedUnknown{{unknown.at(u[c])}, unknown});
       if (std::count(d.no_trace.begin(), d.no_trace.end(), k)) {
-        told.remark = "without influence on what is compared";
+        reported.remark = "without influence on what is compared";
       } else if (state_.best.on_bound[k] != 0) {
-        told.remark = state_.best.on_bound[k] < 0 ? "on its lower bound" : "on its upper bound";
+        reported.remark = state_.best.on_bound[k] < 0 ? "on its lower bound" : "on its upper bound";
       } else if (!d.known[k]) {
-        told.remark = "not determined: see what the data cannot separate";
+        reported.remark = "not determined: see what the data cannot separate";
       } else {
-        told.error = std::sqrt(state_.covariance(c, c)) * range;
-        told.low = told.value - state_.interval * *told.error, told.high = told.value + state_.interval * *told.error;
-        if (*told.error > 0.5 * range) told.remark = "the data hardly bound it: its error is over half of its range";
+        reported.error = std::sqrt(state_.covariance(c, c)) * range;
+        reported.low = reported.value - state_.interval * *reported.error,
+        reported.high = reported.value + state_.interval * *reported.error;
+        if (*reported.error > 0.5 * range)
+          reported.remark = "the data hardly bound it: its error is over half of its range";
       }
       for (std::size_t other = 0; other < k; ++other)
         if (const double value = d.correlation(other, k); value != 0) study_.correlations.push_back({other, k, value});
     }
     std::stable_sort(study_.correlations.begin(), study_.correlations.end(),
                      [](const Correlation& a, const Correlation& b) { return std::abs(a.value) > std::abs(b.value); });
-    say_what_is_joined();
+    report_merged();
     for (std::size_t r = 0; r < problem_.records().size(); ++r)
       if (const auto& held = problem_.responses()[r].held)
         study_.held.push_back(fmt::format("{}: {} = {} keeps {}", problem_.records()[r].name, held->key,
@@ -202,7 +204,7 @@ class FitWork {
             fmt::format("a fitted scene that is written (--write) has keys alone: not the {}", unknown.name));
   }
 
-  void say_what_is_joined() {
+  void report_merged() {
     for (const SharedDirection& direction : state_.determined.undetermined) {
       std::string names, change;
       for (std::size_t i = 0; i < direction.unknowns.size(); ++i) {
@@ -241,21 +243,21 @@ class FitWork {
           return std::sqrt(all.segment(c.begin(k), c.per_channel()).squaredNorm() /
                            static_cast<double>(c.per_channel()));
         };
-        ChannelResidual& told = study_.residuals.emplace_back(
+        ChannelResidual& reported = study_.residuals.emplace_back(
             ChannelResidual{.record = record.name, .channel = channel.channel, .unit = channel.unit});
-        told.of = c.orders().empty() ? "points" : "orders";
-        told.count = static_cast<std::size_t>(c.per_channel());
-        told.rms = rms(left);
+        reported.of = c.orders().empty() ? "points" : "orders";
+        reported.count = static_cast<std::size_t>(c.per_channel());
+        reported.rms = rms(left);
         const auto data = c.data().segment(c.begin(k), c.per_channel());
         const double size = c.orders().empty() ? data.maxCoeff() - data.minCoeff() : data.cwiseAbs().maxCoeff();
-        if (size > 0) told.range_part = told.rms / size;
-        if (channel.has_scatter()) told.scatter = rms(c.scatter());
-        told.correlation_length = c.length(k);
+        if (size > 0) reported.range_part = reported.rms / size;
+        if (channel.has_scatter()) reported.scatter = rms(c.scatter());
+        reported.correlation_length = c.length(k);
         const Eigen::VectorXd m = measured.segment(static_cast<Eigen::Index>(k) * count, count),
                               s = points.segment(static_cast<Eigen::Index>(k) * count, count);
         const Eigen::VectorXd dm = m.array() - m.mean(), ds = s.array() - s.mean();
-        told.alike = dm.dot(ds) / std::max(dm.norm() * ds.norm(), 1e-300);
-        told.peak = m.cwiseAbs().maxCoeff(), told.peak_fitted = s.cwiseAbs().maxCoeff();
+        reported.alike = dm.dot(ds) / std::max(dm.norm() * ds.norm(), 1e-300);
+        reported.peak = m.cwiseAbs().maxCoeff(), reported.peak_fitted = s.cwiseAbs().maxCoeff();
         study_.curves.push_back({.record = record.name,
                                  .channel = channel.channel,
                                  .unit = channel.unit,
@@ -300,18 +302,18 @@ class FitWork {
 
   void say_orders(std::size_t r, const Eigen::VectorXd& points) {
     const FitRecord& record = problem_.records()[r];
-    const ComparedRecord by_order(record, told_orders(problem_.requests()[r], record), r);
+    const ComparedRecord by_order(record, reported_orders(problem_.requests()[r], record), r);
     const Eigen::VectorXd shown = by_order.compared(points);
     for (std::size_t k = 0; k < record.channels.size(); ++k)
       for (std::size_t o = 0; o < by_order.orders().size(); ++o) {
         const Eigen::Index i = by_order.begin(k) + 2 * static_cast<Eigen::Index>(o);
-        OrderFigure& told = study_.orders.emplace_back(
+        OrderFigure& reported = study_.orders.emplace_back(
             OrderFigure{record.name, record.channels[k].channel, record.channels[k].unit, by_order.orders()[o]});
-        told.measured = order_part(by_order.data()[i], by_order.data()[i + 1]);
-        told.shown = order_part(shown[i], shown[i + 1]);
-        told.left = std::hypot(shown[i] - by_order.data()[i], shown[i + 1] - by_order.data()[i + 1]);
+        reported.measured = order_part(by_order.data()[i], by_order.data()[i + 1]);
+        reported.shown = order_part(shown[i], shown[i + 1]);
+        reported.left = std::hypot(shown[i] - by_order.data()[i], shown[i + 1] - by_order.data()[i + 1]);
         if (record.channels[k].has_scatter())
-          told.scatter = std::hypot(by_order.scatter()[i], by_order.scatter()[i + 1]);
+          reported.scatter = std::hypot(by_order.scatter()[i], by_order.scatter()[i + 1]);
       }
   }
 
@@ -351,7 +353,7 @@ class FitWork {
 
 }  // namespace
 
-std::vector<double> told_orders(const RecordRequest& request, const FitRecord& record) {
+std::vector<double> reported_orders(const RecordRequest& request, const FitRecord& record) {
   if (!request.orders.empty()) return request.orders;
   std::vector<double> orders;
   constexpr int most = 8;

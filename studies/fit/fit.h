@@ -113,7 +113,7 @@ struct FitStudy : SceneStudy {
   std::vector<OrderFigure> orders, predicted_orders;
   std::vector<BandResidual> bands;
   std::vector<EffectTried> effects;
-  std::vector<WithoutRecord> left_out;
+  std::vector<WithoutRecord> omitted;
   std::vector<Curve95> curves, predicted_curves;
   std::vector<Prediction> predictions;
   std::vector<std::string> held;  // "half: load.torque = 7.9 N·m keeps 3000 rpm"
@@ -142,7 +142,7 @@ void try_off_effects(FitProblem& problem, const FitState& state, FitStudy& study
 void predict(FitProblem& problem, const FitOptions& options, const FitState& state, FitStudy& study);
 
 // The orders reported for records over the angle: those compared, otherwise the first eight of the cycle.
-std::vector<double> told_orders(const RecordRequest& request, const FitRecord& record);
+std::vector<double> reported_orders(const RecordRequest& request, const FitRecord& record);
 
 Findings findings_of(const FitStudy& study);
 

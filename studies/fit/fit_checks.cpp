@@ -63,10 +63,10 @@ void leave_records_out(FitProblem& problem, const FitState& state, FitStudy& stu
     const double rms = rms_of(part_of(problem, *all, r)), rms_fitted = rms_of(part_of(problem, state.best.r, r));
     for (std::size_t k = 0; k < problem.unknowns().size(); ++k) {
       const FittedUnknown& u = study.unknowns[k];
-      WithoutRecord& told = study.left_out.emplace_back(WithoutRecord{
+      WithoutRecord& reported = study.omitted.emplace_back(WithoutRecord{
           problem.records()[r].name, u.unknown.name, u.unknown.range.unit, 0, u.value, {}, rms, rms_fitted});
-      told.value = u.unknown.at(others.u[static_cast<Eigen::Index>(k)]);
-      if (u.error && *u.error > 0) told.errors = (told.value - u.value) / *u.error;
+      reported.value = u.unknown.at(others.u[static_cast<Eigen::Index>(k)]);
+      if (u.error && *u.error > 0) reported.errors = (reported.value - u.value) / *u.error;
     }
   }
 }
@@ -88,11 +88,11 @@ void try_off_effects(FitProblem& problem, const FitState& state, FitStudy& study
       for (const OffEffect& e : of_record[r])
         if (e.name == effect.name) problem.effects[r] = e.effects;
     const BoundedFit with = problem.fit(state.best.u, steps_of_checks);
-    EffectTried& told = study.effects.emplace_back(EffectTried{.words = effect.words});
+    EffectTried& reported = study.effects.emplace_back(EffectTried{.words = effect.words});
     if (with.r.size() == 0)
-      told.failed = problem.failure();
+      reported.failed = problem.failure();
     else
-      told.reduction = 1 - with.cost() / std::max(state.best.cost(), 1e-300);
+      reported.reduction = 1 - with.cost() / std::max(state.best.cost(), 1e-300);
     problem.effects.assign(of_record.size(), std::nullopt);
   }
   std::stable_sort(study.effects.begin(), study.effects.end(), [](const EffectTried& a, const EffectTried& b) {

@@ -132,9 +132,9 @@ Rows effect_table(const FitStudy& s) {
       .column("failed", "", &E::failed);
 }
 
-Rows left_out_table(const FitStudy& s) {
+Rows omitted_table(const FitStudy& s) {
   using R = WithoutRecord;
-  return table_of("left_out", "Without each record", s.left_out)
+  return table_of("left_out", "Without each record", s.omitted)
       .text_in(2)
       .column("record", "without", &R::record)
       .column("name", "unknown", &R::name)
@@ -256,15 +256,15 @@ Findings findings_of(const FitStudy& s) {
   f.say(left, band_table(s));
   f.draw(left, [&s] { return overlays(s, s.curves); });
   f.say(checks, effect_table(s));
-  f.say(checks, left_out_table(s));
+  f.say(checks, omitted_table(s));
   f.say(predictions, prediction_table(s));
   f.say(predictions, order_table(s, "predicted_orders", "Predicted orders, with 95 %", s.predicted_orders));
   f.draw(predictions, [&s] { return overlays(s, s.predicted_curves); });
-  f.tell("errors_from", s.errors_from);
-  f.tell("chi_squared", s.chi_squared);
-  f.tell("values", s.values);
-  f.tell("runs", s.runs);
-  f.tell("converged", s.converged);
+  f.record("errors_from", s.errors_from);
+  f.record("chi_squared", s.chi_squared);
+  f.record("values", s.values);
+  f.record("runs", s.runs);
+  f.record("converged", s.converged);
   f.note(checks, s.notes);
   f.show_scene(s.scene_file, s.scene_text);
   return f;

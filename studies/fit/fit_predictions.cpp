@@ -36,7 +36,7 @@ class Predicting {
         request_(problem.requests()[asked.like]) {
     request_.scene = asked.scene;
     if (asked.mean_speed) request_.mean_speed = asked.mean_speed;
-    told_.given = asked.given;
+    reported_.given = asked.given;
     if (asked.against.empty()) return;
     request_.file = asked.against;
     record_ = read_record(request_);
@@ -58,19 +58,19 @@ class Predicting {
     const std::vector<Response> responses = problem_.responses_of(machine, at);
     for (const Response& r : responses)
       if (!r.failed.empty()) {
-        told_.failed = r.failed;
-        study_.predictions.push_back(told_);
+        reported_.failed = r.failed;
+        study_.predictions.push_back(reported_);
         return;
       }
-    told_.held = responses.front().held;
+    reported_.held = responses.front().held;
     const ComparedRecord by_points(record_, {}, asked_.like);
     for (std::size_t i = 0; i < at.size(); ++i)
       points_.push_back(by_points.points_of(responses[i], problem_.unknowns(), at[i]));
     at_ = std::move(at), moved_ = std::move(moved);
     curves();
-    if (record_.over == Over::angle) by_order(ComparedRecord(record_, told_orders(request_, record_), asked_.like));
+    if (record_.over == Over::angle) by_order(ComparedRecord(record_, reported_orders(request_, record_), asked_.like));
     delta();
-    study_.predictions.push_back(told_);
+    study_.predictions.push_back(reported_);
   }
 
  private:
@@ -126,10 +126,10 @@ class Predicting {
       if (c > 0) continue;
       // A cycle's mean is held, not predicted.
       const bool about_mean = record_.over == Over::angle;
-      told_.rms = rms_between(curve.shown, curve.measured, about_mean);
-      told_.inside = static_cast<double>(inside) / static_cast<double>(n);
+      reported_.rms = rms_between(curve.shown, curve.measured, about_mean);
+      reported_.inside = static_cast<double>(inside) / static_cast<double>(n);
       if (like_.at.size() == n)
-        told_.rms_of_fitted_record = rms_between(like_.channels[c].mean, curve.measured, about_mean);
+        reported_.rms_of_fitted_record = rms_between(like_.channels[c].mean, curve.measured, about_mean);
     }
   }
 
@@ -137,25 +137,25 @@ class Predicting {
     for (std::size_t c = 0; c < record_.channels.size(); ++c)
       for (std::size_t o = 0; o < orders.orders().size(); ++o) {
         const Eigen::Index i = orders.begin(c) + 2 * static_cast<Eigen::Index>(o);
-        OrderFigure& told = study_.predicted_orders.emplace_back(
+        OrderFigure& reported = study_.predicted_orders.emplace_back(
             OrderFigure{asked_.given, record_.channels[c].channel, record_.channels[c].unit, orders.orders()[o]});
         const Eigen::VectorXd first = orders.compared(points_.front());
-        told.shown = order_part(first[i], first[i + 1]);
+        reported.shown = order_part(first[i], first[i + 1]);
         double left = 0;
         for (const OrderFigure& r : study_.orders)
-          if (r.record == like_.name && r.channel == told.channel && r.order == told.order)
+          if (r.record == like_.name && r.channel == reported.channel && r.order == reported.order)
             left = *r.left / std::sqrt(2.0);
         // Along the phasor and across it.
-        const double cosine = std::cos(told.shown.phase), sine = std::sin(told.shown.phase);
+        const double cosine = std::cos(reported.shown.phase), sine = std::sin(reported.shown.phase);
         const auto parts = [&](const Eigen::VectorXd& points) -> Eigen::VectorXd {
           const Eigen::VectorXd z = orders.compared(points);
           return Eigen::Vector2d(cosine * z[i] + sine * z[i + 1], cosine * z[i + 1] - sine * z[i]);
         };
         const Eigen::VectorXd half = interval_of(parts, Eigen::Vector2d(left, left)).second;
-        told.amplitude_error = half[0], told.phase_error = half[1] / std::max(told.shown.amplitude, 1e-300);
+        reported.amplitude_error = half[0], reported.phase_error = half[1] / std::max(reported.shown.amplitude, 1e-300);
         if (asked_.against.empty()) continue;
-        told.measured = order_part(orders.data()[i], orders.data()[i + 1]);
-        told.left = std::hypot(first[i] - orders.data()[i], first[i + 1] - orders.data()[i + 1]);
+        reported.measured = order_part(orders.data()[i], orders.data()[i + 1]);
+        reported.left = std::hypot(first[i] - orders.data()[i], first[i + 1] - orders.data()[i + 1]);
       }
   }
 
@@ -170,8 +170,8 @@ class Predicting {
     double left = 0;
     if (const Curve95* const curve = fitted_curve(c)) left = fluctuation(curve->shown) - fluctuation(curve->measured);
     const auto [value, half] = interval_of(of, Eigen::VectorXd::Constant(1, left));
-    told_.delta = Estimate{value[0], half[0]};
-    if (!asked_.against.empty()) told_.measured_delta = fluctuation(record_.channels[c].mean);
+    reported_.delta = Estimate{value[0], half[0]};
+    if (!asked_.against.empty()) reported_.measured_delta = fluctuation(record_.channels[c].mean);
   }
 
   FitProblem& problem_;
@@ -181,7 +181,7 @@ class Predicting {
   const FitRecord& like_;
   FitRecord record_;
   RecordRequest request_;
-  Prediction told_;
+  Prediction reported_;
   std::vector<Eigen::VectorXd> at_,
       points_;  // u: of the fit, then below and above by each that is moved; what is shown
   std::vector<std::size_t> moved_;

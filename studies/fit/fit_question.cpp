@@ -15,8 +15,8 @@
 namespace kurbel {
 namespace {
 
-struct FitAsked {
-  FitAsked() { jobs = threads_of(0); }
+struct FitRequest {
+  FitRequest() { jobs = threads_of(0); }
   std::vector<std::string> measured, maps, over, free, hold, orders, predict, window, cycles, teeth;
   std::size_t starts = 1;
   std::uint64_t seed = 1;
@@ -48,7 +48,7 @@ double speed_of(const std::string& option, const std::string& text) {
 
 class Asking {
  public:
-  Asking(const Inquiry& inquiry, const FitAsked& asked) : inquiry_(inquiry), asked_(asked) {}
+  Asking(const Inquiry& inquiry, const FitRequest& asked) : inquiry_(inquiry), asked_(asked) {}
 
   FitOptions options() {
     FitOptions options;
@@ -137,12 +137,12 @@ class Asking {
   }
 
   const Inquiry& inquiry_;
-  const FitAsked& asked_;
+  const FitRequest& asked_;
   std::vector<RecordRequest> records_;
   std::vector<std::string> names_;
 };
 
-StudyOutput fitted(const Inquiry& inquiry, FitAsked asked) {
+StudyOutput fitted(const Inquiry& inquiry, FitRequest asked) {
   if (!asked.write.empty())
     if (const std::string why = why_no_file_at(asked.write); !why.empty())
       throw std::invalid_argument(fmt::format("--write {}: {}", asked.write, why));
@@ -151,54 +151,54 @@ StudyOutput fitted(const Inquiry& inquiry, FitAsked asked) {
   return output_of(std::move(study));
 }
 
-OptionsOf<FitAsked> options() {
+OptionsOf<FitRequest> options() {
   const std::string record = "; \"half: …\" for the record half.csv alone";
-  OptionsOf<FitAsked> options;
-  const auto texts = [&](const char* name, std::vector<std::string> FitAsked::*member, const std::string& doc) {
+  OptionsOf<FitRequest> options;
+  const auto texts = [&](const char* name, std::vector<std::string> FitRequest::*member, const std::string& doc) {
     options.add({.name = name, .doc = doc + "; repeatable", .each_time = true}, member);
   };
-  texts("measured", &FitAsked::measured,
+  texts("measured", &FitRequest::measured,
         "a measured record (CSV, XLSX, MAT): \"half.csv\", \"half=file.csv\" with a name of its own, \"down.csv in "
         "down.toml\" of another scene");
-  texts("map", &FitAsked::maps,
+  texts("map", &FitRequest::maps,
         "which column is which channel, \"speed=speed.engine\"; \"c*=speed.engine\": columns of many cycles; "
         "\"sd=scatter of speed.engine\": the deviation of one cycle; \"COLUMN=angle [deg]\"; of modes "
         "natural_frequency, damped_frequency, damping_ratio" +
             record);
-  texts("over", &FitAsked::over, "angle (steady; default), time (run) or modes" + record);
-  texts("free", &FitAsked::free,
+  texts("over", &FitRequest::over, "angle (steady; default), time (run) or modes" + record);
+  texts("free", &FitRequest::free,
         "an unknown with its bounds: \"rotor.inertia=0.005..0.05 kg*m2\"; \"each: KEY=…\" one for every record; \"gain "
         "of TABLE=0.9..1.1\", \"offset of TABLE=-0.1..0.1 bar\", \"shift of TABLE=-2..2 deg\", \"dead centre of "
         "TABLE=-2..2 deg\"; \"shift=…\", \"gain of CHANNEL=…\", \"offset of CHANNEL=…\", \"pattern of CHANNEL=1,2\" of "
         "a record" +
             record);
-  texts("hold", &FitAsked::hold,
+  texts("hold", &FitRequest::hold,
         "\"mean speed by load.torque\": the record's mean speed is kept by that quantity, \"mean speed=3000 rpm by "
         "load.torque\" another one" +
             record);
-  texts("orders", &FitAsked::orders,
+  texts("orders", &FitRequest::orders,
         "orders of the reduction link's turns that are compared, 0.5,1.5,2.5 (default: all points)" + record);
-  texts("window", &FitAsked::window, "a point is the mean over so much, \"12 deg\", \"1 ms\"" + record);
-  texts("cycles", &FitAsked::cycles, "that a mean with a scatter is of (default: 1)" + record);
-  texts("teeth", &FitAsked::teeth,
+  texts("window", &FitRequest::window, "a point is the mean over so much, \"12 deg\", \"1 ms\"" + record);
+  texts("cycles", &FitRequest::cycles, "that a mean with a scatter is of (default: 1)" + record);
+  texts("teeth", &FitRequest::teeth,
         "the mapped column holds the times at which an encoder's teeth pass: pitches of a turn less the missing teeth, "
         "60-2" +
             record);
-  texts("predict", &FitAsked::predict,
+  texts("predict", &FitRequest::predict,
         "a scene whose record is predicted with the fitted values: \"full.toml\", \"full.toml at 3060 rpm\" (mean "
         "speed held), \"full.toml against full.csv\"");
   return options
       .add({.name = "starts",
             .doc = "starts within the bounds, the scene's own values first (default: 1)",
             .domain = {.low = 1, .high = 10'000}},
-           &FitAsked::starts)
+           &FitRequest::starts)
       .add({.name = "seed", .doc = "of the starts (default: 1)", .domain = {.low = 0, .high = 9007199254740992}},
-           &FitAsked::seed)
+           &FitRequest::seed)
       .add({.name = "jobs", .doc = "threads (default: one for each core)", .domain = {.low = 1, .high = 1024}},
-           &FitAsked::jobs)
+           &FitRequest::jobs)
       .add({.name = "no_checks", .doc = "skip the fits without each record, and with each effect that is off"},
-           &FitAsked::checks, false)
-      .add({.name = "write", .doc = "writes the fitted scene of the first record"}, &FitAsked::write);
+           &FitRequest::checks, false)
+      .add({.name = "write", .doc = "writes the fitted scene of the first record"}, &FitRequest::write);
 }
 
 }  // namespace

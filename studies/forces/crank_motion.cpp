@@ -103,7 +103,7 @@ OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects)
     return std::any_of(sequence.steps.begin(), sequence.steps.end(),
                        [&](const SequenceStep& step) { return sets(step, asked.name, load.name); });
   };
-  goes_round_ = sequence.repeat && std::any_of(loads.begin(), loads.end(), touched);
+  repeats_ = sequence.repeat && std::any_of(loads.begin(), loads.end(), touched);
   left_ = left_by(sequence, asked.name, loads);
   for (const WorkAccount& account : model().accounts) {
     const auto of =
@@ -126,7 +126,7 @@ std::vector<double> OutputLoads::edges(int direction) {
 }
 
 std::string OutputLoads::words_of_sequence() const {
-  if (goes_round_)
+  if (repeats_)
     return fmt::format(
         "the operating sequence switches loads of {} within its repetition: with the crank at constant speed all act, "
         "in the motion of the machine those that are on",
@@ -172,9 +172,9 @@ std::span<const double> OutputLoads::shares(double phi, const CrankMotion& motio
 ActingLoads acting_loads(const Model& model, std::size_t element, const Instant& now) {
   const Network::ShaftElement& e = model.network.elements[element];
   const auto is = [&](const CommandTarget& target) { return target.component == e.component; };
-  const auto told = std::find_if(model.commands.begin(), model.commands.end(), is);
-  if (told == model.commands.end()) return {};
-  const double* command = now.command + (told - model.commands.begin());
+  const auto reported = std::find_if(model.commands.begin(), model.commands.end(), is);
+  if (reported == model.commands.end()) return {};
+  const double* command = now.command + (reported - model.commands.begin());
   ActingLoads on;
   for (std::size_t k = 0; k < mechanism_of(e)->mechanism().loads.size(); ++k)
     on.push_back(command[0] > 0.5 && command[k + 1] > 0.5);

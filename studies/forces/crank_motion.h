@@ -70,7 +70,7 @@ class OutputLoads {
   const Mechanism& mechanism_;            // of that machine
   std::vector<const Mechanism*> within_;  // elements within it, if it is a linkage
   ActingLoads left_;
-  bool goes_round_ = false;      // the sequence repeats and sets loads
+  bool repeats_ = false;         // the sequence repeats and sets loads
   std::vector<int> of_account_;  // load of each account; −1: none
   std::vector<double> acting_;
   std::vector<double> added_;

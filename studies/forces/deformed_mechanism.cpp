@@ -23,7 +23,7 @@ DeformedMechanism::DeformedMechanism(std::shared_ptr<const Model> model, const s
   for (std::size_t k = 0; k < m.pool_channels.size(); ++k)
     if (m.pool_channels[k].name.what == quantities::force && m.pool_channels[k].name.of == component)
       force_channel_ = static_cast<int>(k);
-  while (own_ < m.own_states.size() && m.own_states[own_].component != component) ++own_;
+  while (own_ < m.internal_states.size() && m.internal_states[own_].component != component) ++own_;
 }
 
 MachineForces DeformedMechanism::at(const Snapshot& s) const {
@@ -46,7 +46,7 @@ void DeformedMechanism::find_reactions(const Snapshot& s, double omega, double a
   for (std::size_t k = 1; k < free.size(); ++k) {
     z[free[k]] = s.now.own[own_ + k - 1];
     w[free[k]] = s.now.own[own_ + free.size() + k - 2];
-    acceleration[free[k]] = s.sums.own_rate[own_ + free.size() + k - 2];
+    acceleration[free[k]] = s.sums.internal_rate[own_ + free.size() + k - 2];
   }
   const auto motion = dynamics_->motion<double>(z, w);
   std::array<int, SliderCrankDynamics::most_contacts> mode{};

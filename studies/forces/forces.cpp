@@ -102,12 +102,14 @@ Effects effects_of(const AskedMechanism& asked, const ForcesOptions& options) {
 }
 
 // Adds the extrapolation of a problem's load tables. A table also left in another problem is mentioned once only.
-void tell_outside_data(Forces& out, const std::vector<std::string>& sentences, ForceCycle& cycle, bool simulated) {
+void report_outside_data(Forces& out, const std::vector<std::string>& sentences, ForceCycle& cycle, bool simulated) {
   if (sentences.empty()) return;
-  const auto table = [](const std::string& told) { return told.substr(0, told.find(", and the motion goes to")); };
+  const auto table = [](const std::string& reported) {
+    return reported.substr(0, reported.find(", and the motion goes to"));
+  };
   for (const std::string& sentence : sentences)
     if (std::none_of(out.outside_data.begin(), out.outside_data.end(),
-                     [&](const std::string& told) { return table(told) == table(sentence); }))
+                     [&](const std::string& reported) { return table(reported) == table(sentence); }))
       out.outside_data.push_back(sentence);
   cycle.drop_errors(simulated);
 }
@@ -132,7 +134,7 @@ class Study {
     statics_.emplace(data_, out_.joints, out_.friction, !effects_.gravity);
     loads_.add_edges(statics_->turnings());
     solve_first();
-    if (!out_.friction && asked.mechanism().joints) tell_friction_left_out();
+    if (!out_.friction && asked.mechanism().joints) report_omitted_friction();
   }
 
   Forces result() {
@@ -142,8 +144,8 @@ class Study {
       simulated = machine_.solve(loads_, {out_.notes, out_.complete, out_.diagnosis});
     }
     if (simulated) solve_second(*simulated), solve_rigid();
-    tell_outside_data(out_, loads_.outside_data(prescribed_.motion.front().omega), *out_.prescribed, false);
-    if (simulated) tell_outside_data(out_, simulated->outside_data, *out_.simulated, true);
+    report_outside_data(out_, loads_.outside_data(prescribed_.motion.front().omega), *out_.prescribed, false);
+    if (simulated) report_outside_data(out_, simulated->outside_data, *out_.simulated, true);
     if (out_.balancing && !out_.prescribed->torque.error)
       for (Counterweight& c : out_.balancing->counterweights) c.peak_bearing.error.reset();
     out_.films = films_of(out_.joints, out_.front(), out_.notes);
@@ -172,7 +174,7 @@ class Study {
     for (const double phi : options_.also(prescribed_cycle(loads_, speed.value))) out_.also.push_back(at(phi));
   }
 
-  void tell_friction_left_out() {
+  void report_omitted_friction() {
     const MechanismStatics rough(data_, out_.joints, true, !effects_.gravity);
     const ForceCycle cycle = linkage_cycle(rough, loads_, prescribed_);
     out_.notes.push_back(

@@ -81,7 +81,7 @@ struct Peak : Estimate {
   double phi = 0;          // [rad]
   double scale = 0;        // of the forces or moments that it is the sum of, for its rounding error
   bool unbounded = false;  // unbounded; the value is taken a thousandth of the path beside that angle
-  double told() const { return unbounded ? HUGE_VAL : value; }
+  double reported() const { return unbounded ? HUGE_VAL : value; }
 };
 
 struct NamedPeak {

@@ -31,7 +31,7 @@ Findings begin_findings(const Forces& f, const ForceCycle& front, const std::str
   to.conclude(f.complete, conclusion);
   if (f.complete) to.conclude(true, capitalised(front.description));
   for (const std::string& sentence : f.outside_data) to.claim(Predicate::outside_data, sentence);
-  to.tell("mechanism", f.mechanism);
+  to.record("mechanism", f.mechanism);
   return to;
 }
 
@@ -116,7 +116,7 @@ std::string checks_of(const ForceCycle& c) {
 // --- tables ---
 
 KeyFigure key_figure(const NamedPeak& p) {
-  const Estimate most{p.peak.told(), p.peak.error};
+  const Estimate most{p.peak.reported(), p.peak.error};
   return {most, "largest " + p.name, p.unit, fmt::format("at φ = {}", at_angle(p.peak)), 0, p.means};
 }
 
@@ -216,7 +216,7 @@ Rows counterweight_table(const Forces& f) {
 
 void say_links(Findings& to, Chapter in, const ForceCycle& c) {
   using L = const LinkOfCycle&;
-  const auto told = [](auto LinkOfCycle::*of, double factor = 1) {
+  const auto reported = [](auto LinkOfCycle::*of, double factor = 1) {
     return [of, factor](L l) { return with_error(factor * (l.*of), ""); };
   };
   to.say(in, table_of("", "Motion and inertia forces of the links, largest over the cycle", c.links)
@@ -224,22 +224,22 @@ void say_links(Findings& to, Chapter in, const ForceCycle& c) {
                  .text_in(0)
                  .always()
                  .only_for_people("link", &LinkOfCycle::name)
-                 .only_for_people("ω [rad/s]", told(&LinkOfCycle::omega))
-                 .only_for_people("ε [rad/s²]", told(&LinkOfCycle::alpha))
-                 .only_for_people("m a [N]", told(&LinkOfCycle::inertia_force))
+                 .only_for_people("ω [rad/s]", reported(&LinkOfCycle::omega))
+                 .only_for_people("ε [rad/s²]", reported(&LinkOfCycle::alpha))
+                 .only_for_people("m a [N]", reported(&LinkOfCycle::inertia_force))
                  .only_for_people("at", [](L l) { return at_angle(l.inertia_force); })
-                 .only_for_people("−I ε [N·m]", told(&LinkOfCycle::inertia_couple)));
+                 .only_for_people("−I ε [N·m]", reported(&LinkOfCycle::inertia_couple)));
   to.say(in, table_of("", "Shares of the links in the reduced inertia and the kinetic energy", c.links)
                  .headed("links: shares in I_r (mean over the angle) and kinetic energy (mean over the time)")
                  .text_in(0)
                  .always()
                  .only_for_people("link", &LinkOfCycle::name)
-                 .only_for_people("I_r [kg·m²]", told(&LinkOfCycle::reduced_inertia))
-                 .only_for_people("of I_r [%]", told(&LinkOfCycle::inertia_share, 100))
-                 .only_for_people("least [%]", told(&LinkOfCycle::least_share, 100))
-                 .only_for_people("most [%]", told(&LinkOfCycle::greatest_share, 100))
-                 .only_for_people("T [J]", told(&LinkOfCycle::energy))
-                 .only_for_people("of T [%]", told(&LinkOfCycle::energy_share, 100)));
+                 .only_for_people("I_r [kg·m²]", reported(&LinkOfCycle::reduced_inertia))
+                 .only_for_people("of I_r [%]", reported(&LinkOfCycle::inertia_share, 100))
+                 .only_for_people("least [%]", reported(&LinkOfCycle::least_share, 100))
+                 .only_for_people("most [%]", reported(&LinkOfCycle::greatest_share, 100))
+                 .only_for_people("T [J]", reported(&LinkOfCycle::energy))
+                 .only_for_people("of T [%]", reported(&LinkOfCycle::energy_share, 100)));
   to.draw(in, [&c] { return link_plots(c); });
 }
 
@@ -332,7 +332,7 @@ void say_positions(Findings& to, Chapter in, const Forces& f) {
     to.say(in, position_table(f, *c));
     to.say(in, Sentences{.lines = {checks_of(*c)}, .indent = "  ", .page = false});
     to.show(in, Text{.title = "", .body = fmt::format("Check: {}.", checks_of(*c))});
-    to.tell(c->label, cycle_record(f, *c));
+    to.record(c->label, cycle_record(f, *c));
     to.tables.push_back({"forces_" + c->label, [c, &f] { return table_of_forces(f, *c); }});
     to.tables.push_back({"links_" + c->label, [c] { return table_of_links(*c); }});
   }
@@ -362,8 +362,8 @@ void say_shaking(Findings& to, Chapter in, const Forces& f) {
   to.draw(in, [&f] { return counterweight_plot(f); });
   to.say(in, counterweight_table(f));
   to.show(in, mass_formula(f));
-  to.tell("rotating_moment", f.balancing->rotating_moment);
-  to.tell("reciprocating_mass", f.balancing->reciprocating_mass);
+  to.record("rotating_moment", f.balancing->rotating_moment);
+  to.record("reciprocating_mass", f.balancing->reciprocating_mass);
 }
 
 }  // namespace
@@ -406,8 +406,8 @@ Findings findings_of(const Forces& f) {
                 shaking = to.chapter(f.balancing ? "Shaking force and moment; balancing" : "Shaking force and moment"),
                 work = to.chapter("Work, friction, efficiency"), positions = to.chapter("Position by position"),
                 notes = to.chapter("Notes");
-  to.tell("kind", f.kind);
-  to.tell("signs", signs_of(f));
+  to.record("kind", f.kind);
+  to.record("signs", signs_of(f));
   to.draw(torque, [&f] { return torque_plot(f); });
   to.show(torque, torque_formula(f));
   to.draw(reactions, [&f] { return reaction_plots(f); });
@@ -422,7 +422,7 @@ Findings findings_of(const Forces& f) {
   say_films(to, work, f);
   say_shaking(to, shaking, f);
   say_links(to, links, front);
-  to.tell("links", links_list(front));
+  to.record("links", links_list(front));
   std::vector<std::string> remarks = f.about;
   remarks.insert(remarks.end(), f.notes.begin(), f.notes.end());
   to.note(notes, remarks);

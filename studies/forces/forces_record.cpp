@@ -108,7 +108,7 @@ Record cycle_record(const Forces& study, const ForceCycle& c) {
       {"peaks", each(peaks_of(study, c),
                      [](const NamedPeak& p) {
                        return Record{{"name", p.name},
-                                     {"value", p.peak.told()},
+                                     {"value", p.peak.reported()},
                                      {"unit", p.unit},
                                      {"error", p.peak.error},
                                      {"phi", p.peak.phi}};
@@ -129,17 +129,17 @@ Record cycle_record(const Forces& study, const ForceCycle& c) {
                            {"shaking_moment", order_list(c.shaking_couple)},
                            {"balancing_torque", order_list(c.torque_orders)},
                            {"balancing_torque_mean", c.torque_mean}}}};
-  const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
+  const auto report = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   if (c.efficiency)
-    tell("efficiency", *c.efficiency);
+    report("efficiency", *c.efficiency);
   else
-    tell("efficiency", Value()), tell("no_efficiency", c.no_efficiency);
-  tell("work_in", c.input.value);
-  tell("work_useful", c.useful.value);
-  tell("work_harmful", c.harmful.value);
-  tell("works_error", larger_error(c.input, {0, larger_error(c.useful, c.harmful)}));
-  tell("positions_on_both_edges", c.both_edges);
-  tell("positions", each(c.rows, [&](P p) { return position_record(study, p); }));
+    report("efficiency", Value()), report("no_efficiency", c.no_efficiency);
+  report("work_in", c.input.value);
+  report("work_useful", c.useful.value);
+  report("work_harmful", c.harmful.value);
+  report("works_error", larger_error(c.input, {0, larger_error(c.useful, c.harmful)}));
+  report("positions_on_both_edges", c.both_edges);
+  report("positions", each(c.rows, [&](P p) { return position_record(study, p); }));
   return r;
 }
 

@@ -11,8 +11,8 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
+#include "engine/orbit/default_moment.h"
 #include "engine/orbit/follow_period.h"
-#include "engine/orbit/kept_moment.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10, enough = 1e-9;
 constexpr int most_turns = 64;           // of the crank until everything comes again
-constexpr int rounds_undriven = 40;      // what nothing drives comes to rest, or has come again long before
+constexpr int periods_undriven = 40;     // what nothing drives comes to rest, or has come again long before
 constexpr std::size_t most_edges = 200;  // events of a cycle; of more none is looked at from both sides
 constexpr double near_edge = 1e-7;       // of the crank: a run meets an edge this near to where its law has it [rad]
 
@@ -153,7 +153,7 @@ double MachineMotion::rated_speed() const {
 std::optional<SimulatedMotion> MachineMotion::solve(OutputLoads& loads, Account out) const {
   const Orbit found = orbit();
   Moment at;
-  const std::string later = choose_kept_moment(model_->scene, model_->effects, search_options(), at, &found);
+  const std::string later = choose_default_moment(model_->scene, model_->effects, search_options(), at, &found);
   if (later.empty()) return motion_of(found, loads, out);
   out.notes.push_back(later);
   const Scene then = as_of(model_->scene, model_->effects, at);
@@ -190,7 +190,7 @@ OrbitOptions MachineMotion::search_options() const {
   OrbitOptions options = orbit_options(settings_, options_.watch.interrupted);
   options.tolerance = map_tolerance;
   options.progress = [this](const std::string& what, double part) { options_.watch.at(what, part); };
-  if (!is_driven()) options.most_rounds = rounds_undriven;
+  if (!is_driven()) options.most_periods = periods_undriven;
   return options;
 }
 
@@ -224,10 +224,10 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
   if (!orbit.repeats() || !(orbit.point.time > 0)) return {};
   try {
     SimulatedMotion motion;
-    Sampled tight = along_round(loads, *orbit.map, orbit.point.z, map_tolerance);
+    Sampled tight = along_period(loads, *orbit.map, orbit.point.z, map_tolerance);
     const auto [loose, other] = looser_twin(*orbit.map, orbit.point, looser_tolerance, model_elsewhere());
     motion.others.push_back(
-        {along_round(loads, *loose, other.found ? other.z : orbit.point.z, looser_tolerance).along, 1});
+        {along_period(loads, *loose, other.found ? other.z : orbit.point.z, looser_tolerance).along, 1});
     if (!other.found) motion.others.push_back({sped_up(tight.along, std::max(orbit.still_changes, enough)), 1});
     const int cycles = static_cast<int>(std::lround(tight.along.cycle / loads.cycle()));
     motion.description = fmt::format("steady motion of the machine ({}), crank's cycle of {:.0f}°{}",
@@ -249,8 +249,8 @@ struct MachineMotion::Window {
   std::vector<double> events;  // its angles [rad]
 };
 
-MachineMotion::Window MachineMotion::round_of(const ReturnMap& map, const Eigen::VectorXd& z, double tolerance,
-                                              double cycle) const {
+MachineMotion::Window MachineMotion::period_of(const ReturnMap& map, const Eigen::VectorXd& z, double tolerance,
+                                               double cycle) const {
   Equations equations(model_, false);
   const std::vector<double> y = map.place(equations, z);
   Window window;
@@ -267,10 +267,10 @@ MachineMotion::Window MachineMotion::round_of(const ReturnMap& map, const Eigen:
   return window;
 }
 
-MachineMotion::Sampled MachineMotion::along_round(OutputLoads& loads, const ReturnMap& map, const Eigen::VectorXd& z,
-                                                  double tolerance) const {
+MachineMotion::Sampled MachineMotion::along_period(OutputLoads& loads, const ReturnMap& map, const Eigen::VectorXd& z,
+                                                   double tolerance) const {
   const double cycle = loads.cycle();
-  const Window window = round_of(map, z, tolerance, cycle);
+  const Window window = period_of(map, z, tolerance, cycle);
   const int direction = window.way < 0 ? -1 : 1, cycles = static_cast<int>(std::lround(std::abs(window.way) / cycle));
   Sampled out;
   out.along.cycle = cycles * cycle;

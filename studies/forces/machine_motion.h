@@ -70,8 +70,8 @@ class MachineMotion {
   bool is_driven() const;
   std::optional<SimulatedMotion> motion_of(const Orbit& found, OutputLoads& loads, Account out) const;
   std::optional<SimulatedMotion> kept_motion(OutputLoads& loads, const Orbit& orbit, std::string& why_not) const;
-  Window round_of(const ReturnMap& map, const Eigen::VectorXd& z, double tolerance, double cycle) const;
-  Sampled along_round(OutputLoads& loads, const ReturnMap& map, const Eigen::VectorXd& z, double tolerance) const;
+  Window period_of(const ReturnMap& map, const Eigen::VectorXd& z, double tolerance, double cycle) const;
+  Sampled along_period(OutputLoads& loads, const ReturnMap& map, const Eigen::VectorXd& z, double tolerance) const;
   std::optional<SimulatedMotion> last_cycle(OutputLoads& loads, const std::string& why, Account out) const;
   Sampled one_run(const std::vector<Abscissa>& where, double cycle, double origin, int direction,
                   double tolerance) const;

@@ -18,7 +18,7 @@ Findings made(std::string conclusion, Rows table, const FormulaCard& formula) {
   Findings f{.title = "",
              .subtitle = "Basic relations (theory 6)",
              .page_title = table.title,
-             .tells_complete = false,
+             .reports_complete = false,
              .footer = report_footer()};
   f.conclude(true, std::move(conclusion));
   const Chapter in = f.chapter("Geometry");
@@ -93,12 +93,12 @@ Findings findings_of(const BevelPair& b) {
                   b.teeth[0], b.teeth[1], b.shaft_angle / degree, b.cone_angle(0) / degree, b.cone_angle(1) / degree,
                   in_millimetres * b.cone_distance(), b.virtual_teeth(0), b.virtual_teeth(1)),
       std::move(table), cones);
-  f.tell("ratio", Estimate{b.ratio(), units_of_rounding * b.ratio()});
-  f.tell("cone_angle", std::array{b.cone_angle(0), b.cone_angle(1)});
-  f.tell("cone_angle_error", e.cone_angle);
-  f.tell("cone_distance", Estimate{b.cone_distance(), e.cone_distance});
-  f.tell("virtual_teeth", std::array{b.virtual_teeth(0), b.virtual_teeth(1)});
-  f.tell("virtual_teeth_error", e.virtual_teeth);
+  f.record("ratio", Estimate{b.ratio(), units_of_rounding * b.ratio()});
+  f.record("cone_angle", std::array{b.cone_angle(0), b.cone_angle(1)});
+  f.record("cone_angle_error", e.cone_angle);
+  f.record("cone_distance", Estimate{b.cone_distance(), e.cone_distance});
+  f.record("virtual_teeth", std::array{b.virtual_teeth(0), b.virtual_teeth(1)});
+  f.record("virtual_teeth_error", e.virtual_teeth);
   return f;
 }
 
@@ -138,7 +138,7 @@ Findings findings_of(const WormPair& w, std::optional<double> speed) {
                                         : fmt::format("can drive with η′ = {:.4f}", w.efficiency_back())),
            q.rows(), efficiency);
   f.draw(static_cast<Chapter>(0), [w] { return efficiency_plot(w); });
-  for (const Field& field : q.records().front()) f.tell(field.key, field.value);
+  for (const Field& field : q.records().front()) f.record(field.key, field.value);
   return f;
 }
 

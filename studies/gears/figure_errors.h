@@ -90,7 +90,7 @@ class MeasuredQuantities {
   }
   template <class Of>
   MeasuredQuantities& only_for_programs(const std::string& key, Of get) {
-    tell<Of>(key, get, error_);
+    report<Of>(key, get, error_);
     return *this;
   }
   Rows rows() const {
@@ -109,14 +109,14 @@ class MeasuredQuantities {
   MeasuredQuantities& add(const std::string& key, std::vector<std::string> line, std::string unit, const Of& get,
                           const Read& read, const ErrorOf& error) {
     for (const T& thing : things_) line.push_back(read_as(std::invoke(get, thing), read));
-    const std::vector<double> errors = tell<Of>(key, get, error);
+    const std::vector<double> errors = report<Of>(key, get, error);
     line.push_back(errors.empty() ? "0" : error_text(in_unit(unit) * largest_error(errors)));
     line.push_back(std::move(unit));
     lines_.push_back(std::move(line));
     return *this;
   }
   template <class Of>
-  std::vector<double> tell(const std::string& key, const Of& get, const ErrorOf& error) {
+  std::vector<double> report(const std::string& key, const Of& get, const ErrorOf& error) {
     std::vector<double> errors;
     for (std::size_t i = 0; i < things_.size(); ++i) {
       Value value = std::invoke(get, things_[i]);

@@ -223,20 +223,20 @@ Record stage_record(const GearStage& s) {
   Record r = {{"name", s.name}, {"module", p.data.module}, {"helix", p.data.helix}};
   const MeasuredQuantities<GearPair> mesh = mesh_of(s);
   r.insert(r.end(), mesh.records().front().begin(), mesh.records().front().end());
-  const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
-  tell("wheels", wheels_of(s).records());
-  tell("path", path_table(s).list());
-  tell("backlash_angle", std::array{p.backlash_angle(0), p.backlash_angle(1)});
-  tell("backlash_angle_error",
-       std::array{backlash_error(s, backlash_angle_of(0)), backlash_error(s, backlash_angle_of(1))});
+  const auto report = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
+  report("wheels", wheels_of(s).records());
+  report("path", path_table(s).list());
+  report("backlash_angle", std::array{p.backlash_angle(0), p.backlash_angle(1)});
+  report("backlash_angle_error",
+         std::array{backlash_error(s, backlash_angle_of(0)), backlash_error(s, backlash_angle_of(1))});
   const auto with_its_error = [&](double value) { return Estimate{value, stiffness_error(s.stiffness, value)}; };
-  tell("mesh_stiffness", Record{{"single", with_its_error(s.stiffness.single)},
-                                {"mean", with_its_error(s.stiffness.mean)},
-                                {"torsional", with_its_error(s.stiffness.torsional)},
-                                {"within_range_of_method", s.stiffness.within}});
-  tell("verdicts", each(s.verdicts, [](const GearVerdict& v) {
-         return Record{{"finding", word_of(v.finding)}, {"text", v.text}};
-       }));
+  report("mesh_stiffness", Record{{"single", with_its_error(s.stiffness.single)},
+                                  {"mean", with_its_error(s.stiffness.mean)},
+                                  {"torsional", with_its_error(s.stiffness.torsional)},
+                                  {"within_range_of_method", s.stiffness.within}});
+  report("verdicts", each(s.verdicts, [](const GearVerdict& v) {
+           return Record{{"finding", word_of(v.finding)}, {"text", v.text}};
+         }));
   return r;
 }
 
@@ -353,7 +353,7 @@ void say_stage(Findings& f, const GearStage& s) {
 Findings findings_of(const Gears& g) {
   Findings f = Findings::of(g, "Involute geometry after ISO 21771");
   f.page_title = g.scene_file.empty() ? g.title : fmt::format("{}: gear pairs", g.title);
-  f.tells_complete = false, f.footer = report_footer();
+  f.reports_complete = false, f.footer = report_footer();
   f.conclude(true, conclusion_of(g));
   for (const GearStage& s : g.stages)
     for (const GearVerdict& v : s.verdicts)
@@ -361,8 +361,8 @@ Findings findings_of(const Gears& g) {
         f.claim(claimed_aside(v.finding > Finding::warning ? Predicate::geometry_faulty : Predicate::geometry_doubtful,
                               v.text, s.name));
   add_key_figures(f, g);
-  if (g.scene_file.empty()) f.tell("scene", "");
-  f.tell("pairs", each(g.stages, stage_record));
+  if (g.scene_file.empty()) f.record("scene", "");
+  f.record("pairs", each(g.stages, stage_record));
   for (const GearStage& s : g.stages) say_stage(f, s);
   f.note(f.chapter("Notes"), g.notes);
   if (!g.scene_text.empty()) f.show_scene(g.scene_file, g.scene_text);

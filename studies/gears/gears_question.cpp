@@ -15,7 +15,7 @@ struct PairAlone : GearPairData {
   double friction = 0;
 };
 
-struct GearsAsked : GearsOptions {
+struct GearsRequest : GearsOptions {
   PairAlone pair_alone;
   std::string of_pair_alone;  // one of the options given that belong to it
 };
@@ -77,27 +77,27 @@ const OptionsOf<PairAlone>& pair_options() {
   return made;
 }
 
-OptionsOf<GearsAsked> gears_options() {
-  OptionsOf<GearsAsked> options;
+OptionsOf<GearsRequest> gears_options() {
+  OptionsOf<GearsRequest> options;
   options
       .add({.name = "pair", .doc = "one stage, e.g. gearbox.stage1 (default: all whose module is given)"},
-           &GearsAsked::pair)
+           &GearsRequest::pair)
       .add({.name = "speed",
             .doc = "of the first wheel, e.g. \"1500 rpm\": sliding speeds, mesh frequency",
             .example = "1500 rpm",
             .what = "a speed"},
-           &GearsAsked::speed);
+           &GearsRequest::speed);
   const OptionsOf<PairAlone>& alone = pair_options();
   for (std::size_t k = 0; k < alone.declared().size(); ++k)
     options.add(alone.declared()[k].text, alone.declared()[k].form,
-                [read = alone.readers()[k]](GearsAsked& asked, const OptionValues& given) {
+                [read = alone.readers()[k]](GearsRequest& asked, const OptionValues& given) {
                   read(asked.pair_alone, given), asked.of_pair_alone = given.label();
                 });
   return options;
 }
 
 // A bevel pair has a shaft angle, a worm pair a worm diameter; otherwise the shafts are parallel.
-StudyOutput gear_pairs(const Inquiry& inquiry, GearsAsked asked) {
+StudyOutput gear_pairs(const Inquiry& inquiry, GearsRequest asked) {
   const PairAlone& pair = asked.pair_alone;
   if (!inquiry.without_scene()) {
     if (asked.of_pair_alone.empty()) return output_of(find_gears(inquiry.scene, asked));

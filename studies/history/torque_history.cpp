@@ -13,7 +13,7 @@
 namespace kurbel {
 namespace {
 
-constexpr std::size_t lines_told = 6;
+constexpr std::size_t lines_reported = 6;
 
 // Twenty samples a period of the highest frequency [rad/s], within reason.
 Scene recorded(Scene scene, const HistoryWanted& wanted, const std::string& component) {
@@ -99,7 +99,7 @@ void find_orders(TorqueHistory& h) {
   const std::vector<double> resampled = over_turns(h.angle, h.value, turns);
   if (resampled.size() < 16) return;
   h.orders = spectrum_of(resampled, turns);
-  h.strongest_orders = strongest_lines(resampled, turns, lines_told);
+  h.strongest_orders = strongest_lines(resampled, turns, lines_reported);
   const std::vector<double> coarse = over_turns(every_second(h.angle), every_second(h.value), turns);
   if (coarse.size() < 16) return;
   widen_errors(h.strongest_orders, spectrum_of(coarse, turns));
@@ -110,7 +110,7 @@ void take_apart(TorqueHistory& h, const Figure* peak) {
   const double step = (h.time.back() - h.time.front()) / static_cast<double>(h.time.size() - 1);
   find_extremes(h, peak);
   h.spectrum = spectrum_of(h.value, step);
-  h.strongest = strongest_lines(h.value, step, lines_told);
+  h.strongest = strongest_lines(h.value, step, lines_reported);
   widen_errors(h.strongest, spectrum_of(every_second(h.value), 2 * step));
   h.lines = waterfall(h.time, h.speed, h.value, 12);
   find_orders(h);

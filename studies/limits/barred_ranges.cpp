@@ -32,7 +32,7 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
     if (limit > 0 && (most.reason.empty() || torque / limit > most.share())) most = {torque, limit, reason};
   };
   const double largest = std::abs(load.largest().value);
-  consider(load.swing.value, l.vibratory / (l.temperature_factor * l.frequency_factor(load.frequency_factor)),
+  consider(load.vibratory.value, l.vibratory / (l.temperature_factor * l.frequency_factor(load.frequency_factor)),
            "vibratory_torque");
   consider(largest, l.maximum / l.temperature_factor, "maximum_torque");
   consider(largest, l.shear_stress * l.polar_modulus / l.application_factor, "allowable_shear_stress");
@@ -44,7 +44,7 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
              "endurance_limit");
   // Heat grows with the square of the amplitude.
   if (l.power > 0 && load.power.value > 0)
-    consider(load.swing.value, load.swing.value * std::sqrt(l.power / load.power.value), "dissipated_power");
+    consider(load.vibratory.value, load.vibratory.value * std::sqrt(l.power / load.power.value), "dissipated_power");
   return most;
 }
 
@@ -55,12 +55,12 @@ Use by_class(const LimitedJoint& joint, const JointLoad& load, double speed) {
 Use by_rule(const LimitedJoint& joint, const JointLoad& load, double factor) {
   const double mean = std::abs(load.mean.value);
   if (joint.stands) return {0, HUGE_VAL, ""};
-  return {load.swing.value, factor * std::max(mean, joint.rated),
+  return {load.vibratory.value, factor * std::max(mean, joint.rated),
           fmt::format("{:g} × {} torque", factor, mean > joint.rated ? "mean" : "rated")};
 }
 
 Use by_sign(const LimitedJoint& joint, const JointLoad& load) {
-  return {load.swing.value, std::max(std::abs(load.mean.value), nothing * joint.rated), "torque changes sign"};
+  return {load.vibratory.value, std::max(std::abs(load.mean.value), nothing * joint.rated), "torque changes sign"};
 }
 
 class Along {

@@ -51,7 +51,7 @@ class Integrals final : public Observer {
 
   struct Sums {
     double first = 0, square = 0;
-    std::array<Complex, harmonics + 1> swing = {};
+    std::array<Complex, harmonics + 1> vibratory = {};
   };
   const std::vector<Sums>& sums() const { return sums_; }
   double turned() const { return turned_; }
@@ -72,12 +72,12 @@ class Integrals final : public Observer {
     slowest_ = std::min(slowest_, std::abs(omega));
     const Complex turn = std::polar(1.0, -2 * pi * (t - begin_) / round_);
     for (std::size_t i = 0; i < joints_.size(); ++i) {
-      const double torque = joints_[i].told(s.joint_torque, joints_[i].joint);
+      const double torque = joints_[i].reported(s.joint_torque, joints_[i].joint);
       Sums& sum = sums_[i];
       sum.first += weight * torque;
       sum.square += weight * torque * torque;
       Complex phase = turn;
-      for (std::size_t n = 1; n <= harmonics; ++n, phase *= turn) sum.swing[n] += weight * torque * phase;
+      for (std::size_t n = 1; n <= harmonics; ++n, phase *= turn) sum.vibratory[n] += weight * torque * phase;
     }
   }
 
@@ -94,7 +94,7 @@ void add_frequencies(const Integrals::Sums& sums, double time, double noise, Joi
   const double all = std::max(0.0, 2 * (sums.square / time - mean * mean));
   double known = 0, weighted = 0, strongest = 0;
   for (std::size_t n = 1; n <= harmonics; ++n) {
-    const double f = static_cast<double>(n) / time, square = std::norm(2.0 * sums.swing[n] / time);
+    const double f = static_cast<double>(n) / time, square = std::norm(2.0 * sums.vibratory[n] / time);
     known += square;
     weighted += square * std::max(1.0, f / 10);
     if (square > strongest) strongest = square, load.frequency = f;
@@ -127,9 +127,9 @@ SteadyLoads follow(const ReturnMap& map, const SteadyPoint& point, const std::ve
     load.mean.value = integrals.sums()[i].first / time;
     load.upper.value = std::max(extremes.found()[2 * i].value, load.mean.value);
     load.lower.value = std::min(extremes.found()[2 * i + 1].value, load.mean.value);
-    load.swing.value = std::max(load.upper.value - load.mean.value, load.mean.value - load.lower.value);
+    load.vibratory.value = std::max(load.upper.value - load.mean.value, load.mean.value - load.lower.value);
     add_frequencies(integrals.sums()[i], time, 1e-8 * joints[i].rated, load);
-    load.weighted.value = load.frequency_factor * load.swing.value;
+    load.weighted.value = load.frequency_factor * load.vibratory.value;
     if (joints[i].loss_account >= 0)
       load.power.value = -outcome.state[equations.work_index(at(joints[i].loss_account))] / time;
     loads.joints.push_back(load);
@@ -143,8 +143,9 @@ SteadyLoads follow_loosely(const Orbit& orbit, const std::vector<LimitedJoint>& 
   return twin.point.found ? follow(*twin.map, twin.point, joints, loose) : SteadyLoads{};
 }
 
-constexpr std::array<Estimate JointLoad::*, 6> measured = {&JointLoad::mean,  &JointLoad::upper,    &JointLoad::lower,
-                                                           &JointLoad::swing, &JointLoad::weighted, &JointLoad::power};
+constexpr std::array<Estimate JointLoad::*, 6> measured = {&JointLoad::mean,     &JointLoad::upper,
+                                                           &JointLoad::lower,    &JointLoad::vibratory,
+                                                           &JointLoad::weighted, &JointLoad::power};
 
 // `open`: fraction of the rated torque left uncertain by the search or by dense tables.
 void add_errors(const SteadyLoads& other, double open, const std::vector<LimitedJoint>& joints, SteadyLoads& loads) {
@@ -168,7 +169,7 @@ SteadyLoads constant_loads(const Orbit& orbit, const std::shared_ptr<const Model
   loads.speed = link_speed(*machine, s), loads.slowest = std::abs(loads.speed);
   for (const LimitedJoint& joint : joints) {
     JointLoad load;
-    load.mean.value = load.upper.value = load.lower.value = joint.told(s.joint_torque, joint.joint);
+    load.mean.value = load.upper.value = load.lower.value = joint.reported(s.joint_torque, joint.joint);
     loads.joints.push_back(load);
   }
   return loads;
@@ -183,7 +184,7 @@ std::vector<LimitedJoint> limited_joints(const Model& model) {
     const Network::Joint& joint = model.network.joints[at(e.joint)];
     LimitedJoint one{.name = names[joints.size()], .component = joint.component, .joint = e.joint};
     for (const TorqueJoint& known : model.torque_joints)
-      if (known.joint == e.joint) one.told = known.told;
+      if (known.joint == e.joint) one.reported = known.reported;
     one.stands = model.node_ratio[at(joint.a)] == 0;
     one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
     one.turns = std::abs(model.node_ratio[at(joint.a)]);

@@ -31,13 +31,13 @@ struct DriveLimits : CouplingLimits {
 struct LimitedJoint {
   std::string name;  // of its component; numbered if it has several: "shaft.2"
   std::string component;
-  int joint = 0;          // in the network
-  ToldTorque told = {};   // the joint's torque
-  bool stands = false;    // it holds a stationary part (housing): the drive's rated torque does not apply
-  double rated = 0;       // torque of the drive at its rated point, reduced to this joint [N·m]
-  double turns = 0;       // its speed over the reduction link's
-  bool has_play = false;  // backlash is given: it hammers when its torque changes sign
-  int loss_account = -1;  // of its damping losses; −1: none
+  int joint = 0;                 // in the network
+  ReportedTorque reported = {};  // the joint's torque
+  bool stands = false;           // it holds a stationary part (housing): the drive's rated torque does not apply
+  double rated = 0;              // torque of the drive at its rated point, reduced to this joint [N·m]
+  double turns = 0;              // its speed over the reduction link's
+  bool has_play = false;         // backlash is given: it hammers when its torque changes sign
+  int loss_account = -1;         // of its damping losses; −1: none
   DriveLimits limits = {};
 
   // Of UR M68, at a speed of the link [rad/s].
@@ -55,7 +55,7 @@ bool any_limits(const std::vector<LimitedJoint>& joints);
 // Of one joint; torques in N·m.
 struct JointLoad {
   Estimate mean, upper, lower;  // lower ≤ mean ≤ upper
-  Estimate swing;               // T_W
+  Estimate vibratory;           // T_W
   Estimate weighted;            // S_f T_W
   Estimate power;               // P_W [W]
   double frequency = 0;         // of the largest amplitude [Hz]

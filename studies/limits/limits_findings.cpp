@@ -39,7 +39,7 @@ std::string load_text(const Verdict& v) {
 }
 
 // A rule that bars all speeds gives no range to avoid; it is in the notes.
-bool is_told_first(const BarredRange& b) { return !(b.everywhere && b.by == BarredRange::By::rule); }
+bool is_reported_first(const BarredRange& b) { return !(b.everywhere && b.by == BarredRange::By::rule); }
 
 std::string range_text(const BarredRange& b, const SpeedUnit& unit) {
   return fmt::format("{:.5g} … {}", unit.of(b.from), unit.text(b.to, 5));
@@ -48,7 +48,7 @@ std::string range_text(const BarredRange& b, const SpeedUnit& unit) {
 // ": up to 939.9 N·m where 75 N·m are allowed": by a limit that is given.
 std::string excess_text(const BarredRange& b) {
   if (b.by != BarredRange::By::limit || !std::isfinite(b.peak) || !(b.peak > b.limit)) return "";
-  return fmt::format(": up to {} where {} are allowed", told_shortly(b.peak, "N*m"), told_shortly(b.limit, "N*m"));
+  return fmt::format(": up to {} where {} are allowed", short_text(b.peak, "N*m"), short_text(b.limit, "N*m"));
 }
 
 // Overlapping ranges of several joints count as one.
@@ -128,11 +128,11 @@ Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<Limi
 
 std::optional<Claim> barred_claim(const std::vector<BarredRange>& ranges, const std::vector<LimitedJoint>& joints,
                                   const SpeedUnit& unit) {
-  std::vector<BarredRange> told;
-  std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(told), is_told_first);
-  const BarredRange* b = worst_of(told);
+  std::vector<BarredRange> reported;
+  std::copy_if(ranges.begin(), ranges.end(), std::back_inserter(reported), is_reported_first);
+  const BarredRange* b = worst_of(reported);
   if (!b) return {};
-  const std::size_t number = number_apart(told);
+  const std::size_t number = number_apart(reported);
   const std::string& joint = joints[b->joint].name;
   const bool known = std::isfinite(b->peak);
   return claimed(Predicate::speeds_barred,

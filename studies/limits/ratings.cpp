@@ -33,7 +33,7 @@ std::string load_case_at(const Result& r, std::optional<double> at) {
   const Periods& p = r.periods;
   if (!at || !r.model || r.begins_at > 0) return load_case::run;
   const std::vector<SequenceStep>& steps = r.model->scene.sequence.steps;
-  std::size_t taken = 0, told = 0;  // steps; commands of the one under way
+  std::size_t taken = 0, given = 0;  // steps; commands of the one under way
   // Steps due at the start have no event.
   const auto due_at_once = [](const SequenceStep& step) {
     return (step.when == SequenceStep::When::at || step.when == SequenceStep::When::after) && step.value <= 0;
@@ -41,7 +41,7 @@ std::string load_case_at(const Result& r, std::optional<double> at) {
   while (taken < steps.size() && due_at_once(steps[taken])) ++taken;
   for (const Event& e : r.events) {
     if (e.kind != EventKind::command || e.t > *at || steps.empty()) continue;
-    if (++told == steps[taken % steps.size()].set.size()) ++taken, told = 0;
+    if (++given == steps[taken % steps.size()].set.size()) ++taken, given = 0;
   }
   if (taken > 0) return fmt::format("after step {} of the sequence", (taken - 1) % steps.size() + 1);
   const bool starts =

@@ -17,7 +17,7 @@ namespace {
 constexpr double tolerance = 1e-9, looser = 30;  // of the steps
 constexpr double arrived = 0.99;                 // of the least speed of the link in steady motion
 constexpr double same_motion = 1e-3;             // of two mean speeds
-constexpr int most_rounds = 200;                 // to find where a run-up made from rest leads
+constexpr int most_periods = 200;                // to find where a run-up made from rest leads
 constexpr double longest = 20;                   // times what the search or the scene takes
 
 class Search {
@@ -65,7 +65,7 @@ class Search {
       if (!find_end()) return false;
       OrbitOptions options;
       options.budget = scene.run.budget;
-      options.most_rounds = most_rounds;
+      options.most_periods = most_periods;
       options.interrupted = watch_.interrupted;
       made_ = find_orbit(machine_, options);
     } catch (const std::exception& error) {

@@ -34,7 +34,7 @@ class Judge {
               {{"K_A", limits_.application_factor}, {"S_t", limits_.temperature_factor}}, "", "nominal_torque");
     if (limits_.maximum > 0) maximum();
     if (limits_.vibratory > 0)
-      counted("vibratory torque: S_t S_f T_W ≤ T_KW", abs(load_.swing), limits_.vibratory,
+      counted("vibratory torque: S_t S_f T_W ≤ T_KW", abs(load_.vibratory), limits_.vibratory,
               {{"S_t", limits_.temperature_factor}, {"S_f", limits_.frequency_factor(load_.frequency_factor)}},
               load_.frequency > 0 ? fmt::format("strongest at {:.4g} Hz", load_.frequency) : "it does not oscillate",
               "vibratory_torque");
@@ -44,7 +44,7 @@ class Judge {
     if (limits_.shear_stress > 0)
       largest(requirement::shear, limits_.shear_stress, "Pa", 1 / limits_.polar_modulus,
               {"K_A", limits_.application_factor}, fmt::format("W_p = {:.5g} cm³", 1e6 * limits_.polar_modulus));
-    if (limits_.shaft.any()) swinging_stress();
+    if (limits_.shaft.any()) alternating_stress();
   }
 
  private:
@@ -132,7 +132,7 @@ class Judge {
     v.factor = steady_factor.second, v.factors = words_of({steady_factor});
   }
 
-  void swinging_stress() {
+  void alternating_stress() {
     const ShaftRating& shaft = limits_.shaft;
     const double per = 1 / limits_.polar_modulus;
     const Estimate amplitude = per * load_.amplitude();
@@ -202,7 +202,7 @@ std::string name_of_remedy(const Verdict& v) {
 }
 
 std::string in_words(const Remedy& r, bool up_to) {
-  const std::string value = r.unit == "m" ? fmt::format("{:.4g} mm", 1e3 * r.value) : told_shortly(r.value, r.unit);
+  const std::string value = r.unit == "m" ? fmt::format("{:.4g} mm", 1e3 * r.value) : short_text(r.value, r.unit);
   return fmt::format("{}it holds {} {} = {}{}{}", r.tried ? "" : "by an estimate ", up_to ? "up to" : "from",
                      r.key.substr(r.key.rfind('.') + 1), value, up_to ? "" : " on",
                      r.tried ? (up_to ? ", and does not 1 % above" : ", and does not 1 % below") : "");
@@ -223,10 +223,10 @@ std::string use_in_words(const Verdict& v) {
 
 // "9.16 kN·m · 1.2 of 10 kN·m", "; it holds from …"
 std::string numbers_in_words(const Verdict& v) {
-  if (v.gives_way) return "it slips at " + told_shortly(v.limit, v.unit);
+  if (v.gives_way) return "it slips at " + short_text(v.limit, v.unit);
   const bool counted = v.factor != 1 && std::isfinite(v.load());
-  return fmt::format("{}{} of {}{}", told_shortly(counted ? v.load() : v.value, v.unit),
-                     counted ? fmt::format(" · {:.3g}", v.factor) : "", told_shortly(v.limit, v.unit),
+  return fmt::format("{}{} of {}{}", short_text(counted ? v.load() : v.value, v.unit),
+                     counted ? fmt::format(" · {:.3g}", v.factor) : "", short_text(v.limit, v.unit),
                      v.note.empty() ? "" : "; " + v.note);
 }
 

@@ -155,14 +155,14 @@ class LineList {
     std::size_t mesh = 0;
     for (const auto& [gearbox, gears] : m_.network.data.all<GearStages>())
       for (const GearStages::Stage& stage : gears.stages) {
-        const GearMesh& told = x_.meshes.at(mesh++);
+        const GearMesh& reported = x_.meshes.at(mesh++);
         if (std::max(stage.teeth[0], stage.teeth[1]) > most_teeth)
-          notes_.push_back(fmt::format("{}: so many stand for a ratio; its mesh is no excitation here", told.name));
+          notes_.push_back(fmt::format("{}: so many stand for a ratio; its mesh is no excitation here", reported.name));
         else
           add({.kind = ExcitationLine::Kind::mesh,
                .label = "mesh " + readable(gearbox),
-               .source = readable(told.name),
-               .order = told.order});
+               .source = readable(reported.name),
+               .order = reported.order});
       }
   }
 

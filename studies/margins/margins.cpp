@@ -15,11 +15,11 @@
 namespace kurbel {
 namespace {
 
-constexpr double rounding = 1e-9;      // a margin that is met but for this is kept
-constexpr std::size_t samples = 8192;  // of all tolerances together
-constexpr double moves = 1e-12;        // of a natural frequency: less is rounding
-constexpr double of_weight = 0.02;     // share of a mode's damping that is told
-constexpr std::size_t parts_told = 3;  // of it, by name
+constexpr double rounding = 1e-9;          // a margin that is met but for this is kept
+constexpr std::size_t samples = 8192;      // of all tolerances together
+constexpr double moves = 1e-12;            // of a natural frequency: less is rounding
+constexpr double of_weight = 0.02;         // share of a mode's damping that is told
+constexpr std::size_t parts_reported = 3;  // of it, by name
 constexpr double outside_interval = 0.025;
 
 // ln ω over x, the ln of the value if that is positive: a parabola through the ends and the middle, where it is 0.
@@ -180,18 +180,18 @@ std::string damping_of(const LinearDrive& drive, const std::vector<std::string>&
   }
   const double all = shape.dot(drive.damping * shape);
   parts.emplace_back("torques that follow speeds", all - of_joints);
-  if (real_part && drive.own_states() > 0) parts.emplace_back("internal states", -2 * *real_part - all);
+  if (real_part && drive.internal_states() > 0) parts.emplace_back("internal states", -2 * *real_part - all);
   double sum = 0;
   for (const auto& [name, power] : parts) sum += std::abs(power);
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.second) > std::abs(b.second); });
   std::string text;
-  std::size_t told = 0, others = 0;
+  std::size_t reported = 0, others = 0;
   double of_others = 0;
   for (const auto& [name, power] : parts) {
     if (!(std::abs(power) > of_weight * sum && std::abs(power) > 1e-12 * std::abs(all))) continue;
     const double share = 100 * power / sum;
-    if (++told > parts_told)
+    if (++reported > parts_reported)
       ++others, of_others += share;
     else if (share < 0)
       text += fmt::format("{}excited by {} with {:.0f} %", text.empty() ? "" : ", ", name, -share);

@@ -60,14 +60,14 @@ std::string range_text(const OperatingSpeeds& s, const SpeedUnit& unit) {
 }
 
 Rows margin_table(const Margins& m, const SpeedUnit& unit) {
-  const std::vector<std::size_t> told = shown(m);
+  const std::vector<std::size_t> reported = shown(m);
   const std::string heading =
       fmt::format("separation margins at {} ({}): {} of {} pairs of a mode and an excitation, the nearest first",
-                  range_text(m.speeds, unit), m.speeds.words, told.size(), m.rows.size());
+                  range_text(m.speeds, unit), m.speeds.words, reported.size(), m.rows.size());
   const auto mode = [&m](const Margin& row) -> const MarginMode& { return m.modes[row.mode]; };
   const auto line = [&m](const Margin& row) -> const ExcitationLine& { return m.lines[row.line]; };
   auto table = table_of("margins", "Separation margins", m.rows);
-  table.headed(heading).text_in(3).people_see(told);
+  table.headed(heading).text_in(3).people_see(reported);
   table.column("mode", "mode", [&](const Margin& row) { return mode(row).number; })
       .also_in_file()
       .column("excitation", "excitation", [&](const Margin& row) { return line(row).label; })

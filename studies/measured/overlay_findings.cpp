@@ -29,7 +29,7 @@ std::vector<Row> rows_of(const Overlay& o) {
 }
 
 // A speed in the scene's unit; without an error if unknown.
-std::string told(const Estimate& value, const std::string& unit, const SpeedUnit& speed) {
+std::string reported(const Estimate& value, const std::string& unit, const SpeedUnit& speed) {
   const FigureCells cells = figure_cells(value, unit, speed);
   return cells.value + (value.error ? " " + cells.error : "") + (cells.unit.empty() ? "" : " " + cells.unit);
 }
@@ -45,17 +45,18 @@ Rows table_of(const Overlay& o) {
                            [](const Row& r) { return fmt::format("{} → {}", r.signal->column, r.signal->channel); })
           .only_for_people("model", [](const Row& r) { return r.model->label; })
           .only_for_people("points", [](const Row& r) { return r.left->time.size(); })
-          .only_for_people("rms", [&](const Row& r) { return told_shortly(r.left->rms, r.signal->unit, o.speed); })
+          .only_for_people("rms", [&](const Row& r) { return short_text(r.left->rms, r.signal->unit, o.speed); })
           .only_for_people("of the range", [](const Row& r) { return percent(r.left->relative); })
           .only_for_people("largest",
-                           [&](const Row& r) { return told_shortly(r.left->largest, r.signal->unit, o.speed); })
-          .only_for_people("at", [](const Row& r) { return told_shortly(r.left->at, "s"); });
-  return table.only_for_people("offset", [&](const Row& r) { return told(r.left->offset, r.signal->unit, o.speed); });
+                           [&](const Row& r) { return short_text(r.left->largest, r.signal->unit, o.speed); })
+          .only_for_people("at", [](const Row& r) { return short_text(r.left->at, "s"); });
+  return table.only_for_people("offset",
+                               [&](const Row& r) { return reported(r.left->offset, r.signal->unit, o.speed); });
 }
 
 std::string shift_in_words(const Overlay& o, const ModelOverlay& m) {
   return fmt::format("{} model: simulated time = measured time {} {}{}{}", m.label,
-                     m.alignment.shift.value < 0 ? "−" : "+", told(abs(m.alignment.shift), "s", {}),
+                     m.alignment.shift.value < 0 ? "−" : "+", reported(abs(m.alignment.shift), "s", {}),
                      o.measurement.shift.fit ? ", found by least squares" : "",
                      o.of_cycle ? "; time 0: the link passes its zero" : "");
 }
@@ -73,15 +74,15 @@ std::vector<std::string> short_words(const Overlay& o) {
   const std::vector<Row> rows = rows_of(o);
   for (std::size_t i = 0; i < rows.size() && i < most; ++i) {
     const Row& r = rows[i];
-    const auto in_short = [&](double value) { return told_shortly(value, r.signal->unit, o.speed); };
+    const auto in_short = [&](double value) { return short_text(value, r.signal->unit, o.speed); };
     lines.push_back(fmt::format("measured − simulated, {}: rms {}{}, largest {} at {}", r.signal->channel,
                                 in_short(r.left->rms),
                                 r.left->relative ? fmt::format(" ({} of its range)", percent(r.left->relative)) : "",
-                                in_short(r.left->largest), told_shortly(r.left->at, "s")));
+                                in_short(r.left->largest), short_text(r.left->at, "s")));
   }
   if (rows.size() > most) lines.push_back(fmt::format("{} more columns: --all, or the report", rows.size() - most));
   const Alignment& a = o.models.back().alignment;
-  if (a.shift.error) lines.push_back("record shifted by " + told(a.shift, "s", {}));
+  if (a.shift.error) lines.push_back("record shifted by " + reported(a.shift, "s", {}));
   return lines;
 }
 
@@ -104,7 +105,7 @@ Plot overlay_plot(const Overlay& o, std::size_t k) {
   const MeasuredSignal& s = o.measurement.signals[k];
   const Residuals& last = o.models.back().alignment.signals[k];
   Plot plot{.title = fmt::format("{} measured and simulated: {} rms between them", s.channel,
-                                 told_shortly(last.rms, s.unit, o.speed)),
+                                 short_text(last.rms, s.unit, o.speed)),
             .x = time_axis(o),
             .y = {s.channel, ""}};
   const auto [from, to] = std::minmax_element(last.time.begin(), last.time.end());
@@ -119,7 +120,7 @@ Plot overlay_plot(const Overlay& o, std::size_t k) {
   plot.series.push_back(dashed(measured_series(last, last.measured, "measured", Role::reference)));
   plot.note = fmt::format(
       "Column {} of {}{}.", s.column, o.measurement.file,
-      last.offset.value != 0 ? fmt::format(", {} taken off", told({last.offset.value}, s.unit, o.speed)) : "");
+      last.offset.value != 0 ? fmt::format(", {} taken off", reported({last.offset.value}, s.unit, o.speed)) : "");
   return in_readable_unit(std::move(plot), s.unit, o.speed);
 }
 
@@ -127,7 +128,7 @@ Plot residual_plot(const Overlay& o, std::size_t k) {
   const MeasuredSignal& s = o.measurement.signals[k];
   const Residuals& last = o.models.back().alignment.signals[k];
   Plot plot{.title = fmt::format("Residual of {}: at most {} at {}", s.channel,
-                                 told_shortly(std::abs(last.largest), s.unit, o.speed), told_shortly(last.at, "s")),
+                                 short_text(std::abs(last.largest), s.unit, o.speed), short_text(last.at, "s")),
             .x = time_axis(o),
             .y = {"measured − simulated", ""}};
   for (const ModelOverlay& m : o.models) {
@@ -180,9 +181,9 @@ Record model_record(const Overlay& o, const ModelOverlay& m) {
 
 void show(Findings& f, const Overlay& o) {
   const Chapter in = f.chapter_named(chapter_of_measurement);
-  f.tell("measured", Record{{"file", o.measurement.file},
-                            {"models", each(o.models, [&](const ModelOverlay& m) { return model_record(o, m); })},
-                            {"notes", o.notes}});
+  f.record("measured", Record{{"file", o.measurement.file},
+                              {"models", each(o.models, [&](const ModelOverlay& m) { return model_record(o, m); })},
+                              {"notes", o.notes}});
   f.say(in, Sentences{.lines = o.notes, .indent = "note: "});
   if (f.brief)
     for (const std::string& note : o.notes) f.brief->words.push_back(note);

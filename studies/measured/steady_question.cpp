@@ -31,7 +31,7 @@ const OptionsOf<MeasurementRequest>& measurement_options() {
 
 namespace {
 
-struct SteadyAsked : SteadyOptions {
+struct SteadyRequest : SteadyOptions {
   std::optional<Effects> effects;
   MeasurementRequest measured;
 };
@@ -42,7 +42,7 @@ void held(std::optional<double>& speed, const std::optional<double>& other, cons
   if (other) given.refuse(given.text(), "one of mid speed and mean speed");
 }
 
-StudyOutput steady_motion(const Inquiry& inquiry, SteadyAsked asked) {
+StudyOutput steady_motion(const Inquiry& inquiry, SteadyRequest asked) {
   asked.watch = inquiry.watch;
   asked.traces = inquiry.page;
   const std::vector<Effects> effects =
@@ -62,28 +62,28 @@ Question steady_question() {
                "(is it stable?), operating points, motor use, start time; `--mid-speed \"60 rpm\"` finds the drive "
                "torque for a speed; `--measured test.csv --map \"T1=torque.main_coupling\"` lays a test's record over "
                "the cycle, its time taken modulo the period"},
-      OptionsOf<SteadyAsked>()
+      OptionsOf<SteadyRequest>()
           .add({.name = "effects",
                 .doc = "none, elasticity, or elasticity:COUPLING,… (default: rigid and the scene's, side by side)"},
-               &SteadyAsked::effects)
+               &SteadyRequest::effects)
           .add({.name = "at",
                 .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a mid "
                        "speed (default: where its own start leads to; of a machine that rests in the end, the last "
                        "motion that it keeps before)"},
                OptionForm::one,
-               [](SteadyAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.mid_speed); })
+               [](SteadyRequest& asked, const OptionValues& given) { asked.at = given.moment(asked.mid_speed); })
           .add({.name = "mid_speed",
                 .doc = "(ω_max + ω_min)/2 of the crank, e.g. \"60 1/min\": finds the drive torque that it needs",
                 .example = "60 rpm",
                 .what = "a speed other than 0"},
                OptionForm::one,
-               [](SteadyAsked& asked, const OptionValues& given) { held(asked.mid_speed, asked.mean_speed, given); })
+               [](SteadyRequest& asked, const OptionValues& given) { held(asked.mid_speed, asked.mean_speed, given); })
           .add({.name = "mean_speed",
                 .doc = "the same of the mean speed over time, 2π n/T",
                 .example = "60 rpm",
                 .what = "a speed other than 0"},
                OptionForm::one,
-               [](SteadyAsked& asked, const OptionValues& given) { held(asked.mean_speed, asked.mid_speed, given); })
+               [](SteadyRequest& asked, const OptionValues& given) { held(asked.mean_speed, asked.mid_speed, given); })
           .add({.name = "hold_by",
                 .doc = "COMPONENT.KEY, e.g. \"load.torque\": the quantity of the scene that is scaled to keep that "
                        "speed (default: a torque is added to the drive)"},
@@ -92,7 +92,7 @@ Question steady_question() {
                 .doc = "cycles after which the motion repeats (default: 1)",
                 .domain = {.low = 1, .high = 64}},
                &SteadyOptions::periods)
-          .add(measurement_options(), &SteadyAsked::measured)
+          .add(measurement_options(), &SteadyRequest::measured)
           .add({.name = "no_start", .doc = "skip the start from rest and the gearbox ratio that starts fastest"},
                &SteadyOptions::start_search, false),
       steady_motion);

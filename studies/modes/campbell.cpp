@@ -90,15 +90,16 @@ double top_of(const ModesStudy& m) {
 
 // "Above the diagram, where no order of weight meets a mode: mode 2 at 481.8 Hz.": names the modes not drawn.
 std::string modes_above(const ModesStudy& m, double top) {
-  constexpr std::size_t most_told = 4;
+  constexpr std::size_t most_reported = 4;
   std::string text;
   std::size_t number = 0;
   for (const Mode& mode : m.modes) {
     const double f = hertz(frequency_of_resonance(m.drive, mode));
     if (f <= top) continue;
-    if (++number <= most_told) text += fmt::format("{}mode {} at {:.4g} Hz", number == 1 ? "" : ", ", mode.number, f);
+    if (++number <= most_reported)
+      text += fmt::format("{}mode {} at {:.4g} Hz", number == 1 ? "" : ", ", mode.number, f);
   }
-  if (number > most_told) text += fmt::format(" and {} more", number - most_told);
+  if (number > most_reported) text += fmt::format(" and {} more", number - most_reported);
   return number == 0 ? "" : "Above the diagram, where no order of weight meets a mode: " + text + ". ";
 }
 
@@ -251,7 +252,8 @@ std::string name_of(const ModesStudy& m, const Mode& mode) {
   if (!mode.of_internal_states) return moving_parts(m, mode);
   for (const EnergyStore& store : energy_stores(m, mode))
     if (store.name.find(" of ") != std::string::npos)
-      return mode.energy.in_own() > mostly ? store.name : fmt::format("{} and {}", store.name, moving_parts(m, mode));
+      return mode.energy.in_internal_states() > mostly ? store.name
+                                                       : fmt::format("{} and {}", store.name, moving_parts(m, mode));
   return moving_parts(m, mode);
 }
 

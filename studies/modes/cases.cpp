@@ -157,11 +157,11 @@ namespace {
 constexpr std::size_t curves_drawn = 6;
 
 // Over the operating speeds including that of the steady motion; NaN: the case has no such joint.
-struct LargestSwing {
+struct LargestAmplitude {
   double peak = std::nan(""), speed = 0;
 };
-LargestSwing largest_amplitude(const ModesStudy& m, const std::string& joint) {
-  LargestSwing most;
+LargestAmplitude largest_amplitude(const ModesStudy& m, const std::string& joint) {
+  LargestAmplitude most;
   const auto place = std::find(m.joint_names.begin(), m.joint_names.end(), joint);
   const auto j = static_cast<std::size_t>(place - m.joint_names.begin());
   const auto look = [&](const SpeedResponse& r, double speed) {
@@ -214,7 +214,7 @@ Rows case_table(const ModesStudy& m) {
   return table;
 }
 
-Rows swing_table(const ModesStudy& m) {
+Rows amplitude_table(const ModesStudy& m) {
   Lines lines;
   std::vector<std::string> headings = {"joint"};
   for (const auto& [name, study] : variants_of(m)) headings.push_back(name);
@@ -222,7 +222,7 @@ Rows swing_table(const ModesStudy& m) {
     const std::string& joint = m.joint_names[j];
     std::vector<std::string>& line = lines.emplace_back(std::vector<std::string>{joint});
     for (const auto& [name, study] : variants_of(m)) {
-      const LargestSwing most = largest_amplitude(*study, joint);
+      const LargestAmplitude most = largest_amplitude(*study, joint);
       line.push_back(std::isnan(most.peak)
                          ? "—"
                          : fmt::format("{} at {}", torque_text(most.peak), m.speed_unit.text(most.speed, 4)));
@@ -272,7 +272,7 @@ void claim_case(Findings& f, const ModesCase& one) {
 void say_cases(Findings& f, Chapter in, const ModesStudy& m) {
   if (m.cases.empty()) return;
   f.say(in, case_table(m));
-  if (!m.joint_names.empty() && is_forced(m)) f.say(in, swing_table(m));
+  if (!m.joint_names.empty() && is_forced(m)) f.say(in, amplitude_table(m));
   f.draw(in, [&m] {
     std::vector<Plot> plots;
     for (const std::size_t j : joints_drawn(m))
@@ -280,14 +280,14 @@ void say_cases(Findings& f, Chapter in, const ModesStudy& m) {
         plots.push_back(std::move(*plot));
     return plots;
   });
-  f.tell("cases", each(m.cases, [](const ModesCase& one) {
-           Record record = {{"name", one.name}, {"set", one.settings}};
-           if (one.study)
-             record.push_back({"modes", summary_of(findings_of(*one.study))});
-           else
-             record.push_back({"not_assessed", one.why});
-           return record;
-         }));
+  f.record("cases", each(m.cases, [](const ModesCase& one) {
+             Record record = {{"name", one.name}, {"set", one.settings}};
+             if (one.study)
+               record.push_back({"modes", summary_of(findings_of(*one.study))});
+             else
+               record.push_back({"not_assessed", one.why});
+             return record;
+           }));
   for (const ModesCase& one : m.cases)
     if (one.study) claim_case(f, one);
 }

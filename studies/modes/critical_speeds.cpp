@@ -19,7 +19,7 @@ namespace {
 
 constexpr int sweep_points = 240;
 constexpr std::size_t most_solves = 400'000;  // of n-by-n systems in a sweep, over n
-constexpr double hardly_swings = 0.5;         // ζ
+constexpr double hardly_vibrates = 0.5;       // ζ
 constexpr int looks_at_a_peak = 2;            // each takes some two digits
 
 constexpr Eigen::Index most_coordinates = 160;
@@ -102,9 +102,9 @@ class OrderCurve {
 
 double frequency_of_resonance(const LinearDrive& drive, const Mode& mode) {
   constexpr double twisted = 0.01;  // share of the mode's twist energy
-  if (drive.own_states() == 0 || mode.of_internal_states) return mode.omega;
+  if (drive.internal_states() == 0 || mode.of_internal_states) return mode.omega;
   for (std::size_t j = 0; j < mode.shares.joint.size(); ++j)
-    if (mode.shares.joint[j] > twisted && drive.joint_by_own.row(static_cast<Eigen::Index>(j)).norm() > 0)
+    if (mode.shares.joint[j] > twisted && drive.joint_by_internal.row(static_cast<Eigen::Index>(j)).norm() > 0)
       return mode.magnitude();
   return mode.omega;
 }
@@ -135,7 +135,7 @@ void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& a
     std::optional<SpeedResponse> peak;
     // The amplitude under a force is largest at √(1 − 2ζ²) of |λ|, and the torque transmitted by a joint less below it.
     const double damped = mode.magnitude() / c.order, width = (2 * mode.ratio * mode.ratio + 0.02) * damped;
-    if (mode.ratio < hardly_swings) peak = OrderCurve(c, found.sweep).peak(damped, width, at);
+    if (mode.ratio < hardly_vibrates) peak = OrderCurve(c, found.sweep).peak(damped, width, at);
     const SpeedResponse& there = peak ? *peak : found.sweep[nearest];
     if (peak) c.peak = peak->speed;
     c.amplitude = std::abs(there.orders[c.joint][c.harmonic]);
@@ -202,20 +202,20 @@ void find_zones(ModesStudy& found) {
 }
 
 bool grows(const LinearDrive& drive) {
-  if (drive.size() + drive.own_states() > most_coordinates) return false;
+  if (drive.size() + drive.internal_states() > most_coordinates) return false;
   const std::vector<DampedMode> modes = damped_modes(drive, undamped_modes(drive));
   const double pace = std::abs(drive.at.speed);
   return std::any_of(modes.begin(), modes.end(),
                      [&](const DampedMode& mode) { return mode.lambda.real() > std::max(growth * pace, mode.error); });
 }
 
-void judge_kept_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response) {
+void judge_operating_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response) {
   if (!found.keeps_its_speed) return;
-  double swing = response.speed_swing;
-  if (swing >= std::abs(response.speed))
+  double vibration = response.speed_amplitude;
+  if (vibration >= std::abs(response.speed))
     if (const std::optional<LinearDrive> rigid = as_if_rigid(drive))
-      swing = std::min(swing, respond(*rigid, found.excitations).speed_swing);
-  response.kept = swing < std::abs(response.speed) && !grows(drive);
+      vibration = std::min(vibration, respond(*rigid, found.excitations).speed_amplitude);
+  response.kept = vibration < std::abs(response.speed) && !grows(drive);
 }
 
 std::vector<SpeedStretch> stretches(const std::vector<SpeedResponse>& sweep) {
@@ -227,7 +227,7 @@ std::vector<SpeedStretch> stretches(const std::vector<SpeedResponse>& sweep) {
   return list;
 }
 
-void leave_out_what_is_not_kept(ModesStudy& found) {
+void omit_speeds_not_held(ModesStudy& found) {
   std::string where;
   for (const SpeedStretch& s : stretches(found.sweep))
     if (!s.kept)
@@ -267,13 +267,13 @@ std::vector<CrossingResponse> responses_of(const ModesStudy& found) {
   if (laws.empty() || found.joint_names.empty()) return all;
   FrequencyResponse response(found.drive);
   for (const auto& [omega, forcing] : laws) {
-    const std::vector<FrequencyResponse::JointSwing> swings = response.swings(omega, forcing);
+    const std::vector<FrequencyResponse::JointVibration> vibrations = response.vibrations(omega, forcing);
     for (const Mode& mode : found.modes)
       if (const std::size_t j = joint_of(mode); !mode.of_internal_states)
         all.push_back({.mode = mode.number,
                        .fixed = omega,
                        .joint = found.joint_names[j],
-                       .amplitude = std::abs(swings[j].torque)});
+                       .amplitude = std::abs(vibrations[j].torque)});
   }
   return all;
 }

@@ -35,10 +35,10 @@ bool grows(const LinearDrive& drive);
 // A speed is kept if nothing grows there and the link's speed variation would be smaller than the mean speed if all
 // were rigid; large resonant vibration makes a speed barred, not omitted. At other speeds the linear response belongs
 // to no lasting motion. If the operating speed itself is not kept, the others are not marked.
-void judge_kept_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response);
+void judge_operating_speeds(const ModesStudy& found, const LinearDrive& drive, SpeedResponse& response);
 
 // Moves critical speeds that are not kept into `not_kept`, and notes what is omitted.
-void leave_out_what_is_not_kept(ModesStudy& found);
+void omit_speeds_not_held(ModesStudy& found);
 
 // Fills `margins` from the operating speeds, modes, excitations and critical speeds; for tolerances by the modes of
 // the scene with other values, at the same speed, with all shafts turning as geared.

@@ -39,7 +39,7 @@ void find_severity(double factor, ModesStudy& found) {
     JointLoad load;
     load.mean.value = c.mean;
     load.upper.value = c.mean + c.amplitude, load.lower.value = c.mean - c.amplitude;
-    load.swing.value = c.amplitude;
+    load.vibratory.value = c.amplitude;
     load.frequency = c.order * speed / (2 * std::numbers::pi);
     load.frequency_factor = frequency_factor(load.frequency);
     load.weighted.value = load.frequency_factor * c.amplitude;
@@ -70,7 +70,7 @@ void judge_history(ModesStudy& found) {
 JointLoad load_of(const JointResponse& response) {
   JointLoad load;
   load.mean.value = response.mean, load.upper.value = response.upper, load.lower.value = response.lower;
-  load.swing.value = response.peak, load.power.value = response.power;
+  load.vibratory.value = response.peak, load.power.value = response.power;
   load.frequency = response.dominant_omega / (2 * std::numbers::pi);
   load.frequency_factor = frequency_factor(load.frequency);
   load.weighted.value = load.frequency_factor * response.peak;

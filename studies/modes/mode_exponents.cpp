@@ -13,10 +13,10 @@ namespace kurbel {
 namespace {
 
 constexpr std::size_t most_states_of_exponents = 60;
-constexpr double told_of_mean = 0.01;  // of |λ|: an error of the mean that is worth a note
-constexpr double near_enough = 0.5;    // of |λ|: how far an exponent may be from its mode of the mean
-constexpr double fades = 5;            // e-foldings in a round: what is left then is less than a hundredth
-constexpr double varies_much = 0.01;   // of ω, over the angles of the round
+constexpr double reported_of_mean = 0.01;  // of |λ|: an error of the mean that is worth a note
+constexpr double near_enough = 0.5;        // of |λ|: how far an exponent may be from its mode of the mean
+constexpr double fades = 5;                // e-foldings in a round: what is left then is less than a hundredth
+constexpr double varies_much = 0.01;       // of ω, over the angles of the round
 constexpr double explained = 0.5;  // |ln μ − λT|: a change that this slow mode of the round's mean is enough for
 
 bool varies_with_angle(const Model& m) {
@@ -39,15 +39,15 @@ class Exponents {
   void hand_out() {
     give_own();
     give_pairs();
-    tell_those_without();
-    tell_those_that_fade();
-    tell_largest_change();
+    report_missing_exponents();
+    report_decayed();
+    report_largest_change();
   }
 
  private:
   struct Candidate {
     std::size_t number;
-    PeriodicSwing swing;
+    PeriodicMode vibration;
     double off;  // from the mode's λ [1/s]
   };
   const FloquetExponent& of(std::size_t i) const { return spectrum_.exponents[i]; }
@@ -69,14 +69,14 @@ class Exponents {
 
   // If contacts change within the period, the motion alternates between different machines, and its number of
   // oscillations per period is a matter of definition.
-  PeriodicSwing as_near_as_can_be(std::size_t i, const Mode& mode) const {
-    PeriodicSwing swing{of(i).exponent, of(i).error, of(i).branch_by_mean};
-    if (!contacts_change_ && !swing.branch_by_mean) return swing;
+  PeriodicMode as_near_as_can_be(std::size_t i, const Mode& mode) const {
+    PeriodicMode vibration{of(i).exponent, of(i).error, of(i).branch_by_mean};
+    if (!contacts_change_ && !vibration.branch_by_mean) return vibration;
     const double turn = 2 * pi / spectrum_.time;
-    const double turns = std::round((mode.lambda.imag() - swing.exponent.imag()) / turn);
-    swing.branch_by_mean = swing.branch_by_mean || turns != 0;
-    swing.exponent += std::complex<double>(0, turns * turn);
-    return swing;
+    const double turns = std::round((mode.lambda.imag() - vibration.exponent.imag()) / turn);
+    vibration.branch_by_mean = vibration.branch_by_mean || turns != 0;
+    vibration.exponent += std::complex<double>(0, turns * turn);
+    return vibration;
   }
 
   // Those not used yet, nearest first.
@@ -84,17 +84,18 @@ class Exponents {
     std::vector<Candidate> list;
     for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) {
       if (used_[i] || is_gone(i) || is_slow(i) || is_real(i) != of_real_multiplier) continue;
-      const PeriodicSwing swing = as_near_as_can_be(i, mode);
-      if (swing.exponent.imag() > 0 && is_near(swing.exponent, mode))
-        list.push_back({i, swing, std::abs(swing.exponent - mode.lambda)});
+      const PeriodicMode vibration = as_near_as_can_be(i, mode);
+      if (vibration.exponent.imag() > 0 && is_near(vibration.exponent, mode))
+        list.push_back({i, vibration, std::abs(vibration.exponent - mode.lambda)});
     }
     std::sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.off < b.off; });
     return list;
   }
   void give(Mode& mode, const Candidate& candidate) {
     used_[candidate.number] = 1;
-    mode.periodic.push_back(candidate.swing);
-    if (!candidate.swing.branch_by_mean || (mode.periodic.size() > 1 && mode.periodic.front().branch_by_mean)) return;
+    mode.periodic.push_back(candidate.vibration);
+    if (!candidate.vibration.branch_by_mean || (mode.periodic.size() > 1 && mode.periodic.front().branch_by_mean))
+      return;
     found_.notes.push_back(
         fmt::format("frequencies of mode {} in the periodic system are known except for multiples of 1/T = {:.6g} Hz: "
                     "other parts take over the vibration within the cycle, so that its turns cannot be counted; given "
@@ -125,7 +126,7 @@ class Exponents {
       if (own.size() < 2) continue;
       give(mode, own[0]);
       give(mode, own[1]);
-      const PeriodicSwing &one = mode.periodic[0], &two = mode.periodic[1];
+      const PeriodicMode &one = mode.periodic[0], &two = mode.periodic[1];
       found_.notes.push_back(fmt::format(
           "mode {} is locked to the cycle by what changes within it: it oscillates at {:.6g} Hz and {:.6g} Hz, "
           "with ζ = {:.4g} and {:.4g}; the mean of the coefficients says {:.6g} Hz and {:.4g}",
@@ -136,7 +137,7 @@ class Exponents {
 
   // The spectrum is complete: a mode without a remaining oscillating exponent does not oscillate. Sticking contacts
   // remove degrees of freedom.
-  void tell_those_without() {
+  void report_missing_exponents() {
     bool gone = false;
     for (std::size_t i = 0; i < spectrum_.exponents.size(); ++i) gone = gone || is_gone(i);
     for (Mode& mode : found_.modes) {
@@ -163,7 +164,7 @@ class Exponents {
     return false;
   }
 
-  void tell_those_that_fade() {
+  void report_decayed() {
     for (Mode& mode : found_.modes) {
       if (mode.periodic.empty() || mode.greatest - mode.least < varies_much * mode.omega) continue;
       mode.fades_within_cycle = -mode.periodic.front().exponent.real() * spectrum_.time > fades;
@@ -176,8 +177,8 @@ class Exponents {
     }
   }
 
-  void tell_largest_change() {
-    double worst = told_of_mean;
+  void report_largest_change() {
+    double worst = reported_of_mean;
     const Mode* of = nullptr;
     for (const Mode& mode : found_.modes) {
       if (mode.periodic.size() != 1) continue;
@@ -185,11 +186,11 @@ class Exponents {
       if (change > worst) worst = change, of = &mode;
     }
     if (!of) return;
-    const PeriodicSwing& swing = of->periodic.front();
+    const PeriodicMode& vibration = of->periodic.front();
     found_.notes.push_back(fmt::format(
         "coefficients change within the cycle: by the exponents of the periodic system mode {} oscillates at {:.6g} Hz "
         "with ζ = {:.4g}, the mean of the coefficients says {:.6g} Hz and {:.4g}",
-        of->number, swing.exponent.imag() / (2 * pi), swing.ratio(), of->lambda.imag() / (2 * pi), of->ratio));
+        of->number, vibration.exponent.imag() / (2 * pi), vibration.ratio(), of->lambda.imag() / (2 * pi), of->ratio));
   }
 
   const FloquetSpectrum& spectrum_;

@@ -44,7 +44,7 @@ std::vector<char> pair_damped(ModesStudy& found) {
         const double norm = std::sqrt((found.drive.inertia.array() * d.shape.array().abs2()).sum());
         const double off = std::min(1.0, std::abs(std::abs(d.lambda) - mode.omega) / mode.omega);
         const double like = std::abs(moved.dot(d.shape)) / norm * (near ? 1 - off : 1);
-        const double mechanical = like * (1 - d.energy.in_own());
+        const double mechanical = like * (1 - d.energy.in_internal_states());
         if (like >= like_enough && mechanical > best) best = mechanical, which = i;
       }
       if (which == found.damped.size()) continue;
@@ -87,7 +87,7 @@ std::vector<Mode> modes_of_springs(const ModesStudy& found) {
 std::vector<Mode> modes_at_rest(const ModesStudy& found) {
   LinearDrive undamped = found.drive;
   undamped.damping.setZero();
-  undamped.own_scale.resize(0);
+  undamped.internal_scale.resize(0);
   std::vector<Mode> modes;
   for (const DampedMode& d : damped_modes(undamped, found.undamped)) {
     if (d.lambda.imag() <= 1e-6 * std::abs(d.lambda)) continue;
@@ -113,7 +113,7 @@ void add_modes_of_internal_states(int count, const std::vector<char>& used, Mode
   for (std::size_t i = 0; i < found.damped.size(); ++i) {
     const DampedMode& d = found.damped[i];
     if (used[i] || d.lambda.imag() <= 1e-6 * std::abs(d.lambda) || found.modes.size() == most) continue;
-    if (std::abs(d.lambda) > highest && !(d.energy.in_own() > 0)) continue;
+    if (std::abs(d.lambda) > highest && !(d.energy.in_internal_states() > 0)) continue;
     Mode mode;
     mode.omega = std::abs(d.lambda);
     mode.lambda = d.lambda;
@@ -124,7 +124,7 @@ void add_modes_of_internal_states(int count, const std::vector<char>& used, Mode
     mode.least = mode.greatest = mode.omega;
     mode.shape = principal_shape(found.drive, d.shape);
     mode.shares = energy_shares(found.drive, d.shape.cwiseAbs());  // parts swing in different phases
-    if (d.in_own_states > hardly_moves)  // where the machine stands still to rounding, no share means anything
+    if (d.in_internal_states > hardly_moves)  // where the machine stands still to rounding, no share means anything
       for (std::vector<double>* shares : {&mode.shares.joint, &mode.shares.shaft})
         std::fill(shares->begin(), shares->end(), 0.0);
     found.modes.push_back(std::move(mode));
@@ -255,7 +255,7 @@ void note_changes(const CycleSamples& samples, ModesStudy& found) {
                   list, (samples.link_angle - turn * std::floor(samples.link_angle / turn)) * in_degrees, found.link));
 }
 
-void note_missing_swings(ModesStudy& found) {
+void note_missing_modes(ModesStudy& found) {
   constexpr double hardly = 0.01;
   if (!found.cycle) return;
   for (std::size_t j = 0; j < found.joint_names.size(); ++j) {
@@ -324,7 +324,7 @@ Effects effects_of_modes(const Scene& scene) {
 }
 
 // In an equilibrium nothing vibrates: the samples contain rounding errors only.
-void take_swings_away(SpeedResponse& response) {
+void remove_vibrations(SpeedResponse& response) {
   for (JointResponse& joint : response.joints) {
     JointResponse still;
     still.mean = still.upper = still.lower = joint.mean;

@@ -21,11 +21,11 @@ bool changes_contact(const Event& event);
 // Notes contacts that lock and slip, or touch and part, within the period: the linear machine has only one of these states.
 void note_changes(const CycleSamples& samples, ModesStudy& found);
 // Notes joints that hardly vibrate in the linear response but do in the steady motion: the linear results do not apply to them.
-void note_missing_swings(ModesStudy& found);
+void note_missing_modes(ModesStudy& found);
 // Fills `rattles`: joints whose law changes its piece within the period.
 void find_rattles(const CycleSamples& samples, int count, ModesStudy& found);
 
 // Removes rounding errors from a response computed from samples of an equilibrium, in which nothing vibrates.
-void take_swings_away(SpeedResponse& response);
+void remove_vibrations(SpeedResponse& response);
 
 }  // namespace kurbel

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "engine/linear/rest_place.h"
+#include "engine/linear/rest_position.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/orbit/kept_moment.h"
+#include "engine/orbit/default_moment.h"
 #include "studies/modes/critical_speeds.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/mode_list.h"
@@ -22,7 +22,7 @@ namespace kurbel {
 namespace {
 
 constexpr std::size_t cycle_samples = 4096;  // of a round of the steady motion
-constexpr int rounds_of_rocking = 12;        // what swings on then, swings on; each takes up to 64 times as long
+constexpr int cycles_of_rocking = 12;        // what swings on then, swings on; each takes up to 64 times as long
 
 class Study {
  public:
@@ -151,7 +151,7 @@ class Study {
                              .angle = options_.angle};
     if (samples_) point.orbit = samples_->mean;
     if (rest_ && !options_.speed) point.orbit = rest_;
-    if (!options_.speed && !point.orbit && !swings_about_rest()) point.speed = balanced_speed(model_);
+    if (!options_.speed && !point.orbit && !vibrates_about_rest()) point.speed = balanced_speed(model_);
     BaseMotion base(model_, point);
     if (!point.orbit && base.equations().has_followers())
       throw std::invalid_argument(
@@ -168,7 +168,7 @@ class Study {
     note_unsteady_motion();
     if (!samples_ || options_.speed) return;
     found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);
-    if (orbit_->kind == Orbit::Kind::equilibrium) take_swings_away(*found_.cycle);
+    if (orbit_->kind == Orbit::Kind::equilibrium) remove_vibrations(*found_.cycle);
     found_.cycle_order = 2 * pi / (samples_->time * std::abs(samples_->mean->speed));
   }
 
@@ -196,7 +196,7 @@ class Study {
 
   OrbitOptions search_options() const {
     OrbitOptions options = orbit_options(scene_.run, options_.watch.interrupted);
-    if (has_rocking_crank(*model_)) options.most_rounds = rounds_of_rocking;
+    if (has_rocking_crank(*model_)) options.most_periods = cycles_of_rocking;
     options.progress = [this](const std::string& what, double part) { options_.watch.at(what, 0.1 * part); };
     return options;
   }
@@ -211,7 +211,7 @@ class Study {
   // A machine that comes to rest is linearised in its last steady motion; the run-up is the complete one.
   void choose_moment() {
     if (options_.speed || options_.angle) return;
-    const std::string later = choose_kept_moment(given_, effects_, search_options(), options_.at, &*orbit_);
+    const std::string later = choose_default_moment(given_, effects_, search_options(), options_.at, &*orbit_);
     if (later.empty()) return;
     end_ = MachineAndOrbit{model_, std::move(*orbit_)};
     found_.notes.push_back(later);
@@ -234,21 +234,21 @@ class Study {
     search_start([this] { look_for_orbit(), choose_moment(), sample_orbit(); });
     if (found_.start_unknown) found_.orbit = orbit_->words;
     if (samples_ && samples_->mean->speed == 0) rest_ = samples_->mean, samples_.reset();  // the link stands
-    if (!samples_ && !rest_ && !swings_about_rest())
+    if (!samples_ && !rest_ && !vibrates_about_rest())
       found_.notes.push_back(fmt::format(
           "no motion that repeats to linearise at: {}; instead everything turns as geared, clutches locked and brakes "
           "released, at the speed said",
           found_.orbit));
   }
 
-  bool swings_about_rest() const {
+  bool vibrates_about_rest() const {
     return has_rocking_crank(*model_) || (orbit_ && rests_by_its_angle(*model_, *orbit_));
   }
 
   // A link that never completes a turn, or rests by its weights, vibrates about rest: it is held there, not averaged.
   void stay_at_rest() {
-    if (!orbit_ || !swings_about_rest()) return;
-    const RestPlace place = place_of_rest(model_, *orbit_);
+    if (!orbit_ || !vibrates_about_rest()) return;
+    const RestPosition place = position_of_rest(model_, *orbit_);
     options_.angle = found_.rests_at = place.angle;
     rest_ = place.orbit;
     samples_.reset();
@@ -314,7 +314,7 @@ class Study {
       found_.notes.push_back(
           "nothing in the scene excites the drive by order or frequency: no torque depends on an angle or oscillates "
           "over time");
-    note_missing_swings(found_);
+    note_missing_modes(found_);
   }
 
   LinearDrive drive_at(double speed) const {
@@ -331,7 +331,7 @@ class Study {
     const LinearDrive drive = drive_at(speed);
     SpeedResponse response = respond(drive, found_.excitations);
     response.speed = speed;
-    judge_kept_speeds(found_, drive, response);
+    judge_operating_speeds(found_, drive, response);
     return response;
   }
 
@@ -341,7 +341,7 @@ class Study {
     // Vibrations at fixed frequencies load the joints at every speed, too.
     if (found_.joint_names.empty() || (x.none() && !limited)) return;
     const std::vector<double> speeds = sweep_speeds(found_);
-    found_.keeps_its_speed = !grows(found_.drive) && found_.here.speed_swing < std::abs(found_.drive.at.speed);
+    found_.keeps_its_speed = !grows(found_.drive) && found_.here.speed_amplitude < std::abs(found_.drive.at.speed);
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       if (stopped()) {
         found_.break_off("interrupted within the sweep over the speeds");
@@ -355,7 +355,7 @@ class Study {
     }
     if (!options_.response_alone) sweep_as_if_rigid();
     measure_critical_speeds([this](double speed) { return respond_at(speed); }, found_);
-    leave_out_what_is_not_kept(found_);
+    omit_speeds_not_held(found_);
   }
 
   // The reference curves over speed: smooth, so that some points suffice.

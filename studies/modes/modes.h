@@ -30,7 +30,7 @@ namespace kurbel {
 struct ModesOptions {
   int count = 20;                    // of modes, rigid motion not counted
   std::optional<double> speed = {};  // of the reduction link [rad/s]; default: that of the steady motion
-  Moment at = {};                    // state at that moment; default: after all switching, or kept_moment.h's
+  Moment at = {};                    // state at that moment; default: after all switching, or default_moment.h's
   std::optional<double> angle = {};  // holds the link at this angle instead of averaging over the cycle [rad]
   double slowest = 0, fastest = 0;   // range of speeds [rad/s]; 0, 0: up to 1.25 times the speed
   double orders = 0;                 // highest order; 0: 12, or what reaches the second mode, up to 24
@@ -47,7 +47,7 @@ struct ModesOptions {
 };
 
 // A vibration of the system with coefficients that vary within the period.
-struct PeriodicSwing {
+struct PeriodicMode {
   std::complex<double> exponent;  // s [1/s]
   double error = 0;               // [1/s]
   bool branch_by_mean = false;    // Im s is known up to multiples of 2π/T; given: nearest to the mean's
@@ -69,7 +69,7 @@ struct Mode {
   double least = 0, greatest = 0;
   // Of the periodic system, if coefficients or contacts change within the period: the difference to λ is the error of
   // averaging. Two if the mode is locked to the period: both oscillate in step with it and decay at different rates.
-  std::vector<PeriodicSwing> periodic = {};
+  std::vector<PeriodicMode> periodic = {};
   // It decays within one period: a measured ring-down shows the frequency at the angle where it starts, between
   // `least` and `greatest`; the exponent's frequency is the mean over the period.
   bool fades_within_cycle = false;

@@ -29,14 +29,14 @@ std::string internal_mode(const ModesStudy& m, const Mode& mode) {
   return fmt::format("internal mode ({}) at {:.4g} Hz (ζ = {:.3g})", nature_of(m, mode), hertz(mode.omega), mode.ratio);
 }
 
-EnergyStore::Kind kind_of(const OwnState& state) {
+EnergyStore::Kind kind_of(const InternalState& state) {
   if (state.unit == "A") return EnergyStore::Kind::electrical;
   const bool moves = state.unit == "rad" || state.unit == "m" || state.unit == "rad/s" || state.unit == "m/s";
   return moves ? EnergyStore::Kind::mechanical : EnergyStore::Kind::control;
 }
 
 // The joint with the highest utilisation; without limits the one with the largest amplitude.
-std::size_t joint_to_tell(const ModesStudy& m, const SpeedResponse& said) {
+std::size_t most_loaded_joint(const ModesStudy& m, const SpeedResponse& said) {
   std::size_t joint = joint_with_largest_amplitude(said);
   double most = 0;
   for (std::size_t j = 0; j < said.joints.size() && j < m.limited.size(); ++j) {
@@ -48,9 +48,9 @@ std::size_t joint_to_tell(const ModesStudy& m, const SpeedResponse& said) {
 }
 
 // "at 1500 rpm the torque in "coupling" oscillates by ± 9.893 N·m about 153.9 N·m"
-std::string swing_at_that_speed(const ModesStudy& m) {
+std::string amplitude_at_that_speed(const ModesStudy& m) {
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
-  const std::size_t j = joint_to_tell(m, said);
+  const std::size_t j = most_loaded_joint(m, said);
   const JointResponse& joint = said.joints[j];
   std::string text =
       fmt::format("at {} the torque in \"{}\" oscillates by ± {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
@@ -71,11 +71,11 @@ bool is_forced(const ModesStudy& m) {
 std::vector<EnergyStore> energy_stores(const ModesStudy& m, const Mode& mode) {
   std::vector<EnergyStore> stores;
   const EnergyParts& energy = mode.energy;
-  if (energy.springs + energy.inertias + energy.in_own() == 0) return stores;
+  if (energy.springs + energy.inertias + energy.in_internal_states() == 0) return stores;
   stores.push_back(
       {m.drive.at.angle ? "springs and weights" : "springs", EnergyStore::Kind::mechanical, energy.springs});
   stores.push_back({"inertias", EnergyStore::Kind::mechanical, energy.inertias});
-  const std::vector<OwnStatePlace>& places = m.drive.model->own_states;
+  const std::vector<PlacedInternalState>& places = m.drive.model->internal_states;
   for (std::size_t k = 0; k < energy.own.size(); ++k) {
     const std::string& component = places[k].component;
     if (k > 0 && places[k - 1].component == component) {  // its states stand together
@@ -128,7 +128,7 @@ std::string conclusion_of(const ModesStudy& m) {
     if (natural > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].omega));
   }
   if (m.modes.size() > natural) text += "; " + internal_mode(m, m.modes[natural]);
-  if (is_forced(m)) text += "; " + swing_at_that_speed(m);
+  if (is_forced(m)) text += "; " + amplitude_at_that_speed(m);
   return text;
 }
 

@@ -51,18 +51,19 @@ std::string damped_text(const Mode& m) {
 std::string periodic_text(const Mode& m) {
   if (m.only_of_mean) return "does not oscillate";
   std::string text;
-  for (const PeriodicSwing& swing : m.periodic)
-    text += fmt::format("{}{}, {}{}", text.empty() ? "" : " and ", read_as(hertz(swing.exponent.imag()), digits(6)),
-                        read_as(swing.ratio(), digits(4)), swing.branch_by_mean ? " (or multiples of 1/T off)" : "");
+  for (const PeriodicMode& vibration : m.periodic)
+    text += fmt::format("{}{}, {}{}", text.empty() ? "" : " and ", read_as(hertz(vibration.exponent.imag()), digits(6)),
+                        read_as(vibration.ratio(), digits(4)),
+                        vibration.branch_by_mean ? " (or multiples of 1/T off)" : "");
   return text.empty() ? "—" : text;
 }
 
 List periodic_list(const Mode& m) {
-  return each(m.periodic, [](const PeriodicSwing& swing) {
-    return Record{{"real", swing.exponent.real()},
-                  {"imaginary", swing.exponent.imag()},
-                  {"error", swing.error},
-                  {"branch_by_mean", swing.branch_by_mean}};
+  return each(m.periodic, [](const PeriodicMode& vibration) {
+    return Record{{"real", vibration.exponent.real()},
+                  {"imaginary", vibration.exponent.imag()},
+                  {"error", vibration.error},
+                  {"branch_by_mean", vibration.branch_by_mean}};
   });
 }
 
@@ -98,7 +99,8 @@ Rows mode_table(const ModesStudy& m) {
       .only_for_programs("damping_ratio", &Mode::ratio)
       .only_for_people(
           "ζ", [](const Mode& mode) { return mode.lambda.imag() > 0 ? read_as(mode.ratio, digits(4)) : "≥ 1"; });
-  if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.energy.in_own() > 0.01; }))
+  if (std::any_of(m.modes.begin(), m.modes.end(),
+                  [](const Mode& mode) { return mode.energy.in_internal_states() > 0.01; }))
     table.only_for_people("energy of the damped mode", [&](const Mode& mode) { return energy_text(m, mode); });
   if (std::any_of(m.modes.begin(), m.modes.end(),
                   [](const Mode& mode) { return std::abs(mode.magnitude() - mode.omega) > 1e-6 * mode.omega; }))
@@ -349,12 +351,12 @@ void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
   f.say(in, mode_table(m));
   f.say(in, internal_table(m));
   f.say(in, Sentences{.lines = {method_text(m)}, .indent = "  ", .page = false});
-  f.tell("shafts", m.shaft_names);
-  f.tell("joints", joint_list(m));
-  f.tell("count_of_modes_up_to_the_last", m.undamped.counted_below);
-  f.tell("figures", each(figures_of(m), [](const Figure& x) {
-           return Record{{"name", x.name}, {"value", x.value}, {"unit", x.unit}, {"error", x.error}};
-         }));
+  f.record("shafts", m.shaft_names);
+  f.record("joints", joint_list(m));
+  f.record("count_of_modes_up_to_the_last", m.undamped.counted_below);
+  f.record("figures", each(figures_of(m), [](const Figure& x) {
+             return Record{{"name", x.name}, {"value", x.value}, {"unit", x.unit}, {"error", x.error}};
+           }));
   if (m.modes.empty()) return;
   f.draw(in, [&m] { return mode_plots(m); });
   if (!m.rests_at && natural_modes(m) > 0) f.show(in, rayleigh(m));
@@ -364,7 +366,7 @@ void say_modes(Findings& f, Chapter in, const ModesStudy& m) {
 
 void say_margins(Findings& f, Chapter in, const ModesStudy& m) {
   if (m.margins.rows.empty()) return;
-  f.tell("operating_range", operating_range(m.margins));
+  f.record("operating_range", operating_range(m.margins));
   f.say(in, margin_table(m.margins, m.speed_unit));
   f.tables.push_back({"margins", [&m] { return margin_table(m.margins, m.speed_unit).data(); }});
 }
@@ -389,7 +391,7 @@ void say_history(Findings& f, Chapter in, const ModesStudy& m) {
   Rows rainflow = rainflow_table(h);
   rainflow.page = !h.lines.empty();
   f.say(in, std::move(rainflow));
-  f.tell("history", history_record(h));
+  f.record("history", history_record(h));
 }
 
 }  // namespace
@@ -409,7 +411,7 @@ Findings findings_of(const ModesStudy& m) {
                 cases = f.chapter(modes_chapter::cases), stresses = f.chapter(modes_chapter::stresses),
                 history = f.chapter(modes_chapter::history), notes = f.chapter("Notes");
   add_key_figures(f, m);
-  f.tell("operating_point", operating_point(m));
+  f.record("operating_point", operating_point(m));
   f.say(modes, Sentences{.lines = {point_text(m)}, .indent = "  ", .page = false, .apart = true});
   say_modes(f, modes, m);
   const bool is_shaken = is_forced(m);

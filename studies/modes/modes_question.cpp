@@ -5,29 +5,30 @@
 namespace kurbel {
 namespace {
 
-struct ModesAsked : ModesOptions {
-  ModesAsked() { spot_checks = 2; }
+struct ModesRequest : ModesOptions {
+  ModesRequest() { spot_checks = 2; }
   std::optional<Effects> effects;
   std::vector<std::string> cases;
 };
 
-StudyOutput natural_modes(const Inquiry& inquiry, ModesAsked asked) {
+StudyOutput natural_modes(const Inquiry& inquiry, ModesRequest asked) {
   asked.watch = inquiry.watch;
   ModesStudy study = find_modes(inquiry.scene, asked.effects.value_or(effects_of_modes(inquiry.scene)), asked);
   study.cases = find_cases(inquiry, asked.cases, asked.effects, asked, study);
   return output_of(std::move(study));
 }
 
-OptionsOf<ModesAsked> options() {
-  return OptionsOf<ModesAsked>()
+OptionsOf<ModesRequest> options() {
+  return OptionsOf<ModesRequest>()
       .add({.name = "effects",
             .doc = "as in [effects], or elasticity:COUPLING,... (default: the scene's, with all elasticity where it "
                    "has none)"},
-           &ModesAsked::effects)
+           &ModesRequest::effects)
       .add({.name = "count", .doc = "number of modes (default: 20)", .domain = {.low = 1, .high = 1000}},
            &ModesOptions::count)
       .add({.name = "at", .doc = "as the machine is after a step of its sequence or at a time: \"step 2\", \"1.5 s\""},
-           OptionForm::one, [](ModesAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.speed); })
+           OptionForm::one,
+           [](ModesRequest& asked, const OptionValues& given) { asked.at = given.moment(asked.speed); })
       .add({.name = "speed",
             .doc = "operating point, e.g. \"300 rpm\" of the reduction link (default: where the scene's own start "
                    "leads to)",
@@ -46,7 +47,7 @@ OptionsOf<ModesAsked> options() {
             .domain = not_negative,
             .count = 2},
            OptionForm::several,
-           [](ModesAsked& asked, const OptionValues& given) {
+           [](ModesRequest& asked, const OptionValues& given) {
              std::vector<double> range;
              given.read(range);
              if (!(range[0] < range[1])) given.refuse(given.text(), "the slower one of two speeds");
@@ -84,7 +85,7 @@ OptionsOf<ModesAsked> options() {
       .add({.name = "cases",
             .doc = "names of the scene's [[case]]s to compute; none: no case (default: all)",
             .each_time = true},
-           &ModesAsked::cases)
+           &ModesRequest::cases)
       .add({.name = "torque",
             .doc = "simulates the scene and analyses this component's torque: spectrum, orders, waterfall, rainflow"},
            &ModesOptions::torque);

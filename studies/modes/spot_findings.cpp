@@ -11,7 +11,7 @@
 namespace kurbel::modes {
 namespace {
 
-constexpr std::size_t joints_told = 1000, joints_shown = 12;
+constexpr std::size_t joints_reported = 1000, joints_shown = 12;
 
 const JointResponse& really(const SpotCheck& spot, std::size_t j) { return spot.cycle->joints[j]; }
 
@@ -96,7 +96,7 @@ Record spot_record(const ModesStudy& m, const SpotCheck& spot) {
   if (!spot.cycle) return record;
   record.push_back({"stable", spot.stable});
   record.push_back({"acceleration", spot.acceleration});
-  record.push_back({"joints", each(numbers_below(std::min(joints_told, m.joint_names.size())), [&](std::size_t j) {
+  record.push_back({"joints", each(numbers_below(std::min(joints_reported, m.joint_names.size())), [&](std::size_t j) {
                       const JointResponse& linear = spot.linear.joints[j];
                       return Record{{"joint", m.joint_names[j]},
                                     {"mean", linear.mean},
@@ -112,7 +112,7 @@ Record spot_record(const ModesStudy& m, const SpotCheck& spot) {
 }
 
 // The one with the highest utilisation; among requested speeds only, the one with the largest error of the linear response.
-const SpotCheck* to_tell(const ModesStudy& m) {
+const SpotCheck* spot_to_report(const ModesStudy& m) {
   const SpotCheck* found = nullptr;
   const auto off = [](const SpotCheck& s) { return std::abs(s.difference(s.joint)) / really(s, s.joint).peak; };
   const auto before = [&](const SpotCheck& a, const SpotCheck& b) {
@@ -131,8 +131,8 @@ void say_spots(Findings& f, Chapter in, const ModesStudy& m) {
   for (const SpotCheck& spot : m.spots) lines.lines.push_back(sentence(m, spot));
   f.say(in, std::move(lines));
   f.say(in, spot_table(m));
-  f.tell("spot_checks", each(m.spots, [&m](const SpotCheck& spot) { return spot_record(m, spot); }));
-  if (const SpotCheck* spot = to_tell(m))
+  f.record("spot_checks", each(m.spots, [&m](const SpotCheck& spot) { return spot_record(m, spot); }));
+  if (const SpotCheck* spot = spot_to_report(m))
     f.key(fmt::format("amplitude at {}, nonlinear", m.speed_unit.text(spot->speed, 5)),
           {really(*spot, spot->joint).peak, spot->error(spot->joint)}, "spot_amplitude",
           fmt::format("{}; linear {}", m.joint_names[spot->joint], difference_text(*spot, spot->joint)), 5);

@@ -1,12 +1,12 @@
 // option.h — options of a question, each declared once together with the member that it fills: the command line, the
 // library, Python, completion and the documents use this table.
 //
-//     OptionsOf<SizeAsked>()
+//     OptionsOf<SizeRequest>()
 //         .add({.name = "delta", .doc = "demanded δ, e.g. 0.05 or 1/20", .example = "0.05", .what = "a plain number"},
-//              &SizeAsked::delta)
-//         .add({.name = "periods", .doc = "cycles of a period", .domain = {.low = 1, .high = 64}}, &SizeAsked::periods)
-//         .add({.name = "no_start", .doc = "skip the start"}, &SizeAsked::start_search, false)
-//         .add({.name = "form", .doc = "rim or disc"}, &SizeAsked::form, {{"rim", Form::rim}, {"disc", Form::disc}})
+//              &SizeRequest::delta)
+//         .add({.name = "periods", .doc = "cycles of a period", .domain = {.low = 1, .high = 64}}, &SizeRequest::periods)
+//         .add({.name = "no_start", .doc = "skip the start"}, &SizeRequest::start_search, false)
+//         .add({.name = "form", .doc = "rim or disc"}, &SizeRequest::form, {{"rim", Form::rim}, {"disc", Form::disc}})
 //
 // The member's type defines the syntax: bool a flag, double a quantity with its unit, whole numbers, a string a text,
 // vectors several values; std::optional if it may be absent.

@@ -12,7 +12,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/orbit/kept_moment.h"
+#include "engine/orbit/default_moment.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "studies/reduce/along_cycle.h"
@@ -41,7 +41,7 @@ class Reducer : MachineOnBasis {
       r_.cycle = machine_->cycle();
       choose_speed(*machine_, options_, r_);
       if (!beyond_.empty() && !options_.speed && machine_->uses_speed())
-        r_.speed_source += "; an estimate: " + left_out();
+        r_.speed_source += "; an estimate: " + omitted();
     } else {
       find_cycle();
     }
@@ -65,9 +65,9 @@ class Reducer : MachineOnBasis {
  private:
   double on_link() const { return machine_ ? machine_->constant_inertia() : constant_inertia(*model_); }
 
-  Orbit orbit_of(std::shared_ptr<const Model> model, int most_rounds) const {
+  Orbit orbit_of(std::shared_ptr<const Model> model, int most_periods) const {
     OrbitOptions options = orbit_options(scene_.run);
-    options.most_rounds = most_rounds;
+    options.most_periods = most_periods;
     Orbit orbit = find_orbit(std::move(model), options);
     Deadline::check();
     return orbit;
@@ -78,7 +78,7 @@ class Reducer : MachineOnBasis {
           fmt::format("--speed: the torques depend on more than angle and speed ({}), so they are those along the "
                       "steady cycle, which has its own speed; omit the option, or use --basis classical",
                       fmt::join(beyond_, ", ")));
-    const Orbit orbit = orbit_of(model_, OrbitOptions{}.most_rounds);
+    const Orbit orbit = orbit_of(model_, OrbitOptions{}.most_periods);
     if (!orbit.repeats()) return without_a_cycle(orbit.words);
     const bool other = target_node_ != model().reduction_node;
     const std::vector<int> nodes = other ? std::vector<int>{target_node_} : std::vector<int>{};
@@ -111,7 +111,7 @@ class Reducer : MachineOnBasis {
     r_.cycle = machine_->cycle();
     choose_speed(*machine_, options_, r_);
   }
-  std::string left_out() const {
+  std::string omitted() const {
     return fmt::format("{} {} omitted", fmt::join(beyond_, ", "), beyond_.size() == 1 ? "is" : "are");
   }
 
@@ -322,13 +322,13 @@ class Reducer : MachineOnBasis {
     if (slider_) {
       r_.notes.push_back(
           fmt::format("forces on {} count along its way: they drive where they have the sign of its speed x′", r_.to));
-      std::string left_out;
+      std::string omitted;
       for (const ReducedPosition& p : r_.positions)
         if (!p.singular.empty())
-          left_out += fmt::format("{}{} ({:.4g}°)", left_out.empty() ? "" : ", ", p.number, p.phi * 360 / turn);
-      if (!left_out.empty())
+          omitted += fmt::format("{}{} ({:.4g}°)", omitted.empty() ? "" : ", ", p.number, p.phi * 360 / turn);
+      if (!omitted.empty())
         r_.notes.push_back(fmt::format(
-            "omitted: position {}: a dead centre, where {} stands still; {} are infinite there", left_out, r_.to,
+            "omitted: position {}: a dead centre, where {} stands still; {} are infinite there", omitted, r_.to,
             r_.to_rocker ? "reduced inertia I_r/x′² and torque M/x′"
                          : "reduced mass m_r = I_r/x′² and force F_r = M/x′"));
     }
@@ -349,11 +349,11 @@ class Reducer : MachineOnBasis {
                                        with_unit(-r_.mean_drive.value * along_->cycle().mean_speed(), "W", 4)));
       return;
     }
-    if (!beyond_.empty()) r_.notes.push_back("classical: " + left_out());
+    if (!beyond_.empty()) r_.notes.push_back("classical: " + omitted());
     if (!machine_->uses_speed() || !machine_->periodic() || !has_cycle_ || options_.speed) return;
-    constexpr int enough_rounds = 40;
+    constexpr int enough_periods = 40;
     try {
-      const Orbit orbit = orbit_of(compile_at(scene_, scene_.effects, options_.at), enough_rounds);
+      const Orbit orbit = orbit_of(compile_at(scene_, scene_.effects, options_.at), enough_periods);
       if (!orbit.repeats()) return;
       const OrbitCycle c = orbit_cycle(orbit);
       double off = 0;
@@ -411,7 +411,7 @@ class Reducer : MachineOnBasis {
 MachineReduction reduce(const Scene& scene, const ReduceOptions& options) {
   const Deadline deadline(scene.run.budget);
   ReduceOptions asked = options;
-  const std::string later = choose_kept_moment(scene, scene.effects, orbit_options(scene.run), asked.at);
+  const std::string later = choose_default_moment(scene, scene.effects, orbit_options(scene.run), asked.at);
   MachineReduction reduction = Reducer(scene, asked).run();
   if (!later.empty()) reduction.notes.push_back(later);
   return reduction;

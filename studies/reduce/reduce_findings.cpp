@@ -263,20 +263,20 @@ std::string errors_text(const MachineReduction& r) {
       r.link, *r.inertia_error, *r.drive_error, *r.load_error);
 }
 
-void tell_all(Findings& f, const MachineReduction& r) {
+void report_all(Findings& f, const MachineReduction& r) {
   const ReducedNames n = names_of(r);
-  f.tell("link", r.link);
-  f.tell("reduced_to", r.to);
-  f.tell("speed_ratio", r.to_output ? Value() : Value(r.to_ratio));
-  f.tell("speed", Record{{"value", r.speed}, {"unit", "rad/s"}, {"source", r.speed_source}});
-  f.tell("units", Record{{"inertia", n.inertia_unit}, {"torque", n.torque_unit}, {"angle", "rad"}});
-  f.tell("basis", r.basis == CycleBasis::classical ? "classical" : "steady");
-  f.tell("errors", Record{{"reduced_inertia", r.inertia_error},
-                          {"driving_torque", r.drive_error},
-                          {"resisting_torque", r.load_error}});
-  f.tell("positions", each(r.positions, [&](const ReducedPosition& p) { return position_record(r, p); }));
-  f.tell("chain", chain_record(r.chain));
-  f.tell("harmonics", each(r.spectra, spectrum_record));
+  f.record("link", r.link);
+  f.record("reduced_to", r.to);
+  f.record("speed_ratio", r.to_output ? Value() : Value(r.to_ratio));
+  f.record("speed", Record{{"value", r.speed}, {"unit", "rad/s"}, {"source", r.speed_source}});
+  f.record("units", Record{{"inertia", n.inertia_unit}, {"torque", n.torque_unit}, {"angle", "rad"}});
+  f.record("basis", r.basis == CycleBasis::classical ? "classical" : "steady");
+  f.record("errors", Record{{"reduced_inertia", r.inertia_error},
+                            {"driving_torque", r.drive_error},
+                            {"resisting_torque", r.load_error}});
+  f.record("positions", each(r.positions, [&](const ReducedPosition& p) { return position_record(r, p); }));
+  f.record("chain", chain_record(r.chain));
+  f.record("harmonics", each(r.spectra, spectrum_record));
 }
 
 }  // namespace
@@ -311,7 +311,7 @@ Rows chain_table(const Chain& chain, const std::string& to, double slowest, doub
 
 Findings findings_of(const MachineReduction& r) {
   Findings f = Findings::of(r, fmt::format("Machine reduced to {}", r.to));
-  f.speed_unit = r.speed_unit.name, f.opening = Findings::Opening::title_and_conclusion, f.tells_complete = false;
+  f.speed_unit = r.speed_unit.name, f.opening = Findings::Opening::title_and_conclusion, f.reports_complete = false;
   f.key("constant inertia of the drive", {r.constant_inertia}, "constant_inertia", r.to_output ? "on " + r.link : "");
   f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);
   f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
@@ -322,7 +322,7 @@ Findings findings_of(const MachineReduction& r) {
   for (const std::string& sentence : r.outside_data) f.claim(Predicate::outside_data, sentence);
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
-  tell_all(f, r);
+  report_all(f, r);
   f.say(cycle, Sentences{.lines = {speed_text(r), errors_text(r)}, .page = false});
   f.draw(cycle, [&r] { return motion_plots(r); });
   if (!r.paths.empty()) f.draw(cycle, [&r] { return path_plots(r); });

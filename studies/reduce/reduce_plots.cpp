@@ -174,7 +174,7 @@ Plot chain_plot(const Chain& chain) {
             .note = "Height of a disc: cube root of its reduced inertia. The table names what is on each."};
   for (const ChainSpring& s : chain.springs) {
     const Place a = places[s.a], b = places[s.b];
-    plot.series.push_back({.name = fmt::format("{}: k = {}", s.name, told_shortly(s.reduced_stiffness, "N*m/rad")),
+    plot.series.push_back({.name = fmt::format("{}: k = {}", s.name, short_text(s.reduced_stiffness, "N*m/rad")),
                            .role = Role::elastic,
                            .x = {1e6 * a.x, 1e6 * b.x},
                            .y = {-2.5 * a.row, -2.5 * b.row}});

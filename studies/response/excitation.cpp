@@ -23,7 +23,7 @@ constexpr std::size_t many_shafts = 500, time_samples = 2048, most_samples = 655
 constexpr std::size_t few_samples = 1680;
 constexpr double nothing = 1e-12;       // of the torque scale: rounding of what does not change
 constexpr double least_of_time = 1e-9;  // of the largest amplitude over time
-constexpr double misfit_refined = 1e-4, misfit_told = 1e-3;
+constexpr double misfit_refined = 1e-4, misfit_reported = 1e-3;
 constexpr double strong = 0.3;  // of the strongest order of the same torque
 constexpr std::size_t few_speeds = 3, more_speeds = 9;
 
@@ -50,8 +50,8 @@ std::string name_of(const LinearDrive& drive, const BaseMotion& base, LeftOver k
   switch (kind) {
     case LeftOver::torque:
       return m.node_label(m.shafts[at(base.coordinates().shaft[at(index)])].reference);
-    case LeftOver::own_rate:
-      return m.own_states[at(index)].component;
+    case LeftOver::internal_rate:
+      return m.internal_states[at(index)].component;
     case LeftOver::twist:
     case LeftOver::joint_torque:
       break;
@@ -72,8 +72,8 @@ std::vector<Track> tracks(BaseMotion& base, const std::vector<BaseMotion::Positi
   std::vector<Track> all;
   for (Eigen::Index i = 0; i < base.coordinates().size(); ++i)
     all.push_back({LeftOver::torque, static_cast<int>(i), m.torque_scale, {}});
-  for (std::size_t i = 0; i < m.own_states.size(); ++i)
-    all.push_back({LeftOver::own_rate, static_cast<int>(i), m.own_states[i].state.scale * m.speed_scale, {}});
+  for (std::size_t i = 0; i < m.internal_states.size(); ++i)
+    all.push_back({LeftOver::internal_rate, static_cast<int>(i), m.internal_states[i].state.scale * m.speed_scale, {}});
   for (std::size_t j = 0; with_joints && j < m.elastic.size(); ++j)
     all.push_back({LeftOver::joint_torque, static_cast<int>(j), m.torque_scale, {}});
   std::vector<std::size_t> looked_at = numbered(all.size());
@@ -175,7 +175,7 @@ class SourceSearch {
     if (drive_.at.speed != 0) look_here(base);
     sample_speeds(few_speeds);
     if (found_.misfit > misfit_refined) sample_speeds(more_speeds);
-    if (found_.misfit > misfit_told)
+    if (found_.misfit > misfit_reported)
       found_.notes.push_back(fmt::format(
           "excitation over the cycle is no smooth function of the speed: between the speeds at which it was "
           "found the orders are off by up to {:.1g} of the largest",
@@ -249,19 +249,19 @@ class SourceSearch {
             values[r] * std::polar(1.0, -pi * static_cast<double>(r) / static_cast<double>(time_samples));
         if (t.kind == LeftOver::twist) amplitude /= Complex(0, omega);
         sources.push_back({name_of(drive_, base, t.kind, t.index), t.kind, t.index, omega, amplitude});
-        if (t.kind != LeftOver::own_rate) largest = std::max(largest, std::abs(amplitude) / t.scale);
+        if (t.kind != LeftOver::internal_rate) largest = std::max(largest, std::abs(amplitude) / t.scale);
       }
     }
     for (FrequencySource& s : sources) {
-      const double scale = s.kind == LeftOver::twist      ? 1e-3
-                           : s.kind == LeftOver::own_rate ? scale_of(s.index)
-                                                          : m_.torque_scale;
+      const double scale = s.kind == LeftOver::twist           ? 1e-3
+                           : s.kind == LeftOver::internal_rate ? scale_of(s.index)
+                                                               : m_.torque_scale;
       if (std::abs(s.amplitude) > least_of_time * std::max(largest, 1e-6) * scale)
         found_.by_frequency.push_back(std::move(s));
     }
     check_split(base, positions);
   }
-  double scale_of(int own) const { return m_.own_states[at(own)].state.scale * m_.speed_scale; }
+  double scale_of(int own) const { return m_.internal_states[at(own)].state.scale * m_.speed_scale; }
 
   // θ̇ demanded by the ripple of a prescribed speed; as a rate, per joint at that shaft.
   void add_prescribed_twists(BaseMotion& base, const std::vector<BaseMotion::Position>& positions,
@@ -289,7 +289,7 @@ class SourceSearch {
       worst = std::max(worst, (r - by_angle - by_time + r0).cwiseAbs().maxCoeff());
       largest = std::max(largest, (r - r0).cwiseAbs().maxCoeff());
     }
-    if (worst > misfit_told * largest)
+    if (worst > misfit_reported * largest)
       found_.notes.push_back(fmt::format(
           "torques depend on angle and time together: split into orders and frequencies they are off by up to "
           "{:.1g} of the largest",

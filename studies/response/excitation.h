@@ -23,10 +23,10 @@ std::vector<Complex> harmonics_of(const std::vector<double>& samples);
 
 // Kind of a residual.
 enum class LeftOver {
-  torque,       // on a coordinate [N·m]
-  own_rate,     // of an internal state
-  twist,        // of a joint, demanded by the kinematics [rad]
-  joint_torque  // transmitted by a joint along the base motion [N·m]
+  torque,         // on a coordinate [N·m]
+  internal_rate,  // of an internal state
+  twist,          // of a joint, demanded by the kinematics [rad]
+  joint_torque    // transmitted by a joint along the base motion [N·m]
 };
 
 // Speeds of the reduction link at which amplitudes are known [rad/s].

@@ -68,7 +68,7 @@ struct FrequencyResponse::Solver : QuadraticPencil {
 
 FrequencyResponse::FrequencyResponse(const LinearDrive& drive) : drive_(drive), solver_(std::make_shared<Solver>()) {
   static_cast<QuadraticPencil&>(*solver_) = pencil_of(drive);
-  if (drive.size() + drive.own_states() > small_drive) return;
+  if (drive.size() + drive.internal_states() > small_drive) return;
   solver_->dense_stiffness = solver_->stiffness, solver_->dense_damping = solver_->damping;
   solver_->dense_mass = solver_->mass;
 }
@@ -78,48 +78,48 @@ std::optional<LinearDrive> as_if_rigid(LinearDrive drive) {
   const bool springs_alone = std::all_of(drive.joints.begin(), drive.joints.end(), [](const LinearDrive::Joint& joint) {
     return joint.state == LinearDrive::Joint::State::spring && joint.stiffness > 0;
   });
-  if (!springs_alone || drive.other_stiffness.nonZeros() > 0 || drive.own_by_twist.nonZeros() > 0) return {};
+  if (!springs_alone || drive.other_stiffness.nonZeros() > 0 || drive.internal_by_twist.nonZeros() > 0) return {};
   drive.stiffen(stiffer);
   return drive;
 }
 
 Forcing Forcing::none(const LinearDrive& drive) {
   const auto joints = static_cast<Index>(drive.joints.size());
-  return {Eigen::VectorXcd::Zero(drive.size()), Eigen::VectorXcd::Zero(drive.own_states()),
+  return {Eigen::VectorXcd::Zero(drive.size()), Eigen::VectorXcd::Zero(drive.internal_states()),
           Eigen::VectorXcd::Zero(joints), Eigen::VectorXcd::Zero(joints)};
 }
 
 void Forcing::add(LeftOver kind, int index, Complex amplitude) {
-  Eigen::VectorXcd& to = kind == LeftOver::torque     ? torque
-                         : kind == LeftOver::own_rate ? own
-                         : kind == LeftOver::twist    ? twist
-                                                      : joint_torque;
+  Eigen::VectorXcd& to = kind == LeftOver::torque          ? torque
+                         : kind == LeftOver::internal_rate ? own
+                         : kind == LeftOver::twist         ? twist
+                                                           : joint_torque;
   to[index] += amplitude;
 }
 
 FrequencyResponse::Motion FrequencyResponse::motion(double omega, const Forcing& f) {
-  const Index n = drive_.size(), z = drive_.own_states();
+  const Index n = drive_.size(), z = drive_.internal_states();
   Eigen::VectorXcd right(n + z);
   right << f.torque + drive_.torque_by_twist * f.twist, f.own;
-  if (z > 0) right.tail(z) += drive_.own_by_twist * f.twist;
+  if (z > 0) right.tail(z) += drive_.internal_by_twist * f.twist;
   const Eigen::VectorXcd x = solver_->solve(omega, right);
   return {x.head(n), x.tail(z)};
 }
 
-std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omega, const Forcing& f) {
-  return swings(omega, f, motion(omega, f));
+std::vector<FrequencyResponse::JointVibration> FrequencyResponse::vibrations(double omega, const Forcing& f) {
+  return vibrations(omega, f, motion(omega, f));
 }
 
-std::vector<FrequencyResponse::JointSwing> FrequencyResponse::swings(double omega, const Forcing& f,
-                                                                     const Motion& x) const {
+std::vector<FrequencyResponse::JointVibration> FrequencyResponse::vibrations(double omega, const Forcing& f,
+                                                                             const Motion& x) const {
   const Eigen::VectorXcd twist = drive_.twists * x.q + f.twist;
   Eigen::VectorXcd torque = f.joint_torque + Complex(0, omega) * (drive_.joint_by_speed * x.q);
-  if (x.own.size() > 0) torque += drive_.joint_by_own * x.own;
+  if (x.own.size() > 0) torque += drive_.joint_by_internal * x.own;
   torque += drive_.spring_torques(twist);
-  std::vector<JointSwing> all;
+  std::vector<JointVibration> all;
   for (Index j = 0; j < twist.size(); ++j) all.push_back({torque[j], twist[j]});
   for (const TorqueJoint& joint : drive_.model->torque_joints)
-    if (joint.elastic >= 0) all[at(joint.elastic)].torque = joint.told(torque.data(), joint.elastic);
+    if (joint.elastic >= 0) all[at(joint.elastic)].torque = joint.reported(torque.data(), joint.elastic);
   return all;
 }
 
@@ -151,24 +151,25 @@ Extremes extremes_of_sum(const std::vector<Complex>& x) {
 namespace {
 
 // Dissipation of joints at one frequency: by their damping, or with internal states by their total work.
-std::vector<double> dissipated(const LinearDrive& drive, const std::vector<FrequencyResponse::JointSwing>& swings,
-                               double omega) {
-  Eigen::VectorXcd rate(static_cast<Index>(swings.size()));
-  for (std::size_t j = 0; j < swings.size(); ++j) rate[static_cast<Index>(j)] = Complex(0, omega) * swings[j].twist;
+std::vector<double> dissipated(const LinearDrive& drive,
+                               const std::vector<FrequencyResponse::JointVibration>& vibrations, double omega) {
+  Eigen::VectorXcd rate(static_cast<Index>(vibrations.size()));
+  for (std::size_t j = 0; j < vibrations.size(); ++j)
+    rate[static_cast<Index>(j)] = Complex(0, omega) * vibrations[j].twist;
   const Eigen::VectorXcd damper = drive.damper_torques(rate);
   std::vector<double> power;
-  for (std::size_t j = 0; j < swings.size(); ++j) {
+  for (std::size_t j = 0; j < vibrations.size(); ++j) {
     const auto i = static_cast<Index>(j);
-    const bool states = drive.own_states() > 0 && drive.joint_by_own.row(i).norm() > 0;
-    power.push_back(0.5 * ((states ? swings[j].torque : damper[i]) * std::conj(rate[i])).real());
+    const bool states = drive.internal_states() > 0 && drive.joint_by_internal.row(i).norm() > 0;
+    power.push_back(0.5 * ((states ? vibrations[j].torque : damper[i]) * std::conj(rate[i])).real());
   }
   return power;
 }
 
 // Adds the contribution of one frequency to one joint.
-void count(JointResponse& joint, const FrequencyResponse::JointSwing& swing, double power, double omega,
+void count(JointResponse& joint, const FrequencyResponse::JointVibration& vibration, double power, double omega,
            std::size_t harmonic) {
-  const double amplitude = std::abs(swing.torque);
+  const double amplitude = std::abs(vibration.torque);
   joint.amplitude_sum += amplitude;
   joint.rms += 0.5 * amplitude * amplitude;
   joint.power += power;
@@ -219,17 +220,17 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
     const double omega = excitations.order(r) * speed;
     const FrequencyResponse::Motion motion = response.motion(omega, forcing);
     if (link.size() > 0) speeds[r] = Complex(0, omega) * link.conjugate().dot(motion.q);
-    const auto swings = response.swings(omega, forcing, motion);
-    const std::vector<double> power = dissipated(drive, swings, omega);
-    for (std::size_t j = 0; j < swings.size(); ++j) {
-      result.orders[j][r] = swings[j].torque;
-      count(result.joints[j], swings[j], power[j], omega, r);
+    const auto vibrations = response.vibrations(omega, forcing, motion);
+    const std::vector<double> power = dissipated(drive, vibrations, omega);
+    for (std::size_t j = 0; j < vibrations.size(); ++j) {
+      result.orders[j][r] = vibrations[j].torque;
+      count(result.joints[j], vibrations[j], power[j], omega, r);
     }
   }
-  if (const Extremes swing = extremes_of_sum(speeds); std::isfinite(swing.greatest))
-    result.speed_swing = std::max(swing.greatest, -swing.least);
+  if (const Extremes vibration = extremes_of_sum(speeds); std::isfinite(vibration.greatest))
+    result.speed_amplitude = std::max(vibration.greatest, -vibration.least);
   else
-    result.speed_swing = HUGE_VAL;
+    result.speed_amplitude = HUGE_VAL;
   std::vector<double> beside(drive.joints.size(), 0.0);
   // Excitations of one frequency keep their phases.
   std::vector<FrequencySource> sources = excitations.by_frequency;
@@ -240,20 +241,20 @@ SpeedResponse respond(const LinearDrive& drive, const Excitations& excitations) 
     const double omega = sources[i].omega;
     for (; i < sources.size() && sources[i].omega == omega; ++i)
       forcing.add(sources[i].kind, sources[i].index, sources[i].amplitude);
-    const auto swings = response.swings(omega, forcing);
-    const std::vector<double> power = dissipated(drive, swings, omega);
-    for (std::size_t j = 0; j < swings.size(); ++j) {
-      count(result.joints[j], swings[j], power[j], omega, 0);
-      beside[j] += std::abs(swings[j].torque);
+    const auto vibrations = response.vibrations(omega, forcing);
+    const std::vector<double> power = dissipated(drive, vibrations, omega);
+    for (std::size_t j = 0; j < vibrations.size(); ++j) {
+      count(result.joints[j], vibrations[j], power[j], omega, 0);
+      beside[j] += std::abs(vibrations[j].torque);
     }
   }
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
     JointResponse& joint = result.joints[j];
-    const Extremes swing = extremes_of_sum(result.orders[j]);
+    const Extremes vibration = extremes_of_sum(result.orders[j]);
     joint.mean = drive.joints[j].torque;
-    joint.upper = joint.mean + swing.greatest + beside[j];
-    joint.lower = joint.mean + swing.least - beside[j];
-    joint.peak = std::max(swing.greatest, -swing.least) + beside[j];
+    joint.upper = joint.mean + vibration.greatest + beside[j];
+    joint.lower = joint.mean + vibration.least - beside[j];
+    joint.peak = std::max(vibration.greatest, -vibration.least) + beside[j];
     joint.rms = std::sqrt(joint.rms);
   }
   clear_noise(result);

@@ -28,9 +28,9 @@ struct JointResponse {
 };
 
 struct SpeedResponse {
-  double speed = 0;        // of the reduction link [rad/s]
-  double speed_swing = 0;  // of the link by all orders: greatest deviation from the mean [rad/s]
-  bool kept = true;        // the machine can hold that speed; false: the response belongs to no lasting motion
+  double speed = 0;            // of the reduction link [rad/s]
+  double speed_amplitude = 0;  // of the link by all orders: greatest deviation from the mean [rad/s]
+  bool kept = true;            // the machine can hold that speed; false: the response belongs to no lasting motion
   std::vector<JointResponse> joints;
   std::vector<std::vector<Complex>> orders;  // per joint and harmonic: τ_r [N·m]
 };
@@ -53,11 +53,11 @@ class FrequencyResponse {
     Eigen::VectorXcd q, own;  // [rad]
   };
   Motion motion(double omega, const Forcing& forcing);
-  struct JointSwing {
+  struct JointVibration {
     Complex torque, twist;  // [N·m], [rad]
   };
-  std::vector<JointSwing> swings(double omega, const Forcing& forcing);
-  std::vector<JointSwing> swings(double omega, const Forcing& forcing, const Motion& motion) const;
+  std::vector<JointVibration> vibrations(double omega, const Forcing& forcing);
+  std::vector<JointVibration> vibrations(double omega, const Forcing& forcing, const Motion& motion) const;
 
  private:
   struct Solver;

@@ -61,7 +61,7 @@ class LinearMotion {
   LinearMotion(const LinearDrive& drive, const Excitations& x, BaseMotion& base)
       : drive_(drive), response_(drive), x_(x), base_(base), m_(base.model()), link_(at(m_.reduction_angle)) {
     q_ = rate_ = VectorXd::Zero(drive.size());
-    own_ = VectorXd::Zero(drive.own_states());
+    own_ = VectorXd::Zero(drive.internal_states());
     twist_ = VectorXd::Zero(static_cast<Index>(drive.joints.size()));
   }
 
@@ -76,7 +76,7 @@ class LinearMotion {
     const VectorXd along = base_.coordinates().motion * rate_;
     for (std::size_t s = 0; s < m_.free_shafts; ++s)
       y[equations.speed_index(static_cast<int>(s))] += along[static_cast<Index>(s)];
-    for (Index k = 0; k < own_.size(); ++k) y[equations.own_begin() + at(k)] += own_[k];
+    for (Index k = 0; k < own_.size(); ++k) y[equations.internal_begin() + at(k)] += own_[k];
     VectorXd apart = VectorXd::Zero(twist_.size());
     for (Index j = 0; j < twist_.size(); ++j) {
       if (!base_.has_spring(at(j))) continue;
@@ -283,9 +283,9 @@ class CycleSearch {
     find_held_orbit(held, *map_, x, orbit_options(), motion_);
     x = motion_.newton.x;
     if (motion_.orbit.repeats()) return true;
-    const bool tells_all =
+    const bool reports_all =
         motion_.last.end != ReturnMap::End::returned && motion_.last.end != ReturnMap::End::interrupted;
-    out_.why = motion_.orbit.words + (tells_all ? "" : on_the_way());
+    out_.why = motion_.orbit.words + (reports_all ? "" : on_the_way());
     return false;
   }
   std::string on_the_way() const { return motion_.broken.empty() ? "" : "; of what was tried, " + motion_.broken; }

@@ -21,9 +21,9 @@ constexpr double stands_within_the_cycle = 2;  // of a fluctuation: ω_min ≤ 0
 
 void add_rows(Comparison& c) {
   for (const Figure& f : c.b.figures) {
-    if (!is_told(f, c.b)) continue;
+    if (!is_reported(f, c.b)) continue;
     ComparisonRow row{f.name, f.unit, {}, f, 0, {}, f.what, f.of};
-    if (const Figure* other = c.a.find(f.name); other && is_told(*other, c.a)) {
+    if (const Figure* other = c.a.find(f.name); other && is_reported(*other, c.a)) {
       row.a = *other;
       row.difference = f.value - other->value;
       // No ratio if the denominator is within its error of zero.
@@ -135,8 +135,8 @@ bool is_elastic(const Model& model) {
 
 Effects rigid_twin(const Model& elastic) {
   Effects rigid = without_elasticity(elastic.effects);
-  rigid.lags_rigid = std::any_of(elastic.own_states.begin(), elastic.own_states.end(),
-                                 [](const OwnStatePlace& own) { return own.state.lags; });
+  rigid.lags_rigid = std::any_of(elastic.internal_states.begin(), elastic.internal_states.end(),
+                                 [](const PlacedInternalState& own) { return own.state.lags; });
   return rigid;
 }
 

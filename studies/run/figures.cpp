@@ -85,8 +85,8 @@ Found speed_of(const Equations& equations, const Snapshot& s, int node) {
 class RunFigures {
  public:
   RunFigures(const Model& model, Equations& equations, OneRun& run, double tolerance)
-      : model_(model), tell_(run.figures, false), run_(&run), equations_(&equations), tolerance_(tolerance) {}
-  RunFigures(const Model& model, std::vector<Figure>& list) : model_(model), tell_(list, true) {}
+      : model_(model), report_(run.figures, false), run_(&run), equations_(&equations), tolerance_(tolerance) {}
+  RunFigures(const Model& model, std::vector<Figure>& list) : model_(model), report_(list, true) {}
 
   void collect() {
     run_->periods = find_periods(model_, run_->cycles.cycles(), *run_->speed, run_->outcome, tolerance_);
@@ -105,8 +105,8 @@ class RunFigures {
     add_motors();
     add_works_of_periods();
     add_ratings();
-    FlywheelFalls::tell(model_, run_->falls.get(), energy_scale(), tell_);
-    tell_reserves(model_, tell_);
+    FlywheelFalls::report(model_, run_->falls.get(), energy_scale(), report_);
+    report_reserves(model_, report_);
     add_slipped_angles();
   }
   // In a separate order.
@@ -122,15 +122,15 @@ class RunFigures {
     add_work();
     add_heat();
     list(motor_extremes_of(model_));
-    list_motors(model_, tell_);
-    tell_works(model_, {}, tell_);
-    FlywheelFalls::tell(model_, nullptr, 0, tell_);
+    list_motors(model_, report_);
+    report_works(model_, {}, report_);
+    FlywheelFalls::report(model_, nullptr, 0, report_);
     list(held_torques_of(model_));
-    tell_reserves(model_, tell_);
+    report_reserves(model_, report_);
     add_slipped_angles();
     for (std::vector<Figure> of_limits : {rating_figure_list(model_), watched_figure_list(model_)})
       for (Figure& f : of_limits)
-        if (!tell_.find(f.name)) tell_.take(std::move(f));
+        if (!report_.find(f.name)) report_.take(std::move(f));
     if (!model_.scene.sequence.steps.empty()) add_stopping();  // of a signal that makes the link stop
   }
 
@@ -143,11 +143,11 @@ class RunFigures {
       const ExtremeRecorder::Found& found = run_->extremes->found()[i];
       if (!found.any) continue;
       const double usual = wanted.scale > 0 ? wanted.scale : std::max(std::abs(found.value), least_scale(wanted.unit));
-      tell_.take(Figure::of_name(wanted.name, found.value, wanted.unit, usual)).at = found.time;
+      report_.take(Figure::of_name(wanted.name, found.value, wanted.unit, usual)).at = found.time;
     }
   }
   void list(const std::vector<ExtremeOf>& extremes) {
-    for (const ExtremeOf& e : extremes) tell_.take(Figure::of_name(e.name, 0, e.unit));
+    for (const ExtremeOf& e : extremes) report_.take(Figure::of_name(e.name, 0, e.unit));
   }
   // Smaller values are rounding errors and are not judged by their own size: a slider that should stand still.
   double least_scale(const std::string& unit) const {
@@ -161,14 +161,14 @@ class RunFigures {
       for (const bool spring : {false, true}) {
         const TorqueJoint& joint = model_.torque_joints[i];
         if (spring && !model_.network.joints[at(joint.joint)].element) continue;
-        tell_(spring ? quantities::rms_spring_torque : quantities::rms_torque, joint.component,
-              [&]() -> std::optional<Found> {
-                const bool slips = joint.elastic >= 0 && model_.elastic[at(joint.elastic)].slips;
-                const double duration = run_->outcome.t - begin();
-                if (duration <= 0 || (spring && slips)) return {};
-                const double square = run_->outcome.state[equations_->square_index(i, spring)];
-                return Found{root_mean_square(square, duration), joint.torque_scale};
-              });
+        report_(spring ? quantities::rms_spring_torque : quantities::rms_torque, joint.component,
+                [&]() -> std::optional<Found> {
+                  const bool slips = joint.elastic >= 0 && model_.elastic[at(joint.elastic)].slips;
+                  const double duration = run_->outcome.t - begin();
+                  if (duration <= 0 || (spring && slips)) return {};
+                  const double square = run_->outcome.state[equations_->square_index(i, spring)];
+                  return Found{root_mean_square(square, duration), joint.torque_scale};
+                });
       }
   }
   void add_final() {
@@ -180,15 +180,15 @@ class RunFigures {
     for (const std::string& component : model_.network.components) {
       if (model_.network.components.size() > 60 && component != link()) continue;
       const int node = model_.network.ports.at(component).out;
-      tell_(quantities::final_angle, component, [&] { return at_end(angle_of(model_, *s, node)); });
-      tell_(quantities::final_speed, component, [&] { return at_end(speed_of(*equations_, *s, node)); });
+      report_(quantities::final_angle, component, [&] { return at_end(angle_of(model_, *s, node)); });
+      report_(quantities::final_speed, component, [&] { return at_end(speed_of(*equations_, *s, node)); });
     }
   }
   // Heat of what slips.
   void add_heat() {
     for (const ElasticJoint& e : model_.elastic)
       if (e.slips)
-        tell_(quantities::slip_heat, model_.network.joints[at(e.joint)].component, [&]() -> std::optional<Found> {
+        report_(quantities::slip_heat, model_.network.joints[at(e.joint)].component, [&]() -> std::optional<Found> {
           if (run_->energy->work.empty()) return {};  // failed before its first step
           return Found{-run_->energy->work[at(e.loss_account)], energy_scale(), run_->outcome.t};
         });
@@ -196,7 +196,7 @@ class RunFigures {
   // Joints with clearance: how often one is hit after flight.
   void add_impacts() {
     for (const std::string& component : components_with_impacts(model_))
-      tell_(quantities::impacts, component, [&] {
+      report_(quantities::impacts, component, [&] {
         int count = 0;
         for (const Event& e : run_->outcome.events) count += e.component == component && e.kind == EventKind::impact;
         return Found{static_cast<double>(count), static_cast<double>(std::max(1, count)), run_->outcome.t, true};
@@ -204,12 +204,12 @@ class RunFigures {
   }
   void add_stopping() {
     const std::optional<Stopping> stopping =
-        tell_.listing() ? Stopping{} : first_stopping(model_, run_->outcome.events);
+        report_.listing() ? Stopping{} : first_stopping(model_, run_->outcome.events);
     if (!stopping) return;
-    tell_(quantities::stopping_time, link(), [&] {
+    report_(quantities::stopping_time, link(), [&] {
       return Found{stopping->time, model_.scene.run.until, stopping->at};
     });
-    tell_(quantities::stopping_angle, link(), [&] { return Found{stopping->angle, 1, stopping->at}; });
+    report_(quantities::stopping_angle, link(), [&] { return Found{stopping->angle, 1, stopping->at}; });
   }
   // An undriven machine repeats its cycles, too, unless it loses energy: compares with the two before it.
   bool comes_again(const CycleRecord& last) const {
@@ -233,44 +233,44 @@ class RunFigures {
       if (!run_->periods.run_down_begin || c.end <= *run_->periods.run_down_begin) last_ = &c;
     if (last_ && (run_->periods.steady || comes_again(*last_))) repeating_ = last_;
   }
-  bool has_cycle() const { return tell_.listing() ? model_.cycle > 0 : last_ != nullptr; }
+  bool has_cycle() const { return report_.listing() ? model_.cycle > 0 : last_ != nullptr; }
 
   void add_cycle() {
     if (!has_cycle()) return;
     for (const QuantityKind& what : {quantities::delta, quantities::cycle_fluctuation})
-      tell_(what, link(), [&]() -> std::optional<Found> {
+      report_(what, link(), [&]() -> std::optional<Found> {
         if ((what == quantities::delta) != (repeating_ != nullptr)) return {};
         return Found{last_->fluctuation(), 1, last_->end};
       });
-    tell_(quantities::mid_speed, link(), [&] { return Found{last_->mid_speed(), model_.speed_scale, last_->end}; });
-    tell_(quantities::mean_speed, link(), [&] {
+    report_(quantities::mid_speed, link(), [&] { return Found{last_->mid_speed(), model_.speed_scale, last_->end}; });
+    report_(quantities::mean_speed, link(), [&] {
       return Found{last_->mean_speed(model_.cycle), model_.speed_scale, last_->end};
     });
-    tell_(quantities::cycle_time, link(), [&] {
+    report_(quantities::cycle_time, link(), [&] {
       return Found{last_->end - last_->begin, 2 * M_PI / model_.speed_scale, last_->end};
     });
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
-      tell_(work_per_cycle_of(kind), "", [&] {
+      report_(work_per_cycle_of(kind), "", [&] {
         return Found{works_by_kind(model_, last_->work)[static_cast<std::size_t>(kind)], energy_scale(), last_->end};
       });
     add_loops();
     for (const Intake& intake : intakes_of(model_))
-      tell_("volumetric_efficiency", intake.name, [&] { return Found{intake.efficiency, 1, {}, true}; });
+      report_("volumetric_efficiency", intake.name, [&] { return Found{intake.efficiency, 1, {}, true}; });
   }
   void add_loops() {
     for (std::size_t k = 0; k < model_.accounts.size(); ++k) {
       const std::string mechanism = mechanism_loaded_by(model_.accounts[k]);
       if (mechanism.empty()) continue;
       const double time = last_ ? last_->end - last_->begin : 0;
-      tell_("loop_work", mechanism, [&] { return Found{last_->work[k], energy_scale(), last_->end}; });
-      tell_("loop_power", mechanism, [&] { return Found{last_->work[k] / time, energy_scale() / time, last_->end}; });
+      report_("loop_work", mechanism, [&] { return Found{last_->work[k], energy_scale(), last_->end}; });
+      report_("loop_power", mechanism, [&] { return Found{last_->work[k] / time, energy_scale() / time, last_->end}; });
     }
   }
   // Energy released from the largest to the least speed by flywheels that turn rigidly with the link.
   void add_flywheels() {
-    if (!has_cycle() || !(repeating_ || tell_.listing())) return;
+    if (!has_cycle() || !(repeating_ || report_.listing())) return;
     for (const FlywheelOnLink& f : flywheels_on_link(model_))
-      tell_("flywheel_energy", f.name, [&] {
+      report_("flywheel_energy", f.name, [&] {
         const double max = repeating_->omega_max, min = repeating_->omega_min;
         return Found{0.5 * f.inertia * f.ratio * f.ratio * std::abs(max * max - min * min), energy_scale(),
                      repeating_->end};
@@ -278,7 +278,7 @@ class RunFigures {
   }
   void add_efficiency() {
     if (!has_cycle()) return;
-    tell_({quantities::other, "", "machine_efficiency"}, [&]() -> std::optional<Found> {
+    report_({quantities::other, "", "machine_efficiency"}, [&]() -> std::optional<Found> {
       if (!repeating_) return {};
       const std::array<double, 4> work = works_by_kind(model_, repeating_->work);
       if (!(work[0] > 0)) return {};
@@ -294,29 +294,29 @@ class RunFigures {
     const auto lasting = [&](std::optional<double> begin, std::optional<double> end, double resolution) {
       return begin && end ? std::optional(Found{*end - *begin, run_->outcome.t, end, false, resolution}) : std::nullopt;
     };
-    tell_(quantities::run_up_time, "", [&] { return lasting(0.0, p.run_up_end, p.run_up_resolution); });
-    tell_(quantities::steady_speed, link(), [&] {
+    report_(quantities::run_up_time, "", [&] { return lasting(0.0, p.run_up_end, p.run_up_resolution); });
+    report_(quantities::steady_speed, link(), [&] {
       return p.steady ? std::optional(Found{p.steady_speed, model_.speed_scale}) : std::nullopt;
     });
-    tell_(quantities::run_down_time, "",
-          [&] { return lasting(p.run_down_begin, p.standstill, p.standstill_resolution); });
+    report_(quantities::run_down_time, "",
+            [&] { return lasting(p.run_down_begin, p.standstill, p.standstill_resolution); });
   }
   void add_work() {
     for (const Account kind : all_accounts)
-      tell_(quantities::work, name_of(kind), [&] {
+      report_(quantities::work, name_of(kind), [&] {
         return Found{works_by_kind(model_, run_->energy->work)[static_cast<std::size_t>(kind)], energy_scale()};
       });
   }
   double begin() const { return run_->trajectory->time().empty() ? 0 : run_->trajectory->time().front(); }
   void add_ratings() {
     for (Figure& f : rating_figures(model_, run_->heat.get(), run_->figures, energy_scale(), run_->outcome.t - begin()))
-      tell_.take(std::move(f));
+      report_.take(std::move(f));
   }
   void add_slipped_angles() {
-    const std::size_t own = model_.state_count() - model_.own_states.size();
-    for (std::size_t k = 0; k < model_.own_states.size(); ++k)
-      if (const auto& [component, state] = model_.own_states[k]; state.name == "slipped_angle")
-        tell_(Name::own(state.name, component), [&] {
+    const std::size_t own = model_.state_count() - model_.internal_states.size();
+    for (std::size_t k = 0; k < model_.internal_states.size(); ++k)
+      if (const auto& [component, state] = model_.internal_states[k]; state.name == "slipped_angle")
+        report_(Name::own(state.name, component), [&] {
           return Found{run_->outcome.state[own + k], 1, run_->outcome.t};
         });
   }
@@ -329,7 +329,7 @@ class RunFigures {
                          .work = e.work};
     run_->work_periods = work_periods(model_, run_->periods, run_->cycles.cycles(), whole,
                                       [&](double t) { return run_->speed->works_at(t); });
-    tell_works(model_, run_->work_periods, tell_);
+    report_works(model_, run_->work_periods, report_);
   }
   void add_motors() {
     const Periods& p = run_->periods;
@@ -338,18 +338,18 @@ class RunFigures {
     const std::vector<double> work = works_done(*equations_, run_->outcome.state);
     std::optional<MotorRun::Span> after_run_up;
     if (p.run_up_end) after_run_up = {*p.run_up_end, p.run_down_begin.value_or(run_->outcome.t)};
-    tell_motors({.equations = *equations_,
-                 .y = run_->outcome.state,
-                 .work = work,
-                 .duration = run_->outcome.t - begin(),
-                 .energy_scale = energy_scale(),
-                 .last = repeating_,
-                 .repeating = model_.commands.empty() ? std::vector<const CycleRecord*>{} : all_that_come_again(),
-                 .currents = run_->currents.get(),
-                 .end = run_->outcome.t,
-                 .steady = p.steady && !p.run_down_begin,
-                 .after_run_up = after_run_up},
-                tell_);
+    report_motors({.equations = *equations_,
+                   .y = run_->outcome.state,
+                   .work = work,
+                   .duration = run_->outcome.t - begin(),
+                   .energy_scale = energy_scale(),
+                   .last = repeating_,
+                   .repeating = model_.commands.empty() ? std::vector<const CycleRecord*>{} : all_that_come_again(),
+                   .currents = run_->currents.get(),
+                   .end = run_->outcome.t,
+                   .steady = p.steady && !p.run_down_begin,
+                   .after_run_up = after_run_up},
+                  report_);
   }
   // If nothing moves, a fraction of the work of the rated torque over 1 rad, as a reference for rounding errors.
   double energy_scale() const {
@@ -357,7 +357,7 @@ class RunFigures {
   }
 
   const Model& model_;
-  FigureTeller tell_;
+  FigureReporter report_;
   OneRun* run_ = nullptr;  // null: of a list
   Equations* equations_ = nullptr;
   double tolerance_ = 0;

@@ -148,7 +148,7 @@ void add_linkages(MachineView& view, const Model& model) {
 
 // Slip is no twist to enlarge: along each line, from its begin, the rotations between the two shafts of slipping
 // parts are subtracted from the twists and stored separately; at the link they are zero.
-void tell_slips_apart(MachineView::Motion& motion, const MachineView& view) {
+void distinguish_slips(MachineView::Motion& motion, const MachineView& view) {
   if (std::none_of(view.parts.begin(), view.parts.end(), [](const MachineView::Part& p) { return p.slips; })) return;
   const std::size_t frames = view.time.size();
   const std::vector<double> none(frames, 0.0);
@@ -206,7 +206,7 @@ MachineView::Motion motion_of(const Result& r, const MachineView& view, Role rol
                                                      : sampled(traces.find(Traces::node_key(ports.out)), view.time));
     motion.torque.push_back(sampled(traces.find("torque." + part.name), view.time));
   }
-  tell_slips_apart(motion, view);
+  distinguish_slips(motion, view);
   bool any_twist = false;
   for (const auto* side : {&motion.twist_in, &motion.twist_out})
     for (const auto& twists : *side)

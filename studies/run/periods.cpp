@@ -9,7 +9,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double least_told = 1e-8;  // of a speed: nearer to its limit nobody asks
+constexpr double least_reported = 1e-8;  // of a speed: nearer to its limit nobody asks
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
 constexpr double nowhere = 1e3;  // times the speed: a limit so far away is rounding
 constexpr std::size_t parts_without_cycle = 16, least_means = 3;
@@ -142,7 +142,7 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   else
     periods.verdict =
         fmt::format("the {} speed is {}within {:.3g} % of its limit", speed, periods.steady ? "" : "only ",
-                    100 * std::max(*approach.remaining / scale, least_told));
+                    100 * std::max(*approach.remaining / scale, least_reported));
 }
 
 void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime& d, double tolerance,

@@ -193,7 +193,7 @@ Record statistics_record(const Result& r) {
 
 Record result_record(const Result& r) {
   std::vector<Figure> figures = r.figures;
-  std::erase_if(figures, [&](const Figure& f) { return !is_told(f, r); });
+  std::erase_if(figures, [&](const Figure& f) { return !is_reported(f, r); });
   const Periods& p = r.periods;
   return {{"model", Record{{"label", r.label},
                            {"effects", r.effects},
@@ -261,7 +261,7 @@ std::string coarse_rows_note(const TrajectoryRecorder& t, std::int64_t steps) {
   return fmt::format(
       "the rows of trajectory.csv, one every {}, are too coarse for the motion: {} {}; its peaks have rows of their "
       "own; samples = {:.0f} gives sufficient rows",
-      told_shortly(t.time()[1] - t.time()[0], "s"), t.channels()[worst].name.text, beyond, std::min(enough, 1e6));
+      short_text(t.time()[1] - t.time()[0], "s"), t.channels()[worst].name.text, beyond, std::min(enough, 1e6));
 }
 
 // --- chapters of the page ---
@@ -289,16 +289,16 @@ void show_works_of_periods(Findings& f, Chapter in, const Result& r) {
     std::string name = p.name;
     std::replace(name.begin(), name.end(), '_', ' ');
     std::vector<std::string> line = {name, read_as(p.begin), read_as(p.end)};
-    WorkPeriod told = p;
+    WorkPeriod reported = p;
     for (std::size_t i = 0; i < 5; ++i) {
       constexpr std::array kinds = {"driving", "useful", "harmful", "weight", "energy"};
       const Figure* figure = r.find(words + "." + kinds[i]);
       if (!figure) return;
       line.push_back(figure_text(*figure).value);
-      (i < told.work.size() ? told.work[i] : told.energy) = figure->value;
+      (i < reported.work.size() ? reported.work[i] : reported.energy) = figure->value;
     }
-    line.push_back(fmt::format("{:.1e}", told.residual()));
-    const std::optional<double> efficiency = told.efficiency();
+    line.push_back(fmt::format("{:.1e}", reported.residual()));
+    const std::optional<double> efficiency = reported.efficiency();
     line.push_back(efficiency ? fmt::format("{:.4g} %", 100 * *efficiency) : "—");
     lines.push_back(std::move(line));
   }

@@ -26,7 +26,7 @@ KeyFigure key_of(const Figure& f, const std::string& note, const SpeedUnit& spee
 
 Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_terminal) {
   using F = const Figure&;
-  std::erase_if(figures, [&](F f) { return !is_told(f, r); });
+  std::erase_if(figures, [&](F f) { return !is_reported(f, r); });
   const SpeedUnit speed = speed_unit_of(r);
   const auto cells = [&](F f, int digits) { return figure_cells(without_rounding(f, f.scale), f.unit, speed, digits); };
   auto table = table_of("", fmt::format("All figures, {} model, with their measured errors (theory 15.1)", r.label),
@@ -101,9 +101,10 @@ Brief brief_of(const Comparison& c) {
       .figures = comparison_table(c, rows),
       .notes = c.notes};
   for (const Result* r : {&c.a, &c.b})
-    brief.words.push_back(r->errors_measured ? fmt::format("{}: accuracy {:.1e} requested, {:.1e} measured; {}",
-                                                           r->label, r->accuracy, r->measured_accuracy, told(r->energy))
-                                             : r->label + ": errors were not measured");
+    brief.words.push_back(r->errors_measured
+                              ? fmt::format("{}: accuracy {:.1e} requested, {:.1e} measured; {}", r->label, r->accuracy,
+                                            r->measured_accuracy, reported(r->energy))
+                              : r->label + ": errors were not measured");
   brief.more = fmt::format("{} more figures of both models, works, periods, cost, notes: --all, or the report",
                            c.rows.size() - rows.size());
   return brief;
@@ -169,7 +170,7 @@ Brief brief_of(const Result& r) {
   std::vector<Figure> figures;
   for (const std::size_t i : chosen) figures.push_back(r.figures[i]);
   const auto all = static_cast<std::size_t>(
-      std::count_if(r.figures.begin(), r.figures.end(), [&](const Figure& f) { return is_told(f, r); }));
+      std::count_if(r.figures.begin(), r.figures.end(), [&](const Figure& f) { return is_reported(f, r); }));
   Brief brief{.about = fmt::format("{} ({}, {})", r.title, r.label,
                                    r.effects == "none" ? "no effects on" : "effects: " + r.effects),
               .figures = rows_of_figures(r, std::move(figures), true),
@@ -182,7 +183,7 @@ Brief brief_of(const Result& r) {
   std::string sure = r.errors_measured
                          ? fmt::format("accuracy {:.1e} requested, {:.1e} measured", r.accuracy, r.measured_accuracy)
                          : std::string("errors were not measured");
-  if (has_works(r)) sure += "; " + told(r.energy);
+  if (has_works(r)) sure += "; " + reported(r.energy);
   brief.words = {std::move(sure)};
   if (all > chosen.size())
     brief.more = fmt::format("{} more figures, works, periods, cost: --all, or the report", all - chosen.size());
@@ -263,8 +264,8 @@ Findings findings_of(const Result& r, const Result* rigid) {
     lines.push_back(fmt::format("{}: {}", r.periods.steady ? "steady motion" : "no steady motion", r.periods.verdict));
   f.say(notes, Sentences{.lines = lines, .terminal = false});
   show_background(f, {&r});
-  if (r.begins_at > 0) f.tell("goes_on_from", r.begins_at);
-  for (Field& field : result_record(r)) f.tell(std::move(field.key), std::move(field.value));
+  if (r.begins_at > 0) f.record("goes_on_from", r.begins_at);
+  for (Field& field : result_record(r)) f.record(std::move(field.key), std::move(field.value));
   if (r.trajectory) f.tables.push_back({"trajectory", [&r] { return trajectory_data(r); }});
   return f;
 }
@@ -275,8 +276,8 @@ Findings findings_of(const Comparison& c) {
              .subtitle = fmt::format("{} ({}) against {} ({})", c.a.label, c.a.effects, c.b.label, c.b.effects),
              .speed_unit = speed_unit_of(c.b).name,
              .opening = Findings::Opening::title_and_conclusion,
-             .tells_diagnosis = false,
-             .tells_complete = false,
+             .reports_diagnosis = false,
+             .reports_complete = false,
              .footer = report_footer()};
   judge_completion(f, c);
   for (const Result* r : results)
@@ -292,15 +293,15 @@ Findings findings_of(const Comparison& c) {
     f.say(figures, Sentences{.lines = model_words(*r), .page = false, .apart = r == &c.a});
     f.say(figures, Sentences{.lines = balance_words(*r), .page = false});
   }
-  f.tell("in_both", c.in_both);
-  f.tell("models", Record{{c.a.label, model_record(c.a)}, {c.b.label, model_record(c.b)}});
+  f.record("in_both", c.in_both);
+  f.record("models", Record{{c.a.label, model_record(c.a)}, {c.b.label, model_record(c.b)}});
   if (c.a.complete && c.b.complete) f.brief = brief_of(c);
   const Rows table = comparison_table(c, c.rows);
   f.say(figures, table);
   f.say(figures, with_amplification(c, table));
-  f.tell("amplification", each(c.amplification, [](const ComparisonRow& row) {
-           return Record{{"name", row.name}, {"value", row.b->value}, {"unit", ""}, {"error", row.b->error}};
-         }));
+  f.record("amplification", each(c.amplification, [](const ComparisonRow& row) {
+             return Record{{"name", row.name}, {"value", row.b->value}, {"unit", ""}, {"error", row.b->error}};
+           }));
   show_ratings(f, figures, c.b);
   show_amplification(f, figures, c);
   for (const Result* r : results) show_works_of_periods(f, figures, *r);

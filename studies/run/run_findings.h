@@ -26,12 +26,12 @@ inline constexpr const char *chapter_of_rigid = "The rigid machine", *chapter_of
 // No account has done work, and stored energy has not changed: the energy balance proves nothing.
 bool nothing_turned_over(const EnergyBalance& energy);
 // False for figures without a value in a run that broke off.
-bool is_told(const Figure& figure, const Result& result);
+bool is_reported(const Figure& figure, const Result& result);
 // False for a run that broke off before its works were computed.
 bool has_works(const Result& result);
 // Result of the energy balance: "energy balance closed to 1e-9 of the energy converted"; without work and change of
 // energy a sentence that nothing is proved.
-std::string told(const EnergyBalance& energy);
+std::string reported(const EnergyBalance& energy);
 
 // "peak_torque.main_coupling" → "peak torque, main_coupling"
 std::string in_words(const Figure& figure);

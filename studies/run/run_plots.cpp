@@ -30,21 +30,21 @@ Role role_of(const Result& r, const Results& all) {
 // Events too close to be distinguished are one mark, with the first few of them named.
 std::vector<EventMark> marks_of(const Result& r) {
   constexpr double apart = 1.0 / 300;  // of the time shown
-  constexpr std::size_t most_told = 3;
+  constexpr std::size_t most_reported = 3;
   std::vector<EventMark> marks;
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   std::size_t count = 0;
   for (const Event& e : r.events) {
     const std::string words = e.component + ": " + e.what;
     if (marks.empty() || e.t - marks.back().x > apart * (r.until - r.begins_at))
-      marks.push_back({e.t, words}), told = {words}, count = 1;
-    else if (++count, std::find(told.begin(), told.end(), words) == told.end())
-      told.push_back(words);
+      marks.push_back({e.t, words}), reported = {words}, count = 1;
+    else if (++count, std::find(reported.begin(), reported.end(), words) == reported.end())
+      reported.push_back(words);
     if (count < 2) continue;
     marks.back().text = fmt::format("{} events: ", count);
-    for (std::size_t k = 0; k < told.size() && k < most_told; ++k)
-      marks.back().text += fmt::format("{}{}", k ? ", " : "", told[k]);
-    if (told.size() > most_told) marks.back().text += ", …";
+    for (std::size_t k = 0; k < reported.size() && k < most_reported; ++k)
+      marks.back().text += fmt::format("{}{}", k ? ", " : "", reported[k]);
+    if (reported.size() > most_reported) marks.back().text += ", …";
   }
   return marks;
 }
@@ -136,7 +136,7 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
   const SpeedUnit speed = speed_unit_of(r);
   plot->marks.clear();
   const auto mark = [&](const std::optional<double>& t, const char* words) {
-    if (t) plot->marks.push_back({*t, fmt::format("{}: {}", words, told_shortly(*t, "s"))});
+    if (t) plot->marks.push_back({*t, fmt::format("{}: {}", words, short_text(*t, "s"))});
   };
   mark(p.run_up_end, "steady from here on");
   mark(p.run_down_begin, "run-down begins");
@@ -151,8 +151,8 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
                             .dashed = true});
     const Figure* mean = r.find(quantities::mean_speed, link);
     plot->title = fmt::format("Tachogram: {} runs steadily at {}{}", link,
-                              told_shortly(mean ? mean->value : p.steady_speed, "rad/s", speed),
-                              p.run_up_end ? " from " + told_shortly(*p.run_up_end, "s") + " on" : "");
+                              short_text(mean ? mean->value : p.steady_speed, "rad/s", speed),
+                              p.run_up_end ? " from " + short_text(*p.run_up_end, "s") + " on" : "");
   } else {
     plot->title = fmt::format("Tachogram: {}, no steady motion", link);
   }
@@ -207,7 +207,7 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
   const Figure* work = front.find(Name::own("loop_work", mechanism).text);
   plot.title =
       fmt::format("{} of {} over its {}{}", rocks ? "Torque" : "Force", mechanism, rocks ? "swing" : "stroke",
-                  work ? fmt::format(": {} a cycle within the loop", told_shortly(std::abs(work->value), "J")) : "");
+                  work ? fmt::format(": {} a cycle within the loop", short_text(std::abs(work->value), "J")) : "");
   const ReadableUnit way = readable_unit(farthest, rocks ? "rad" : "m"),
                      size = readable_unit(largest, rocks ? "N*m" : "N");
   plot.x.unit = way.unit, plot.y.unit = size.unit;
@@ -257,9 +257,9 @@ std::optional<Plot> product_over_time(const Results& results, const std::string&
   return in_readable_unit(std::move(plot), "W");
 }
 
-std::string told_figure(const Result& r, const std::string& name, const char* words) {
+std::string reported_figure(const Result& r, const std::string& name, const char* words) {
   const Figure* figure = r.find(name);
-  return figure ? fmt::format("{} {}", words, told_shortly(figure->value, figure->unit, speed_unit_of(r)))
+  return figure ? fmt::format("{} {}", words, short_text(figure->value, figure->unit, speed_unit_of(r)))
                 : std::string();
 }
 
@@ -300,10 +300,10 @@ std::vector<Plot> motion_plots(const Results& results) {
   const Result& front = *results.back();
   const std::string link = link_of(front);
   std::optional<Plot> periods = tachogram(results, "speed." + link);
-  const bool is_told = periods.has_value();
+  const bool is_reported = periods.has_value();
   add(std::move(periods));
   for (const char* end : {"", ".out"})
-    if (!is_told || *end) add(over_time(results, "speed." + link + end, fmt::format("Speed of {}", link), "speed"));
+    if (!is_reported || *end) add(over_time(results, "speed." + link + end, fmt::format("Speed of {}", link), "speed"));
   add(over_angle(results, "speed." + link, fmt::format("Speed of {} over its angle", link), "speed"));
   const std::vector<std::string> joints = couplings(front);
   for (std::size_t i = 0; i < joints.size() && i < most_torque_plots; ++i) {
@@ -355,9 +355,9 @@ std::vector<Plot> drive_plots(const Results& results) {
     const std::string& name = account.name;
     if (account.kind != Account::driving || !front.traces->find("torque." + name)) continue;
     add(over_time(results, "torque." + name, fmt::format("Torque of {}", name), "torque"),
-        told_figure(front, "motor_rms_torque." + name, "RMS over the run:"));
+        reported_figure(front, "motor_rms_torque." + name, "RMS over the run:"));
     add(product_over_time(results, "torque." + name, "speed." + name, fmt::format("Power of {}", name), "power"),
-        told_figure(front, "motor_mean_power." + name, "Mean over the run:"));
+        reported_figure(front, "motor_mean_power." + name, "Mean over the run:"));
   }
   std::vector<const Trace*> speeds;
   for (const Trace& trace : front.traces->over_time)
@@ -367,12 +367,12 @@ std::vector<Plot> drive_plots(const Results& results) {
   for (const Trace& trace : front.traces->over_time) {
     if (trace.unit == "A")
       add(over_time(results, trace.name, fmt::format("Current of {}", trace.of), "current"),
-          told_figure(front, "motor_rms_current." + trace.of, "RMS over the run:"));
+          reported_figure(front, "motor_rms_current." + trace.of, "RMS over the run:"));
     if (trace.what != quantities::slip || !(largest({&trace}) > no_slip * fastest)) continue;
     add(over_time(results, trace.name, fmt::format("Slip of {}", trace.of), "speed of one side against the other"));
     add(product_over_time(results, "torque." + trace.of, trace.name,
                           fmt::format("What slip turns into heat in {}", trace.of), "power"),
-        told_figure(front, Name::make(quantities::slip_heat, trace.of).text, "Heat over the run:"));
+        reported_figure(front, Name::make(quantities::slip_heat, trace.of).text, "Heat over the run:"));
   }
   return plots;
 }

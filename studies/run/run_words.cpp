@@ -34,7 +34,7 @@ bool nothing_turned_over(const EnergyBalance& e) {
          std::all_of(e.by_account.begin(), e.by_account.end(), [](const auto& account) { return account.second == 0; });
 }
 
-bool is_told(const Figure& f, const Result& r) { return r.complete || std::isfinite(f.value); }
+bool is_reported(const Figure& f, const Result& r) { return r.complete || std::isfinite(f.value); }
 
 bool has_works(const Result& r) {
   const auto finite = [](const auto& line) { return std::isfinite(line.second); };
@@ -42,7 +42,7 @@ bool has_works(const Result& r) {
                                                 std::all_of(r.energy.by_line.begin(), r.energy.by_line.end(), finite)));
 }
 
-std::string told(const EnergyBalance& e) {
+std::string reported(const EnergyBalance& e) {
   if (!nothing_turned_over(e))
     return e.relative > 0 ? fmt::format("energy balance closed to {:.1e} of the energy converted", e.relative)
                           : std::string("energy balance closed exactly");
@@ -66,14 +66,14 @@ std::string at_time(const Figure& f) { return f.at ? "at " + with_error({*f.at, 
 const Figure* largest_peak(const Result& r) {
   const Figure* peak = nullptr;
   for (const Figure& f : r.figures)
-    if (f.what == quantities::peak_torque && is_told(f, r) && (!peak || std::abs(f.value) > std::abs(peak->value)))
+    if (f.what == quantities::peak_torque && is_reported(f, r) && (!peak || std::abs(f.value) > std::abs(peak->value)))
       peak = &f;
   return peak;
 }
 
 const Figure* first_of(const Result& r, const QuantityKind& what) {
   for (const Figure& f : r.figures)
-    if (f.what == what && is_told(f, r)) return &f;
+    if (f.what == what && is_reported(f, r)) return &f;
   return nullptr;
 }
 
@@ -88,24 +88,24 @@ std::vector<std::string> notes_on_arcs(const Model& model) {
 std::string figures_in_words(const Result& r) {
   if (!r.complete) return {};
   const SpeedUnit speed = speed_unit_of(r);
-  const auto told = [&](const Figure& f) { return told_shortly(f.value, f.unit, speed); };
+  const auto reported = [&](const Figure& f) { return short_text(f.value, f.unit, speed); };
   std::string text;
   if (const Figure* peak = largest_peak(r); peak && peak->value != 0)
-    text = fmt::format("the torque in \"{}\" reaches {}{}", peak->of, told(*peak),
-                       peak->at ? " at " + told_shortly(*peak->at, "s") : "");
+    text = fmt::format("the torque in \"{}\" reaches {}{}", peak->of, reported(*peak),
+                       peak->at ? " at " + short_text(*peak->at, "s") : "");
   const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
   constexpr double stands_within_the_cycle = 2;
   // Over a cycle the force is a datum; a mechanism without one turns kinetic energy into it.
   if (const Figure* force = first_of(r, quantities::peak_force);
       force && force->at.value_or(0) > 0 && r.model->cycle == 0)
     more(fmt::format("the force on \"{}\" reaches {}{}", force->of,
-                     told_shortly(std::abs(force->value), force->unit, speed),
-                     force->at ? " at " + told_shortly(*force->at, "s") : ""));
+                     short_text(std::abs(force->value), force->unit, speed),
+                     force->at ? " at " + short_text(*force->at, "s") : ""));
   if (const Figure* delta = first_of(r, quantities::delta); delta && delta->value < stands_within_the_cycle)
-    more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, told(*delta)));
+    more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, reported(*delta)));
   if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" changes by {} of its mid value in the last cycle, which is not steady",
-                     cycle->of, told(*cycle)));
+                     cycle->of, reported(*cycle)));
   for (const Figure& f : r.figures)
     if (f.words() == "thermal_use" && f.value <= 1)  // more is told before
       more(fmt::format(
@@ -123,7 +123,7 @@ std::vector<std::string> model_words(const Result& r) {
                   r.effects == "none" ? "no effects on" : "effects: " + r.effects, r.statistics.method),
       fmt::format("  {}; {} steps, {} of processor time a run, {} run{}", r.statistics.reason,
                   r.statistics.stepper.steps, duration_text(r.statistics.cpu_seconds), r.runs, r.runs == 1 ? "" : "s")};
-  if (const std::string limits = told(r.statistics.limits); !limits.empty())
+  if (const std::string limits = reported(r.statistics.limits); !limits.empty())
     lines.push_back("  what kept the steps short: " + limits);
   if (!r.complete) lines.push_back("  INCOMPLETE: " + r.diagnosis);
   return lines;
@@ -138,7 +138,7 @@ std::vector<std::string> balance_words(const Result& r) {
       works += fmt::format("{} {} {}", works.empty() ? "" : ",", line, with_unit(work, "J", 5));
     lines.push_back("  work:" + works);
     lines.push_back(
-        "  " + told(e) +
+        "  " + reported(e) +
         (e.reduction_residual > 0 ? fmt::format("; bodies against reduced inertia {:.1e}", e.reduction_residual) : "") +
         (e.free_bodies > 0 ? fmt::format("; torques of joints by both sides {:.1e}", e.free_bodies) : ""));
   }

@@ -193,12 +193,12 @@ class Simulation {
   // Below 0.3 s three runs are timed, of milliseconds up to nine: other load only increases times, so the least counts.
   void time_again() {
     double &least = fine_->outcome.statistics.cpu_seconds, spent = least;
-    const auto told = std::tuple(result_.runs, result_.cpu_total, result_.flow_calls);
+    const auto reported = std::tuple(result_.runs, result_.cpu_total, result_.flow_calls);
     for (int i = 0; i < 8 && (i < 2 ? least < 0.3 : spent < timed_for) && !interrupted(); ++i) {
       const RunOutcome again = std::move(one_run(tolerance_)->outcome);
       if (again.complete) spent += again.statistics.cpu_seconds, least = std::min(least, again.statistics.cpu_seconds);
     }
-    std::tie(result_.runs, result_.cpu_total, result_.flow_calls) = told;
+    std::tie(result_.runs, result_.cpu_total, result_.flow_calls) = reported;
   }
 
   void note_interrupt() {
@@ -393,7 +393,7 @@ class Simulation {
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     result_.claims =
         motion_claims(equations_, run.outcome, result_, *run.slips, *run.link, options_.watch, settings_.budget);
-    tell_outside_data(*run.ranges, result_);
+    report_outside_data(*run.ranges, result_);
     note_regularised(run.outcome.regularised);
     for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects})
       for (std::string& note : (*of)(m)) result_.notes.push_back(std::move(note));

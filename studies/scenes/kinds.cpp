@@ -230,10 +230,11 @@ void add_kind(Kind kind) {
 }
 
 const char* unsaid_text(const EffectFlag& effect) {
-  return effect.unsaid == EffectFlag::Unsaid::off               ? "off"
-         : effect.unsaid == EffectFlag::Unsaid::where_given     ? "on where the scene gives that"
-         : effect.unsaid == EffectFlag::Unsaid::with_elasticity ? "on where anything is elastic"
-                                                                : "on, even in the rigid machine; off by name alone";
+  return effect.by_default == EffectFlag::Default::off           ? "off"
+         : effect.by_default == EffectFlag::Default::where_given ? "on where the scene gives that"
+         : effect.by_default == EffectFlag::Default::with_elasticity
+             ? "on where anything is elastic"
+             : "on, even in the rigid machine; off by name alone";
 }
 
 std::string keys_in_markdown() {

@@ -9,10 +9,10 @@
 namespace kurbel {
 namespace {
 
-constexpr double told_from = 0.01;    // of the sum: an order below it is not told
-constexpr double barred_below = 0.8;  // λ
-constexpr double last_ratio = 1.05;   // λ
-constexpr double nothing = 1e-9;      // of a stress in Pa
+constexpr double reported_from = 0.01;  // of the sum: an order below it is not told
+constexpr double barred_below = 0.8;    // λ
+constexpr double last_ratio = 1.05;     // λ
+constexpr double nothing = 1e-9;        // of a stress in Pa
 
 // The speed of the largest stress over its allowable value, or of the largest stress if there is none.
 StressPeak peak_of(const LimitedJoint& joint, const Firing& firing,
@@ -82,7 +82,7 @@ std::vector<StressPeak> stress_peaks(const std::vector<LimitedJoint>& joints, co
     };
     add(0, [&](const SpeedResponse& s) { return summed_stress(joint, s.joints[j]); });
     const std::size_t begin = peaks.size();
-    const double least = std::max(told_from * peaks.back().stress, nothing);
+    const double least = std::max(reported_from * peaks.back().stress, nothing);
     const std::size_t harmonics = firing.sweep.empty() ? 0 : firing.sweep.front().orders[j].size();
     for (std::size_t r = 1; r < harmonics; ++r)
       add(firing.fundamental * static_cast<double>(r),

@@ -11,7 +11,7 @@ namespace kurbel {
 namespace {
 
 constexpr double megapascal = 1e6;
-constexpr std::size_t orders_drawn = 2, orders_told = 6, shafts_drawn = 12;
+constexpr std::size_t orders_drawn = 2, orders_reported = 6, shafts_drawn = 12;
 
 std::string stress_text(double stress) { return fmt::format("{:.4g} MPa", stress / megapascal); }
 
@@ -160,7 +160,7 @@ std::optional<Claim> stress_claim(const ShaftStresses& s) {
   std::optional<Claim> claim =
       claimed(use > 1  ? Predicate::limit_exceeded
               : judged ? Predicate::limit_held
-                       : Predicate::figures_told,
+                       : Predicate::figures_reported,
               std::move(text), most->shaft,
               judged ? Evidence{.value = most->stress, .limit = most->stress / use, .unit = "Pa"} : Evidence{});
   if (claim) claim->load_case = most->misfires.empty() ? load_case::speed_range : "misfire of " + most->misfires;
@@ -170,15 +170,15 @@ std::optional<Claim> stress_claim(const ShaftStresses& s) {
 Rows stress_table(const ShaftStresses& s) {
   std::vector<StressPeak> peaks;
   if (s.any()) peaks = stress_peaks(s.joints, s.normal);
-  std::vector<std::size_t> told;
+  std::vector<std::size_t> reported;
   std::size_t orders = 0;
   for (std::size_t i = 0; i < peaks.size(); ++i) {
     orders = peaks[i].order == 0 ? 0 : orders + 1;
-    if (orders <= orders_told) told.push_back(i);
+    if (orders <= orders_reported) reported.push_back(i);
   }
   Rows table = peak_table(s, "shaft_stress", "Vibratory stress of shafts over the speeds",
                           "vibratory stress of shafts over the speeds", std::move(peaks));
-  table.for_people = std::move(told);
+  table.for_people = std::move(reported);
   return table;
 }
 

@@ -76,7 +76,7 @@ std::string MechanismOnSheet::letter(std::size_t joint) const {
   return names.empty() ? std::string(1, "OABCDEFGHK"[joint % 10]) : names[joint];
 }
 
-void check_goes_round(const Mechanism& m) {
+void check_rotates(const Mechanism& m) {
   if (m.arc())
     throw std::invalid_argument(
         fmt::format("--sheet: \"{}\" goes through no positions of a whole turn: its {}; leave the option out", m.name,
@@ -91,7 +91,7 @@ std::vector<MechanismOnSheet> mechanisms_of(const Model& model) {
     const Mechanism& m = element->mechanism();
     for (const MechanismOnSheet& known : list)
       if (known.mechanism.name == m.name) return;
-    check_goes_round(m);
+    check_rotates(m);
     if (model.node_ratio[at(e.node)] != 0) list.push_back({m, model.node_ratio[at(e.node)]});
   };
   if (model.reduction_element >= 0) add(model.network.elements[at(model.reduction_element)]);

@@ -29,7 +29,7 @@ struct MechanismOnSheet {
 std::vector<MechanismOnSheet> mechanisms_of(const Model& model);
 
 // Throws std::invalid_argument for a crank that only rocks.
-void check_goes_round(const Mechanism& mechanism);
+void check_rotates(const Mechanism& mechanism);
 
 // φ of the link at the dead centre of the mechanism's output nearest to φ = 0; 0 if there is none.
 double dead_centre(const MechanismOnSheet& mechanism);

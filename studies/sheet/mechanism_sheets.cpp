@@ -46,7 +46,7 @@ void add_links(SheetTable& t, const Motions& motions) {
 }
 
 // Speeds that are the output's or do not change are told already.
-bool is_told(const std::vector<double>& speeds, const Motions& motions) {
+bool is_reported(const std::vector<double>& speeds, const Motions& motions) {
   bool even = true, of_output = true;
   for (std::size_t k = 0; k < speeds.size(); ++k) {
     even = even && std::abs(speeds[k] - std::abs(motions[k].omega / motions[0].omega) * speeds[0]) < 1e-9 * speeds[0];
@@ -61,7 +61,7 @@ void add_points(SheetTable& t, const Motions& motions, std::vector<JointMotion> 
     const std::string index = name.size() > 1 ? "S" + name.substr(2) : name;
     const std::vector<double> speeds =
         values_of(motions, [&](const auto& m) { return length_of((m.*points)[i].velocity); });
-    if (is_told(speeds, motions)) continue;
+    if (is_reported(speeds, motions)) continue;
     t.columns.push_back({"v_" + index, "m/s", speeds});
     t.columns.push_back({"a_" + index, "m/s²",
                          values_of(motions, [&](const auto& m) { return length_of((m.*points)[i].acceleration); })});
@@ -115,7 +115,7 @@ void add_motion(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion& mo
   const Get place = [=](const auto& k) {
     return rocks ? std::remainder(k.output - first, 2 * std::numbers::pi) : k.output - first;
   };
-  const double goes_round = m.mechanism.travel.winding;
+  const double rotates = m.mechanism.travel.winding;
   std::vector<SheetDiagram> list = {
       {"Displacement of the output from position 0",
        "μ_s",
@@ -129,7 +129,7 @@ void add_motion(Sheets& sheets, const MechanismOnSheet& m, const SheetMotion& mo
        "μ_a",
        rocks ? "rad/s²" : "m/s²",
        {curve_of("a", motion, at, between, Pen::load, [](const auto& k) { return k.acceleration; })}}};
-  if (goes_round != 0) list.erase(list.begin());
+  if (rotates != 0) list.erase(list.begin());
   add_diagrams(sheets, fmt::format("{}: diagrams of motion", m.mechanism.name), motion.cycle.length, motion.positions,
                list, "velocity and acceleration of the output by time, " + speed);
 }

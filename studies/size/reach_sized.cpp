@@ -35,8 +35,8 @@ class Reach {
   // A member of a family is found at once or never: elastic losses brake a drive that balances the rigid load only.
   static SizedOrbits::Parts parts(const Sizing& s, const SizeOptions& options) {
     SizedOrbits::Parts parts{s.flywheel, s.link, s.motor, options.at};
-    constexpr int few_rounds = 40;
-    if ((s.basis == CycleBasis::classical && !s.operating) || s.held) parts.most_rounds = few_rounds;
+    constexpr int few_periods = 40;
+    if ((s.basis == CycleBasis::classical && !s.operating) || s.held) parts.most_periods = few_periods;
     if (s.held) parts.held = s.mid_speed;
     return parts;
   }
@@ -223,7 +223,7 @@ void reach_sized(Sizing& sizing, const Scene& scene, const SizeOptions& options,
 }
 
 // Parts omitted by the work equation, and their contribution to δ.
-void say_what_is_left_out(Sizing& s, const std::vector<std::string>& beyond) {
+void report_omitted(Sizing& s, const std::vector<std::string>& beyond) {
   const std::string what = fmt::format("{}", fmt::join(beyond, ", "));
   const DeltaReached *rigid = nullptr, *elastic = nullptr;
   for (const DeltaReached& r : s.reached)

@@ -14,6 +14,6 @@ namespace kurbel {
 void reach_sized(Sizing& sizing, const Scene& scene, const SizeOptions& options, std::optional<double> start_speed);
 
 // Notes on parts that the work equation cannot represent (`beyond` elasticity), and their contribution to δ.
-void say_what_is_left_out(Sizing& sizing, const std::vector<std::string>& beyond);
+void report_omitted(Sizing& sizing, const std::vector<std::string>& beyond);
 
 }  // namespace kurbel

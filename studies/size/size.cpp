@@ -9,7 +9,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/orbit/kept_moment.h"
+#include "engine/orbit/default_moment.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "studies/size/reach_sized.h"
@@ -57,7 +57,7 @@ class Sizer : MachineOnBasis {
     find_punch();
     if (options_.simulate) reach_sized(s_, scene_, options_, s_.operating ? s_.operating->speed : start_speed_);
     find_dimensions();
-    say_what_is_left_out(s_, beyond_);
+    report_omitted(s_, beyond_);
     return std::move(s_);
   }
 
@@ -370,7 +370,7 @@ class Sizer : MachineOnBasis {
 Sizing size_flywheel(const Scene& scene, const SizeOptions& options) {
   const Deadline deadline(scene.run.budget);
   SizeOptions asked = options;
-  const std::string later = choose_kept_moment(
+  const std::string later = choose_default_moment(
       scene, scene.effects, orbit_options(scene.run, options.simulation.watch.interrupted), asked.at);
   Sizing sizing = Sizer(scene, asked).run();
   if (!later.empty()) sizing.notes.push_back(later);

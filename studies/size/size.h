@@ -52,7 +52,7 @@ constexpr const char* name_of(SizedModel model) {
 enum class SizedBy { constant_drive, slope, steady_motion };
 
 // The sized machine with its actual motor, in steady motion.
-struct DeltaReached : SizedRound {
+struct DeltaReached : SizedCycle {
   SizedModel model = SizedModel::work_equation;
   SizedBy by = SizedBy::constant_drive;
   std::string sized_by;  // name of that method

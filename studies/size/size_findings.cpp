@@ -271,29 +271,29 @@ Record punch_record(const PunchPress& p) {
           {"from_flywheel", p.from_flywheel()}};
 }
 
-void tell_basis(Findings& f, const Sizing& s) {
-  f.tell("link", s.link);
-  f.tell("basis", s.basis == CycleBasis::classical ? "classical" : "steady");
-  f.tell("delta", Record{{"demanded", s.delta}, {"source", s.delta_source}});
-  f.tell("mid_speed", Record{{"value", s.mid_speed}, {"unit", "rad/s"}, {"source", s.mid_speed_source}});
-  f.tell("flywheel", Record{{"component", s.flywheel},
-                            {"added", s.flywheel_added},
-                            {"needed", s.needed},
-                            {"inertia", exact_method(s).flywheel},
-                            {"unit", "kg*m2"},
-                            {"in_scene", s.flywheel_now},
-                            {"speed_ratio", s.flywheel_ratio},
-                            {"delta_in_scene", s.delta_now},
-                            {"delta_of_steady_cycle_in_scene", s.delta_of_orbit}});
-  f.tell("work_diagram", Record{{"work", s.diagram.work},
-                                {"mean_torque", s.diagram.mean_torque()},
-                                {"fluctuation", s.diagram.fluctuation()},
-                                {"phi_most", s.diagram.most.x},
-                                {"phi_least", s.diagram.least.x},
-                                {"energy_coefficient", s.diagram.energy_coefficient()}});
-  f.tell("wittenbauer", Record{{"inertia", s.exact.inertia},
-                               {"upper", tangent_record(s.exact.upper)},
-                               {"lower", tangent_record(s.exact.lower)}});
+void report_basis(Findings& f, const Sizing& s) {
+  f.record("link", s.link);
+  f.record("basis", s.basis == CycleBasis::classical ? "classical" : "steady");
+  f.record("delta", Record{{"demanded", s.delta}, {"source", s.delta_source}});
+  f.record("mid_speed", Record{{"value", s.mid_speed}, {"unit", "rad/s"}, {"source", s.mid_speed_source}});
+  f.record("flywheel", Record{{"component", s.flywheel},
+                              {"added", s.flywheel_added},
+                              {"needed", s.needed},
+                              {"inertia", exact_method(s).flywheel},
+                              {"unit", "kg*m2"},
+                              {"in_scene", s.flywheel_now},
+                              {"speed_ratio", s.flywheel_ratio},
+                              {"delta_in_scene", s.delta_now},
+                              {"delta_of_steady_cycle_in_scene", s.delta_of_orbit}});
+  f.record("work_diagram", Record{{"work", s.diagram.work},
+                                  {"mean_torque", s.diagram.mean_torque()},
+                                  {"fluctuation", s.diagram.fluctuation()},
+                                  {"phi_most", s.diagram.most.x},
+                                  {"phi_least", s.diagram.least.x},
+                                  {"energy_coefficient", s.diagram.energy_coefficient()}});
+  f.record("wittenbauer", Record{{"inertia", s.exact.inertia},
+                                 {"upper", tangent_record(s.exact.upper)},
+                                 {"lower", tangent_record(s.exact.lower)}});
 }
 
 DataTable diagrams_data(const Sizing& s) {
@@ -332,7 +332,7 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
     if (!why.empty()) notes.push_back(why);
   notes.insert(notes.end(), s.notes.begin(), s.notes.end());
   f.say(in, Sentences{.lines = notes, .indent = "note: "});
-  f.tell("notes", s.notes);
+  f.record("notes", s.notes);
 }
 
 // The actual machine may not have the δ that it was sized for.
@@ -362,7 +362,7 @@ void judge_dimensions(Findings& f, const Sizing& s) {
     std::optional<Claim> claim =
         claimed(holds ? Predicate::limit_held : Predicate::limit_exceeded,
                 fmt::format("the flywheel of {} has a {} of {}, {:.0f} % of the limit{}", d.material.name, what,
-                            told_shortly(value, unit), 100 * value / limit, holds ? "" : ": EXCEEDED"),
+                            short_text(value, unit), 100 * value / limit, holds ? "" : ": EXCEEDED"),
                 s.flywheel, {.value = value, .limit = limit, .unit = unit});
     if (!claim) return;
     claim->load_case = load_case::steady, claim->in_conclusion = !holds;
@@ -384,7 +384,7 @@ Findings findings_of(const Sizing& s) {
                 body = f.chapter("Dimensions"), scales = f.chapter("Scales of the diagrams"),
                 notes = f.chapter("Notes");
   add_key_figures(f, s);
-  tell_basis(f, s);
+  report_basis(f, s);
   f.draw(cycle, [&s] { return cycle_diagrams(s); });
   f.show(cycle, cycle_formulas(s));
   f.say(cycle, positions_table(s));
@@ -399,17 +399,17 @@ Findings findings_of(const Sizing& s) {
   f.show(motor, motor_formulas(s));
   if (s.operating || !s.reached.empty()) f.draw(motor, [&s] { return speed_plot(s); });
   if (s.reached.empty())
-    f.tell("reached", List{});
+    f.record("reached", List{});
   else
     say_titled(f, motor, reached_table(s));
   if (s.dimensions) {
     say_titled(f, body, dimensions_table(*s.dimensions));
     f.show(body, dimension_formulas(*s.dimensions));
-    f.tell("dimensions", dimensions_record(*s.dimensions));
+    f.record("dimensions", dimensions_record(*s.dimensions));
   }
   if (s.punch) {
     f.say(synthesis, Sentences{.lines = {punch_words(*s.punch)}, .page = false});
-    f.tell("punch_press", punch_record(*s.punch));
+    f.record("punch_press", punch_record(*s.punch));
   }
   if (s.diagram_length) say_titled(f, scales, scales_table(s));
   say_notes(f, notes, s);

@@ -73,7 +73,7 @@ std::vector<Plot> cycle_diagrams(const Sizing& s) {
                          marks_at("extremes, where M_d = M_c", Role::vermillion,
                                   {d.most.x * in_degrees, d.least.x * in_degrees},
                                   {d.most.value * excess.factor, d.least.value * excess.factor})},
-              .note = fmt::format("Greatest fluctuation {}.", told_shortly(d.fluctuation(), "J"))};
+              .note = fmt::format("Greatest fluctuation {}.", short_text(d.fluctuation(), "J"))};
   plots.push_back(std::move(change));
   plots.push_back({.title = "Reduced inertia of the executive mechanism",
                    .x = angle,

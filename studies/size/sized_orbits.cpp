@@ -103,7 +103,7 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
     const auto model = compile_at(sized, effects, parts_.moment);
     const int motor = parts_.motor.empty() ? model->reduction_node : model->network.ports.at(parts_.motor).out;
     OrbitOptions options = orbit_options(sized.run, watch_.interrupted);
-    options.most_rounds = parts_.most_rounds;
+    options.most_periods = parts_.most_periods;
     options.progress = [this](const std::string& what, double part) { watch_.at(what, part); };
     Orbit orbit = find_orbit(model, options);
     Deadline::check();

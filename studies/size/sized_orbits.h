@@ -23,7 +23,7 @@ std::string chosen_flywheel(const Scene& scene, const std::string& named);
 Scene with_flywheel(Scene scene, const std::string& flywheel, double inertia, const std::string& on);
 
 // One period of the steady motion with a flywheel.
-struct SizedRound {
+struct SizedCycle {
   double flywheel = 0;                          // [kg·m²]
   Estimate crank, motor;                        // δ of the link and of the motor's shaft, each by its own mid speed
   double mid_speed = 0;                         // of the link [rad/s]
@@ -31,7 +31,7 @@ struct SizedRound {
   std::vector<double> phi, speed, motor_speed;  // [rad], [rad/s]; the motor's reduced to the link
 };
 
-struct SizedOrbit : SizedRound {
+struct SizedOrbit : SizedCycle {
   bool found = false;
   std::string why;  // reason, if not found
   bool interrupted = false;
@@ -46,7 +46,7 @@ class SizedOrbits {
   struct Parts {
     std::string flywheel, on, motor;  // component; link on which it is added if missing; empty: no motor
     Moment moment;                    // state of the scene
-    int most_rounds = OrbitOptions{}.most_rounds;
+    int most_periods = OrbitOptions{}.most_periods;
     std::optional<double> held = {};  // mid speed held if the own start leads to no cycle [rad/s]
   };
   SizedOrbits(const Scene& scene, Parts parts, const Watch& watch)

@@ -20,7 +20,7 @@
 #include "studies/findings/trace.h"
 #include "studies/run/compare.h"
 #include "studies/run/measured_errors.h"
-#include "studies/steady/round_figures.h"
+#include "studies/steady/cycle_figures.h"
 #include "studies/steady/steady_words.h"
 #include "studies/validity/outside_data.h"
 #include "studies/validity/static_curve.h"
@@ -293,7 +293,7 @@ class Search {
                          ? "of uncertain stability, for an event is only just touched; the run comes here and stays"
                          : "the run comes here and stays";
     out_.neutral = out_.point.neutral();
-    Round fine = go_round(*map_, out_.point, map_tolerance);
+    Period fine = figures_of_period(*map_, out_.point, map_tolerance);
     if (!fine.failed.empty()) {
       out_.found = false;
       out_.why = fine.failed;
@@ -308,7 +308,7 @@ class Search {
     out_.orders = std::move(fine.orders.all);
     if (!fine.orders.none.empty()) out_.notes.push_back(fine.orders.none);
     if (!out_.outside_data.empty()) drop_errors(out_.figures, -HUGE_VAL), drop_errors(out_.orders);
-    tell_orders(out_.orders, options_.every_order, out_.figures);
+    report_orders(out_.orders, options_.every_order, out_.figures);
     for (std::string& note : static_curve_notes(*map_, out_.point)) out_.notes.push_back(std::move(note));
     for (const std::string& note : substitutes(*out_.model)) out_.notes.push_back(note);
     find_loads();
@@ -342,7 +342,7 @@ class Search {
   }
 
   // The same search with looser tolerances and other tables; the difference is the error.
-  void measure_errors(Round& fine) {
+  void measure_errors(Period& fine) {
     std::shared_ptr<const Model> elsewhere;
     try {
       elsewhere = model_elsewhere();
@@ -356,7 +356,7 @@ class Search {
     for (std::size_t i = 0; i < std::min(point.multipliers.size(), out_.point.multipliers.size()); ++i)
       out_.multiplier_errors.push_back(nearest_of(out_.point.multipliers, point.multipliers[i]) +
                                        out_.point.multiplier_error + rounding_of_multipliers);
-    const Round other = go_round(*loose, point, looser_tolerance);
+    const Period other = figures_of_period(*loose, point, looser_tolerance);
     const double tables = left_by_tables(scene_);  // two sets of pieces may agree by chance
     for (Figure& f : fine.figures)
       for (const Figure& g : other.figures)
@@ -372,7 +372,7 @@ class Search {
   }
 
   // The same search with finer continuous shafts; the change is their discretisation error.
-  void add_errors_of_shafts(Round& fine) {
+  void add_errors_of_shafts(Period& fine) {
     Scene finer = scene_;
     ++finer.finer_shafts;
     SteadyOptions options = options_;

@@ -190,7 +190,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
                step = scan_beyond * rated / (lossy ? scan_points_moving : scan_points);
   const int points = lossy ? scan_points_moving : scan_points;
   for (int i = 0; i <= points; ++i) result.curve.push_back(mean.at(i == 0 ? 1e-6 * rated : i * step));
-  const bool known = lossy == nullptr || (lossy->own_states.empty() &&
+  const bool known = lossy == nullptr || (lossy->internal_states.empty() &&
                                           std::all_of(result.curve.begin(), result.curve.end(),
                                                       [](const MeanTorques& m) { return std::isfinite(m.net()); }));
   if (!known) {

@@ -18,17 +18,17 @@ namespace {
 
 constexpr std::size_t most_order_plots = 8;
 
-struct ToldOrder {
+struct ReportedOrder {
   const OrdersOf* of = nullptr;
   Order order;
 };
 
 // Shafts that turn together are listed once.
-std::vector<ToldOrder> told_orders(const SteadyCycle& c) {
-  std::vector<ToldOrder> rows;
+std::vector<ReportedOrder> reported_orders(const SteadyCycle& c) {
+  std::vector<ReportedOrder> rows;
   for (const OrdersOf& of : c.orders)
     if (!of.repeated)
-      for (Order& o : of.telling()) rows.push_back({&of, std::move(o)});
+      for (Order& o : of.reporting()) rows.push_back({&of, std::move(o)});
   return rows;
 }
 
@@ -39,26 +39,28 @@ std::string counted(const SteadyStudy& s, const SteadyCycle& c) {
 
 Rows orders_table(const SteadyStudy& s, const SteadyCycle& c) {
   const SpeedUnit speed = c.model->scene.speed_unit;
-  const auto cells = [speed](const ToldOrder& row) { return figure_cells(row.order.amplitude(), row.of->unit, speed); };
-  const auto phase = [](const ToldOrder& row) {
+  const auto cells = [speed](const ReportedOrder& row) {
+    return figure_cells(row.order.amplitude(), row.of->unit, speed);
+  };
+  const auto phase = [](const ReportedOrder& row) {
     const std::optional<Estimate> found = row.order.phase();
     return found ? std::optional(in_degrees * *found) : std::nullopt;
   };
-  return table_of("", fmt::format("Orders {}, {} model", counted(s, c), c.label), told_orders(c))
+  return table_of("", fmt::format("Orders {}, {} model", counted(s, c), c.label), reported_orders(c))
       .fold()
       .not_on_terminal()
-      .explained_by([](const ToldOrder& row) {
+      .explained_by([](const ReportedOrder& row) {
         return fmt::format("{}_order.{:g}.{}", row.of->channel.what.channel, row.order.order, row.of->channel.of);
       })
-      .only_for_people("quantity", [](const ToldOrder& row) { return row.of->channel.text; })
-      .only_for_people("order", [](const ToldOrder& row) { return row.order.order; })
-      .only_for_people("amplitude", [&](const ToldOrder& row) { return cells(row).value; })
-      .only_for_people("numerical error", [&](const ToldOrder& row) { return cells(row).error; })
-      .only_for_people("unit", [&](const ToldOrder& row) { return cells(row).unit; })
+      .only_for_people("quantity", [](const ReportedOrder& row) { return row.of->channel.text; })
+      .only_for_people("order", [](const ReportedOrder& row) { return row.order.order; })
+      .only_for_people("amplitude", [&](const ReportedOrder& row) { return cells(row).value; })
+      .only_for_people("numerical error", [&](const ReportedOrder& row) { return cells(row).error; })
+      .only_for_people("unit", [&](const ReportedOrder& row) { return cells(row).unit; })
       .only_for_people(
           "phase [°]",
-          [&](const ToldOrder& row) { return phase(row) ? figure_text(*phase(row)).value : std::string("—"); })
-      .only_for_people("numerical error", [&](const ToldOrder& row) {
+          [&](const ReportedOrder& row) { return phase(row) ? figure_text(*phase(row)).value : std::string("—"); })
+      .only_for_people("numerical error", [&](const ReportedOrder& row) {
         return phase(row) ? figure_text(*phase(row)).error : std::string();
       });
 }
@@ -78,7 +80,7 @@ std::optional<Plot> bars_of_orders(const SteadyStudy& s, const std::string& name
   double last = 0;
   for (const SteadyCycle& c : s.cycles)
     if (const OrdersOf* of = orders_named(c, name))
-      for (const Order& o : of->telling()) last = std::max(last, o.order);
+      for (const Order& o : of->reporting()) last = std::max(last, o.order);
   if (!(last > 0)) return {};
   std::string unit;
   for (const SteadyCycle& c : s.cycles)
@@ -89,11 +91,12 @@ std::optional<Plot> bars_of_orders(const SteadyStudy& s, const std::string& name
         if (o.order <= last) bars.add(o.order, std::abs(o.wave));
       unit = of->unit;
       const FigureCells mean = figure_cells({of->mean}, unit, c.model->scene.speed_unit);
-      const std::vector<Order> told = of->telling();
+      const std::vector<Order> reported = of->reporting();
       plot.note += fmt::format("{}{}: mean {} {}, ", plot.note.empty() ? "" : "; ", c.label, mean.value, mean.unit);
-      plot.note += told.empty() ? "no vibration above its error"
-                                : fmt::format("orders that matter contain {:.6g} % of the oscillation's mean square",
-                                              100 * of->captured(told));
+      plot.note += reported.empty()
+                       ? "no vibration above its error"
+                       : fmt::format("orders that matter contain {:.6g} % of the oscillation's mean square",
+                                     100 * of->captured(reported));
     }
   plot.note += ".";
   return in_readable_unit(std::move(plot), unit, s.cycles.back().model->scene.speed_unit);
@@ -115,18 +118,19 @@ std::vector<Plot> order_plots(const SteadyStudy& s) {
 
 List orders_for_programs(const SteadyCycle& c) {
   return each(c.orders, [](const OrdersOf& of) {
-    const std::vector<Order> told = of.telling();
-    return Record{{"name", of.channel.text},
-                  {"unit", of.unit},
-                  {"mean", of.mean},
-                  {"captured_of_amplitude", told.empty() ? Value() : Value(of.captured(told))},  // of rounding: nothing
-                  {"orders", each(told, [](const Order& o) {
-                     const std::optional<Estimate> phase = o.phase();
-                     return Record{{"order", o.order},
-                                   {"amplitude", std::abs(o.wave)},
-                                   {"phase", phase ? Value(phase->value) : Value()},
-                                   {"error", o.error}};
-                   })}};
+    const std::vector<Order> reported = of.reporting();
+    return Record{
+        {"name", of.channel.text},
+        {"unit", of.unit},
+        {"mean", of.mean},
+        {"captured_of_amplitude", reported.empty() ? Value() : Value(of.captured(reported))},  // of rounding: nothing
+        {"orders", each(reported, [](const Order& o) {
+           const std::optional<Estimate> phase = o.phase();
+           return Record{{"order", o.order},
+                         {"amplitude", std::abs(o.wave)},
+                         {"phase", phase ? Value(phase->value) : Value()},
+                         {"error", o.error}};
+         })}};
   });
 }
 

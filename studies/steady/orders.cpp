@@ -15,15 +15,15 @@
 #include "engine/numerics/index.h"
 #include "engine/orbit/follow_period.h"
 #include "engine/run/recorders.h"
-#include "studies/steady/round_figures.h"
+#include "studies/steady/cycle_figures.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double highest = 24;                              // order, per turn of the link
 constexpr std::size_t fewest_waves = 24, most_waves = 240;  // of a period
-constexpr double least_told = 0.01;                         // of the largest
-constexpr std::size_t most_told = 12;                       // of one quantity
+constexpr double least_reported = 0.01;                     // of the largest
+constexpr std::size_t most_reported = 12;                   // of one quantity
 constexpr double below_rounding = 1e-11;                    // of the rated quantity
 constexpr double most_parts = 128;                          // of two turns, after which a motion comes again
 constexpr double slowest_part = 1e-6;                       // of the rated speed: below that the link stands
@@ -40,7 +40,7 @@ std::optional<double> lowest_order(double turned) {
 }
 
 struct OrderChannel {
-  OrdersOf told;
+  OrdersOf reported;
   std::function<double(const Snapshot&)> value;
 };
 
@@ -106,7 +106,7 @@ class OrderIntegrals final : public Observer {
 
   // Over the angle `turned`.
   OrdersOf orders(std::size_t channel, double turned) const {
-    OrdersOf result = channels_[channel].told;
+    OrdersOf result = channels_[channel].reported;
     result.mean = first_[channel] / turned, result.mean_square = square_[channel] / turned;
     for (std::size_t n = 0; n < waves_; ++n)
       result.orders.push_back(
@@ -175,19 +175,19 @@ std::optional<Estimate> Order::phase() const {
                   error ? std::optional(std::asin(*error / a)) : std::nullopt};
 }
 
-std::vector<Order> OrdersOf::telling() const {
+std::vector<Order> OrdersOf::reporting() const {
   double largest = below_rounding * scale;
   for (const Order& o : orders) largest = std::max(largest, std::abs(o.wave));
-  std::vector<Order> told;
+  std::vector<Order> reported;
   for (const Order& o : orders)
-    if (std::abs(o.wave) >= least_told * largest &&
+    if (std::abs(o.wave) >= least_reported * largest &&
         std::abs(o.wave) > std::max(below_rounding * scale, o.error.value_or(0)))
-      told.push_back(o);
-  std::sort(told.begin(), told.end(),
+      reported.push_back(o);
+  std::sort(reported.begin(), reported.end(),
             [](const Order& a, const Order& b) { return std::abs(a.wave) > std::abs(b.wave); });
-  if (told.size() > most_told) told.resize(most_told);
-  std::sort(told.begin(), told.end(), [](const Order& a, const Order& b) { return a.order < b.order; });
-  return told;
+  if (reported.size() > most_reported) reported.resize(most_reported);
+  std::sort(reported.begin(), reported.end(), [](const Order& a, const Order& b) { return a.order < b.order; });
+  return reported;
 }
 
 double OrdersOf::captured(const std::vector<Order>& these) const {
@@ -218,7 +218,7 @@ void drop_errors(std::vector<OrdersOf>& all) {
     for (Order& o : of.orders) o.error.reset();
 }
 
-OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, double tolerance, double turned) {
+OrdersOfCycle orders_of_cycle(const ReturnMap& map, const SteadyPoint& point, double tolerance, double turned) {
   const Model& m = map.model();
   const std::string link = m.node_label(m.reduction_node);
   const std::string standing = fmt::format(
@@ -241,7 +241,7 @@ OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, do
   const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&integrals});
   if (!outcome.diagnosis.empty()) return {.none = "no orders: " + outcome.diagnosis};
   if (!(integrals.slowest() > slowest_part * m.speed_scale)) return {.none = standing};
-  OrdersOfRound round;
+  OrdersOfCycle round;
   for (std::size_t k = 0; k < channels.size(); ++k) {
     round.all.push_back(integrals.orders(k, turned));
     if (vibration && round.all.back().channel.what == quantities::speed)
@@ -250,9 +250,9 @@ OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, do
   return round;
 }
 
-void tell_orders(const std::vector<OrdersOf>& all, bool every_one, std::vector<Figure>& figures) {
+void report_orders(const std::vector<OrdersOf>& all, bool every_one, std::vector<Figure>& figures) {
   for (const OrdersOf& of : all)
-    for (const Order& o : every_one ? of.orders : of.telling()) {
+    for (const Order& o : every_one ? of.orders : of.reporting()) {
       Figure amplitude = Figure::defined(name_of_order(of, Functional::order, o.order), std::abs(o.wave), of.scale);
       amplitude.error = o.error;
       figures.push_back(std::move(amplitude));

@@ -39,12 +39,12 @@ struct OrdersOf {
   std::vector<Order> orders = {};
 
   // The significant orders: at least 1 % of the largest, beyond their error, at most twelve; ascending.
-  std::vector<Order> telling() const;
+  std::vector<Order> reporting() const;
   // Fraction of the mean square of x − x̄ in these orders; 1 for all of them: Σ ½ a_r².
   double captured(const std::vector<Order>& orders) const;
 };
 
-struct OrdersOfRound {
+struct OrdersOfCycle {
   std::vector<OrdersOf> all = {};
   std::string none = {};  // reason if there are none
 };
@@ -52,7 +52,7 @@ struct OrdersOfRound {
 // One period from the map's fixed point, in which the link turns by `turned` [rad]. Speeds of all shafts, torques of all
 // recorded joints, motors and loads; for a vibration angles of all shafts. None if the link rotates on average but stops or
 // reverses, or if its angle per period is neither whole turns nor a whole fraction of two, and so defines no position.
-OrdersOfRound orders_of_round(const ReturnMap& map, const SteadyPoint& point, double tolerance, double turned);
+OrdersOfCycle orders_of_cycle(const ReturnMap& map, const SteadyPoint& point, double tolerance, double turned);
 
 // Increases errors to the differences to `others`, at least to the resolution of the steps, a fraction of the rated
 // quantity, plus a fraction of each quantity's largest amplitude for other uncertainty.
@@ -61,6 +61,6 @@ void widen_errors(std::vector<OrdersOf>& all, const std::vector<OrdersOf>& other
 void drop_errors(std::vector<OrdersOf>& all);
 
 // "torque_order.0.5.main_coupling", "torque_order_phase.0.5.main_coupling" [deg]: of the significant orders, or of all.
-void tell_orders(const std::vector<OrdersOf>& all, bool every_one, std::vector<Figure>& figures);
+void report_orders(const std::vector<OrdersOf>& all, bool every_one, std::vector<Figure>& figures);
 
 }  // namespace kurbel

@@ -10,7 +10,7 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
-#include "engine/orbit/kept_moment.h"
+#include "engine/orbit/default_moment.h"
 #include "engine/orbit/link_speeds.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
@@ -92,7 +92,7 @@ class Study {
           "--hold-by {}: which speed is it to hold? Give --mid-speed or --mean-speed, e.g. --mean-speed \"60 rpm\"",
           in_quotes(options.hold_by)));
     const OrbitOptions search = orbit_options(scene, options.periods, options.watch);
-    out_.later = choose_kept_moment(scene, effects.back(), search, options_.at);
+    out_.later = choose_default_moment(scene, effects.back(), search, options_.at);
   }
 
   SteadyStudy run() {

@@ -109,34 +109,34 @@ Record cycle_record(const SteadyCycle& c) {
   Record r = {{"label", c.label}, {"effects", c.effects}, {"found", c.found}};
   if (!c.orbit.empty())
     r.push_back({"steady_motion", Record{{"kind", name_of(c.kind)}, {"words", c.orbit}, {"cycles", c.rounds}}});
-  const auto tell = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
+  const auto report = [&](const char* key, Value value) { r.push_back({key, std::move(value)}); };
   if (!c.found) {
-    tell("why", c.why);
+    report("why", c.why);
     return r;
   }
-  tell("stability", c.stability);
-  tell("stable", c.uncertain ? Value() : Value(c.point.largest() < 1 && !c.neutral));
-  tell("halving_cycles", c.halving);
-  tell("multipliers", multiplier_table(c).list());
-  tell("figures", each(c.figures, figure_record));
-  tell("orders", orders_for_programs(c));
-  tell("drives", drive_list(c));
+  report("stability", c.stability);
+  report("stable", c.uncertain ? Value() : Value(c.point.largest() < 1 && !c.neutral));
+  report("halving_cycles", c.halving);
+  report("multipliers", multiplier_table(c).list());
+  report("figures", each(c.figures, figure_record));
+  report("orders", orders_for_programs(c));
+  report("drives", drive_list(c));
   if (!c.added_at.empty())
-    tell("added_torque", Record{{"component", c.added_at}, {"value", c.added_torque}, {"unit", "N*m"}});
+    report("added_torque", Record{{"component", c.added_at}, {"value", c.added_torque}, {"unit", "N*m"}});
   if (c.held_quantity)
-    tell("held_quantity", Record{{"key", c.held_quantity->key},
-                                 {"value", c.held_quantity->value},
-                                 {"scene_value", c.held_quantity->of_scene},
-                                 {"unit", c.held_quantity->unit}});
-  tell("statistics", Record{{"unknowns", c.unknowns},
-                            {"section", c.section},
-                            {"iterations", c.point.rounds},
-                            {"derivatives", c.point.derivatives},
-                            {"cost_in_cycles", c.cost},
-                            {"cost_allowed", c.cost_limit},
-                            {"residual", c.point.residual},
-                            {"work_residual", c.work_residual},
-                            {"cpu_seconds", c.cpu_seconds}});
+    report("held_quantity", Record{{"key", c.held_quantity->key},
+                                   {"value", c.held_quantity->value},
+                                   {"scene_value", c.held_quantity->of_scene},
+                                   {"unit", c.held_quantity->unit}});
+  report("statistics", Record{{"unknowns", c.unknowns},
+                              {"section", c.section},
+                              {"iterations", c.point.rounds},
+                              {"derivatives", c.point.derivatives},
+                              {"cost_in_cycles", c.cost},
+                              {"cost_allowed", c.cost_limit},
+                              {"residual", c.point.residual},
+                              {"work_residual", c.work_residual},
+                              {"cpu_seconds", c.cpu_seconds}});
   return r;
 }
 
@@ -362,14 +362,14 @@ void say_operation(Findings& f, Chapter in, const SteadyStudy& s) {
   if (s.start && s.start->t.size() > 1) f.draw(in, [&s] { return start_plot(s); });
   for (const RatioSearch& r : s.ratios) f.draw(in, [&r] { return ratio_plot(r); });
   f.say(in, Sentences{.lines = words_of_start(s)});
-  f.tell("operating_points",
-         s.diagram ? each(s.diagram->points, [&](const OperatingPoint& p) { return operating_point(*s.diagram, p); })
-                   : List{});
+  f.record("operating_points",
+           s.diagram ? each(s.diagram->points, [&](const OperatingPoint& p) { return operating_point(*s.diagram, p); })
+                     : List{});
   if (s.start)
-    f.tell("start", Record{{"reached", s.start->reached},
-                           {"time", s.start->reached ? Value(s.start->time.value) : Value()},
-                           {"error", s.start->time.error}});
-  f.tell("fastest_ratios", each(s.ratios, ratio_record));
+    f.record("start", Record{{"reached", s.start->reached},
+                             {"time", s.start->reached ? Value(s.start->time.value) : Value()},
+                             {"error", s.start->time.error}});
+  f.record("fastest_ratios", each(s.ratios, ratio_record));
 }
 
 }  // namespace
@@ -396,7 +396,7 @@ Findings findings_of(const SteadyStudy& s) {
                                                 c.effects == "none" ? "no effects on" : "effects: " + c.effects),
                          .indent = "  ",
                          .apart = &c == &s.cycles.front()});
-  f.tell("cycles", each(s.cycles, cycle_record));
+  f.record("cycles", each(s.cycles, cycle_record));
   say_operation(f, operation, s);
   if (any) {
     f.draw(cycle, [&s] { return cycle_plots(s); });

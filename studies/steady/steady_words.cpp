@@ -101,14 +101,13 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
   if (c.point.grazed)
     words.push_back("an event is only just touched on the way: there the multipliers depend on the side");
   const auto torque = [&c](double of_motor) {
-    return told_shortly(without_rounding({of_motor}, c.model->torque_scale).value, "N*m");
+    return short_text(without_rounding({of_motor}, c.model->torque_scale).value, "N*m");
   };
   for (const MotorUse& m : c.motors)
     words.push_back(fmt::format(
         "drive \"{}\": mean torque {}, RMS {}, peak {}{}", m.component, torque(m.mean), torque(m.rms), torque(m.peak),
-        m.rated
-            ? fmt::format("; thermal use RMS/rated = {} of {}", percent(*m.thermal()), told_shortly(*m.rated, "N*m"))
-            : ""));
+        m.rated ? fmt::format("; thermal use RMS/rated = {} of {}", percent(*m.thermal()), short_text(*m.rated, "N*m"))
+                : ""));
   if (!c.added_at.empty())
     words.push_back(fmt::format("the demanded speed needs {} N·m beside the scene's drive at \"{}\"{}",
                                 number(c.added_torque), c.added_at,
@@ -123,13 +122,14 @@ Claims claims_of(const SteadyStudy& s) {
   const SteadyCycle& last = s.cycles.back();
   Claims claims = last.model ? start_claims(last.model) : Claims{};
   const bool vibrates = last.kind == Orbit::Kind::vibrating;
-  const Figure* told = last.find(vibrates ? "vibration_frequency" : "mean_speed." + s.link);
+  const Figure* reported = last.find(vibrates ? "vibration_frequency" : "mean_speed." + s.link);
   add(claims, claimed(!s.complete ? Predicate::incomplete
                       : vibrates  ? Predicate::vibrates
                                   : Predicate::runs_steadily,
                       s.conclusion, s.link,
-                      s.complete && told ? Evidence{.value = told->value, .error = told->error, .unit = told->unit}
-                                         : Evidence{}));
+                      s.complete && reported
+                          ? Evidence{.value = reported->value, .error = reported->error, .unit = reported->unit}
+                          : Evidence{}));
   for (const SteadyCycle& c : s.cycles)
     if (c.found && !c.uncertain && !c.neutral)
       add(claims,
@@ -184,8 +184,8 @@ std::vector<std::string> words_of_start(const SteadyStudy& s) {
   for (const RatioSearch& r : s.ratios)
     words.push_back(fmt::format(
         "Fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best), r.gearbox,
-        r.at_bound ? " (the end of what was tried)" : "", told_shortly(r.best_time, "s"),
-        r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present), told_shortly(r.present_time, "s"))
+        r.at_bound ? " (the end of what was tried)" : "", short_text(r.best_time, "s"),
+        r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present), short_text(r.present_time, "s"))
                            : fmt::format("with its ratio of {} the machine does not start", number(r.present))));
   return words;
 }

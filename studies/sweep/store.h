@@ -33,7 +33,7 @@ struct SweepIdentity {
   std::size_t rows = 0;  // of all shards
 
   // Entry of meta; empty: none.
-  std::string told(const std::string& key) const {
+  std::string reported(const std::string& key) const {
     const auto found = meta.find(key);
     return found == meta.end() ? "" : found->second;
   }

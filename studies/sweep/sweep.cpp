@@ -79,7 +79,7 @@ class Sweeping {
         commit();
         committed = Clock::now();
       }
-      tell(ready);
+      report(ready);
     }
   }
 
@@ -99,7 +99,7 @@ class Sweeping {
     for (const SweepRow& r : batch) end_.failed += r.state == RowState::failed;
   }
 
-  void tell(std::size_t ready) const {
+  void report(std::size_t ready) const {
     const std::size_t computed = end_.computed + ready, done = end_.there + computed;
     const double rate = static_cast<double>(computed) / std::max(seconds_since(begin_), 1e-3);
     job_.watch.at(fmt::format("sweep: {} of {}, {:.3g}/s, {} failed, {} left", done, end_.rows, rate, end_.failed,

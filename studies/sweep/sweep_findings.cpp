@@ -34,7 +34,7 @@ std::string counted(std::size_t count) {
 
 // Meaning of a share's interval for points distributed more evenly than random ones.
 std::vector<std::string> notes_on_limits(const SweepStudyResult& s) {
-  const std::string design = s.identity.told("design");
+  const std::string design = s.identity.reported("design");
   if (s.limits.empty() || !(is_shifted_sobol(s.identity) || design.starts_with("lhs"))) return {};
   return {
       fmt::format("The share that holds is given the interval of {} random points (Clopper and Pearson, 95 %). The "
@@ -98,7 +98,7 @@ Rows figure_table(const SweepStudyResult& s) {
   const auto add = [&](const char* key, const char* heading, const auto& get, int digits) {
     table.only_for_programs(key, get).only_for_people(heading, [&s, &get, digits](const Spread& f) {
       const std::optional<double> value = std::invoke(get, f);
-      return value ? read_as(s.told(*value, f.figure.unit), {.digits = digits}) : std::string(ReadAs{}.otherwise);
+      return value ? read_as(s.reported(*value, f.figure.unit), {.digits = digits}) : std::string(ReadAs{}.otherwise);
     });
   };
   add("least", "least", &Spread::least, digits_in_tables);
@@ -109,7 +109,7 @@ Rows figure_table(const SweepStudyResult& s) {
   return table
       .column(
           "unit", "unit", [](const Spread& f) { return f.figure.unit; },
-          [&s](const std::string& unit) { return s.told(unit); })
+          [&s](const std::string& unit) { return s.reported(unit); })
       .column("rows", "rows", &Spread::rows);
 }
 
@@ -145,12 +145,12 @@ Rows worst_table(const SweepStudyResult& s) {
   return table_of("worst", s.limits.empty() ? "Where each figure is greatest" : "The worst machines", worst_of(s))
       .column("figure", "figure", &Worst::figure)
       .only_for_programs("value", &Worst::value)
-      .only_for_people("value", [&s](const Worst& w) { return read_as(s.told(w.value, w.unit)); })
+      .only_for_people("value", [&s](const Worst& w) { return read_as(s.reported(w.value, w.unit)); })
       .only_for_programs("error", &Worst::error)
       .only_for_people(
           "numerical error",
-          [&s](const Worst& w) { return w.error ? read_as(s.told(*w.error, w.unit), {.digits = 1}) : "—"; })
-      .column("unit", "unit", &Worst::unit, [&s](const std::string& unit) { return s.told(unit); })
+          [&s](const Worst& w) { return w.error ? read_as(s.reported(*w.error, w.unit), {.digits = 1}) : "—"; })
+      .column("unit", "unit", &Worst::unit, [&s](const std::string& unit) { return s.reported(unit); })
       .column("row", "row", [](const Worst& w) { return w.row->row; })
       .column("line", "computed alone", [&s](const Worst& w) { return line_of(s.identity, *w.row); });
 }
@@ -264,7 +264,7 @@ SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string
   for (const std::string& limit : limits) s.limits.push_back(parse_limit(limit, s.identity.figures));
   s.tally = tally_of(store, s.limits);
   s.wanted = s.tally.rows;
-  const bool saltelli = s.identity.told("design").starts_with("saltelli");
+  const bool saltelli = s.identity.reported("design").starts_with("saltelli");
   // From Saltelli's design whole groups are selected.
   const std::size_t group = saltelli ? s.identity.parameters.size() + 2 : 1;
   const std::size_t groups = (saltelli ? s.identity.rows : s.tally.rows) / group;
@@ -282,10 +282,10 @@ SweepStudyResult study_of(const SweepStore& store, const std::vector<std::string
 }
 
 std::string line_of(const SweepIdentity& identity, const SweepRow& row) {
-  const std::string of = identity.told("of");
-  std::string line = fmt::format("kurbel {} {}", of, identity.told("scene file"));
-  if (of == "size" && !identity.told("delta").empty()) line += " --delta " + identity.told("delta");
-  std::istringstream settings(identity.told("settings"));
+  const std::string of = identity.reported("of");
+  std::string line = fmt::format("kurbel {} {}", of, identity.reported("scene file"));
+  if (of == "size" && !identity.reported("delta").empty()) line += " --delta " + identity.reported("delta");
+  std::istringstream settings(identity.reported("settings"));
   for (std::string setting; std::getline(settings, setting);) line += fmt::format(" --set '{}'", setting);
   for (std::size_t k = 0; k < identity.parameters.size(); ++k)
     line += fmt::format(" --set '{}'", identity.parameters[k].setting(row.parameters[k]));
@@ -320,9 +320,9 @@ Claims share_claims(const std::vector<LimitCount>& limits, std::size_t failed, s
 }
 
 Findings findings_of(const SweepStudyResult& s) {
-  Findings f{.title = s.identity.told("title"),
-             .subtitle = fmt::format("Sweep of {} by {}", s.identity.told("of"), s.identity.told("design")),
-             .scene_file = s.identity.told("scene file"),
+  Findings f{.title = s.identity.reported("title"),
+             .subtitle = fmt::format("Sweep of {} by {}", s.identity.reported("of"), s.identity.reported("design")),
+             .scene_file = s.identity.reported("scene file"),
              .complete = !s.interrupted && s.tally.rows >= s.wanted,
              .diagnosis = s.interrupted ? "interrupted; the same command goes on where it ended"
                                         : "rows are missing; the same command goes on"};
@@ -330,7 +330,7 @@ Findings findings_of(const SweepStudyResult& s) {
   f.claim(share_claims(s.tally.limits, s.tally.failed, s.tally.rows));
   for (const Spread& spread : spreads_of(s))
     if (f.figures.size() < 4)
-      f.figures.push_back({{s.told(spread.greatest, spread.figure.unit)},
+      f.figures.push_back({{s.reported(spread.greatest, spread.figure.unit)},
                            "greatest " + spread.figure.name,
                            spread.figure.unit == "rad/s" ? s.speed_unit.name : spread.figure.unit,
                            "",
@@ -351,14 +351,14 @@ Findings findings_of(const SweepStudyResult& s) {
   f.say(worst, failure_table(s));
   f.say(all, figure_table(s));
   f.note(all, notes_on_rows(s));
-  f.tell("rows", s.tally.rows);
-  f.tell("failed", s.tally.failed);
-  f.tell("unconfirmed", s.tally.unconfirmed);
-  f.tell("design", s.identity.told("design"));
-  f.tell("seed", s.identity.told("seed"));
-  f.tell("shard", s.identity.shard);
-  f.tell("database", s.into);
-  f.show_scene(s.identity.told("scene file"), s.identity.told("scene text"));
+  f.record("rows", s.tally.rows);
+  f.record("failed", s.tally.failed);
+  f.record("unconfirmed", s.tally.unconfirmed);
+  f.record("design", s.identity.reported("design"));
+  f.record("seed", s.identity.reported("seed"));
+  f.record("shard", s.identity.shard);
+  f.record("database", s.into);
+  f.show_scene(s.identity.reported("scene file"), s.identity.reported("scene text"));
   f.tables = variant_tables(s);
   return f;
 }

@@ -55,8 +55,10 @@ struct SweepStudyResult {
   SpeedUnit speed_unit = {};  // for people
 
   // In the scene's unit if it is a speed.
-  double told(double value, const std::string& unit) const { return unit == "rad/s" ? speed_unit.of(value) : value; }
-  std::string told(const std::string& unit) const { return unit == "rad/s" ? speed_unit.name : pretty_unit(unit); }
+  double reported(double value, const std::string& unit) const {
+    return unit == "rad/s" ? speed_unit.of(value) : value;
+  }
+  std::string reported(const std::string& unit) const { return unit == "rad/s" ? speed_unit.name : pretty_unit(unit); }
 
   bool holds_all() const { return rows.size() == tally.rows; }
   // Rows from `from` to below `to`, whether they are held or not.

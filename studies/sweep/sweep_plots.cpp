@@ -75,7 +75,7 @@ bool alike(const SweepStudyResult& s, std::size_t one, std::size_t other) {
 }
 
 // "The same within 1 %: peak_spring_torque.shaft.": figures omitted for that reason.
-std::string told_with(const SweepStudyResult& s, std::size_t figure) {
+std::string reported_with(const SweepStudyResult& s, std::size_t figure) {
   std::string names;
   for (std::size_t other = 0; other < s.identity.figures.size(); ++other)
     if (other != figure && alike(s, figure, other))
@@ -106,7 +106,7 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
                              .y = {unit.factor * l.value, unit.factor * l.value},
                              .dashed = true});
   if (s.tally.rows > most_points) plot.note = fmt::format("{} of {} rows are drawn. ", points.size(), s.tally.rows);
-  plot.note += told_with(s, figure);
+  plot.note += reported_with(s, figure);
   return plot;
 }
 

@@ -12,58 +12,58 @@
 namespace kurbel {
 namespace {
 
-OptionsOf<SweepAsked> sweep_options() {
-  return OptionsOf<SweepAsked>()
+OptionsOf<SweepRequest> sweep_options() {
+  return OptionsOf<SweepRequest>()
       .add({.name = "vary",
             .doc = "KEY=FROM..TO UNIT or KEY=A,B,C UNIT, e.g. \"main_coupling.stiffness=500..1500 kN*m/rad\", "
                    "\"flywheel.inertia=200,400,800 kg*m2\"; repeatable",
             .each_time = true},
-           &SweepAsked::vary)
+           &SweepRequest::vary)
       .add({.name = "variants",
             .doc = "a table instead: a CSV file whose header names the keys, \"flywheel.inertia [kg*m2]\"; a row a "
                    "variant"},
-           &SweepAsked::variants)
+           &SweepRequest::variants)
       .add({.name = "design",
             .doc = "grid:21x3, sobol:4096, lhs:500, random:500, or saltelli:1024 for Sobol indices, which makes "
                    "1024 (k + 2) rows (default: grid, of lists)"},
-           &SweepAsked::design)
+           &SweepRequest::design)
       .add({.name = "figures",
             .doc = "names joined by commas, or a quantity for all that have it: delta,peak_torque (default: all)",
             .words = true},
-           &SweepAsked::figures)
+           &SweepRequest::figures)
       .add({.name = "limit",
             .doc = "\"delta.press <= 0.05\": counted, drawn, and how sure; repeatable",
             .each_time = true},
-           &SweepAsked::limits)
-      .add(machine_options(), &SweepAsked::machine)
+           &SweepRequest::limits)
+      .add(machine_options(), &SweepRequest::machine)
       .add({.name = "error_every",
             .doc = "20 measures the errors of every 20th row only (default: 1)",
             .domain = {.low = 1, .high = 1'000'000}},
-           &SweepAsked::errors_every)
+           &SweepRequest::errors_every)
       .add({.name = "into",
             .doc = "the database (SQLite) that is filled or continued, on a local disk; what is committed (four "
                    "times a second) survives a kill and, if the disk really flushes, a power cut",
             .required = true},
-           &SweepAsked::into)
+           &SweepRequest::into)
       .add({.name = "jobs", .doc = "threads (default: one for each core)", .domain = {.low = 1, .high = 1024}},
-           &SweepAsked::jobs)
+           &SweepRequest::jobs)
       .add({.name = "shard", .doc = "I/N: only rows of this shard, e.g. 3/64; kurbel merge puts them together"},
-           &SweepAsked::shard)
+           &SweepRequest::shard)
       .add({.name = "seed",
             .doc = "of random, lhs, and the shift of sobol (default: 1; 0: sobol as published)",
             .domain = {.low = 0, .high = 9007199254740992}},
-           &SweepAsked::seed)
-      .add({.name = "xlsx", .doc = "writes the variants as a spread sheet, too"}, &SweepAsked::xlsx);
+           &SweepRequest::seed)
+      .add({.name = "xlsx", .doc = "writes the variants as a spread sheet, too"}, &SweepRequest::xlsx);
 }
 
 // As the database records it.
-std::string errors_in_words(const SweepAsked& a) {
+std::string errors_in_words(const SweepRequest& a) {
   if (!a.machine.measure_error) return "none";
   return a.errors_every == 1 ? "measure" : fmt::format("every:{}", a.errors_every);
 }
 
 // The varied parameters: --variants with its values, else --vary.
-VariantTable table_asked(const SweepAsked& a) {
+VariantTable table_asked(const SweepRequest& a) {
   if (!a.variants.empty()) {
     if (!a.vary.empty() || !a.design.empty())
       throw std::invalid_argument("--variants is the whole design; omit --vary and --design");
@@ -77,7 +77,7 @@ VariantTable table_asked(const SweepAsked& a) {
   return table;
 }
 
-SweepIdentity identity_of(const SweepAsked& a, const Inquiry& inquiry, const Design& design,
+SweepIdentity identity_of(const SweepRequest& a, const Inquiry& inquiry, const Design& design,
                           const std::vector<SweptFigure>& figures) {
   std::map<std::string, std::string> meta{{"title", inquiry.scene.title},
                                           {"scene file", inquiry.scene.file},
@@ -91,9 +91,9 @@ SweepIdentity identity_of(const SweepAsked& a, const Inquiry& inquiry, const Des
   return identity_of(design, figures, a.shard, std::move(meta));
 }
 
-StudyOutput sweep(const Inquiry& inquiry, SweepAsked asked) {
+StudyOutput sweep(const Inquiry& inquiry, SweepRequest asked) {
   auto [store, end] = fill_sweep(inquiry, asked);
-  const auto kept = std::make_shared<KeptSweep>(std::move(store), asked.limits);
+  const auto kept = std::make_shared<StoredSweep>(std::move(store), asked.limits);
   kept->study.wanted = end.rows;
   kept->study.speed_unit = inquiry.scene.speed_unit;
   kept->study.interrupted = inquiry.watch.stopped();
@@ -104,12 +104,12 @@ StudyOutput sweep(const Inquiry& inquiry, SweepAsked asked) {
   return output;
 }
 
-struct MergeAsked {
+struct MergeRequest {
   std::vector<std::string> files;
   std::string into;
 };
 
-StudyOutput merge(const Inquiry&, MergeAsked asked) {
+StudyOutput merge(const Inquiry&, MergeRequest asked) {
   const std::size_t rows = merge_sweeps(asked.files, asked.into);
   const std::size_t wanted = SweepStore(asked.into).identity().rows;
   StudyOutput output = in_words(fmt::format("{}: {} of {} rows\n", asked.into, rows, wanted));
@@ -121,7 +121,7 @@ StudyOutput merge(const Inquiry&, MergeAsked asked) {
 
 }  // namespace
 
-FilledSweep fill_sweep(const Inquiry& inquiry, const SweepAsked& asked) {
+FilledSweep fill_sweep(const Inquiry& inquiry, const SweepRequest& asked) {
   VariantTable table = table_asked(asked);
   SweepJob job{.jobs = threads_of(asked.jobs)};
   read_shard(asked.shard, job);
@@ -142,7 +142,7 @@ FilledSweep fill_sweep(const Inquiry& inquiry, const SweepAsked& asked) {
   return {std::move(store), end};
 }
 
-StudyOutput output_of(std::shared_ptr<const KeptSweep> sweep) { return {findings_of(sweep->study), {}, {}, sweep}; }
+StudyOutput output_of(std::shared_ptr<const StoredSweep> sweep) { return {findings_of(sweep->study), {}, {}, sweep}; }
 
 Question sweep_question() {
   return make_question(
@@ -165,10 +165,10 @@ Question merge_question() {
        .does = "puts shards of one sweep together, after checking that scene, design and version "
                "agree and that no row has two results",
        .of_scene = false},
-      OptionsOf<MergeAsked>()
+      OptionsOf<MergeRequest>()
           .add({.name = "files", .doc = "databases of the shards", .words = true, .required = true, .by_place = true},
-               &MergeAsked::files)
-          .add({.name = "into", .doc = "the database that is made", .required = true}, &MergeAsked::into),
+               &MergeRequest::files)
+          .add({.name = "into", .doc = "the database that is made", .required = true}, &MergeRequest::into),
       merge);
 }
 

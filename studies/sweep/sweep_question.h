@@ -12,8 +12,8 @@
 
 namespace kurbel {
 
-struct SweepAsked {
-  MachineAsked machine = {};
+struct SweepRequest {
+  MachineRequest machine = {};
   std::vector<std::string> vary = {}, figures = {}, limits = {};
   std::string variants = {}, design = {}, into = {}, shard = "1/1", xlsx = {};
   std::size_t errors_every = 1;
@@ -27,15 +27,15 @@ struct FilledSweep {
 };
 // Creates the file or continues it. All errors are reported before anything is written: std::invalid_argument, and
 // SceneError for values that the scene refuses.
-FilledSweep fill_sweep(const Inquiry& inquiry, const SweepAsked& asked);
+FilledSweep fill_sweep(const Inquiry& inquiry, const SweepRequest& asked);
 
 // The report reads rows that are not held from the store.
-struct KeptSweep {
-  KeptSweep(std::unique_ptr<SweepStore> filled, const std::vector<std::string>& limits)
+struct StoredSweep {
+  StoredSweep(std::unique_ptr<SweepStore> filled, const std::vector<std::string>& limits)
       : store(std::move(filled)), study(study_of(*store, limits)) {}
   std::unique_ptr<SweepStore> store;
   SweepStudyResult study;
 };
-StudyOutput output_of(std::shared_ptr<const KeptSweep> sweep);
+StudyOutput output_of(std::shared_ptr<const StoredSweep> sweep);
 
 }  // namespace kurbel

@@ -42,7 +42,7 @@ void end(Spread& spread) {
 
 // For points that are not random no interval is given.
 void end(LimitCount& c, const SweepIdentity& identity) {
-  const std::string design = identity.told("design");
+  const std::string design = identity.reported("design");
   c.interval = {std::nan(""), std::nan("")};
   if (design.starts_with("random") || design.starts_with("lhs") || is_shifted_sobol(identity)) c.end(c.decided());
 }
@@ -80,7 +80,7 @@ class WorstRows {
 }  // namespace
 
 bool is_shifted_sobol(const SweepIdentity& identity) {
-  return identity.told("design").starts_with("sobol") && identity.told("seed") != "0";
+  return identity.reported("design").starts_with("sobol") && identity.reported("seed") != "0";
 }
 
 SweepTally tally_of(const SweepStore& store, const std::vector<FigureLimit>& limits) {

@@ -23,7 +23,7 @@ namespace {
 
 using namespace train_report;
 
-struct ReportAsked {
+struct ReportRequest {
   std::vector<std::string> cases, sections;
   std::string revision, document;
 };
@@ -88,7 +88,7 @@ const char* name_of(Tolerance::Distribution distribution) {
 
 class TrainReport {
  public:
-  TrainReport(const Inquiry& inquiry, const ReportAsked& asked)
+  TrainReport(const Inquiry& inquiry, const ReportRequest& asked)
       : inquiry_(inquiry), asked_(asked), wanted_(wanted_sections(asked.sections)) {}
 
   StudyOutput output() {
@@ -111,7 +111,7 @@ class TrainReport {
     if (wants(Place::train)) say_train(f, chapter(Place::train));
     if (wants(Place::input))
       f.show(chapter(Place::input), Text{.title = inquiry_.scene.file, .body = inquiry_.scene.text, .verbatim = true});
-    tell(out, open_points);
+    state(out, open_points);
     out.study = parts_;
     return out;
   }
@@ -165,7 +165,7 @@ class TrainReport {
   }
   const Value* range() const {
     const Part* modes = part_of("modes");
-    return modes ? told(*modes, "operating_range") : nullptr;
+    return modes ? stated(*modes, "operating_range") : nullptr;
   }
 
   std::vector<std::string> open_list() const {
@@ -179,11 +179,10 @@ class TrainReport {
       lines.push_back("the scene's cases of failure: omitted by --cases");
     if (tolerances_of(scene.text, scene.file).empty())
       lines.push_back("what tolerances do to the margins: the scene gives none");
-    std::vector<std::string> left_out;
+    std::vector<std::string> omitted;
     for (std::size_t s = 0; s < section_names.size(); ++s)
-      if (!wanted_[s]) left_out.emplace_back(section_names[s].word);
-    if (!left_out.empty())
-      lines.push_back(fmt::format("sections omitted by --sections: {}", fmt::join(left_out, ", ")));
+      if (!wanted_[s]) omitted.emplace_back(section_names[s].word);
+    if (!omitted.empty()) lines.push_back(fmt::format("sections omitted by --sections: {}", fmt::join(omitted, ", ")));
     lines.push_back(
         "lateral and axial vibration; faults of the mains, and whatever else neither the scene's sequence nor its "
         "cases contain");
@@ -210,7 +209,7 @@ class TrainReport {
         lines.push_back({part.question == "modes" ? "in frequency" : "in time", part.output.subtitle});
     std::vector<std::string> names;
     if (const Part* modes = part_of("modes"))
-      if (const Value* cases = told(*modes, "cases"))
+      if (const Value* cases = stated(*modes, "cases"))
         for (const Value& one : *cases->as<List>()) names.push_back(word_in(&one, "name"));
     if (!names.empty()) lines.push_back({"cases", fmt::format("{}", fmt::join(names, "; "))});
     Rows table = words_table("Scope", {"", ""}, lines);
@@ -261,22 +260,23 @@ class TrainReport {
   }
 
   // The same document for programs, and as Markdown.
-  void tell(StudyOutput& f, const std::vector<std::string>& open_points) const {
-    f.tell("document", Record{{"number", asked_.document}, {"revision", asked_.revision}, {"author", inquiry_.author}});
-    f.tell("not_assessed", open_points);
+  void state(StudyOutput& f, const std::vector<std::string>& open_points) const {
+    f.record("document",
+             Record{{"number", asked_.document}, {"revision", asked_.revision}, {"author", inquiry_.author}});
+    f.record("not_assessed", open_points);
     const Report page = f.report();
-    f.tell("sections", sections_of(page));
+    f.record("sections", sections_of(page));
     for (const Part& part : *parts_)
-      if (part.assessed()) f.tell(part.question, summary_of(part.output));
+      if (part.assessed()) f.record(part.question, summary_of(part.output));
     f.files.emplace_back("report.md", markdown_of(page));
   }
   const Inquiry& inquiry_;
-  const ReportAsked& asked_;
+  const ReportRequest& asked_;
   std::vector<bool> wanted_;
   std::shared_ptr<std::vector<Part>> parts_ = std::make_shared<std::vector<Part>>();
 };
 
-StudyOutput reported(const Inquiry& inquiry, ReportAsked asked) { return TrainReport(inquiry, asked).output(); }
+StudyOutput reported(const Inquiry& inquiry, ReportRequest asked) { return TrainReport(inquiry, asked).output(); }
 
 }  // namespace
 
@@ -290,17 +290,17 @@ Question report_question() {
                "first page; mass–elastic data; modes; margins; forced response with the scene's cases; starts and "
                "stops; assumptions; the input. Of what `modes` and `compare` say, each asked once; `report.html` "
                "prints to A4, `report.md` and `summary.json` are of the same document"},
-      OptionsOf<ReportAsked>()
+      OptionsOf<ReportRequest>()
           .add({.name = "cases",
                 .doc = "names of the scene's [[case]]s to compute; none: no case (default: all)",
                 .each_time = true},
-               &ReportAsked::cases)
+               &ReportRequest::cases)
           .add({.name = "sections",
                 .doc = "of the document: scope, train, modes, margins, response, time, assumptions, input, joined by "
                        "commas (default: all)"},
-               &ReportAsked::sections)
-          .add({.name = "revision", .doc = "of the document, below its title"}, &ReportAsked::revision)
-          .add({.name = "document", .doc = "number of the document, below its title"}, &ReportAsked::document),
+               &ReportRequest::sections)
+          .add({.name = "revision", .doc = "of the document, below its title"}, &ReportRequest::revision)
+          .add({.name = "document", .doc = "number of the document, below its title"}, &ReportRequest::document),
       reported);
 }
 

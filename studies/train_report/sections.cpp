@@ -63,7 +63,7 @@ bool is_judged(const std::vector<Part>& parts, const Rows& limits, std::size_t i
 }
 
 // A run's limits without those that it leaves open and another question assesses.
-void leave_out_what_is_judged(const std::vector<Part>& parts, Rows& limits) {
+void omit_judged_limits(const std::vector<Part>& parts, Rows& limits) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < limits.count; ++i)
     if (!is_open(limits, i) || !is_judged(parts, limits, i)) shown.push_back(i);
@@ -102,7 +102,7 @@ const std::string* text_in(const Record& record, const std::string& key) {
 
 }  // namespace
 
-const Value* told(const Part& part, const std::string& key) {
+const Value* reported(const Part& part, const std::string& key) {
   for (const Statement& s : part.output.statements)
     if (const Field* field = std::get_if<Field>(&s.what); field && field->key == key) return &field->value;
   return nullptr;
@@ -135,7 +135,7 @@ void take(const std::vector<Part>& parts, const Part& part, const std::vector<bo
     Statement taken = statement;
     taken.chapter = chapters[static_cast<std::size_t>(*section)];
     if (Rows* rows = std::get_if<Rows>(&taken.what)) {
-      if (rows->key == "ratings") leave_out_what_is_judged(parts, *rows);
+      if (rows->key == "ratings") omit_judged_limits(parts, *rows);
       rows->key.clear(), rows->terminal = rows->folded = false;
       if (section == Place::input) rows->means.clear();  // the dictionary explains them; key figures are explained here
     }
@@ -151,8 +151,10 @@ Claims claims_of(const std::vector<Part>& parts) {
     if (!part.assessed()) continue;
     // Limits that another part has judged alike are told once.
     const bool alike = std::all_of(part.output.claims.begin(), part.output.claims.end(), [&](const Claim& claim) {
-      return claim.predicate != Predicate::limit_held || std::any_of(all.begin(), all.end(), [&](const Claim& told) {
-               return told.predicate == claim.predicate && told.of == claim.of && told.load_case == claim.load_case;
+      return claim.predicate != Predicate::limit_held ||
+             std::any_of(all.begin(), all.end(), [&](const Claim& reported) {
+               return reported.predicate == claim.predicate && reported.of == claim.of &&
+                      reported.load_case == claim.load_case;
              });
     });
     for (Claim claim : part.output.claims) {
@@ -178,7 +180,7 @@ std::vector<std::string> not_assessed(const std::vector<Part>& parts) {
     for (std::string& line : open_limits(parts, part)) lines.push_back(std::move(line));
     add_margins(part, lines);
     add_notes(part, lines);
-    if (const Value* cases = told(part, "cases"))
+    if (const Value* cases = reported(part, "cases"))
       for (const Value& one : *cases->as<List>())
         if (const std::string* why = text_in(*one.as<Record>(), "not_assessed"))
           lines.push_back(fmt::format("the case {}: {}", *text_in(*one.as<Record>(), "name"), *why));

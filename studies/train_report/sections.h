@@ -47,6 +47,6 @@ Claims claims_of(const std::vector<Part>& parts);
 std::vector<std::string> not_assessed(const std::vector<Part>& parts);
 
 // The value of a part for programs under a key; null: none.
-const Value* told(const Part& part, const std::string& key);
+const Value* reported(const Part& part, const std::string& key);
 
 }  // namespace kurbel::train_report

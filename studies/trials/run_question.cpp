@@ -34,7 +34,7 @@ void use_setting(const std::string& file, const Scene& scene, const Effects& eff
   options.chosen_because = known.describe();
 }
 
-void read_state(SingleRunAsked& asked, const OptionValues& given) {
+void read_state(SingleRunRequest& asked, const OptionValues& given) {
   constexpr std::uintmax_t most_bytes = 256u << 20;
   const std::string& file = asked.from_state = given.text();
   std::error_code error;
@@ -51,14 +51,14 @@ void read_state(SingleRunAsked& asked, const OptionValues& given) {
 }
 
 // Read before any computation; empty: not requested.
-std::optional<Measurement> measurement_of(const SingleRunAsked& asked, const Model& model) {
+std::optional<Measurement> measurement_of(const SingleRunRequest& asked, const Model& model) {
   if (!asked.measured.asked()) return {};
   Measurement measurement = read_measurement(asked.measured, channels_of_run(model));
   if (asked.state.empty()) require_overlap(measurement, 0, asked.until.value_or(model.scene.run.until));
   return measurement;
 }
 
-SimulateOptions simulation_of(const Inquiry& inquiry, const SingleRunAsked& asked, const Effects& effects) {
+SimulateOptions simulation_of(const Inquiry& inquiry, const SingleRunRequest& asked, const Effects& effects) {
   SimulateOptions options = asked.simulation(inquiry);
   use_setting(asked.setting, inquiry.scene, effects, options);
   if (!asked.save_state.empty())
@@ -76,33 +76,33 @@ SimulateOptions simulation_of(const Inquiry& inquiry, const SingleRunAsked& aske
   return options;
 }
 
-StudyOutput run_of_scene(const Inquiry& inquiry, SingleRunAsked asked) {
+StudyOutput run_of_scene(const Inquiry& inquiry, SingleRunRequest asked) {
   if (asked.explain) return in_words(compile(inquiry.scene, asked.effects.value_or(inquiry.scene.effects))->explain());
   return output_of(single_run(inquiry, asked));
 }
 
 }  // namespace
 
-const OptionsOf<SingleRunAsked>& single_run_options() {
+const OptionsOf<SingleRunRequest>& single_run_options() {
   static const auto made =
-      OptionsOf<SingleRunAsked>()
+      OptionsOf<SingleRunRequest>()
           .add(run_options())
           .add({.name = "explain", .doc = "print what is merged, the coordinates and their inertias, and stop"},
-               &SingleRunAsked::explain)
+               &SingleRunRequest::explain)
           .add({.name = "setting",
                 .doc = "method and tolerance from this summary.json, which kurbel accuracy wrote for the same scene: "
                        "the fastest that was accurate enough"},
-               &SingleRunAsked::setting)
+               &SingleRunRequest::setting)
           .add({.name = "save_state", .doc = "writes the state at the end into this file, for --from-state"},
-               &SingleRunAsked::save_state)
-          .add(measurement_options(), &SingleRunAsked::measured)
+               &SingleRunRequest::save_state)
+          .add(measurement_options(), &SingleRunRequest::measured)
           .add({.name = "from_state",
                 .doc = "continues from a state that --save-state wrote, of this machine; parameters may differ"},
                OptionForm::one, read_state);
   return made;
 }
 
-std::shared_ptr<const SingleRun> single_run(const Inquiry& inquiry, const SingleRunAsked& asked) {
+std::shared_ptr<const SingleRun> single_run(const Inquiry& inquiry, const SingleRunRequest& asked) {
   const Effects effects = asked.effects.value_or(inquiry.scene.effects);
   const auto model = compile(inquiry.scene, effects);
   const SimulateOptions options = simulation_of(inquiry, asked, effects);

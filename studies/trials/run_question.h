@@ -12,7 +12,7 @@
 namespace kurbel {
 
 // Of a run, shared by the questions that perform one.
-struct RunAsked {
+struct RunRequest {
   std::optional<Effects> effects;
   std::optional<double> accuracy, until;  // [1], [s]
   std::optional<std::string> method;
@@ -22,15 +22,15 @@ struct RunAsked {
   SimulateOptions simulation(const Inquiry& inquiry) const;
 };
 
-const OptionsOf<RunAsked>& run_options();
+const OptionsOf<RunRequest>& run_options();
 
-struct SingleRunAsked : RunAsked {
+struct SingleRunRequest : RunRequest {
   MeasurementRequest measured;
   std::string setting, save_state, from_state;  // files
   std::string state;                            // text of the checkpoint from which the run continues
   bool explain = false;
 };
-const OptionsOf<SingleRunAsked>& single_run_options();
+const OptionsOf<SingleRunRequest>& single_run_options();
 
 struct SingleRun {
   WithTrials<Result> tried;
@@ -39,7 +39,7 @@ struct SingleRun {
 };
 // Throws std::invalid_argument for options that do not go together, SceneError for errors of the scene; a run that
 // fails is returned incomplete.
-std::shared_ptr<const SingleRun> single_run(const Inquiry& inquiry, const SingleRunAsked& asked);
+std::shared_ptr<const SingleRun> single_run(const Inquiry& inquiry, const SingleRunRequest& asked);
 StudyOutput output_of(const std::shared_ptr<const SingleRun>& run);
 
 }  // namespace kurbel

@@ -44,13 +44,13 @@ std::string change_in_words(const TrialChange& c) {
   return c.relative > 9 ? fmt::format("{:.3g} ×", std::abs(c.change.without / c.change.full)) : percent(c.relative);
 }
 
-bool moves(const TrialChange& c) { return c.gone || c.change.told(); }
+bool moves(const TrialChange& c) { return c.gone || c.change.reported(); }
 bool worth_a_line(const TrialChange& c) {
-  return c.gone || (c.change.told() && c.change.relative > least_worth_a_line);
+  return c.gone || (c.change.reported() && c.change.relative > least_worth_a_line);
 }
 
 bool changes_the_answer(const TrialChange& c) {
-  return c.gone || (c.change.told() && c.change.relative >= least_that_changes_the_answer);
+  return c.gone || (c.change.reported() && c.change.relative >= least_that_changes_the_answer);
 }
 
 template <class Which>
@@ -168,12 +168,12 @@ void conclude_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
 void show_rigid(Findings& f, const Trial& rigid, const SpeedUnit& speed) {
   conclude_rigid(f, rigid, speed);
   if (!rigid.failed.empty()) {
-    f.tell("rigid", Record{{"failed", rigid.failed}});
+    f.record("rigid", Record{{"failed", rigid.failed}});
     return;
   }
   f.say(f.chapter_named(chapter_of_rigid), moved_table("Key figures that differ in the rigid machine (grey curves)",
                                                        moved_by(rigid, speed), "elastic", "rigid", false));
-  f.tell("rigid", Record{changes_of(rigid, "elastic", "rigid")});
+  f.record("rigid", Record{changes_of(rigid, "elastic", "rigid")});
 }
 
 // --- effects that are off ---
@@ -223,10 +223,10 @@ void show(Findings& f, const Trials& trials, const SpeedUnit& speed) {
   f.say(in, moved_table("Key figures with one effect more, a trial each (theory 14.1)", std::move(moved), "off", "on",
                         true));
   f.say(in, Sentences{.lines = other_words(trials), .terminal = false});
-  f.tell("trials", Record{{"tried", each(trials.tried, trial_record)},
-                          {"not_tried", each(trials.not_tried, [](const NotTried& n) {
-                             return Record{{"effect", n.effect}, {"because", n.because}};
-                           })}});
+  f.record("trials", Record{{"tried", each(trials.tried, trial_record)},
+                            {"not_tried", each(trials.not_tried, [](const NotTried& n) {
+                               return Record{{"effect", n.effect}, {"because", n.because}};
+                             })}});
 }
 
 }  // namespace

@@ -44,9 +44,9 @@ class UncertaintyWork {
       if (std::isfinite(value_in(nominal, k))) numbers_.push_back(k);
     for (const std::size_t k : numbers_) study_.figures.push_back({figure_in(nominal, k), figures_[k]});
     gradients();
-    say_what_is_noise();
+    report_noise();
     samples();
-    say_what_is_not_linear();
+    report_nonlinearities();
     if (options_.biases && question_.of == SweepStudy::run) biases();
     conclude();
     return std::move(study_);
@@ -100,7 +100,7 @@ class UncertaintyWork {
         figure.shares.push_back(share);
       }
       figure.by_gradients = std::sqrt(squares);
-      tell_noise(figure);
+      report_noise(figure);
       for (ToleranceShare& s : figure.shares) {
         s.share = squares > 0 ? s.deviation * s.deviation / squares : 0;
         s.without = std::sqrt(std::max(0.0, squares - s.deviation * s.deviation));
@@ -111,7 +111,7 @@ class UncertaintyWork {
   }
 
   // Uncertainty that the runs' errors alone may cause; gradients within it are noted.
-  void tell_noise(FigureUncertainty& figure) {
+  void report_noise(FigureUncertainty& figure) {
     std::string names;
     std::size_t within = 0;
     for (const ToleranceShare& s : figure.shares) {
@@ -124,7 +124,7 @@ class UncertaintyWork {
                              (within < figure.shares.size() ? fmt::format(" (by {})", names) : std::string()));
   }
 
-  void say_what_is_noise() {
+  void report_noise() {
     if (below_noise_.empty()) return;
     constexpr std::size_t most_named = 4;
     std::string list;
@@ -223,7 +223,7 @@ class UncertaintyWork {
         study_.notes.push_back(fmt::format("{}: not known what it would shift ({})", trial.effect.words, trial.failed));
       for (FigureUncertainty& f : study_.figures)
         for (const TrialChange& c : trial.changes)
-          if (c.change.figure == f.figure.name && !c.gone && c.change.told())
+          if (c.change.figure == f.figure.name && !c.gone && c.change.reported())
             f.biases.push_back({{c.change.without - c.change.full, c.error_on}, trial.effect.words});
     }
     for (const NotTried& n : trials.not_tried)
@@ -231,26 +231,26 @@ class UncertaintyWork {
   }
 
   // If gradients are not valid over the tolerances, their deviation and shares apply to small tolerances only.
-  void say_what_is_not_linear() {
-    constexpr std::size_t most_told = 4;
+  void report_nonlinearities() {
+    constexpr std::size_t most_reported = 4;
     std::size_t found = 0;
     for (const FigureUncertainty& f : study_.figures) {
-      if (f.is_linear() || f.by_gradients <= 0 || ++found > most_told) continue;
+      if (f.is_linear() || f.by_gradients <= 0 || ++found > most_reported) continue;
       const std::string unit = unit_of(f);
       study_.notes.push_back(fmt::format(
           "{} does not follow its gradients over these tolerances: the samples have a deviation of {:.3g}{} about "
           "{:.5g}{}, gradients say {:.3g}{} about {:.5g}{}; the samples are right, and shares by gradients are of "
           "small tolerances only (kurbel sweep --design saltelli:N shares out what is not linear)",
-          f.figure.name, told(f, f.by_samples), unit, told(f, f.mean), unit, told(f, f.by_gradients), unit,
-          told(f, f.value), unit));
+          f.figure.name, reported(f, f.by_samples), unit, reported(f, f.mean), unit, reported(f, f.by_gradients), unit,
+          reported(f, f.value), unit));
     }
-    if (found > most_told)
-      study_.notes.push_back(fmt::format("so do {} more figures: compare the two columns", found - most_told));
+    if (found > most_reported)
+      study_.notes.push_back(fmt::format("so do {} more figures: compare the two columns", found - most_reported));
   }
 
   // A speed in the scene's unit, all else in SI.
   static bool is_speed(const FigureUncertainty& f) { return f.figure.unit == "rad/s"; }
-  double told(const FigureUncertainty& f, double x) const { return is_speed(f) ? study_.speed_unit.of(x) : x; }
+  double reported(const FigureUncertainty& f, double x) const { return is_speed(f) ? study_.speed_unit.of(x) : x; }
   std::string unit_of(const FigureUncertainty& f) const {
     const std::string& name = is_speed(f) ? study_.speed_unit.name : f.figure.unit;
     return name.empty() ? "" : " " + pretty_unit(name);
@@ -269,10 +269,10 @@ class UncertaintyWork {
       const ToleranceShare& most = figure->shares.front();
       const std::string unit = unit_of(*figure);
       text += fmt::format("{}{} is {:.5g}{} with a standard deviation of {:.2g}{} by the tolerances",
-                          text.empty() ? "" : "; ", figure->figure.name, told(*figure, figure->value), unit,
-                          told(*figure, figure->deviation()), unit);
+                          text.empty() ? "" : "; ", figure->figure.name, reported(*figure, figure->value), unit,
+                          reported(*figure, figure->deviation()), unit);
       text += figure->is_linear() ? fmt::format("; {} contributes most: without its tolerance {:.2g}{}",
-                                                swept_[most.parameter].path, told(*figure, most.without), unit)
+                                                swept_[most.parameter].path, reported(*figure, most.without), unit)
                                   : fmt::format(", not in proportion to them; it depends most on small changes of {}",
                                                 swept_[most.parameter].path);
     }

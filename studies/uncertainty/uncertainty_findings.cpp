@@ -13,13 +13,13 @@ namespace {
 std::string as_unit(const std::string& unit) { return pretty_unit(unit); }
 
 // A speed in the scene's unit, all else in SI.
-double told(const UncertaintyStudy& s, const std::string& unit, double value) {
+double reported(const UncertaintyStudy& s, const std::string& unit, double value) {
   return unit == "rad/s" ? s.speed_unit.of(value) : value;
 }
-std::optional<double> told(const UncertaintyStudy& s, const std::string& unit, const std::optional<double>& value) {
-  return value ? std::optional(told(s, unit, *value)) : value;
+std::optional<double> reported(const UncertaintyStudy& s, const std::string& unit, const std::optional<double>& value) {
+  return value ? std::optional(reported(s, unit, *value)) : value;
 }
-std::string told_unit(const UncertaintyStudy& s, const std::string& unit) {
+std::string reported_unit(const UncertaintyStudy& s, const std::string& unit) {
   return as_unit(unit == "rad/s" ? s.speed_unit.name : unit);
 }
 const std::string& unit_of(const FigureUncertainty& f) { return f.figure.unit; }
@@ -33,12 +33,12 @@ template <class Row, class Get, class Read>
 RowsOf<Row>& add_quantity(const UncertaintyStudy& s, RowsOf<Row>& table, const char* key, const char* heading, Get get,
                           Read read) {
   return table.only_for_programs(key, get).only_for_people(
-      heading, [&](const Row& row) { return told(s, unit_of(row), std::invoke(get, row)); }, read);
+      heading, [&](const Row& row) { return reported(s, unit_of(row), std::invoke(get, row)); }, read);
 }
 template <class Row>
 RowsOf<Row>& add_unit(const UncertaintyStudy& s, RowsOf<Row>& table) {
   return table.only_for_programs("unit", [](const Row& row) { return unit_of(row); })
-      .only_for_people("unit", [&](const Row& row) { return told_unit(s, unit_of(row)); });
+      .only_for_people("unit", [&](const Row& row) { return reported_unit(s, unit_of(row)); });
 }
 
 Rows figure_table(const UncertaintyStudy& s) {
@@ -181,7 +181,7 @@ Findings findings_of(const UncertaintyStudy& s) {
   for (const FigureUncertainty& figure : s.figures)
     if (figure.by_gradients > 0 && f.figures.size() < 4) {
       const std::string& unit = figure.figure.unit;
-      const Estimate value{told(s, unit, figure.value), told(s, unit, 2 * figure.deviation())};
+      const Estimate value{reported(s, unit, figure.value), reported(s, unit, 2 * figure.deviation())};
       f.figures.push_back({value, figure.figure.name, unit == "rad/s" ? s.speed_unit.name : unit,
                            "two deviations of the tolerances", 0, figure.figure.name});
     }
@@ -195,8 +195,8 @@ Findings findings_of(const UncertaintyStudy& s) {
   f.say(shares, share_table(s));
   f.say(biases, bias_table(s));
   f.say(given, parameter_table(s));
-  f.tell("drawn", s.drawn);
-  f.tell("failed", s.failed);
+  f.record("drawn", s.drawn);
+  f.record("failed", s.failed);
   f.note(given, s.notes);
   f.show_scene(s.scene_file, s.scene_text);
   return f;

@@ -7,20 +7,20 @@
 namespace kurbel {
 namespace {
 
-struct UncertaintyAsked : UncertaintyOptions {
-  UncertaintyAsked() { jobs = threads_of(0); }
-  MachineAsked machine;
+struct UncertaintyRequest : UncertaintyOptions {
+  UncertaintyRequest() { jobs = threads_of(0); }
+  MachineRequest machine;
 };
 
-StudyOutput uncertain(const Inquiry& inquiry, UncertaintyAsked asked) {
+StudyOutput uncertain(const Inquiry& inquiry, UncertaintyRequest asked) {
   const MachineQuestion question = question_of(inquiry, asked.machine);
   asked.watch = inquiry.watch;
   return output_of(study_uncertainty(question, asked));
 }
 
-OptionsOf<UncertaintyAsked> options() {
+OptionsOf<UncertaintyRequest> options() {
   using Asked = UncertaintyOptions;
-  return OptionsOf<UncertaintyAsked>()
+  return OptionsOf<UncertaintyRequest>()
       .add({.name = "figures",
             .doc = "names joined by commas, or a quantity for all that have it: delta,peak_torque (default: all)",
             .words = true},
@@ -29,7 +29,7 @@ OptionsOf<UncertaintyAsked> options() {
             .doc = "\"delta.press <= 0.05\": the probability that it holds; repeatable",
             .each_time = true},
            &Asked::limits)
-      .add(machine_options(), &UncertaintyAsked::machine)
+      .add(machine_options(), &UncertaintyRequest::machine)
       .add({.name = "samples",
             .doc = "machines drawn from the tolerances (default: 500)",
             .domain = {.low = 20, .high = 1'000'000}},

@@ -81,10 +81,11 @@ DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
     Watched watched{range, {}, {}, {}, {}};
     for (std::size_t e = 0; e < model.network.elements.size(); ++e)
       if (model.network.elements[e].component == range.component) watched.elements.push_back(e);
-    const auto told = std::find_if(model.commands.begin(), model.commands.end(),
-                                   [&](const CommandTarget& target) { return target.component == range.component; });
-    if (range.part >= 0 && told != model.commands.end())
-      watched.command = at(told - model.commands.begin()) + 1 + at(range.part);
+    const auto reported = std::find_if(model.commands.begin(), model.commands.end(), [&](const CommandTarget& target) {
+      return target.component == range.component;
+    });
+    if (range.part >= 0 && reported != model.commands.end())
+      watched.command = at(reported - model.commands.begin()) + 1 + at(range.part);
     const auto shaft = at(model.shaft_of_node[at(range.node)]);
     const double gain = model.gain_of_node[at(range.node)];
     switch (range.over) {
@@ -132,10 +133,10 @@ void DataRangeRecorder::watch_laws() {
       ranges.limit(
           {.component = component, .of = "law", .over = DataRange::Over::time, .unit = "s", .at = steps[step].at},
           steps[step].law);
-      const auto told = std::find_if(model_.commands.begin(), model_.commands.end(),
-                                     [&](const CommandTarget& target) { return target.component == component; });
-      if (told == model_.commands.end()) continue;
-      const auto command = at(told - model_.commands.begin());
+      const auto reported = std::find_if(model_.commands.begin(), model_.commands.end(),
+                                         [&](const CommandTarget& target) { return target.component == component; });
+      if (reported == model_.commands.end()) continue;
+      const auto command = at(reported - model_.commands.begin());
       for (DataRange& range : ranges.ranges)
         watch({std::move(range), {}, {}, {}, [&model = model_, command, step](const Modes& modes) {
                  return place_beside_law(model, command, step, modes);
@@ -220,7 +221,7 @@ void drop_errors(std::vector<Figure>& figures, double since) {
     if (!figure.exact && !(figure.at && *figure.at < since)) figure.error.reset(), figure.at_error.reset();
 }
 
-void tell_outside_data(const DataRangeRecorder& ranges, Result& result) {
+void report_outside_data(const DataRangeRecorder& ranges, Result& result) {
   for (std::string& sentence : ranges.sentences())
     add(result.claims, claimed(Predicate::outside_data, std::move(sentence)));
   const std::optional<double> since = ranges.since();

@@ -54,7 +54,7 @@ class DataRangeRecorder final : public Observer {
 void drop_errors(std::vector<Figure>& figures, double since);
 
 // Reports it among a run's results; dependent figures lose their errors.
-void tell_outside_data(const DataRangeRecorder& ranges, Result& result);
+void report_outside_data(const DataRangeRecorder& ranges, Result& result);
 
 // For the steady motion from the map's fixed point: one more period, only if there are such tables. One sentence each.
 std::vector<std::string> outside_data(const ReturnMap& map, const SteadyPoint& point);

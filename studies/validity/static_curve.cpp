@@ -16,8 +16,8 @@ namespace {
 
 // The motor has neither the flux lag nor its circuit in the model.
 bool follows_at_once(const Model& model, const std::string& motor) {
-  return std::none_of(model.own_states.begin(), model.own_states.end(),
-                      [&](const OwnStatePlace& own) { return own.component == motor; });
+  return std::none_of(model.internal_states.begin(), model.internal_states.end(),
+                      [&](const PlacedInternalState& own) { return own.component == motor; });
 }
 
 // Motors with static curves directly at the mains, excluding those on a frequency converter.
@@ -29,19 +29,19 @@ std::vector<std::pair<std::string, InductionData>> static_motors(const Model& mo
 }
 
 // An oscillation between two extremes of the speed and back.
-struct DriveSwing {
+struct TorqueOscillation {
   double frequency = 0, torque = 0, at = 0;  // [Hz], from least to largest [N·m], [s]
   double followed = 1;                       // part of a torque's swing that the fluxes let through
   double missed() const { return torque * (1 - followed); }
 };
 
-double part_followed(double swing, const InductionData& motor) {
-  return 1 / std::hypot(1, swing / (motor.breakdown_slip * motor.mains));
+double part_followed(double oscillation, const InductionData& motor) {
+  return 1 / std::hypot(1, oscillation / (motor.breakdown_slip * motor.mains));
 }
 
 // The oscillation with the largest excess of the curve's torque over a real motor's, above least_share of the frequency.
-DriveSwing worst_swing(const MotorMotion& m, const InductionData& motor, double least_share) {
-  DriveSwing worst;
+TorqueOscillation worst_oscillation(const MotorMotion& m, const InductionData& motor, double least_share) {
+  TorqueOscillation worst;
   const auto change = [&](std::size_t k) { return m.speed[k + 1] - m.speed[k]; };
   std::vector<std::size_t> turns;
   for (std::size_t k = 1; k + 1 < m.time.size(); ++k) {
@@ -49,12 +49,13 @@ DriveSwing worst_swing(const MotorMotion& m, const InductionData& motor, double 
     turns.push_back(k);
     if (turns.size() < 3) continue;
     const std::size_t begin = turns[turns.size() - 3];
-    DriveSwing swing{.frequency = 1 / (m.time[k] - m.time[begin]), .at = m.time[begin]};
+    TorqueOscillation oscillation{.frequency = 1 / (m.time[k] - m.time[begin]), .at = m.time[begin]};
     const auto [least, most] = std::minmax_element(m.torque.begin() + static_cast<std::ptrdiff_t>(begin),
                                                    m.torque.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-    swing.torque = *most - *least;
-    swing.followed = part_followed(swing.frequency, motor);
-    if (swing.frequency >= least_share * motor.mains && swing.missed() > worst.missed()) worst = swing;
+    oscillation.torque = *most - *least;
+    oscillation.followed = part_followed(oscillation.frequency, motor);
+    if (oscillation.frequency >= least_share * motor.mains && oscillation.missed() > worst.missed())
+      worst = oscillation;
   }
   return worst;
 }
@@ -66,15 +67,15 @@ std::vector<std::string> static_curve_notes(const Model& model,
   constexpr double least_share = 0.03, least_torque = 0.05;  // of the mains' frequency, of the rated torque
   std::vector<std::string> notes;
   for (const auto& [name, motor] : static_motors(model)) {
-    const DriveSwing swing = worst_swing(motion_of(name), motor, least_share);
-    if (!(swing.missed() > least_torque * motor.rated_torque)) continue;
+    const TorqueOscillation oscillation = worst_oscillation(motion_of(name), motor, least_share);
+    if (!(oscillation.missed() > least_torque * motor.rated_torque)) continue;
     notes.push_back(fmt::format(
         "the drive \"{}\" oscillates at about {:.2g} Hz, {:.2g} % of the mains' {:g} Hz, from {:.3g} s on, and its "
         "static torque-speed curve makes its torque oscillate by {:.3g} N·m: too fast for the curve, which assumes "
         "that the fluxes follow without delay. Estimated by its breakdown slip {:.2g}, a real motor's torque follows "
         "such an oscillation by {:.0f} %; {}{}",
-        name, swing.frequency, 100 * swing.frequency / motor.mains, motor.mains, swing.at, swing.torque,
-        motor.breakdown_slip, 100 * swing.followed,
+        name, oscillation.frequency, 100 * oscillation.frequency / motor.mains, motor.mains, oscillation.at,
+        oscillation.torque, motor.breakdown_slip, 100 * oscillation.followed,
         model.effects.torque_lag ? "" : "the effect torque_lag reckons with that; ",
         motor.has_circuit ? "the scene has the data of the two-axis model, which computes it: --effects with transients"
                           : fmt::format("the two-axis model computes it: keys frequency = \"{:g} Hz\" and "

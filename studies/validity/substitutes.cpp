@@ -23,8 +23,8 @@ std::vector<std::string> substitutes(const Model& model) {
         if (load.mirrored) notes.push_back(words_of_mirrored(load.name, "motored"));
       continue;
     }
-    const std::vector<OwnState>& own = e.element->own_states;
-    if (std::any_of(own.begin(), own.end(), [](const OwnState& state) { return state.lags; })) {
+    const std::vector<InternalState>& own = e.element->internal_states;
+    if (std::any_of(own.begin(), own.end(), [](const InternalState& state) { return state.lags; })) {
       notes.push_back(fmt::format("\"{}\": {}", e.component, e.element->describe()));
       continue;
     }

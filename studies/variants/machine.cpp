@@ -48,16 +48,16 @@ bool same_machine(const Scene& a, const Scene& b) {
 
 }  // namespace
 
-OptionsOf<MachineAsked> machine_options() {
-  return OptionsOf<MachineAsked>()
-      .add({.name = "of", .doc = "run (default), steady, modes or size"}, &MachineAsked::of)
+OptionsOf<MachineRequest> machine_options() {
+  return OptionsOf<MachineRequest>()
+      .add({.name = "of", .doc = "run (default), steady, modes or size"}, &MachineRequest::of)
       .add({.name = "delta", .doc = "demanded δ, of --of size", .example = "0.05", .what = "a plain number"},
-           &MachineAsked::delta)
+           &MachineRequest::delta)
       .add({.name = "no_error", .doc = "skip the runs that measure errors: figures count as exact then"},
-           &MachineAsked::measure_error, false);
+           &MachineRequest::measure_error, false);
 }
 
-MachineQuestion question_of(const Inquiry& inquiry, const MachineAsked& asked) {
+MachineQuestion question_of(const Inquiry& inquiry, const MachineRequest& asked) {
   const SweepStudy of = study_named(asked.of);
   if (asked.delta && of != SweepStudy::size) throw std::invalid_argument("--delta: belongs to --of size");
   return {.text = inquiry.text,

@@ -28,14 +28,14 @@ struct MachineQuestion {
   const std::atomic<bool>* interrupted = nullptr;
 };
 // What machines are asked, and its options in every command that varies them.
-struct MachineAsked {
+struct MachineRequest {
   std::string of = "run";
   std::optional<double> delta = {};
   bool measure_error = true;
 };
-OptionsOf<MachineAsked> machine_options();
+OptionsOf<MachineRequest> machine_options();
 // Throws std::invalid_argument for another study, and for δ of one that needs none.
-MachineQuestion question_of(const Inquiry& inquiry, const MachineAsked& asked);
+MachineQuestion question_of(const Inquiry& inquiry, const MachineRequest& asked);
 
 // A scene that is read once and changed for each row. Keys of components that hold one quantity are changed in place,
 // which is checked once per parameter against reading; all others are read again.

@@ -6,11 +6,11 @@
 namespace kurbel {
 namespace {
 
-struct ForcesAsked : ForcesOptions {
-  SheetAsked sheet;
+struct ForcesRequest : ForcesOptions {
+  SheetRequest sheet;
 };
 
-StudyOutput forces_in_joints(const Inquiry& inquiry, ForcesAsked asked) {
+StudyOutput forces_in_joints(const Inquiry& inquiry, ForcesRequest asked) {
   asked.rigid_behind = true;
   asked.watch = inquiry.watch;
   if (const std::optional<Paper> paper = asked.sheet.sheet())
@@ -31,7 +31,7 @@ Question forces_question() {
            "kinetostatics of any mechanism: reactions in every joint, balancing torque, shaking forces, motion and "
            "inertia forces of every link, its share in I_r, friction of the joints; a slider-crank's counterweights "
            "(`--speed`, `--positions`, `--mechanism`); a sheet of the positions to be printed (`--sheet`)"},
-      OptionsOf<ForcesAsked>()
+      OptionsOf<ForcesRequest>()
           .add({.name = "positions",
                 .doc = "positions of a turn in the tables (default: 12)",
                 .domain = {.low = 4, .high = 3600}},
@@ -51,7 +51,7 @@ Question forces_question() {
                &ForcesOptions::effects)
           .add({.name = "no_run", .doc = "prescribed motion only: do not simulate the machine"},
                &ForcesOptions::simulate, false)
-          .add(sheet_options(), &ForcesAsked::sheet),
+          .add(sheet_options(), &ForcesRequest::sheet),
       forces_in_joints);
 }
 

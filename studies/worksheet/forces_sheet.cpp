@@ -46,7 +46,7 @@ std::vector<SheetPosition> positions_of(const PrescribedCycle& c, const SheetCyc
 }
 
 MechanismOnSheet drawn(Mechanism mechanism) {
-  check_goes_round(mechanism);
+  check_rotates(mechanism);
   mechanism.phase = 0;  // angles are those of the crank
   return {std::move(mechanism), 1};
 }

@@ -7,12 +7,12 @@
 namespace kurbel {
 namespace {
 
-struct ReduceAsked : ReduceOptions {
-  SheetAsked sheet;
+struct ReduceRequest : ReduceOptions {
+  SheetRequest sheet;
   ReduceSheetRequest request;
 };
 
-StudyOutput reduced(const Inquiry& inquiry, ReduceAsked asked) {
+StudyOutput reduced(const Inquiry& inquiry, ReduceRequest asked) {
   const std::optional<Paper> paper = asked.sheet.sheet();
   if (!paper && (asked.request.delta || !asked.request.flywheel.empty()))
     throw std::invalid_argument("--delta and --flywheel are of the sheet's flywheel; add --sheet, or ask kurbel size");
@@ -22,8 +22,8 @@ StudyOutput reduced(const Inquiry& inquiry, ReduceAsked asked) {
   return output_of(sheet_of(inquiry.scene, asked, asked.request));
 }
 
-OptionsOf<ReduceAsked> options() {
-  return OptionsOf<ReduceAsked>()
+OptionsOf<ReduceRequest> options() {
+  return OptionsOf<ReduceRequest>()
       .add(
           {.name = "positions", .doc = "positions over the cycle (default: 12)", .domain = {.low = 1, .high = 100'000}},
           &ReduceOptions::positions)
@@ -32,7 +32,8 @@ OptionsOf<ReduceAsked> options() {
       .add({.name = "at",
             .doc = "the machine in another state: after \"step 2\" of the sequence, at \"1.5 s\", or at a "
                    "speed such as \"60 rpm\""},
-           OptionForm::one, [](ReduceAsked& asked, const OptionValues& given) { asked.at = given.moment(asked.speed); })
+           OptionForm::one,
+           [](ReduceRequest& asked, const OptionValues& given) { asked.at = given.moment(asked.speed); })
       .add({.name = "speed",
             .doc = "of the crank, for torques that depend on it (default: the operating speed)",
             .example = "60 rpm",
@@ -46,15 +47,16 @@ OptionsOf<ReduceAsked> options() {
            std::vector{std::pair("classical", CycleBasis::classical), std::pair("steady", CycleBasis::steady)})
       .add({.name = "orders", .doc = "harmonics up to this order (default: 12)", .domain = {.low = 1, .high = 1000}},
            &ReduceOptions::orders)
-      .add(sheet_options(), &ReduceAsked::sheet)
+      .add(sheet_options(), &ReduceRequest::sheet)
       .add({.name = "delta",
             .doc = "of the sheet's flywheel: demanded δ, e.g. 1/80 (default: what the machine has with its own)",
             .example = "0.05",
             .what = "a plain number"},
-           OptionForm::one, [](ReduceAsked& asked, const OptionValues& given) { given.read(asked.request.delta); })
+           OptionForm::one, [](ReduceRequest& asked, const OptionValues& given) { given.read(asked.request.delta); })
       .add({.name = "flywheel",
             .doc = "of the sheet: component to size (default: the scene's flywheel, else one on the crank)"},
-           OptionForm::one, [](ReduceAsked& asked, const OptionValues& given) { given.read(asked.request.flywheel); });
+           OptionForm::one,
+           [](ReduceRequest& asked, const OptionValues& given) { given.read(asked.request.flywheel); });
 }
 
 }  // namespace

@@ -7,21 +7,21 @@
 
 namespace kurbel {
 
-std::optional<Paper> SheetAsked::sheet() const {
+std::optional<Paper> SheetRequest::sheet() const {
   if (wanted) return paper_named(paper.empty() ? "A4" : paper);
   if (!paper.empty()) throw std::invalid_argument(fmt::format("--paper {}: is that of the sheet; add --sheet", paper));
   return {};
 }
 
-const OptionsOf<SheetAsked>& sheet_options() {
+const OptionsOf<SheetRequest>& sheet_options() {
   static const auto made =
-      OptionsOf<SheetAsked>()
+      OptionsOf<SheetRequest>()
           .add({.name = "sheet",
                 .doc = "write the classical sheet of the positions too, sheet.html: plan, tables and diagrams with "
                        "their scales, to be printed",
                 .makes_a_file = true},
-               &SheetAsked::wanted)
-          .add({.name = "paper", .doc = "of the sheet, landscape: A4 (default) or A3"}, &SheetAsked::paper);
+               &SheetRequest::wanted)
+          .add({.name = "paper", .doc = "of the sheet, landscape: A4 (default) or A3"}, &SheetRequest::paper);
   return made;
 }
 

@@ -9,7 +9,7 @@
 
 namespace kurbel {
 
-struct SheetAsked {
+struct SheetRequest {
   bool wanted = false;
   std::string paper;  // "A4", "A3"; empty: A4
 
@@ -17,6 +17,6 @@ struct SheetAsked {
   std::optional<Paper> sheet() const;
 };
 
-const OptionsOf<SheetAsked>& sheet_options();
+const OptionsOf<SheetRequest>& sheet_options();
 
 }  // namespace kurbel

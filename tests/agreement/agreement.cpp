@@ -34,30 +34,30 @@ const Figure* figure_of(const SteadyCycle& cycle, const Name& name) {
   return found == cycle.figures.end() ? nullptr : &*found;
 }
 
-struct Told {
+struct Reported {
   double value = 0, error = 0;
 };
-using Find = std::optional<Told> (*)(const SteadyCycle&, const Measured&);
+using Find = std::optional<Reported> (*)(const SteadyCycle&, const Measured&);
 
-std::optional<Told> by_name(const SteadyCycle& cycle, const Measured& m) {
+std::optional<Reported> by_name(const SteadyCycle& cycle, const Measured& m) {
   const Figure* f = figure_of(cycle, m.name.of_cycle());
-  return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
+  return f ? std::optional(Reported{f->value, f->error.value_or(0)}) : std::nullopt;
 }
 // Two elements of one component may have accounts of one name: their sum. What works nothing is not listed.
-std::optional<Told> summed_by_name(const SteadyCycle& cycle, const Measured& m) {
-  Told sum;
+std::optional<Reported> summed_by_name(const SteadyCycle& cycle, const Measured& m) {
+  Reported sum;
   for (const Figure& f : cycle.figures)
     if (f.name == m.name.text) sum.value += f.value, sum.error += f.error.value_or(0);
   return sum;
 }
-std::optional<Told> mid_speed(const SteadyCycle& cycle, const Measured& m) {
+std::optional<Reported> mid_speed(const SteadyCycle& cycle, const Measured& m) {
   const Figure* f = figure_of(cycle, Name::make(quantities::mid_speed, m.name.of));
-  return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
+  return f ? std::optional(Reported{f->value, f->error.value_or(0)}) : std::nullopt;
 }
 // All that repeats, whatever the link's own cycle is.
-std::optional<Told> period(const SteadyCycle& cycle, const Measured&) {
+std::optional<Reported> period(const SteadyCycle& cycle, const Measured&) {
   const Figure* f = figure_of(cycle, Name::make(quantities::period));
-  return f ? std::optional(Told{f->value, f->error.value_or(0)}) : std::nullopt;
+  return f ? std::optional(Reported{f->value, f->error.value_or(0)}) : std::nullopt;
 }
 
 struct Counterpart {
@@ -83,7 +83,7 @@ constexpr Counterpart counterparts[] = {
 // ---------------------------------------------------------------------------------------------------------------------
 
 Verdict worse_of(bool agrees, const std::vector<std::string>& notes) {
-  return agrees ? Verdict::agrees : tells_how_much(notes) ? Verdict::told : Verdict::silent;
+  return agrees ? Verdict::agrees : reports_how_much(notes) ? Verdict::reported : Verdict::silent;
 }
 
 class Comparison {
@@ -165,16 +165,16 @@ class Comparison {
     for (const Counterpart& c : counterparts) {
       if (c.what != m.name.what || (c.what == quantities::other && !m.needed)) continue;
       if (c.per_cycle && run_.base == Base::none) return;  // any time is a period
-      const std::optional<Told> told = c.find(cycle, m);
-      if (!told) {
+      const std::optional<Reported> reported = c.find(cycle, m);
+      if (!reported) {
         if (m.needed) refuse({c.topic}, m.name.text + " is not told");
         return;
       }
       const double rounds = c.per_cycle ? periods_in(cycle) : 1;
-      double study = told->value;
+      double study = reported->value;
       if (is_peak(m.name.what)) study = std::copysign(study, m.value);  // of two equal ones either may be taken
-      compare(c.topic, m.name.text, rounds * m.value, study, rounds * (m.error + left_by_runs * m.scale) + told->error,
-              notes);
+      compare(c.topic, m.name.text, rounds * m.value, study,
+              rounds * (m.error + left_by_runs * m.scale) + reported->error, notes);
       return;
     }
   }
@@ -193,12 +193,13 @@ class Comparison {
                               "a period told by events: no multipliers, and steady says so"});
       return;
     }
-    const double told = std::pow(cycle.point.largest(), 1 / periods_in(cycle));
-    if (decay.measured) return compare(Topic::multipliers, "largest", decay.factor, told, decay.error + 1e-3, notes);
+    const double reported = std::pow(cycle.point.largest(), 1 / periods_in(cycle));
+    if (decay.measured)
+      return compare(Topic::multipliers, "largest", decay.factor, reported, decay.error + 1e-3, notes);
     if (decay.periods == 0 && decay.factor == 0) return;
     // Too fast to be measured: it must be told as so fast.
-    const Verdict verdict = worse_of(told <= decay.factor + 1e-3, notes);
-    row_.figures.push_back({Topic::multipliers, "largest, at most", decay.factor, told, 0, verdict, {}});
+    const Verdict verdict = worse_of(reported <= decay.factor + 1e-3, notes);
+    row_.figures.push_back({Topic::multipliers, "largest, at most", decay.factor, reported, 0, verdict, {}});
   }
 
   // --- reduce ---
@@ -240,11 +241,11 @@ class Comparison {
         if (apart < distance) distance = apart, nearest = &p;
       }
       if (distance > 1e-6) continue;
-      const double told = 0.5 * nearest->inertia * place.speed * place.speed;
-      if (std::abs(told - place.kinetic_energy) <= largest) continue;
-      largest = std::abs(told - place.kinetic_energy);
+      const double reported = 0.5 * nearest->inertia * place.speed * place.speed;
+      if (std::abs(reported - place.kinetic_energy) <= largest) continue;
+      largest = std::abs(reported - place.kinetic_energy);
       worst.figure = fmt::format("at {:.4g} deg", nearest->phi * 180 / std::numbers::pi);
-      worst.run = place.kinetic_energy, worst.study = told;
+      worst.run = place.kinetic_energy, worst.study = reported;
       worst.allowed = left_by_runs * std::max(place.kinetic_energy, 1e-300);
     }
     if (largest < 0) return;
@@ -263,17 +264,18 @@ class Comparison {
     const Sizing sizing = size_flywheel(scene_, options);
     if (!sizing.needed)
       return compare(Topic::sized_delta, "as it is, said to be enough", delta->value, *options.delta, 0, sizing.notes);
-    const DeltaReached* told = reached_by(sizing);
-    if (!told)
+    const DeltaReached* reported = reached_by(sizing);
+    if (!reported)
       return refuse({Topic::sized_delta}, sizing.diagnosis.empty() ? "no δ is told as reached" : sizing.diagnosis);
-    const Scene sized = with_flywheel(scene_, sizing.flywheel, told->flywheel, sizing.link);
+    const Scene sized = with_flywheel(scene_, sizing.flywheel, reported->flywheel, sizing.link);
     const SettledRun run = settle(sized, scene_.effects, settings_);
     const Measured* reached = run.find(quantities::delta, run_.link);
     std::vector<std::string> notes = sizing.notes;
     if (!reached) return refuse({Topic::sized_delta}, "the sized machine is not settled: " + run.words);
-    compare(Topic::sized_delta, fmt::format("{}, {:.4g} kg*m2", sizing.flywheel, told->flywheel), reached->value,
-            told->crank.value,
-            reached->error + told->crank.error.value_or(0) + left_by_runs + settled_within * told->crank.value, notes);
+    compare(Topic::sized_delta, fmt::format("{}, {:.4g} kg*m2", sizing.flywheel, reported->flywheel), reached->value,
+            reported->crank.value,
+            reached->error + reported->crank.error.value_or(0) + left_by_runs + settled_within * reported->crank.value,
+            notes);
   }
   // Of the scene's effects: the elastic machine where something of it is elastic; by the better of the sizings.
   const DeltaReached* reached_by(const Sizing& sizing) const {
@@ -297,7 +299,7 @@ Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSe
   return Comparison(scene, questions, settings).run();
 }
 
-bool tells_how_much(const std::vector<std::string>& notes) {
+bool reports_how_much(const std::vector<std::string>& notes) {
   static const char* const leaving[] = {"omitted", "omits", "taken as", "counts as", "neglected", "not counted"};
   return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     const bool leaves = std::any_of(std::begin(leaving), std::end(leaving),

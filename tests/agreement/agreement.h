@@ -21,7 +21,7 @@
 
 namespace kurbel::agreement {
 
-enum class Verdict { agrees, told, refused, silent };  // ascending: the worst counts
+enum class Verdict { agrees, reported, refused, silent };  // ascending: the worst counts
 const char* name_of(Verdict verdict);
 
 enum class Topic {
@@ -77,7 +77,7 @@ struct Questions {
 // Throws SceneError where the scene makes no machine.
 Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSettings& settings = {});
 
-// `modes` against free and forced swings of the settled run (free_swing.h, forced_swing.h). No cells where nothing is
+// `modes` against free and forced swings of the settled run (free_vibration.h, forced_vibration.h). No cells where nothing is
 // elastic. Frequencies and damping: the three lowest that swing, on either side, each against its nearest on the other;
 // forced_orders: amplitudes of every order of every joint's torque; forced_peaks: its mean, greatest and least value.
 Row compare_modes(const Scene& scene, const SettleSettings& settings = {});
@@ -99,7 +99,7 @@ Row compare_second_half(const Scene& scene, const SettleSettings& settings = {})
 std::vector<std::string> scene_files(const std::string& folder);
 
 // Notes that say what is left out, and how much that is.
-bool tells_how_much(const std::vector<std::string>& notes);
+bool reports_how_much(const std::vector<std::string>& notes);
 
 struct Totals {
   std::array<std::size_t, 4> of{};  // per verdict

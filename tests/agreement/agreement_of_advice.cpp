@@ -100,7 +100,7 @@ Row compare_advice(const Scene& scene, double within, const SettleSettings& sett
       const std::string what = step == 1 ? "loads as they are" : fmt::format("loads {:+.0f} %", 100 * (step - 1));
       add(what, worst,
           worst.deviation <= within                           ? Verdict::agrees
-          : warned_of(advice) > stated_part * worst.deviation ? Verdict::told
+          : warned_of(advice) > stated_part * worst.deviation ? Verdict::reported
                                                               : Verdict::silent,
           advice.warnings.empty() ? "" : advice.warnings.front());
     }

@@ -16,9 +16,9 @@
 namespace kurbel::agreement {
 namespace {
 
-constexpr int looks = 3000;               // a period
-constexpr double left_by_runs = 1e-6;     // of the largest: what a run settled to 1e-7 leaves of forces
-constexpr double as_good_as_told = 0.05;  // of a figure: a study that states more as its error leaves something out
+constexpr int looks = 3000;                 // a period
+constexpr double left_by_runs = 1e-6;       // of the largest: what a run settled to 1e-7 leaves of forces
+constexpr double as_good_as_stated = 0.05;  // of a figure: a study that states more as its error leaves something out
 
 // One value along a period.
 struct Curve {
@@ -48,14 +48,14 @@ struct Curve {
 
 // --- what the study tells, under one roof: the only place that knows its names ---
 
-struct ToldForces {
+struct ReportedForces {
   double greatest = 0, least = 0, mean = 0;  // torque on the crank
   double torque_error = 0;                   // stated by the study
   double between = 0;                        // what positions leave open
   Peak main_bearing, slider_pin;             // of a slider-crank
 };
 // Torques stand at positions; between them an extreme may be beyond by as much as they differ on its smooth side.
-ToldForces forces_told(const ForceCycle& cycle) {
+ReportedForces reported_forces(const ForceCycle& cycle) {
   Curve torque;
   for (const PositionForces& p : cycle.curve) torque.add(p.forces.torque);
   const std::size_t high = torque.greatest(), low = torque.least();
@@ -206,7 +206,7 @@ class ForcesComparison {
     try {
       const Forces found = find_forces(scene_, {.speed = {}, .mechanism = driven_.mechanism->name, .watch = {}});
       if (!found.simulated) throw std::invalid_argument(found.notes.empty() ? "no cycle" : found.notes.back());
-      judge(found.notes, forces_told(*found.simulated), effects);
+      judge(found.notes, reported_forces(*found.simulated), effects);
     } catch (const std::runtime_error& error) {
       refuse(topics, error.what());
     } catch (const std::invalid_argument& error) {
@@ -217,7 +217,7 @@ class ForcesComparison {
     row_.figures.clear();
     for (const Topic topic : topics) row_.figures.push_back({topic, "", 0, 0, 0, Verdict::refused, why});
   }
-  void judge(const std::vector<std::string>& found, const ToldForces& told, const Effects& effects) {
+  void judge(const std::vector<std::string>& found, const ReportedForces& reported, const Effects& effects) {
     Cycle cycle(driven_, reactions_known(effects), run_.at.state.t, run_.period / looks);
     Equations equations(run_.model, false);
     RunOptions options{.tolerance = 1e-10,
@@ -233,20 +233,20 @@ class ForcesComparison {
     if (driven_.joint >= 0 && !cycle.torque.values.empty()) {
       const Curve& c = cycle.torque;
       const double scale = std::max(std::abs(c.values[c.greatest()]), std::abs(c.values[c.least()]));
-      const double allowed = left_by_runs * scale + told.between;
+      const double allowed = left_by_runs * scale + reported.between;
       compare(Topic::crank_torque, "greatest", {c.values[c.greatest()], allowed + c.between(c.greatest())},
-              {told.greatest, told.torque_error}, found);
+              {reported.greatest, reported.torque_error}, found);
       compare(Topic::crank_torque, "least", {c.values[c.least()], allowed + c.between(c.least())},
-              {told.least, told.torque_error}, found);
+              {reported.least, reported.torque_error}, found);
     }
     if (cycle.main_bearing.values.empty()) return;
-    compare_peak("main bearing", cycle.main_bearing, cycle.most_main_bearing, told.main_bearing, found);
-    compare_peak("slider pin", cycle.slider_pin, cycle.most_slider_pin, told.slider_pin, found);
+    compare_peak("main bearing", cycle.main_bearing, cycle.most_main_bearing, reported.main_bearing, found);
+    compare_peak("slider pin", cycle.slider_pin, cycle.most_slider_pin, reported.slider_pin, found);
   }
-  void compare_peak(const std::string& name, const Curve& curve, double run, const Peak& told,
+  void compare_peak(const std::string& name, const Curve& curve, double run, const Peak& reported,
                     const std::vector<std::string>& found) {
     compare(Topic::reactions, name, {run, left_by_runs * run + curve.between(curve.greatest())},
-            {told.value, told.error.value_or(0)}, found);
+            {reported.value, reported.error.value_or(0)}, found);
   }
   struct Uncertain {
     double value, error;
@@ -255,9 +255,9 @@ class ForcesComparison {
                const std::vector<std::string>& by) {
     const double apart = std::abs(run.value - study.value), allowed = run.error + study.error;
     const double size = std::max(std::abs(run.value), std::abs(study.value));
-    const bool measures = study.error <= as_good_as_told * size;
+    const bool measures = study.error <= as_good_as_stated * size;
     const Verdict verdict = apart <= run.error || (measures && apart <= allowed) ? Verdict::agrees
-                            : apart <= allowed || tells_how_much(by)             ? Verdict::told
+                            : apart <= allowed || reports_how_much(by)           ? Verdict::reported
                                                                                  : Verdict::silent;
     row_.figures.push_back({topic, figure, run.value, study.value, allowed, verdict, {}});
   }

@@ -11,81 +11,81 @@
 #include "engine/numerics/index.h"
 #include "studies/modes/modes.h"
 #include "tests/agreement/agreement.h"
-#include "tests/agreement/forced_swing.h"
-#include "tests/agreement/free_swing.h"
+#include "tests/agreement/forced_vibration.h"
+#include "tests/agreement/free_vibration.h"
 
 namespace kurbel::agreement {
 namespace {
 
-constexpr double left_by_runs = 1e-5;     // of a frequency, of the largest torque
-constexpr double left_of_ratio = 1e-4;    // of the damping ratio, as a number: where it is small, runs show no more
-constexpr double most_stated = 0.05;      // of a figure: what is stated as more makes it told, not agreed
-constexpr std::size_t judged = 3;         // frequencies, from the lowest on
-constexpr double well_measured = 0.02;    // of a frequency: what is known less well is not judged
-constexpr double least_share = 0.1;       // of twists in the energy, about half in a swing: less is another motion
-constexpr double swings_enough = 0.7071;  // damping ratio: above, nothing is largest at any frequency
-constexpr double whole = 1e-3;            // how far an order may be from one of the period's
+constexpr double left_by_runs = 1e-5;      // of a frequency, of the largest torque
+constexpr double left_of_ratio = 1e-4;     // of the damping ratio, as a number: where it is small, runs show no more
+constexpr double most_stated = 0.05;       // of a figure: what is stated as more makes it told, not agreed
+constexpr std::size_t judged = 3;          // frequencies, from the lowest on
+constexpr double well_measured = 0.02;     // of a frequency: what is known less well is not judged
+constexpr double least_share = 0.1;        // of twists in the energy, about half in a swing: less is another motion
+constexpr double vibrates_below = 0.7071;  // damping ratio: above, nothing is largest at any frequency
+constexpr double whole = 1e-3;             // how far an order may be from one of the period's
 constexpr std::size_t most_harmonics = 400;
 
 // --- what the study tells, under one roof: the only place that knows its names ---
 
-struct ToldSwing {
+struct ReportedMode {
   double omega = 0, decay = 0, error = 0;
   double least = 1, greatest = 1;  // with the link held at angles of the cycle, over the one told
   double natural() const { return std::hypot(omega, decay); }
   double ratio() const { return natural() > 0 ? decay / natural() : 1; }
 };
-std::vector<ToldSwing> swings_told(const ModesStudy& study) {
-  std::vector<ToldSwing> list;
+std::vector<ReportedMode> reported_modes(const ModesStudy& study) {
+  std::vector<ReportedMode> list;
   for (const DampedMode& damped : study.damped) {
     if (damped.lambda.imag() <= 0) continue;
-    ToldSwing told{damped.lambda.imag(), -damped.lambda.real(), damped.error};
+    ReportedMode reported{damped.lambda.imag(), -damped.lambda.real(), damped.error};
     const auto mode =
         std::find_if(study.modes.begin(), study.modes.end(), [&](const Mode& m) { return m.lambda == damped.lambda; });
     if (mode != study.modes.end() && mode->only_of_mean) continue;
     // Where coefficients change with the angle, exponents are what is told of the swing; the mean's is beside them.
     if (mode != study.modes.end() && !mode->periodic.empty()) {
-      for (const PeriodicSwing& s : mode->periodic) {
-        told = {s.exponent.imag(), -s.exponent.real(), s.error};
+      for (const PeriodicMode& s : mode->periodic) {
+        reported = {s.exponent.imag(), -s.exponent.real(), s.error};
         if (mode->fades_within_cycle)
-          told.least = mode->least / mode->omega, told.greatest = mode->greatest / mode->omega;
-        list.push_back(told);
+          reported.least = mode->least / mode->omega, reported.greatest = mode->greatest / mode->omega;
+        list.push_back(reported);
       }
       continue;
     }
     if (mode != study.modes.end() && mode->omega > 0 && mode->greatest > 0)
-      told.least = std::min(1.0, mode->least / mode->omega),
-      told.greatest = std::max(1.0, mode->greatest / mode->omega);
-    list.push_back(told);
+      reported.least = std::min(1.0, mode->least / mode->omega),
+      reported.greatest = std::max(1.0, mode->greatest / mode->omega);
+    list.push_back(reported);
   }
-  std::sort(list.begin(), list.end(), [](const ToldSwing& a, const ToldSwing& b) { return a.omega < b.omega; });
+  std::sort(list.begin(), list.end(), [](const ReportedMode& a, const ReportedMode& b) { return a.omega < b.omega; });
   return list;
 }
 
 // At the operating point: of the steady motion where there is one, else of the linear drive.
-struct ToldTorque {
+struct ReportedTorque {
   double greatest = 0, least = 0;
   double linear_greatest = 0, linear_least = 0;
   std::vector<double> amplitude;  // per multiple of an order, from 1 on; [0] is none
 };
-struct ToldTorques {
-  std::map<std::string, ToldTorque> joints;
+struct ReportedTorques {
+  std::map<std::string, ReportedTorque> joints;
   double order = 1;    // of the first amplitude
   double highest = 0;  // order that is told
 };
-ToldTorques torques_told(const ModesStudy& study) {
+ReportedTorques reported_torques(const ModesStudy& study) {
   const SpeedResponse& said = study.cycle ? *study.cycle : study.here;
-  ToldTorques told;
-  told.order = study.cycle ? study.cycle_order : study.excitations.fundamental;
-  told.highest = study.highest_order;
+  ReportedTorques reported;
+  reported.order = study.cycle ? study.cycle_order : study.excitations.fundamental;
+  reported.highest = study.highest_order;
   for (std::size_t j = 0; j < said.joints.size() && j < study.joint_names.size(); ++j) {
-    ToldTorque torque{
+    ReportedTorque torque{
         said.joints[j].upper, said.joints[j].lower, study.here.joints[j].upper, study.here.joints[j].lower, {}};
     if (j < said.orders.size())
       for (const Complex& order : said.orders[j]) torque.amplitude.push_back(std::abs(order));
-    told.joints[study.joint_names[j]] = std::move(torque);
+    reported.joints[study.joint_names[j]] = std::move(torque);
   }
-  return told;
+  return reported;
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -113,10 +113,10 @@ class ModesComparison {
     row_.kind = run_.kind;
     row_.orbit = run_.words;
     if (run_.kind == Motion::repeats && has_springs()) {
-      free_ = free_swings_of(run_);
+      free_ = free_vibrations_of(run_);
       if (!free_.measured) row_.orbit += "; swings are not measured: " + free_.why;
       harmonics_ = most_harmonics;
-      forced_ = joint_swings_of(run_, harmonics_);
+      forced_ = joint_vibrations_of(run_, harmonics_);
       ask(effects);
     }
     row_.cpu_seconds = processor_time() - begin;
@@ -137,12 +137,12 @@ class ModesComparison {
   }
   bool varies() const {
     return std::any_of(forced_.begin(), forced_.end(),
-                       [](const JointSwing& s) { return s.greatest - s.least > 1e-6 * s.scale; });
+                       [](const JointVibration& s) { return s.greatest - s.least > 1e-6 * s.scale; });
   }
   void ask(const Effects& effects) {
     try {
       const ModesStudy study = find_modes(scene_, effects, {});
-      if (free_.measured) judge_swings(study);
+      if (free_.measured) judge_vibrations(study);
       judge_torques(study);
     } catch (const SceneError& error) {
       refuse(error.what());
@@ -158,53 +158,54 @@ class ModesComparison {
       row_.figures.push_back({topic, "", 0, 0, 0, Verdict::refused, why.empty() ? "no reason given" : why});
   }
   // What is left out with a number, or a joint whose frequency hangs on the amplitude, with that of the round as it is.
-  static bool tells(const ModesStudy& by) { return tells_how_much(by.notes) || !by.rattles.empty(); }
+  static bool reports(const ModesStudy& by) { return reports_how_much(by.notes) || !by.rattles.empty(); }
   // `stated`: what the study says that its figure may be off by.
   void compare(Topic topic, const std::string& figure, double run, double study, double allowed, double stated,
                const ModesStudy& by) {
     const double off = std::abs(run - study);
     const bool agrees = off <= allowed || (off <= allowed + stated && stated <= most_stated * std::abs(study));
-    const Verdict verdict = agrees                                 ? Verdict::agrees
-                            : off <= allowed + stated || tells(by) ? Verdict::told
-                                                                   : Verdict::silent;
+    const Verdict verdict = agrees                                   ? Verdict::agrees
+                            : off <= allowed + stated || reports(by) ? Verdict::reported
+                                                                     : Verdict::silent;
     row_.figures.push_back({topic, figure, run, study, allowed + stated, verdict, {}});
   }
 
   // --- free swings ---
 
-  std::vector<FreeSwing> seen() const {
-    std::vector<FreeSwing> list;
-    for (const FreeSwing& s : free_.list)
-      if (s.omega_error < well_measured * s.natural() && s.share > least_share && s.ratio() < swings_enough)
+  std::vector<FreeVibration> seen() const {
+    std::vector<FreeVibration> list;
+    for (const FreeVibration& s : free_.list)
+      if (s.omega_error < well_measured * s.natural() && s.share > least_share && s.ratio() < vibrates_below)
         list.push_back(s);
     return list;
   }
-  static double apart(const FreeSwing& a, const ToldSwing& b) {
+  static double apart(const FreeVibration& a, const ReportedMode& b) {
     return std::hypot(a.omega - b.omega, a.decay - b.decay);
   }
-  void judge_swings(const ModesStudy& study) {
-    const std::vector<FreeSwing> measured = seen();
-    std::vector<ToldSwing> told = swings_told(study);
+  void judge_vibrations(const ModesStudy& study) {
+    const std::vector<FreeVibration> measured = seen();
+    std::vector<ReportedMode> reported = reported_modes(study);
     for (std::size_t i = 0; i < std::min(judged, measured.size()); ++i) {
-      const FreeSwing& m = measured[i];
-      const auto nearest = std::min_element(
-          told.begin(), told.end(), [&](const ToldSwing& a, const ToldSwing& b) { return apart(m, a) < apart(m, b); });
-      compare_swing(fmt::format("mode {} ({})", i + 1, m.joint), m, nearest == told.end() ? ToldSwing{} : *nearest,
-                    study);
+      const FreeVibration& m = measured[i];
+      const auto nearest =
+          std::min_element(reported.begin(), reported.end(),
+                           [&](const ReportedMode& a, const ReportedMode& b) { return apart(m, a) < apart(m, b); });
+      compare_mode(fmt::format("mode {} ({})", i + 1, m.joint), m,
+                   nearest == reported.end() ? ReportedMode{} : *nearest, study);
     }
     // What is told must be there, too, if it could be seen.
-    std::erase_if(told, [&](const ToldSwing& t) {
-      return t.ratio() >= swings_enough || t.omega > free_.fastest || t.decay > free_.shortest;
+    std::erase_if(reported, [&](const ReportedMode& t) {
+      return t.ratio() >= vibrates_below || t.omega > free_.fastest || t.decay > free_.shortest;
     });
-    for (std::size_t i = 0; i < std::min(judged, told.size()); ++i) {
-      FreeSwing nearest;
-      for (const FreeSwing& m : free_.list)
-        if (nearest.omega == 0 || apart(m, told[i]) < apart(nearest, told[i])) nearest = m;
+    for (std::size_t i = 0; i < std::min(judged, reported.size()); ++i) {
+      FreeVibration nearest;
+      for (const FreeVibration& m : free_.list)
+        if (nearest.omega == 0 || apart(m, reported[i]) < apart(nearest, reported[i])) nearest = m;
       if (nearest.omega_error > well_measured * nearest.natural()) continue;
-      compare_swing(fmt::format("told mode {}", i + 1), nearest, told[i], study);
+      compare_mode(fmt::format("told mode {}", i + 1), nearest, reported[i], study);
     }
   }
-  void compare_swing(const std::string& name, const FreeSwing& m, const ToldSwing& t, const ModesStudy& study) {
+  void compare_mode(const std::string& name, const FreeVibration& m, const ReportedMode& t, const ModesStudy& study) {
     constexpr double hz = 0.5 / std::numbers::pi;
     const double small = m.omega_error + t.error + left_by_runs * std::max(m.natural(), t.natural());
     const double stated = (m.omega > t.omega ? t.greatest - 1 : 1 - t.least) * t.natural();
@@ -218,51 +219,51 @@ class ModesComparison {
   // --- forced swings ---
 
   void judge_torques(const ModesStudy& study) {
-    const ToldTorques told = torques_told(study);
+    const ReportedTorques reported = reported_torques(study);
     const std::vector<std::string> names = joint_names(*run_.model);
-    for (const JointSwing& swing : forced_) {
-      const ElasticJoint& e = run_.model->elastic[swing.elastic];
+    for (const JointVibration& vibration : forced_) {
+      const ElasticJoint& e = run_.model->elastic[vibration.elastic];
       if (e.slips || e.springless) continue;  // has no twist
-      const std::string& name = names[swing.elastic];
-      const auto found = told.joints.find(name);
-      const ToldTorque torque = found == told.joints.end() ? ToldTorque{} : found->second;
-      const double allowed = swing.extremes_error + left_by_runs * swing.scale;
-      compare(Topic::forced_peaks, name + " greatest", swing.greatest, torque.greatest, allowed, 0, study);
-      compare(Topic::forced_peaks, name + " least", swing.least, torque.least, allowed, 0, study);
+      const std::string& name = names[vibration.elastic];
+      const auto found = reported.joints.find(name);
+      const ReportedTorque torque = found == reported.joints.end() ? ReportedTorque{} : found->second;
+      const double allowed = vibration.extremes_error + left_by_runs * vibration.scale;
+      compare(Topic::forced_peaks, name + " greatest", vibration.greatest, torque.greatest, allowed, 0, study);
+      compare(Topic::forced_peaks, name + " least", vibration.least, torque.least, allowed, 0, study);
       if (!varies()) continue;
-      judge_orders(name, swing, torque, told, study);
+      judge_orders(name, vibration, torque, reported, study);
       // The linear drive's, with the difference that is told beside it.
-      compare(Topic::linear_peaks, name + " greatest, linear", swing.greatest, torque.linear_greatest, allowed,
+      compare(Topic::linear_peaks, name + " greatest, linear", vibration.greatest, torque.linear_greatest, allowed,
               std::abs(torque.greatest - torque.linear_greatest), study);
-      compare(Topic::linear_peaks, name + " least, linear", swing.least, torque.linear_least, allowed,
+      compare(Topic::linear_peaks, name + " least, linear", vibration.least, torque.linear_least, allowed,
               std::abs(torque.least - torque.linear_least), study);
     }
   }
   // The order whose amplitude differs most.
-  void judge_orders(const std::string& name, const JointSwing& swing, const ToldTorque& torque, const ToldTorques& told,
-                    const ModesStudy& study) {
+  void judge_orders(const std::string& name, const JointVibration& vibration, const ReportedTorque& torque,
+                    const ReportedTorques& reported, const ModesStudy& study) {
     const double turns = std::abs(run_.angle) / (2 * std::numbers::pi);
     if (run_.base != Base::angle && run_.base != Base::event && std::abs(turns - std::round(turns)) > whole) return;
     double most = -1, run = 0, of_study = 0, at_order = 0;
-    for (std::size_t h = 1; h < swing.harmonic.size(); ++h) {
-      const double order = static_cast<double>(h) / turns, r = order / told.order;
-      if (order > told.highest + whole) break;
+    for (std::size_t h = 1; h < vibration.harmonic.size(); ++h) {
+      const double order = static_cast<double>(h) / turns, r = order / reported.order;
+      if (order > reported.highest + whole) break;
       const auto multiple = static_cast<std::size_t>(std::round(r));
       const bool has = std::abs(r - std::round(r)) < whole && multiple < torque.amplitude.size();
-      const double amplitude = has ? torque.amplitude[multiple] : 0, measured = std::abs(swing.harmonic[h]);
+      const double amplitude = has ? torque.amplitude[multiple] : 0, measured = std::abs(vibration.harmonic[h]);
       if (std::abs(measured - amplitude) <= most) continue;
       most = std::abs(measured - amplitude), run = measured, of_study = amplitude, at_order = order;
     }
     if (most < 0) return;
     compare(Topic::forced_orders, fmt::format("{} order {:.4g}", name, at_order), run, of_study,
-            swing.error + left_by_runs * swing.scale, 0, study);
+            vibration.error + left_by_runs * vibration.scale, 0, study);
   }
 
   const Scene& scene_;
   SettleSettings settings_;
   SettledRun run_;
-  FreeSwings free_;
-  std::vector<JointSwing> forced_;
+  FreeVibrations free_;
+  std::vector<JointVibration> forced_;
   std::size_t harmonics_ = 0;
   Row row_;
 };

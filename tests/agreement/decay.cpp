@@ -99,7 +99,7 @@ Decay decay_of(const SettledRun& run) {
   Fit best;
   int order = 0;
   const Model& m = *run.model;
-  const int unknowns = static_cast<int>(m.elastic.size() + m.free_shafts + m.own_states.size());  // no more modes
+  const int unknowns = static_cast<int>(m.elastic.size() + m.free_shafts + m.internal_states.size());  // no more modes
   for (int p = 1; p <= std::min(most_modes, unknowns) && 2 * static_cast<std::size_t>(p) + 2 <= d.size(); ++p) {
     const Fit fit = recurrence(d, 0, p);
     if (order == 0 || fit.left < best.left) best = fit, order = p;

@@ -296,10 +296,11 @@ TEST_F(CommandLine, FiguresDoNotDependOnFilesOfEarlierRuns) {
   const std::string file = "results/scene/accuracy/summary.json";
   EXPECT_NE(study.out.find("kurbel run scene.toml --setting " + file), std::string::npos) << study.out;
   EXPECT_TRUE(fs::exists(folder_ / file));
-  const auto after = results({}), told = results({"--setting", file});
+  const auto after = results({}), reported = results({"--setting", file});
   EXPECT_EQ(before["figures"], after["figures"]);
   EXPECT_EQ(before["notes"], after["notes"]);
-  EXPECT_NE(told["notes"].dump().find("method and tolerance by --setting " + file), std::string::npos) << told["notes"];
+  EXPECT_NE(reported["notes"].dump().find("method and tolerance by --setting " + file), std::string::npos)
+      << reported["notes"];
 
   std::ofstream(folder_ / "other.json") << "{ \"title\": 1";
   const struct {

@@ -52,12 +52,12 @@ bool is_of_scene(const std::string& name, const std::string& scene) {
   return stands(name) || stands(name.substr(0, name.find_first_of(".:")));
 }
 
-struct Told {
+struct Reported {
   std::size_t names = 0;
   std::set<std::string> unknown, in_radians;
 };
 
-void collect(const std::string& command, Told& told) {
+void collect(const std::string& command, Reported& reported) {
   const Json page = page_of(command);
   std::string scene;
   static const std::regex file("[^ ]+\\.(toml|csv)");
@@ -67,19 +67,19 @@ void collect(const std::string& command, Told& told) {
   const bool in_radians = scene.find("rad/s\"") != std::string::npos;  // the scene's own unit
   const auto meet = [&](const std::string& name) {
     if (name.empty() || is_of_scene(name, scene)) return;
-    ++told.names;
-    if (!meant_by(name)) told.unknown.insert(fmt::format("{} ({})", name, command.substr(0, command.find(' '))));
+    ++reported.names;
+    if (!meant_by(name)) reported.unknown.insert(fmt::format("{} ({})", name, command.substr(0, command.find(' '))));
   };
   for (const Json& section : page.value("sections", Json::array()))
     for (const Json& card : section["cards"]) {
       for (const std::string heading : card.value("columns", Json::array())) {
         meet(heading);
         if (!in_radians && heading.ends_with(" [rad/s]") && !heading.starts_with("ω"))
-          told.in_radians.insert(command + ": " + heading);
+          reported.in_radians.insert(command + ": " + heading);
       }
       for (const Json& row : card.value("rows", Json::array()))
         for (const Json& cell : row)
-          if (!in_radians && cell == "rad/s") told.in_radians.insert(command + ": " + row[0].get<std::string>());
+          if (!in_radians && cell == "rad/s") reported.in_radians.insert(command + ": " + row[0].get<std::string>());
       for (const Json& row : card.value("rows", Json::array()))
         if (row[0].get<std::string>().size() < 60) meet(row[0]);  // longer ones are sentences
       if (card["kind"] != "plot") continue;
@@ -89,7 +89,7 @@ void collect(const std::string& command, Told& told) {
 }
 
 TEST(ExplainedNames, OfTablesAndPlotsOfAllCommands) {
-  Told told;
+  Reported reported;
   for (const char* command :
        {"run docs/tasks/eccentric_press.toml",
         "run scenes/belt_mill.toml",
@@ -118,10 +118,10 @@ TEST(ExplainedNames, OfTablesAndPlotsOfAllCommands) {
         "0.5,1.5,2.5 "
         "--hold 'mean speed by load.torque' --free 'rotor.inertia=0.05..0.8 kg*m2'",
         "report docs/tasks/gear_fan.toml"})
-    collect(command, told);
-  EXPECT_GT(told.names, 700u);
-  for (const std::string& name : told.unknown) ADD_FAILURE() << name << " is not explained";
-  for (const std::string& place : told.in_radians) ADD_FAILURE() << place << " is not in the scene's unit of speed";
+    collect(command, reported);
+  EXPECT_GT(reported.names, 700u);
+  for (const std::string& name : reported.unknown) ADD_FAILURE() << name << " is not explained";
+  for (const std::string& place : reported.in_radians) ADD_FAILURE() << place << " is not in the scene's unit of speed";
 }
 
 // A part of a definition's words is not what is asked for.

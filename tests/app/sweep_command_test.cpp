@@ -74,7 +74,7 @@ const std::string varied = "--vary 'spring.stiffness=3..5 kN*m/rad' --vary 'mass
 
 TEST_F(SweepCommand, WrongOptionsAreReportedBeforeAnythingIsWritten) {
   const struct {
-    std::string options, told;
+    std::string options, reported;
   } cases[] = {
       {"", "nothing is varied"},
       {"--vary 'spring.stifness=3..5 kN*m/rad' --design sobol:4", "stiffness"},
@@ -98,7 +98,7 @@ TEST_F(SweepCommand, WrongOptionsAreReportedBeforeAnythingIsWritten) {
   for (const auto& c : cases) {
     const Said said = sweep("--into x.db " + c.options);
     EXPECT_EQ(said.code, 2) << c.options << said.text;
-    EXPECT_NE(said.text.find(c.told), std::string::npos) << c.options << "\n" << said.text;
+    EXPECT_NE(said.text.find(c.reported), std::string::npos) << c.options << "\n" << said.text;
     EXPECT_FALSE(fs::exists(folder_ / "x.db")) << c.options;
   }
   // Of a table the heading's place is told.
@@ -115,13 +115,14 @@ TEST_F(SweepCommand, WrongOptionsAreReportedBeforeAnythingIsWritten) {
 
 // The bounds stand with the option alone: what it declares is what the study takes.
 TEST_F(SweepCommand, BoundsOfAnOptionAreThoseDeclared) {
-  for (const auto& [options, told] : {std::pair{"uncertainty two.toml --samples 19", "--samples \"19\": must be 20 … "},
-                                      std::pair{"modes two.toml --orders 1001", "at most 1000"},
-                                      std::pair{"modes two.toml --spot-checks 101", "must be 0 … 100"},
-                                      std::pair{"reduce two.toml --orders 0", "must be 1 … 1000"}}) {
+  for (const auto& [options, reported] :
+       {std::pair{"uncertainty two.toml --samples 19", "--samples \"19\": must be 20 … "},
+        std::pair{"modes two.toml --orders 1001", "at most 1000"},
+        std::pair{"modes two.toml --spot-checks 101", "must be 0 … 100"},
+        std::pair{"reduce two.toml --orders 0", "must be 1 … 1000"}}) {
     const Said said = kurbel(std::string(options) + " --no-files");
     EXPECT_EQ(said.code, 2) << options;
-    EXPECT_NE(said.text.find(told), std::string::npos) << options << "\n" << said.text;
+    EXPECT_NE(said.text.find(reported), std::string::npos) << options << "\n" << said.text;
   }
 }
 

@@ -104,7 +104,7 @@ void judge(const Result& result, const LadderOfTwo& two, const Reference& truth,
     }
     out.figures.push_back(std::move(figure));
   }
-  for (const ToldTime& t : times_of(result))
+  for (const ReportedTime& t : times_of(result))
     out.figures.push_back(judged(
         {.name = t.name, .unit = "s", .value = t.value, .scale = result.until, .kind = Kind::time}, t.error, truth));
 }
@@ -139,8 +139,8 @@ double difference(const std::string& figure, double a, double b) {
   return figure.starts_with("peak_") ? std::abs(std::abs(a) - std::abs(b)) : std::abs(a - b);
 }
 
-std::vector<ToldTime> times_of(const Result& result) {
-  std::vector<ToldTime> times;
+std::vector<ReportedTime> times_of(const Result& result) {
+  std::vector<ReportedTime> times;
   constexpr double at_the_end = 1 - 1e-12;  // of the run: nothing was located there
   for (const Figure& f : result.figures)
     if (f.at && *f.at<at_the_end * result.until&& * f.at> 0) times.push_back({"at." + f.name, *f.at, f.at_error});

@@ -63,12 +63,12 @@ MeasuredVariant measure(const Variant& variant, const MeasureSettings& settings)
 
 // Times that a result tells: of figures that are located within the run ("at.peak_torque.shaft"), and of its events
 // ("event.clutch.locks#0", the first of its like), with their errors where they were measured.
-struct ToldTime {
+struct ReportedTime {
   std::string name;
   double value = 0;
   std::optional<double> error;
 };
-std::vector<ToldTime> times_of(const Result& result);
+std::vector<ReportedTime> times_of(const Result& result);
 
 // Figures of like meaning differ by so much: peaks by their magnitude, of two equal ones either may be the larger.
 double difference(const std::string& figure, double a, double b);

@@ -37,8 +37,8 @@ Reference joined(const Result& first, const Result& second, const std::map<std::
     reference.figures[f.name] = {value, std::max(difference(f.name, value, other->value), rounding)};
   }
   std::map<std::string, double> times;
-  for (const ToldTime& t : times_of(second)) times[t.name] = t.value;
-  for (const ToldTime& t : times_of(first))
+  for (const ReportedTime& t : times_of(second)) times[t.name] = t.value;
+  for (const ReportedTime& t : times_of(first))
     if (const auto other = times.find(t.name); other != times.end())
       reference.figures[t.name] = {t.value, std::max(std::abs(t.value - other->second), rounding_of(t.value))};
   return reference;

@@ -49,8 +49,8 @@ std::string effects_table(const Scene& original, const Scene& scene, bool rigid,
     // Simbody in the loop is the same physics at many times the cost.
     if (flag.flag == &Effects::multibody) continue;
     const bool possible = flag.is_usual() || has_parameters(scene, flag);
-    bool on =
-        effects.*(flag.flag) || (flag.unsaid == EffectFlag::Unsaid::where_given && !has_parameters(original, flag));
+    bool on = effects.*(flag.flag) ||
+              (flag.by_default == EffectFlag::Default::where_given && !has_parameters(original, flag));
     if (dice.chance(flag.is_usual() ? 0.08 : 0.25)) on = !on;
     if (possible) text += fmt::format("{} = {}\n", flag.name, on);
   }

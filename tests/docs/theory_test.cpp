@@ -192,10 +192,10 @@ Faults bare_numbers(const std::string& text, const Theory& theory) {
 
 std::vector<fs::path> sources() {
   const std::set<std::string> kinds = {".h", ".cpp", ".md", ".toml", ".json", ".js", ".mjs", ".py", ".html", ".1"};
-  const std::set<std::string> left_out = {"build", "results", "vendor", ".git", ".cache"};
+  const std::set<std::string> omitted = {"build", "results", "vendor", ".git", ".cache"};
   std::vector<fs::path> files;
   for (auto entry = fs::recursive_directory_iterator(root); entry != fs::recursive_directory_iterator(); ++entry) {
-    if (entry->is_directory() && (left_out.contains(entry->path().filename().string()) || entry->path() == folder))
+    if (entry->is_directory() && (omitted.contains(entry->path().filename().string()) || entry->path() == folder))
       entry.disable_recursion_pending();
     else if (entry->is_regular_file() && kinds.contains(entry->path().extension().string()))
       files.push_back(entry->path());
@@ -275,26 +275,26 @@ TEST(Theory, BrokenCitationsPagesAndFiguresAreFound) {
     return theory;
   };
   const std::string equation = "<a id=\"eq-1.1\"></a>\n\n    a = b                 (1.1)\n";
-  const Theory sound = faults_of({{"01-a.md", "# 1 Signs\n" + equation + "by (1.1), page 1\n![x](x.svg)\n"}});
-  EXPECT_TRUE(sound.faults.empty()) << joined(sound.faults);
-  EXPECT_TRUE(sound.figure.contains("x.svg"));
+  const Theory valid = faults_of({{"01-a.md", "# 1 Signs\n" + equation + "by (1.1), page 1\n![x](x.svg)\n"}});
+  EXPECT_TRUE(valid.faults.empty()) << joined(valid.faults);
+  EXPECT_TRUE(valid.figure.contains("x.svg"));
   const auto count = [&](const std::string& page) { return faults_of({{"01-a.md", page}}).faults.size(); };
   EXPECT_EQ(count("# 1 Signs\n" + equation + equation), 1u);                            // twice
   EXPECT_EQ(count("# 1 Signs\n" + equation + "by (1.2)"), 1u);                          // no such equation
   EXPECT_EQ(count("# 1 Signs\n" + equation + "by (1.1, 3.4), page 7"), 2u);             // nor page
   EXPECT_EQ(count("# 1 Signs\n    a = b       (1.1)\n"), 1u);                           // no anchor
   EXPECT_EQ(count("# 2 Signs\n<a id=\"eq-1.1\"></a>\n\n    a = b       (1.1)\n"), 2u);  // number, other page
-  EXPECT_TRUE(faults_of_citations("// (" + word + "1.1), " + word + "1", sound).empty());
-  EXPECT_TRUE(faults_of_citations("a theory of 1998", sound).empty());
-  EXPECT_EQ(faults_of_citations("// (" + word + "1.1, 1.2)", sound).size(), 1u);
-  EXPECT_EQ(faults_of_citations("// " + word + "99", sound).size(), 1u);
+  EXPECT_TRUE(faults_of_citations("// (" + word + "1.1), " + word + "1", valid).empty());
+  EXPECT_TRUE(faults_of_citations("a theory of 1998", valid).empty());
+  EXPECT_EQ(faults_of_citations("// (" + word + "1.1, 1.2)", valid).size(), 1u);
+  EXPECT_EQ(faults_of_citations("// " + word + "99", valid).size(), 1u);
   // Other forms, taken apart so that this file does not cite so itself.
   const std::string noun = "theory", loud = "THEORY";
   for (const std::string& form : {loud + " 1.1", noun + ", 1.1", noun + " (1.1)", noun + "\n// 1.1"})
-    EXPECT_EQ(faults_of_citations("// (" + form + ")", sound).size(), 1u) << form;
+    EXPECT_EQ(faults_of_citations("// (" + form + ")", valid).size(), 1u) << form;
   const std::string label = "(1.1)";
-  EXPECT_EQ(bare_numbers("x;  // by " + label, sound).size(), 1u);
-  EXPECT_TRUE(bare_numbers("f" + label + ";  // exp" + label, sound).empty());
+  EXPECT_EQ(bare_numbers("x;  // by " + label, valid).size(), 1u);
+  EXPECT_TRUE(bare_numbers("f" + label + ";  // exp" + label, valid).empty());
 }
 
 // --- reports ---

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double rpm = std::numbers::pi / 30;
 
-bool tells(const Result& r) {
+bool reports(const Result& r) {
   return std::any_of(r.claims.begin(), r.claims.end(), [](const Claim& c) {
     return c.predicate == Predicate::outside_data && c.text.find("outside its table") != std::string::npos;
   });
@@ -70,7 +70,7 @@ TEST(BeyondTables, AMotorsFallingCurveGoesOnAlongItsLastSlope) {
   EXPECT_NE(output.json().find("outside its table, which ends at 1796 rpm"), std::string::npos);
 
   const Result r = run(scene);
-  EXPECT_TRUE(tells(r));
+  EXPECT_TRUE(reports(r));
   EXPECT_NEAR(figure(r, "final_speed." + study.link), on_line, 1e-6 * on_line);
   EXPECT_FALSE(r.find("final_speed." + study.link)->error);
 }
@@ -83,7 +83,7 @@ TEST(BeyondTables, WhatTheSceneSaysIsData) {
     const Figure* mean = study.cycles.front().find("mean_speed." + study.link);
     EXPECT_NEAR(mean->value, speed, 1e-9 * speed) << word;
     EXPECT_TRUE(mean->error) << word;
-    EXPECT_FALSE(tells(run(scene, false))) << word;
+    EXPECT_FALSE(reports(run(scene, false))) << word;
   }
 }
 
@@ -122,12 +122,12 @@ run = {{ until = "5 s", start = "rest" }}
                                   lambda));
   };
   const Result whole = run(scene("points = [[0, 0.0021], [0.5, 0.0019], [0.95, 0.0008], [1, 0]]"));
-  EXPECT_FALSE(tells(whole));
+  EXPECT_FALSE(reports(whole));
   EXPECT_TRUE(whole.find("final_speed.mill")->error);
   const Result part = run(scene("points = [[0.5, 0.0019], [0.95, 0.0008], [1, 0]]"));
-  EXPECT_TRUE(tells(part));
+  EXPECT_TRUE(reports(part));
   EXPECT_FALSE(part.find("final_speed.mill")->error);
-  EXPECT_FALSE(tells(run(scene("points = [[0.5, 0.0019], [0.95, 0.0008], [1, 0]], beyond = \"hold\""), false)));
+  EXPECT_FALSE(reports(run(scene("points = [[0.5, 0.0019], [0.95, 0.0008], [1, 0]], beyond = \"hold\""), false)));
 }
 
 // A press whose load is known over `covered` of its 100 mm of travel.
@@ -213,8 +213,8 @@ TEST(BeyondTables, ALoadThatIsOffIsTakenFromNowhere) {
   ASSERT_TRUE(f.prescribed && f.simulated);
   EXPECT_TRUE(f.outside_data.empty()) << f.outside_data.front();
   EXPECT_TRUE(f.prescribed->torque.error && f.simulated->torque.error);
-  EXPECT_FALSE(tells(run(off)));
-  EXPECT_TRUE(tells(run(press_known_over(part, shunt))));
+  EXPECT_FALSE(reports(run(off)));
+  EXPECT_TRUE(reports(run(press_known_over(part, shunt))));
 }
 
 TEST(BeyondTables, ReducedTorquesFromOutsideHaveNoErrors) {
@@ -262,7 +262,7 @@ steps = [{{ at = "0.5 s", set = "brake", law = {{ over = "time", unit = ["s", "1
                                            std::tuple("", released.c_str(), false)}) {
     const Scene one = scene(how, more);
     const Result r = run(one);
-    EXPECT_EQ(tells(r), outside) << how << more;
+    EXPECT_EQ(reports(r), outside) << how << more;
     EXPECT_EQ(r.find("final_speed.motor")->error.has_value(), !outside) << how << more;
     const SteadyStudy study = steady(one, {one.effects}, {.start_search = false});
     ASSERT_TRUE(study.complete) << study.diagnosis;
@@ -274,7 +274,7 @@ steps = [{{ at = "0.5 s", set = "brake", law = {{ over = "time", unit = ["s", "1
   EXPECT_EQ(refusal(scene(", beyond = \"refuse\"")).substr(0, 36), "7: \"brake\": its table of law ends at");
   Scene brief = scene("");
   brief.run.until = 1.4;
-  EXPECT_FALSE(tells(run(brief)));
+  EXPECT_FALSE(reports(run(brief)));
   try {
     scene(", beyond = \"line\"");
     FAIL() << "read";
@@ -302,7 +302,7 @@ run = {{ until = "5 s", accuracy = 1e-6 }}
     ASSERT_TRUE(r.complete) << r.diagnosis;
     const double greatest = figure(r, "max_speed.motor");
     const bool beyond = greatest > last * (1 + 1e-6) || ends < 5;
-    EXPECT_EQ(tells(r), beyond) << scene.text;
+    EXPECT_EQ(reports(r), beyond) << scene.text;
     EXPECT_EQ(r.find("final_speed.motor")->error.has_value(), !beyond) << scene.text;
     left += beyond;
   }
@@ -333,12 +333,12 @@ TEST(BeyondTables, OfAllScenesEachLeavingIsReported) {
           const double value = r.trajectory->value(row, c);
           const double x = range.over == Network::DataRange::Over::channel ? range.offset + range.sign * value : value;
           const double slack = 1e-6 * (range.high - range.low);
-          beyond = beyond || (x < range.low - slack && range.below == Beyond::unsaid) ||
-                   (x > range.high + slack && range.above == Beyond::unsaid);
+          beyond = beyond || (x < range.low - slack && range.below == Beyond::unspecified) ||
+                   (x > range.high + slack && range.above == Beyond::unspecified);
         }
       }
     }
-    EXPECT_TRUE(tells(r) || !beyond) << entry.path();
+    EXPECT_TRUE(reports(r) || !beyond) << entry.path();
   }
   EXPECT_GT(watched, 5);
 }

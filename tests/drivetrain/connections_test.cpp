@@ -102,7 +102,7 @@ TYPED_TEST(Connections, TorquesOnBothSidesTakeWhatIsStoredAndLost) {
     const double rate = gain_a * speed[0] - gain_b * speed[1], command = 1;
     int mode = 0;
     const int slip = rate > 0 ? 1 : -1;
-    std::array<double, states + 1> own{}, own_rate{};
+    std::array<double, states + 1> own{}, internal_rate{};
     double angle_now = turn, twist_now = theta;
     Instant now;
     now.angle = &angle_now, now.twist = &twist_now, now.speed = speed, now.mode = &mode, now.slip = &slip;
@@ -111,19 +111,20 @@ TYPED_TEST(Connections, TorquesOnBothSidesTakeWhatIsStoredAndLost) {
     for (std::size_t k = 0; k < states; ++k) own[k] += some(-0.02, 0.02);
     pool.first_modes(now, &mode);
 
-    double torque[2] = {}, twist_rate = 0, told = 0, turning = 0, spring = 0, work = 0;
+    double torque[2] = {}, twist_rate = 0, reported = 0, turning = 0, spring = 0, work = 0;
     Sums sums;
-    sums.torque = torque, sums.twist_rate = &twist_rate, sums.connection_torque = &told, sums.spring_torque = &spring;
-    sums.turning_torque = &turning, sums.work_rate = &work, sums.own_rate = own_rate.data();
+    sums.torque = torque, sums.twist_rate = &twist_rate, sums.connection_torque = &reported,
+    sums.spring_torque = &spring;
+    sums.turning_torque = &turning, sums.work_rate = &work, sums.internal_rate = internal_rate.data();
     pool.add(now, sums);
-    const double size = std::abs(told) + std::abs(turning) + 1;
-    EXPECT_NEAR(torque[0], gain_a * (turning - told), 1e-13 * size * gain_a);
-    EXPECT_NEAR(torque[1], gain_b * told, 1e-13 * size * gain_b);
+    const double size = std::abs(reported) + std::abs(turning) + 1;
+    EXPECT_NEAR(torque[0], gain_a * (turning - reported), 1e-13 * size * gain_a);
+    EXPECT_NEAR(torque[1], gain_b * reported, 1e-13 * size * gain_b);
 
     const std::array<double, states + 1> own_then = own;
     const auto energy_at = [&](double dt) {
       twist_now = theta + rate * dt, angle_now = turn + gain_a * speed[0] * dt;
-      for (std::size_t k = 0; k < states; ++k) own[k] = own_then[k] + own_rate[k] * dt;
+      for (std::size_t k = 0; k < states; ++k) own[k] = own_then[k] + internal_rate[k] * dt;
       return pool.energy(now);
     };
     const double h = 1e-6, stored = (energy_at(h) - energy_at(-h)) / (2 * h);

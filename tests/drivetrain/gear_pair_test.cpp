@@ -325,9 +325,9 @@ TEST(GearPair, DrawnWheelsDoNotOverlapAtAnyAngle) {
     ASSERT_TRUE(pairs.back().wheel[0].undercut);
   }
   for (const GearPair& p : pairs) {
-    bool sound = true;
-    for (const GearVerdict& v : verdicts(p)) sound = sound && v.finding != Finding::fault;
-    if (!sound) continue;
+    bool valid = true;
+    for (const GearVerdict& v : verdicts(p)) valid = valid && v.finding != Finding::fault;
+    if (!valid) continue;
     ++drawn;
     const Material material(p.wheel[1], half_tooth(p.wheel[1], 400));
     const std::vector<OutlinePoint> outline = wheel_outline(p.wheel[0], 12);

@@ -32,9 +32,9 @@ const EquivalentCircuit ideal{400, 50, 2, 0.002, 0.2, 1, 1, 100};
 double breakdown_slip(const EquivalentCircuit& circuit) { return circuit.characteristic().breakdown_slip; }
 
 // ∂M/∂ω of a small swing of the speed about a slip: the two-axis model's, by its four currents.
-class SmallSwings {
+class SmallOscillations {
  public:
-  SmallSwings(const EquivalentCircuit& circuit, double slip) : motor_{circuit, circuit.characteristic()} {
+  SmallOscillations(const EquivalentCircuit& circuit, double slip) : motor_{circuit, circuit.characteristic()} {
     omega_ = (1 - slip) * circuit.synchronous_speed();
     double at[4];
     motor_.first_states(state(omega_, at), at);
@@ -85,9 +85,9 @@ class SmallSwings {
 // What drivetrain/induction/lagging_motor.h says of it, over the slope at the synchronous speed.
 TEST(LaggingMotor, FollowsOscillationsOfTheSpeedAsTheTwoAxisModelDoes) {
   for (const EquivalentCircuit& circuit : {small, middle, large, ideal}) {
-    const double sb = breakdown_slip(circuit), usual = std::abs(SmallSwings(circuit, 0).slope());
+    const double sb = breakdown_slip(circuit), usual = std::abs(SmallOscillations(circuit, 0).slope());
     for (const double part : {-0.25, 0.0, 0.1, 0.25, 0.5}) {
-      const SmallSwings swings(circuit, part * sb);
+      const SmallOscillations swings(circuit, part * sb);
       EXPECT_NEAR(swings.two_axis(0).real(), swings.slope(), 1e-9 * usual);
       for (const double frequency : {0.1 * sb, 0.5 * sb, sb, 2 * sb, 0.25, 0.5, 0.8, 1.2, 2.0}) {
         const Complex really = swings.two_axis(frequency * circuit.frequency);
@@ -105,7 +105,7 @@ TEST(LaggingMotor, FollowsOscillationsOfTheSpeedAsTheTwoAxisModelDoes) {
     }
   }
   // Without a stator resistance and at the synchronous speed the fluxes are of first order.
-  const SmallSwings idling(ideal, 0);
+  const SmallOscillations idling(ideal, 0);
   for (const double frequency : {1.0, 5.0, 20.0, 40.0, 100.0})
     EXPECT_LT(std::abs(idling.two_axis(frequency) / idling.with_lag(frequency) - 1.0), 0.02) << frequency;
 }
@@ -215,7 +215,7 @@ run = {{ start = {}, until = "1 s", accuracy = 1e-8 }}
       const Result r = run(text);
       ASSERT_TRUE(r.complete) << r.diagnosis;
       EXPECT_LT(r.energy.relative, 1e-6) << starting;
-      EXPECT_EQ(r.model->own_states.size(), 1u);
+      EXPECT_EQ(r.model->internal_states.size(), 1u);
       EXPECT_FALSE(r.model->has_memory());
       test::expect_exact_jacobian_near_start(text, {3.0});
       const auto torque = test::series(r, "torque.motor"), fluxes = test::series(r, "lagging_torque.motor");
@@ -240,10 +240,10 @@ TEST(LaggingMotor, LeavesNoTraceWhereItIsOff) {
   test::expect_same_machine(with(", transients = false, torque_lag = false"), chain(20, ", torque_lag = false", false));
   test::expect_same_machine(with(""), with(", torque_lag = false"));  // its currents are there
   const Scene scene = test::scene_from(chain(20, "", false));
-  EXPECT_EQ(compile(scene, scene.effects)->own_states.size(), 1u);
-  EXPECT_TRUE(compile(scene, without_elasticity(scene.effects))->own_states.empty());
-  EXPECT_TRUE(compile(scene, parse_effects("elasticity,-torque_lag", scene))->own_states.empty());
-  EXPECT_EQ(compile(scene, parse_effects("elasticity", scene))->own_states.size(), 1u);
+  EXPECT_EQ(compile(scene, scene.effects)->internal_states.size(), 1u);
+  EXPECT_TRUE(compile(scene, without_elasticity(scene.effects))->internal_states.empty());
+  EXPECT_TRUE(compile(scene, parse_effects("elasticity,-torque_lag", scene))->internal_states.empty());
+  EXPECT_EQ(compile(scene, parse_effects("elasticity", scene))->internal_states.size(), 1u);
 }
 
 // The mean torque at a constant speed is the curve's: operating points are no estimates, and the machine settles there.

@@ -166,14 +166,14 @@ load = {{ kind = "cylinder", bore = "81 mm", outside_pressure = "1 bar", misfire
 )",
                            offset, motored));
   };
-  const auto told = [](const Result& r) {
+  const auto reported = [](const Result& r) {
     return std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& note) {
       return note.starts_with("c.load: a cylinder that does not fire");
     });
   };
   const Result straight = after("0 mm", "");
   ASSERT_TRUE(straight.complete) << straight.diagnosis;
-  EXPECT_TRUE(told(straight));                              // that its diagram is a substitute
+  EXPECT_TRUE(reported(straight));                          // that its diagram is a substitute
   EXPECT_NEAR(figure(straight, "max_speed.c"), 100, 1e-6);  // comes back to where each cycle began
   try {
     after("15 mm", "");
@@ -183,7 +183,7 @@ load = {{ kind = "cylinder", bore = "81 mm", outside_pressure = "1 bar", misfire
   }
   const Result given = after(
       "15 mm", R"(motored = { over = "angle", unit = ["deg", "bar"], points = [[0, 20], [360, 1], [720, 20]] },)");
-  EXPECT_TRUE(given.complete && !told(given));
+  EXPECT_TRUE(given.complete && !reported(given));
 }
 
 // Massless throws by the firing order do what one engine does, cylinder by cylinder, misfire included.

@@ -158,9 +158,9 @@ TEST(TwoAxisMotor, IsPluggedAndRunsBackwards) {
                          "\"5 s\"\naccuracy = 1e-8\n"));
     ASSERT_TRUE(r.complete) << r.diagnosis;
     EXPECT_NEAR(figure(r, "final_speed.motor"), -60 * M_PI, 1e-5);
-    bool told = false;
-    for (const Event& e : r.events) told = told || (e.what == "is set -1" && e.from == "on" && e.t == 1.5);
-    EXPECT_TRUE(told);
+    bool reported = false;
+    for (const Event& e : r.events) reported = reported || (e.what == "is set -1" && e.from == "on" && e.t == 1.5);
+    EXPECT_TRUE(reported);
   }
 }
 

@@ -194,9 +194,9 @@ std::string refusal(const std::string& text) {
 TEST(ClosedLoop, RatiosThatClashAreReportedWithBothWays) {
   std::string text = split;
   text.replace(text.rfind("teeth = [20, 60]"), 16, "teeth = [100, 301]");
-  const std::string told = refusal(text);
-  EXPECT_NE(told.find("0.996678 times"), std::string::npos) << told;  // 3/3.01
-  EXPECT_NE(told.find("cannot turn"), std::string::npos) << told;
+  const std::string reported = refusal(text);
+  EXPECT_NE(reported.find("0.996678 times"), std::string::npos) << reported;  // 3/3.01
+  EXPECT_NE(reported.find("cannot turn"), std::string::npos) << reported;
   // With a clutch in it there is a motion.
   text = with(text, "[[branch]]\nfrom = \"head\"\nline = [\"stage_b\", \"shaft_b\"]",
               "[grip]\nkind = \"clutch\"\ntorque = \"50 N*m\"\ninertia_in = \"0.01 kg*m2\"\ninertia_out = \"0.01 "
@@ -319,10 +319,10 @@ TEST(ClosedLoop, LockUpClutchAcrossAPlanetaryGearShiftsUnderLoad) {
     }
   }
   ASSERT_TRUE(own.locked);
-  bool told = false;
+  bool reported = false;
   for (const Event& e : result.events)
-    told = told || (e.component == "lockup" && std::abs(e.t - static_cast<double>(locked_at)) < 1e-7);
-  EXPECT_TRUE(told) << static_cast<double>(locked_at);
+    reported = reported || (e.component == "lockup" && std::abs(e.t - static_cast<double>(locked_at)) < 1e-7);
+  EXPECT_TRUE(reported) << static_cast<double>(locked_at);
   EXPECT_LT(result.energy.relative, 1e-8);
 }
 

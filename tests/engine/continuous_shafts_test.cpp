@@ -185,10 +185,10 @@ TEST(ContinuousShaft, modes_of_random_trains_are_those_of_transfer_matrices) {
     const double above = study.modes.back().omega * 1.0001 + study.modes.back().error;
     const auto below = std::count_if(roots.begin(), roots.end(), [&](double w) { return w < above; });
     EXPECT_EQ(continuous_modes_below(study.drive, above), below + 1);
-    const bool told = std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
+    const bool reported = std::any_of(study.notes.begin(), study.notes.end(), [](const std::string& note) {
       return note.find("continuous shafts have") != std::string::npos;
     });
-    EXPECT_TRUE(told || static_cast<std::size_t>(below) == study.modes.size());
+    EXPECT_TRUE(reported || static_cast<std::size_t>(below) == study.modes.size());
   }
 }
 
@@ -298,8 +298,8 @@ run = { until = "1 s" }
   const Result element = with_cut(""), lumps = with_cut(", segments = 19");
   for (const char* what : {"peak_torque", "peak_spring_torque", "rms_torque"}) {
     const double right = figure(lumps, std::string(what) + ".shaft.10"),
-                 told = figure(element, std::string(what) + ".shaft");
-    EXPECT_NEAR(told, right, 1.5e-3 * std::abs(right)) << what;
+                 reported = figure(element, std::string(what) + ".shaft");
+    EXPECT_NEAR(reported, right, 1.5e-3 * std::abs(right)) << what;
   }
 }
 
@@ -356,7 +356,7 @@ TEST(ContinuousShaft, costs_nothing_while_it_is_rigid) {
   const auto model = compile(scene, Effects{});
   EXPECT_EQ(model->shafts.size(), 1u);
   EXPECT_TRUE(model->elastic.empty());
-  EXPECT_TRUE(model->own_states.empty());
+  EXPECT_TRUE(model->internal_states.empty());
   EXPECT_NEAR(model->shafts[0].inertia, 1100 + (Steel{40, 0.4}.inertia()), 1e-9);
 }
 

@@ -16,7 +16,7 @@
 namespace kurbel::deadline_test {
 namespace {
 
-void work_until_told() {
+void work_until_reported() {
   for (;;) Deadline::check();
 }
 
@@ -28,7 +28,7 @@ TEST(Deadline, EndsWorkWhenItsProcessorTimeIsSpent) {
   const double begin = processor_time();
   try {
     const Deadline deadline(0.02);
-    work_until_told();
+    work_until_reported();
   } catch (const OutOfTime& over) {
     EXPECT_FALSE(over.interrupted());
     EXPECT_EQ(std::string(over.what()), "the budget of 0.02 s of processor time is spent");
@@ -40,7 +40,7 @@ TEST(Deadline, EndsWorkWhenItsProcessorTimeIsSpent) {
 // Libraries take an exception for a step that failed, and try a shorter one: that must not buy them time.
 TEST(Deadline, OnceSpentEveryLookEndsTheWork) {
   const Deadline deadline(0.005);
-  EXPECT_THROW(work_until_told(), OutOfTime);
+  EXPECT_THROW(work_until_reported(), OutOfTime);
   for (int i = 0; i < 1000; ++i) EXPECT_THROW(Deadline::check(), OutOfTime);
 }
 
@@ -48,7 +48,7 @@ TEST(Deadline, OfTwoTheSoonerHolds) {
   for (const auto& [outer, inner] : {std::pair{0.01, 100.0}, std::pair{100.0, 0.01}}) {
     const Deadline first(outer);
     const Deadline second(inner);
-    EXPECT_THROW(work_until_told(), OutOfTime);
+    EXPECT_THROW(work_until_reported(), OutOfTime);
   }
 }
 
@@ -57,7 +57,7 @@ TEST(Deadline, AnInterruptEndsWorkAtOnce) {
   const Deadline outer(100, &interrupted);
   const Deadline inner(100);
   try {
-    work_until_told();
+    work_until_reported();
   } catch (const OutOfTime& over) {
     EXPECT_TRUE(over.interrupted());
     EXPECT_EQ(std::string(over.what()), "interrupted");

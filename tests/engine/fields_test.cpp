@@ -92,7 +92,7 @@ Section section_of(std::vector<Setting> settings) {
 Section load_of(double force) {
   return {.name = "l", .kind = &load_tables().kinds().front(), .at = {2, 1}, .settings = {number("force", force)}};
 }
-std::string told(const Messages& messages) {
+std::string reported(const Messages& messages) {
   std::string text;
   for (const Message& m : messages.all()) text += m.text + "\n";
   return text;
@@ -143,7 +143,7 @@ TEST(Fields, WhatIsReadEqualsWhatWasWritten) {
     add("one_load").sections = {load_of(3 * force)};
     Messages messages("f");
     const auto t = fields().read(s, messages);
-    EXPECT_EQ(told(messages), "");
+    EXPECT_EQ(reported(messages), "");
     EXPECT_EQ(t.mass, mass);
     EXPECT_EQ(t.guide, guide);
     EXPECT_EQ(t.value, value);
@@ -185,7 +185,7 @@ TEST(Fields, FaultsNameTheMembersKeyAndItsPlace) {
   Messages messages("f");
   const Section s = section_of({number("mass", 1), number("pin_radius", 1, 5), number("pin_wear", 2, 6)});
   const auto t = fields().read(s, messages);
-  EXPECT_EQ(told(messages), "thing \"a\": nothing is left of it\n");
+  EXPECT_EQ(reported(messages), "thing \"a\": nothing is left of it\n");
   EXPECT_EQ(messages.all().front().at.line, 6);
   EXPECT_EQ(t.key(&Table::pin), "pin_radius");
   EXPECT_EQ(t.given_keys(&Table::pin), (std::vector<std::string>{"pin_radius", "pin_wear"}));
@@ -195,7 +195,7 @@ TEST(Fields, FaultsNameTheMembersKeyAndItsPlace) {
 TEST(Fields, OneOfSeveralFormsIsKept) {
   Messages messages("f");
   fields().read(section_of({number("mass", 1), number("left", 1, 2), number("right", 2, 3)}), messages);
-  EXPECT_EQ(told(messages), "thing \"a\": \"left\" and \"right\" both given; keep one\n");
+  EXPECT_EQ(reported(messages), "thing \"a\": \"left\" and \"right\" both given; keep one\n");
   EXPECT_EQ(messages.all().front().at.line, 3);
 }
 
@@ -204,7 +204,7 @@ TEST(Fields, OneTableIsNotAList) {
   s.settings.push_back({.key = "one_load", .at = {4, 1}, .given = true, .sections = {load_of(1), load_of(2)}});
   Messages messages("f");
   fields().read(s, messages);
-  EXPECT_EQ(told(messages), "thing \"a\": one_load = a list of 2 tables; must be one table\n");
+  EXPECT_EQ(reported(messages), "thing \"a\": one_load = a list of 2 tables; must be one table\n");
 }
 
 TEST(Fields, NumbersBeyondIntsStayDefined) {

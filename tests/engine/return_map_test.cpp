@@ -156,7 +156,7 @@ Eigen::VectorXd waited_for(ReturnMap& map, double link_speed, double cycles) {
   RunOptions run{
       .tolerance = 1e-12, .method = "auto", .until = 1e6, .budget = 100, .interrupted = nullptr, .progress = {}};
   run.from = {0, y};
-  run.stop = map.round_end(equations, y, cycles);
+  run.stop = map.period_end(equations, y, cycles);
   const RunOutcome outcome = integrate(equations, run, {});
   EXPECT_TRUE(outcome.stopped) << outcome.diagnosis;
   return map.section().read(equations.modes(), outcome.state);

@@ -171,14 +171,14 @@ TEST(ExplicitRungeKutta, DistinguishesStabilityFromAccuracyInAnyUnitOfTime) {
     const std::vector<double> from = {0, 1};
     const auto held = make_stepper(Method::dormand_prince_853, stiff, {1e-6, {1, 1}});
     held->start(0, from);
-    int steps = 0, told = 0;
+    int steps = 0, reported = 0;
     while (held->t() < unit) {
       held->step(unit);
       if (held->t() < 0.5 * unit) continue;
       ++steps;
-      told += held->held_by_stability();
+      reported += held->held_by_stability();
     }
-    EXPECT_GT(told, 0.8 * steps) << unit;
+    EXPECT_GT(reported, 0.8 * steps) << unit;
     const auto free = make_stepper(Method::dormand_prince_853, lively, {1e-10, {1, 1}});
     free->start(0, from);
     while (free->t() < 50 * unit) {

@@ -38,7 +38,7 @@ TEST_P(StiffSpring, AmongSoftOnesIsTheOneThatIsNamed) {
     ASSERT_TRUE(r.complete) << r.diagnosis;
     const std::vector<LimitedSteps>& limits = r.statistics.limits;
     ASSERT_FALSE(limits.empty());
-    EXPECT_EQ(limits[0].element, stiff) << told(limits);
+    EXPECT_EQ(limits[0].element, stiff) << reported(limits);
     double share = 0, of_stiff = 0;
     std::int64_t steps = 0;
     for (const LimitedSteps& l : limits) {
@@ -48,7 +48,7 @@ TEST_P(StiffSpring, AmongSoftOnesIsTheOneThatIsNamed) {
     }
     EXPECT_NEAR(share, 1, 1e-12);
     EXPECT_EQ(steps, r.statistics.stepper.steps);
-    EXPECT_GT(of_stiff, 0.8) << told(limits);
+    EXPECT_GT(of_stiff, 0.8) << reported(limits);
   }
 }
 INSTANTIATE_TEST_SUITE_P(Methods, StiffSpring,
@@ -82,10 +82,10 @@ TEST(StepLimits, OfACircuitAndOfASteepMotorAreTheirs) {
       "motor = {{ kind = \"dc shunt motor\", voltage = \"100 V\", resistance = \"1 Ohm\", constant = \"0.5 N*m/A\", "
       "inertia = \"{}\"{} }}\neffects = {{ elasticity = true }}\nrun = {{ until = \"0.5 s\", method = \"dop853\" }}\n";
   const Result circuit = test::run(fmt::format(fmt::runtime(machine), "0.05 kg*m2", ", inductance = \"20 uH\""), false);
-  EXPECT_EQ(circuit.statistics.limits[0].element, "motor") << told(circuit.statistics.limits);
+  EXPECT_EQ(circuit.statistics.limits[0].element, "motor") << reported(circuit.statistics.limits);
   EXPECT_EQ(circuit.statistics.limits[0].states[0], "current of motor");
   const Result steep = test::run(fmt::format(fmt::runtime(machine), "5e-6 kg*m2", ""), false);
-  EXPECT_EQ(steep.statistics.limits[0].element, "motor") << told(steep.statistics.limits);
+  EXPECT_EQ(steep.statistics.limits[0].element, "motor") << reported(steep.statistics.limits);
   EXPECT_EQ(steep.statistics.limits[0].by, "stability");
 }
 
@@ -97,7 +97,7 @@ TEST(StepLimits, OfEventsAndEdgesAreReported) {
       "\"0.1 "
       "s\", points = [[0, 0], [0.05, 1], [0.1, 0]] } }\nrun = { until = \"2 s\", method = \"dop853\" }\n",
       false);
-  EXPECT_EQ(r.statistics.limits[0].by, "edges in time") << told(r.statistics.limits);
+  EXPECT_EQ(r.statistics.limits[0].by, "edges in time") << reported(r.statistics.limits);
   EXPECT_GT(r.statistics.limits[0].share, 0.6);
 }
 

@@ -568,13 +568,13 @@ TEST_P(ExplicitMethod, KnowsWhenStabilityHoldsTheStepDown) {
     const auto held = make_stepper(GetParam(), tolerance > 1e-6 ? stiff : quiet, {tolerance, {1, 1}});
     held->start(0, Vector{0, 1});
     run(*held, 0.5);
-    int steps = 0, told = 0;
+    int steps = 0, reported = 0;
     while (held->t() < 1) {
       held->step(1);
       ++steps;
-      told += held->held_by_stability();
+      reported += held->held_by_stability();
     }
-    EXPECT_GT(told, 0.8 * steps) << tolerance;
+    EXPECT_GT(reported, 0.8 * steps) << tolerance;
   }
 
   TestSystem smooth(2, oscillate);

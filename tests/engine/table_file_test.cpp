@@ -29,7 +29,7 @@ Read read(const std::string& text, std::vector<int> columns = {1, 2}, const Tabl
   const auto path = std::filesystem::temp_directory_path() / fmt::format("kurbel_table_{}_{}", name, getpid());
   std::ofstream(path, std::ios::binary) << text;
   Read result;
-  const auto tell = [&](const std::vector<Message>& all) {
+  const auto report = [&](const std::vector<Message>& all) {
     for (const Message& m : all) {
       EXPECT_EQ(m.file, path.string());
       result.errors.push_back(fmt::format("{}:{}: {}", m.at.line, m.at.column, m.text));
@@ -43,9 +43,9 @@ Read read(const std::string& text, std::vector<int> columns = {1, 2}, const Tabl
     for (const Location& at : numbers.at) result.line.push_back(at.line);
     for (const TableHeading& h : file.headings())
       result.names.push_back(h.name), result.units.push_back(h.unit.value_or(""));
-    tell(messages.all());
+    report(messages.all());
   } catch (const SceneError& error) {
-    tell(error.messages);
+    report(error.messages);
   }
   std::filesystem::remove(path);
   return result;

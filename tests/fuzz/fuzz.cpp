@@ -157,13 +157,13 @@ int campaign(const Arguments& a) {
   std::fflush(stdout);
   const std::uint64_t end = a.from + a.count, at_once = 2000;
   std::uint64_t number = a.from;
-  for (double told = begin; number < end && seconds_of(CLOCK_MONOTONIC) - begin < a.seconds;) {
-    number =
-        batch(a, *shared, number, std::min(end, number + at_once), std::min(begin + a.seconds, told + 60), findings);
-    if (seconds_of(CLOCK_MONOTONIC) - told < 60 || number >= end) continue;
-    told = seconds_of(CLOCK_MONOTONIC);
-    fmt::print("{}: {} inputs in {:.0f} s, {} findings of {} kinds\n", a.target->name, number - a.from, told - begin,
-               findings.all(), findings.kinds());
+  for (double reported = begin; number < end && seconds_of(CLOCK_MONOTONIC) - begin < a.seconds;) {
+    number = batch(a, *shared, number, std::min(end, number + at_once), std::min(begin + a.seconds, reported + 60),
+                   findings);
+    if (seconds_of(CLOCK_MONOTONIC) - reported < 60 || number >= end) continue;
+    reported = seconds_of(CLOCK_MONOTONIC);
+    fmt::print("{}: {} inputs in {:.0f} s, {} findings of {} kinds\n", a.target->name, number - a.from,
+               reported - begin, findings.all(), findings.kinds());
     std::fflush(stdout);
   }
   fmt::print("{}: {} inputs from {} in {:.0f} s: {} findings of {} kinds\n", a.target->name, number - a.from, a.from,

@@ -133,15 +133,15 @@ TEST(Fuzz, ASceneWrittenFromItsTreeIsTheSameScene) {
 
 // Mutations neither leave all scenes sound nor break all of them: both paths are taken.
 TEST(Fuzz, SomeInputsAreValidAndSomeAreNot) {
-  int sound = 0;
+  int valid = 0;
   constexpr int n = 200;
   for (std::uint64_t number = 1; number <= n; ++number) try {
       parse_scene(input_of(*target_named("run"), number), scene_path(), all_kinds());
-      ++sound;
+      ++valid;
     } catch (const SceneError&) {
     }
-  EXPECT_GT(sound, n / 10);
-  EXPECT_LT(sound, n * 9 / 10);
+  EXPECT_GT(valid, n / 10);
+  EXPECT_LT(valid, n * 9 / 10);
 }
 
 // What the judges must not let pass.

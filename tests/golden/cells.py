@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "kurbel" / "golden"
 FORM = 1  # of the files of cells; another one: computed anew
-FOLDERS = ("scenes", "docs/tasks", "tests/agreement", "tests/agreement/swings", "../shared/cases/reports")
+FOLDERS = ("scenes", "docs/tasks", "tests/agreement", "tests/agreement/vibrations", "../shared/cases/reports")
 QUICK = 5  # s of processor time: dearer cells are skipped
 
 

@@ -169,7 +169,7 @@ HardCase kite() {
 }
 
 // It rocks: driven on it comes to the end of its arc.
-HardCase ends_told(const std::string& name, const std::string& parameter, const Crank& crank) {
+HardCase ends_reported(const std::string& name, const std::string& parameter, const Crank& crank) {
   return {.family = family,
           .name = name,
           .parameter = parameter,
@@ -209,7 +209,7 @@ std::vector<HardCase> change_point_cases() {
   cases.push_back(offset_at_limit());
   for (const bool crossed : {false, true}) cases.push_back(parallel_crank(crossed));
   cases.push_back(kite());
-  cases.push_back(ends_told("ARodShorterThanTheCrankEndsAtItsArcTold", "l = 0.999 r", Crank{.rod = 0.0999}));
+  cases.push_back(ends_reported("ARodShorterThanTheCrankEndsAtItsArcTold", "l = 0.999 r", Crank{.rod = 0.0999}));
   return cases;
 }
 

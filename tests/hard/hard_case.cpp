@@ -19,7 +19,7 @@ namespace {
 constexpr double reference_accuracy = 1e-12, rounding = 2.2e-16;
 // Figures that the program gives without errors because the tighter run failed may be off by this many times what a
 // passed cell may.
-constexpr double told_without_errors = 50;
+constexpr double without_errors = 50;
 
 Scene scene_of(const std::string& text) { return parse_scene(text, "hard_case.toml", all_kinds()); }
 
@@ -40,7 +40,7 @@ double scale_of(const Figure& figure, double given) {
 }
 
 // Would the figure's absence fail? (A figure that is to be 0 tells by what it is otherwise.)
-bool tells(double value, double scale, double accuracy) {
+bool reports(double value, double scale, double accuracy) {
   return value == 0 || std::abs(value) > allowed_ratio * accuracy * scale;
 }
 
@@ -70,15 +70,15 @@ class Reference {
       known_ = true;
     }
     Judgement worst;
-    bool some_tell = false;
+    bool some_report = false;
     for (const std::string& name : figures) {
       const Figure& truth = figure_of(best_, name);
       const double scale = scale_of(truth, 0);
-      some_tell = some_tell || tells(truth.value, scale, result.accuracy);
+      some_report = some_report || reports(truth.value, scale, result.accuracy);
       take_worse(worst, {std::abs(figure_of(result, name).value - truth.value) / scale, name,
                          std::abs(figure_of(other_, name).value - truth.value) / scale});
     }
-    worst.tells = some_tell;
+    worst.reports = some_report;
     return worst;
   }
 
@@ -116,13 +116,13 @@ Judgement judge(const HardCase& hard_case, const Result& result) {
   Judgement worst;
   for (const Figure& figure : result.figures)
     if (!std::isfinite(figure.value)) return {HUGE_VAL, figure.name + " is not finite", 0};
-  bool some_tell = false;
+  bool some_report = false;
   for (const Truth& truth : hard_case.truths) {
     const Judgement next = truth.judge(result);
-    some_tell = some_tell || next.tells;
+    some_report = some_report || next.reports;
     take_worse(worst, next);
   }
-  if (!some_tell) return {HUGE_VAL, "no figure that could fail at this accuracy", 0};
+  if (!some_report) return {HUGE_VAL, "no figure that could fail at this accuracy", 0};
   if (hard_case.energy) take_worse(worst, {result.energy.relative, "energy balance", 0});
   return worst;
 }
@@ -143,18 +143,18 @@ void judge_answer(const HardCase& hard_case, const Result& result, CaseOutcome& 
   }
   const Judgement found = judge(hard_case, result);
   out.error = found.error;
-  const double told = allowed_ratio * result.measured_accuracy;
+  const double reported = allowed_ratio * result.measured_accuracy;
   const std::string unconfirmed = note_with(result, "the confirming run failed");
   if (found.uncertainty > out.allowed) {
     out.words = fmt::format("the truth of {} itself is known to {:.1e} only", found.what, found.uncertainty);
   } else if (found.error <= out.allowed) {
     out.verdict = Verdict::passed;
     out.words = found.what;
-  } else if (!unconfirmed.empty() && found.error <= told_without_errors * out.allowed) {
-    out.verdict = Verdict::told;
+  } else if (!unconfirmed.empty() && found.error <= without_errors * out.allowed) {
+    out.verdict = Verdict::reported;
     out.words = found.what + ": " + unconfirmed;
-  } else if (result.errors_measured && !result.accuracy_confirmed && found.error <= told) {
-    out.verdict = Verdict::told;
+  } else if (result.errors_measured && !result.accuracy_confirmed && found.error <= reported) {
+    out.verdict = Verdict::reported;
     out.words = fmt::format("{}: the program says that it reached {:.1e}", found.what, result.measured_accuracy);
   } else {
     out.words =
@@ -192,14 +192,14 @@ Result simulate_case(const HardCase& hard_case, const std::string& method, doubl
 Truth closed_form(std::string words, std::vector<Known> figures) {
   return {"closed form: " + std::move(words), [figures = std::move(figures)](const Result& result) {
             Judgement worst;
-            bool some_tell = false;
+            bool some_report = false;
             for (const Known& known : figures) {
               const Figure& figure = figure_of(result, known.figure);
               const double scale = scale_of(figure, known.scale);
-              some_tell = some_tell || tells(known.value, scale, result.accuracy);
+              some_report = some_report || reports(known.value, scale, result.accuracy);
               take_worse(worst, {std::abs(figure.value - known.value) / scale, known.figure, 0});
             }
-            worst.tells = some_tell;
+            worst.reports = some_report;
             return worst;
           }};
 }
@@ -220,7 +220,7 @@ const char* name_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::passed:
       return "passed";
-    case Verdict::told:
+    case Verdict::reported:
       return "told";
     case Verdict::refused:
       return "refused";

@@ -21,7 +21,7 @@ struct Judgement {
   double error = 0;        // over the figure's scale
   std::string what;        // the figure that is worst
   double uncertainty = 0;  // of the truth itself, over the same scale
-  bool tells = true;       // an answer of nothing at all would fail
+  bool reports = true;     // an answer of nothing at all would fail
 };
 
 // How the answer is known.
@@ -73,7 +73,7 @@ struct HardCase {
 
 enum class Verdict {
   passed,      // error ≤ 20 × (accuracy asked for + condition × rounding)
-  told,        // the program says that it reached less than was asked for, and how much, true within 20 × of that; or
+  reported,    // the program says that it reached less than was asked for, and how much, true within 20 × of that; or
                // that the tighter run failed, and how, so that its figures come without errors
   refused,     // ended with the words that belong here
   unfinished,  // stopped at its budget, in words

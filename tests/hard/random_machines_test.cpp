@@ -139,15 +139,15 @@ TEST(RandomMachines, AConservativeMachineRunsBackwards) {
       }
       return largest;
     };
-    const auto turned_round = [&](std::vector<double> state) {
+    const auto reversed_state = [&](std::vector<double> state) {
       for (std::size_t s = 0; s < model->free_shafts; ++s) state[equations.speed_index(static_cast<int>(s))] *= -1;
       return state;
     };
     const RunOutcome there = run_from(begin);
     if (!there.complete) return there.diagnosis;
-    const RunOutcome back = run_from(turned_round(there.state));
+    const RunOutcome back = run_from(reversed_state(there.state));
     if (!back.complete) return back.diagnosis;
-    const double found = apart(turned_round(back.state), begin);
+    const double found = apart(reversed_state(back.state), begin);
     if (found <= 1e-7) return "";
     // Swings far beyond a spring's rated torque multiply every error on their way.
     constexpr double small = 1e-9;

@@ -281,14 +281,15 @@ TEST(Facade, AMotionThatIsInterruptedStandsWhereItStood) {
   const SavedState kept = motion.state();
   // At work for ever, were it not for the third word on its progress, which comes with 64 steps each.
   std::atomic<bool> interrupted{false};
-  std::vector<double> told;
+  std::vector<double> reported;
   const Watcher watcher{&interrupted, [&](const std::string&, double fraction) {
-                          told.push_back(fraction);
-                          interrupted = told.size() == 3;
+                          reported.push_back(fraction);
+                          interrupted = reported.size() == 3;
                         }};
   EXPECT_NE(message_of([&] { motion.go_to(1e6, watcher); }).find("interrupted"), std::string::npos);
-  ASSERT_EQ(told.size(), 3u);
-  EXPECT_TRUE(0 < told[0] && told[0] < told[1] && told[1] < told[2] && told[2] < 1e-3) << told[0];
+  ASSERT_EQ(reported.size(), 3u);
+  EXPECT_TRUE(0 < reported[0] && reported[0] < reported[1] && reported[1] < reported[2] && reported[2] < 1e-3)
+      << reported[0];
   EXPECT_TRUE(motion.state() == kept);
   // And goes on as if nothing had been.
   motion.go_to(0.2);
@@ -400,13 +401,13 @@ TEST(Facade, ASweepOfAFunctionKeepsItsRowsAndSaysWhatFailed) {
   // However many there are, they can be had one by one.
   EXPECT_TRUE(sweep(variation, "product", {{"product", ""}}, product, {.into = file, .lines = false}).lines.empty());
   std::size_t visited = 0;
-  const SweepRows told = rows_in(file, [&](const SweepLine& line) {
+  const SweepRows reported = rows_in(file, [&](const SweepLine& line) {
     EXPECT_EQ(line.row, visited++);
     EXPECT_EQ(line.figures[0], rows.lines[line.row].figures[0]);
   });
   EXPECT_EQ(visited, 10u);
-  EXPECT_TRUE(told.complete && told.lines.empty());
-  EXPECT_EQ(told.vary, variation.vary);
+  EXPECT_TRUE(reported.complete && reported.lines.empty());
+  EXPECT_EQ(reported.vary, variation.vary);
   EXPECT_EQ(rows_in(file).lines.size(), 10u);
   const Study report = sweep_report(file, {"product <= 25"});
   EXPECT_NE(report.text().find("three is not computed"), std::string::npos) << report.text();

@@ -20,13 +20,13 @@ inline std::vector<double> values_in(const ReducedSample& s) {
           s.gravity_torque,  s.gravity_torque_slope};
 }
 
-inline void expect_sound(const LinkageData& data) {
+inline void expect_valid(const LinkageData& data) {
   for (const LinkageFault& fault : data.linkage->faults()) ADD_FAILURE() << fault.at << ": " << fault.text;
 }
 
 // Simbody's bodies and the series agree within this part of each channel's largest value.
 inline void expect_both_extractions(const LinkageData& data, double within, int samples = 60) {
-  expect_sound(data);
+  expect_valid(data);
   if (!data.linkage->faults().empty()) return;
   const auto bodies = make_bodies(data);
   const MechanismData as_data(data);
@@ -60,7 +60,7 @@ inline void expect_both_extractions(const LinkageData& data, double within, int 
 
 // All distances of points on one link are those of the sketch.
 inline void expect_rigid(const LinkageData& data) {
-  expect_sound(data);
+  expect_valid(data);
   if (!data.linkage->faults().empty()) return;
   const Linkage& l = *data.linkage;
   long double longest = 0, off = 0;

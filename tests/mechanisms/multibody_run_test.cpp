@@ -142,9 +142,9 @@ TEST(MultibodyRun, TroubleThatIsReportedOnlyOnceReachesTheCallerByEveryIntegrato
   p.accuracy = 1e-3;
   for (const std::string& name : multibody_integrators()) {
     p.integrator = name;
-    bool told = false;
+    bool reported = false;
     p.shaft_torque = [&](double t, double, double) -> double {
-      if (t > 0.05 && !std::exchange(told, true)) throw std::domain_error("no torque just now");
+      if (t > 0.05 && !std::exchange(reported, true)) throw std::domain_error("no torque just now");
       return 1;
     };
     EXPECT_THROW(run_multibody(p), std::domain_error) << name;

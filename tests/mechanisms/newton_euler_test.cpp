@@ -174,12 +174,12 @@ TEST(ReactionsOfAllLinks, AreTheRateOfMomentumAndBalancePowersInASliderCrank) {
 }
 
 // Simbody's mobilizers, each by the joint and the sense in which it is told here; every link with mass.
-struct Told {
+struct Reported {
   const char* joint;
   int sense;
 };
 template <class Data>
-void expect_simbody(const Data& data, const std::vector<Told>& mobilizers, std::mt19937& random) {
+void expect_simbody(const Data& data, const std::vector<Reported>& mobilizers, std::mt19937& random) {
   const LinkageState s = random_state(random);
   const LinkageForces f = forces_of(data, s);
   const MechanismReactions simbody =

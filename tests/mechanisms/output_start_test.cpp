@@ -41,13 +41,13 @@ TEST(OutputStart, SliderGivesAngleAndSpeedOfItsCrank) {
         const bool falling = phi > extended && phi < folded;
         const std::string velocity = omega == 0 ? "" : fmt::format(", velocity = \"{:.17g} m/s\"", slope(phi) * omega);
         const bool by_velocity = omega > 0 || (omega == 0 && falling);  // is what is meant unless told
-        for (const bool told : {true, false}) {
-          if (!told && !by_velocity) continue;
-          SCOPED_TRACE(fmt::format("{} {} {} {}", shift, phi, omega, told));
+        for (const bool reported : {true, false}) {
+          if (!reported && !by_velocity) continue;
+          SCOPED_TRACE(fmt::format("{} {} {} {}", shift, phi, omega, reported));
           const Scene scene =
               started(fmt::format("{}\nphase = \"{} deg\"", crank, shift),
                       fmt::format("on = \"m.slider\", position = \"{:.17g} m\"{}{}", position(phi), velocity,
-                                  told ? fmt::format(", towards = \"{}\"", falling ? "folded" : "extended") : ""));
+                                  reported ? fmt::format(", towards = \"{}\"", falling ? "folded" : "extended") : ""));
           EXPECT_EQ(scene.run.start.on, "m");
           EXPECT_NEAR(std::remainder(scene.run.start.angle - phi + shift * pi / 180, 2 * pi), 0, 1e-10);
           EXPECT_NEAR(scene.run.start.speed, omega, 1e-8);

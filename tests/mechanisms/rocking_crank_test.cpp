@@ -173,12 +173,12 @@ TEST(RockingCrank, EndOfItsArcEndsTheRunReportedWithTimeAndAngle) {
     const Real time = t + h * (end - y[0]) / (next[0] - y[0]);
     const Result r = run(both.scene(arc.middle, way * 12, 2), false);
     ASSERT_FALSE(r.complete);
-    const std::string told =
+    const std::string reported =
         fmt::format("comes to the end of its arc at φ = {:.4g}°", static_cast<double>(end) * 180 / pi);
-    EXPECT_NE(r.diagnosis.find(told), std::string::npos) << r.diagnosis << "\nnot: " << told;
+    EXPECT_NE(r.diagnosis.find(reported), std::string::npos) << r.diagnosis << "\nnot: " << reported;
     EXPECT_NE(r.diagnosis.find("let a load, a spring or a brake reverse it before"), std::string::npos);
-    const double told_time = std::stod(r.diagnosis.substr(r.diagnosis.find("t = ") + 4));
-    EXPECT_NEAR(told_time, static_cast<double>(time), 1e-6);
+    const double reported_time = std::stod(r.diagnosis.substr(r.diagnosis.find("t = ") + 4));
+    EXPECT_NEAR(reported_time, static_cast<double>(time), 1e-6);
   }
 }
 

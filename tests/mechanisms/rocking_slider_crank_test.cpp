@@ -173,9 +173,9 @@ TEST(RockingSliderCrank, EndOfItsArcEndsTheRunReportedWithTimeAndAngle) {
     const Real time = t + h * (end - y[0]) / (next[0] - y[0]);
     const Result r = run(l.scene(arc.middle, 25, 2), false);
     ASSERT_FALSE(r.complete);
-    const std::string told =
+    const std::string reported =
         fmt::format("comes to the end of its arc at φ = {:.4g}°", static_cast<double>(end) * 180 / pi);
-    EXPECT_NE(r.diagnosis.find(told), std::string::npos) << r.diagnosis << "\nnot: " << told;
+    EXPECT_NE(r.diagnosis.find(reported), std::string::npos) << r.diagnosis << "\nnot: " << reported;
     EXPECT_NEAR(std::stod(r.diagnosis.substr(r.diagnosis.find("t = ") + 4)), static_cast<double>(time), 1e-6);
   }
 }

@@ -182,15 +182,15 @@ TEST(SwitchedLoads, TheMechanismsCommandAndTheLoadsOwnBothCount) {
     EXPECT_TRUE(r.complete) << r.diagnosis;
     return figure(r, "final_speed.crank");
   };
-  const auto told = [&](const std::string& steps) { return speed(two + "[sequence]\nsteps = [" + steps + "]\n"); };
+  const auto reported = [&](const std::string& steps) { return speed(two + "[sequence]\nsteps = [" + steps + "]\n"); };
   const std::string off = R"({ at = "0 s", set = "crank", to = 0 }, )";
   const double none = speed(with(crank, "load = { kind = \"opposing\", force = \"200 N\" }\n", ""));
   const double second = speed(with(crank, "load = { kind = \"opposing\", force = \"200 N\" }",
                                    "load = { kind = \"medium\", viscous = \"30 N*s/m\" }"));
-  EXPECT_NEAR(told(off + R"({ at = "0.1 s", set = "crank.load1" })"), none, 1e-9 * 30);
-  EXPECT_NEAR(told(R"({ at = "0 s", set = ["crank.load1", "crank.load2"], to = 0 })"), none, 1e-9 * 30);
-  EXPECT_NEAR(told(R"({ at = "0 s", set = "crank.load1", to = 0 })"), second, 1e-9 * 30);
-  EXPECT_NEAR(told(off + R"({ at = "0 s", set = "crank.load1", to = 0 }, { at = "0 s", set = "crank" })"), second,
+  EXPECT_NEAR(reported(off + R"({ at = "0.1 s", set = "crank.load1" })"), none, 1e-9 * 30);
+  EXPECT_NEAR(reported(R"({ at = "0 s", set = ["crank.load1", "crank.load2"], to = 0 })"), none, 1e-9 * 30);
+  EXPECT_NEAR(reported(R"({ at = "0 s", set = "crank.load1", to = 0 })"), second, 1e-9 * 30);
+  EXPECT_NEAR(reported(off + R"({ at = "0 s", set = "crank.load1", to = 0 }, { at = "0 s", set = "crank" })"), second,
               1e-9 * 30);
 }
 

@@ -220,7 +220,8 @@ class MotionJudge {
   enum class Windows { none, of_sources, all };
   bool switches(const Moment& a, const Moment& b, Windows windows) const {
     bool changes = a.driven != b.driven;
-    for (std::size_t k = 0; k < a.told.size(); ++k) changes = changes || std::abs(a.told[k] - b.told[k]) > 1e-12;
+    for (std::size_t k = 0; k < a.reported.size(); ++k)
+      changes = changes || std::abs(a.reported[k] - b.reported[k]) > 1e-12;
     for (std::size_t e = 0; windows != Windows::none && e < a.on.size(); ++e)
       changes = changes || (a.on[e] != b.on[e] &&
                             (windows == Windows::all || m_.network.elements[e].element->account == Account::driving));

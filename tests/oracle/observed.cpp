@@ -22,7 +22,7 @@ constexpr double apart = 1e-9;  // of the usual speed: from there on both sides 
 struct Place {
   Contact contact;
   int joint = -1, elastic = -1;  // of the network, of the model
-  int own_state = -1;            // of an elastic belt: what it has slipped
+  int internal_state = -1;       // of an elastic belt: what it has slipped
   int element = -1;              // of a brake
   int command = -1;
 };
@@ -75,12 +75,12 @@ class Sampler final : public Observer {
       place.contact.capacity = m_.network.joints[at(joint.joint)].element->capacity;
       places_.push_back(std::move(place));
     }
-    for (std::size_t k = 0; k < m_.own_states.size(); ++k) {
-      if (m_.own_states[k].state.name != "slipped_angle") continue;
+    for (std::size_t k = 0; k < m_.internal_states.size(); ++k) {
+      if (m_.internal_states[k].state.name != "slipped_angle") continue;
       for (const ElasticJoint& joint : m_.elastic)
-        if (m_.network.joints[at(joint.joint)].component == m_.own_states[k].component) {
-          Place place{.contact = {m_.own_states[k].component, "belt"}, .joint = joint.joint};
-          place.own_state = static_cast<int>(k);
+        if (m_.network.joints[at(joint.joint)].component == m_.internal_states[k].component) {
+          Place place{.contact = {m_.internal_states[k].component, "belt"}, .joint = joint.joint};
+          place.internal_state = static_cast<int>(k);
           place.contact.usual_speed = std::abs(joint.gain_a) * m_.shafts[at(joint.shaft_a)].speed_scale;
           places_.push_back(std::move(place));
         }
@@ -100,7 +100,7 @@ class Sampler final : public Observer {
     return place.command < 0 ? 1 : equations.modes().command[at(place.command)].at(t, m_.scene.sequence);
   }
   double slip_of(const Place& place, const Snapshot& s) const {
-    if (place.own_state >= 0) return s.sums.own_rate[place.own_state];
+    if (place.internal_state >= 0) return s.sums.internal_rate[place.internal_state];
     if (place.element >= 0) {
       const std::size_t node = at(m_.network.elements[at(place.element)].node);
       return m_.gain_of_node[node] * s.now.speed[m_.shaft_of_node[node]];
@@ -182,7 +182,7 @@ class Sampler final : public Observer {
       }
     }
     for (std::size_t k = 0; k < m_.commands.size(); ++k)
-      moment.told.push_back(equations.modes().command[k].at(t, m_.scene.sequence));
+      moment.reported.push_back(equations.modes().command[k].at(t, m_.scene.sequence));
     moment.on = equations.modes().active;
     moment.driven = sources_.drive(equations.modes().active);
     moment.held = equations.at_standstill(shaft);

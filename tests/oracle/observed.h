@@ -20,10 +20,10 @@ struct Moment {
   double drive = 0;             // torque of all that drives, reduced to the link [N·m]
   double pushed = 0;            // greatest torque of a source whose own shaft stands, reduced [N·m]
   double load = 0;  // torque of all that neither drives nor opposes motion (weights, springs), reduced [N·m]
-  std::vector<double> told = {};  // commands in force
-  std::vector<char> on = {};      // of each element: within its window of time
-  bool driven = false;            // a source is within its window of time, and not told 0
-  bool held = false;              // the link's shaft is tied to the frame
+  std::vector<double> reported = {};  // commands in force
+  std::vector<char> on = {};          // of each element: within its window of time
+  bool driven = false;                // a source is within its window of time, and not told 0
+  bool held = false;                  // the link's shaft is tied to the frame
 };
 
 // What a contact did for some time without a change.

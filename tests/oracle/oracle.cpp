@@ -83,11 +83,11 @@ json truth_of(const std::string& file) {
 json answers_of(const std::string& file, bool of_run, Watchdog& watchdog) {
   const Machine machine = Machine::from_file(file);
   const Watcher watcher{.interrupted = watchdog.from_now()};
-  const Study told =
+  const Study reported =
       of_run ? run(machine, {.page = false, .watcher = watcher}).study() : study("steady", machine, {}, watcher);
   if (watchdog.barked()) return {{"refused", "too dear"}};
-  json summary = json::parse(told.json());
-  if (of_run) summary["text"] = told.text();  // has the table of works by periods, which is for people alone
+  json summary = json::parse(reported.json());
+  if (of_run) summary["text"] = reported.text();  // has the table of works by periods, which is for people alone
   return summary;
 }
 

@@ -78,13 +78,13 @@ TEST(Effects, WhatDoesNotGoWithTheRestIsJudgedInTheirPlace) {
 
   const EffectStudy study = study_effects(scene, {});
   ASSERT_TRUE(study.full.complete) << study.full.diagnosis;
-  const auto judged = std::find_if(study.left_out.begin(), study.left_out.end(),
-                                   [](const LeftOut& l) { return l.effect.name == "joint_friction"; });
-  ASSERT_NE(judged, study.left_out.end());
+  const auto judged = std::find_if(study.omitted.begin(), study.omitted.end(),
+                                   [](const OmittedEffect& l) { return l.effect.name == "joint_friction"; });
+  ASSERT_NE(judged, study.omitted.end());
   EXPECT_EQ(judged->failed, "");
   EXPECT_EQ(judged->in_place_of, "joint clearance");
   ASSERT_FALSE(judged->changes.empty());
-  EXPECT_TRUE(judged->changes.front().told());
+  EXPECT_TRUE(judged->changes.front().reported());
   EXPECT_NE(study.conclusion.find("joint friction, which does not go with joint clearance"), std::string::npos);
 }
 
@@ -135,7 +135,7 @@ TEST(Advise, TheAdvisedSetStaysWithinWhenRunAgainAndAtOtherLoads) {
 // warned of at other loads, covers the settled motion, too (tests/agreement: no cell of advice is silent).
 TEST(Advise, CoversTheSettledMotionAndNotTheStartAlone) {
   for (const char* file :
-       {"tests/agreement/swings/differential_shafts.toml", "tests/agreement/belt_elastic_crank.toml"}) {
+       {"tests/agreement/vibrations/differential_shafts.toml", "tests/agreement/belt_elastic_crank.toml"}) {
     const agreement::Row row = agreement::compare_advice(test::scene_file(file), 0.05, {});
     EXPECT_FALSE(row.figures.empty() && row.orbit != "everything is recommended") << file;
     for (const auto& cell : row.figures)

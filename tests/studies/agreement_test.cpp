@@ -102,14 +102,14 @@ TEST(AgreementCell, WorstFigureDecides) {
 }
 
 TEST(AgreementCell, NoteThatLeavesOutCountsOnlyWithAnAmount) {
-  EXPECT_FALSE(tells_how_much({"the operating sequence is omitted: steady motion knows no switching"}));
-  EXPECT_TRUE(tells_how_much({"joint clearance is omitted: it changes δ by 2 %"}));
-  EXPECT_FALSE(tells_how_much({"12 positions of the cycle"}));
+  EXPECT_FALSE(reports_how_much({"the operating sequence is omitted: steady motion knows no switching"}));
+  EXPECT_TRUE(reports_how_much({"joint clearance is omitted: it changes δ by 2 %"}));
+  EXPECT_FALSE(reports_how_much({"12 positions of the cycle"}));
 }
 
 TEST(AgreementCell, RowReadsBackAsWritten) {
   Row row{.scene = "press", .kind = Motion::rests, .orbit = "at\trest", .figures = {}, .cpu_seconds = 0.25};
-  row.figures.push_back({Topic::works, "work_per_cycle.x (useful)", -0.1, 1e-300, 3e-7, Verdict::told, "so\nmuch"});
+  row.figures.push_back({Topic::works, "work_per_cycle.x (useful)", -0.1, 1e-300, 3e-7, Verdict::reported, "so\nmuch"});
   const Row read = read_row(lines_of(row));
   EXPECT_EQ(read.scene, "press");
   EXPECT_EQ(read.kind, Motion::rests);

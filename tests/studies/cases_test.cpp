@@ -46,10 +46,10 @@ TEST(Cases, FaultsAreReportedWhereTheyStand) {
   const int begin = static_cast<int>(std::count(two_discs.begin(), two_discs.end(), '\n'));
   const auto expect = [&](const std::string& more, int line, int column, const std::string& words) {
     SCOPED_TRACE(more);
-    const std::vector<std::string> told = faults_of(two_discs + more);
-    ASSERT_EQ(told.size(), 1U);
-    EXPECT_TRUE(told.front().starts_with(fmt::format("{}:{} ", begin + line, column))) << told.front();
-    EXPECT_NE(told.front().find(words), std::string::npos) << told.front();
+    const std::vector<std::string> reported = faults_of(two_discs + more);
+    ASSERT_EQ(reported.size(), 1U);
+    EXPECT_TRUE(reported.front().starts_with(fmt::format("{}:{} ", begin + line, column))) << reported.front();
+    EXPECT_NE(reported.front().find(words), std::string::npos) << reported.front();
   };
   expect("[[case]]\nname = \"a\"\nset = [\"shaft.stiffness=-1 N*m/rad\"]\n", 3, 8, "must be > 0");
   expect("[[case]]\nname = \"a\"\nset = [\"shaft.damping=1 N*m*s/rad\", \"shft.stiffness=1 N*m/rad\"]\n", 3, 37,

@@ -55,12 +55,12 @@ TEST(Claim, IsNotMadeWhereItsEvidenceIsBelowItsError) {
   };
   EXPECT_TRUE(held(97, 2));
   EXPECT_FALSE(held(97, 4));
-  EXPECT_FALSE(claimed(Predicate::figures_told, ""));
+  EXPECT_FALSE(claimed(Predicate::figures_reported, ""));
 }
 
 TEST(Claim, NamesAreStableAndEachHasItsDefinition) {
   EXPECT_STREQ(name_of(Predicate::clutch_slips_closed), "clutch_slips_closed");
-  EXPECT_STREQ(name_of(Predicate::figures_told), "figures_told");
+  EXPECT_STREQ(name_of(Predicate::figures_reported), "figures_told");
   std::set<std::string> names;
   for (const ClaimKind& kind : claim_kinds()) {
     EXPECT_TRUE(names.insert(name_of(kind.predicate)).second);
@@ -321,14 +321,14 @@ TEST(StartClaims, UnstableEquilibriumIsSaid) {
 
 TEST(Periods, AreTheSameInWordsTablesAndWorks) {
   const Result r = test::run(test::scene_file("tests/cases/reports/motor_switched_off.toml"), false);
-  const std::vector<WorkPeriod> told = three_periods(r.periods, 0, r.until);
-  ASSERT_EQ(told.size(), 3u);
-  EXPECT_EQ(told[0].begin, 0);
-  EXPECT_EQ(told[0].end, test::figure(r, "run_up_time"));
-  EXPECT_EQ(told[1].begin, told[0].end);
-  EXPECT_NEAR(told[1].end, 20, 1e-12);
-  EXPECT_EQ(told[2].begin, told[1].end);
-  EXPECT_EQ(told[2].end, *r.periods.standstill);
+  const std::vector<WorkPeriod> reported = three_periods(r.periods, 0, r.until);
+  ASSERT_EQ(reported.size(), 3u);
+  EXPECT_EQ(reported[0].begin, 0);
+  EXPECT_EQ(reported[0].end, test::figure(r, "run_up_time"));
+  EXPECT_EQ(reported[1].begin, reported[0].end);
+  EXPECT_NEAR(reported[1].end, 20, 1e-12);
+  EXPECT_EQ(reported[2].begin, reported[1].end);
+  EXPECT_EQ(reported[2].end, *r.periods.standstill);
   // Nothing drives in the run-down; all works of the periods are those of the run, and each closes.
   EXPECT_EQ(test::figure(r, "work_of_run_down.driving"), 0);
   for (const char* kind : {"driving", "useful", "harmful"}) {
@@ -345,7 +345,7 @@ TEST(Periods, AreTheSameInWordsTablesAndWorks) {
   }
   // The driving work of the run-up, by a run that ends there.
   Scene scene = test::scene_file("tests/cases/reports/motor_switched_off.toml");
-  scene.run.until = told[0].end;
+  scene.run.until = reported[0].end;
   EXPECT_NEAR(test::figure(test::run(scene, false), "work.driving"), test::figure(r, "work_of_run_up.driving"),
               1e-4 * test::figure(r, "work_of_run_up.driving"));
 }

@@ -76,7 +76,7 @@ struct Taken {
 };
 std::map<std::pair<std::string, int>, std::vector<Taken>> machines_that_take() {
   std::map<std::pair<std::string, int>, std::vector<Taken>> list;
-  for (const char* folder : {"tests/agreement", "tests/agreement/swings", "scenes"})
+  for (const char* folder : {"tests/agreement", "tests/agreement/vibrations", "scenes"})
     for (const std::string& file : agreement::scene_files(test::source_path(folder))) {
       const Scene scene = short_scene(file);
       const std::set<int> refused = refused_steps(scene);

@@ -128,21 +128,21 @@ TEST(CriticalSpeeds, BehindTheCurvesStandsTheRigidMachine) {
   for (const SpeedResponse& s : study.rigid) EXPECT_NEAR(s.joints.front().peak, 10, 1e-4) << s.speed;
 }
 
-TEST(KeptSpeeds, AMotorBeyondItsBreakdownIsNotKept) {
+TEST(OperatingSpeeds, AMotorBeyondItsBreakdownIsNotKept) {
   EXPECT_FALSE(grows_at(85, "0.01 N*m*s/rad"));  // slip 0.15
   EXPECT_TRUE(grows_at(75, "0.01 N*m*s/rad"));   // slip 0.25
   EXPECT_GT(slope(75), 0.01);
   EXPECT_LT(slope(85), 0);
 }
 
-TEST(KeptSpeeds, ALoadThatRisesFasterHoldsIt) {
+TEST(OperatingSpeeds, ALoadThatRisesFasterHoldsIt) {
   const double rises = slope(60);
   ASSERT_GT(rises, 0.1);
   EXPECT_TRUE(grows_at(60, fmt::format("{} N*m*s/rad", 0.98 * rises)));
   EXPECT_FALSE(grows_at(60, fmt::format("{} N*m*s/rad", 1.02 * rises)));
 }
 
-TEST(KeptSpeeds, StretchesAreWhole) {
+TEST(OperatingSpeeds, StretchesAreWhole) {
   std::vector<SpeedResponse> sweep(6);
   sweep[1].kept = sweep[2].kept = sweep[5].kept = false;
   const auto list = stretches(sweep);
@@ -155,7 +155,7 @@ TEST(KeptSpeeds, StretchesAreWhole) {
 }
 
 // A rigid shaft pair under M cos φ on a wheel J: the speed swings by M/(J ω), at low speeds by more than itself.
-TEST(KeptSpeeds, OscillationOfTheSpeedIsThatOfTheClosedForm) {
+TEST(OperatingSpeeds, OscillationOfTheSpeedIsThatOfTheClosedForm) {
   const Scene scene = scene_from(R"~(
 line    = ["motor", "shaft", "wheel"]
 motor   = { kind = "dc shunt motor", stall_torque = "0.001 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }
@@ -170,15 +170,15 @@ run     = { start = { speed = "50 rad/s" } }
   ASSERT_FALSE(study.sweep.empty());
   for (const SpeedResponse& s : study.sweep) {
     const double swing = 40 / (2.0 * s.speed);
-    EXPECT_NEAR(s.speed_swing, swing, 1e-3 * swing) << s.speed;
-    EXPECT_EQ(s.kept, s.speed_swing < s.speed) << s.speed;
+    EXPECT_NEAR(s.speed_amplitude, swing, 1e-3 * swing) << s.speed;
+    EXPECT_EQ(s.kept, s.speed_amplitude < s.speed) << s.speed;
   }
   EXPECT_TRUE(std::any_of(study.sweep.begin(), study.sweep.end(), [](const auto& s) { return !s.kept; }));
 }
 
 // Mains-fed compressor at 979 rpm: its motor breaks down below some 900 rpm. Nothing below is critical or barred, where
 // the linear response says thousands of times what the coupling bears.
-TEST(KeptSpeeds, NothingIsBarredWhereTheMachineCannotStay) {
+TEST(OperatingSpeeds, NothingIsBarredWhereTheMachineCannotStay) {
   const Scene scene = scene_file("docs/tasks/two_cylinder_compressor.toml");
   const ModesStudy study = find_modes(scene, scene.effects, {});
   const auto is_kept = [&](double speed) {

@@ -56,7 +56,7 @@ accuracy = 1e-5
                      table);
 }
 
-bool tells_of_tables(const std::vector<std::string>& notes) {
+bool reports_of_tables(const std::vector<std::string>& notes) {
   return std::any_of(notes.begin(), notes.end(),
                      [](const std::string& note) { return note.find("re-tabulated") != std::string::npos; });
 }
@@ -94,7 +94,7 @@ TEST(DenseTables, SteadyMotionIsThatOfTheTableWithinItsErrors) {
   const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
   ASSERT_TRUE(exact.found && study.complete) << exact.why << study.diagnosis;
   const SteadyCycle& fewer = study.cycles.front();
-  EXPECT_TRUE(tells_of_tables(fewer.notes));
+  EXPECT_TRUE(reports_of_tables(fewer.notes));
   int compared = 0;
   for (const Figure& f : fewer.figures)
     if (const Figure* g = exact.find(f.name); g && f.error) {
@@ -109,7 +109,7 @@ TEST(DenseTables, SteadyMotionIsThatOfTheTableWithinItsErrors) {
 TEST(DenseTables, AReductionStatesWhatTheyLeaveOpen) {
   const Scene dense = scene_from(engine(1200));
   const MachineReduction a = reduce(dense, {}), b = reduce(with_rougher_tables(dense, 0), {});
-  EXPECT_TRUE(tells_of_tables(a.notes));
+  EXPECT_TRUE(reports_of_tables(a.notes));
   ASSERT_TRUE(a.mean_drive.error && b.mean_drive.error);
   EXPECT_LE(std::abs(a.mean_drive.value - b.mean_drive.value), *a.mean_drive.error + *b.mean_drive.error);
   ASSERT_EQ(a.spectra.size(), b.spectra.size());
@@ -127,7 +127,7 @@ TEST(DenseTables, ARunStatesWhatTheyLeaveOpen) {
   scene.run.until = 2;
   const Result fewer = simulate(scene, scene.effects, "", {}),
                exact = simulate(with_rougher_tables(scene, 0), scene.effects, "", {});
-  EXPECT_TRUE(tells_of_tables(fewer.notes));
+  EXPECT_TRUE(reports_of_tables(fewer.notes));
   int compared = 0;
   for (const Figure& f : fewer.figures)
     if (const Figure* g = find(exact.figures, f.name); g && f.error) {
@@ -149,7 +149,7 @@ TEST(DenseTables, ForcesStateWhatTheyLeaveOpen) {
     EXPECT_LE(std::abs(a.value - b.value), *a.error + *b.error) << k;
     EXPECT_LT(*a.error, 1e-4 * std::abs(a.value)) << k;
   }
-  EXPECT_TRUE(tells_of_tables(fewer.notes));
+  EXPECT_TRUE(reports_of_tables(fewer.notes));
 }
 
 }  // namespace

@@ -21,21 +21,21 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of channels and figures of a scene, without a run.
-struct Told {
+struct Reported {
   std::vector<Figure> figures;
   std::vector<Channel> channels;
 };
-const std::map<std::string, Told>& told_by_scenes() {
-  static const std::map<std::string, Told> all = [] {
-    std::map<std::string, Told> told;
+const std::map<std::string, Reported>& reported_by_scenes() {
+  static const std::map<std::string, Reported> all = [] {
+    std::map<std::string, Reported> reported;
     for (const auto& entry : fs::directory_iterator(test::source_path("scenes"))) {
       if (entry.path().extension() != ".toml") continue;
       const std::string name = entry.path().stem().string();
       const Scene scene = test::scene_file("scenes/" + name + ".toml");
       const auto model = compile(scene, scene.effects);
-      told[name] = {figure_list(*model), channels_of(*model, {})};
+      reported[name] = {figure_list(*model), channels_of(*model, {})};
     }
-    return told;
+    return reported;
   }();
   return all;
 }
@@ -128,14 +128,14 @@ TEST(Dictionary, EquationsItCitesStandInTheTheory) {
 }
 
 TEST(Dictionary, WhatRunsOfAllScenesReportIsExplained) {
-  for (const auto& [scene, told] : told_by_scenes()) {
-    for (const Figure& f : told.figures) {
+  for (const auto& [scene, reported] : reported_by_scenes()) {
+    for (const Figure& f : reported.figures) {
       const Definition* d = definition_of(name_of(f));
       ASSERT_NE(d, nullptr) << scene << ": " << f.name;
       EXPECT_TRUE(d->is_printed_by("run")) << scene << ": " << f.name;
       EXPECT_EQ(definition_of(f.name), d) << scene << ": by its text, " << f.name << " is another";
     }
-    for (const Channel& c : told.channels) {
+    for (const Channel& c : reported.channels) {
       const Definition* d = definition_of(c.name);
       ASSERT_NE(d, nullptr) << scene << ": " << c.name.text;
       EXPECT_TRUE(d->is_printed_by("run")) << scene << ": " << c.name.text;
@@ -145,8 +145,8 @@ TEST(Dictionary, WhatRunsOfAllScenesReportIsExplained) {
 
 // What moves may rock, and what shifts has a rate: their units are told beside the first.
 TEST(Dictionary, UnitsAreThoseOfTheFigures) {
-  for (const auto& [scene, told] : told_by_scenes())
-    for (const Figure& f : told.figures) {
+  for (const auto& [scene, reported] : reported_by_scenes())
+    for (const Figure& f : reported.figures) {
       const Definition* d = definition_of(name_of(f));
       if (!d || is_one_of(f.what, {quantities::peak_velocity, quantities::peak_acceleration})) continue;
       EXPECT_EQ(d->unit, f.unit) << scene << ": " << f.name;
@@ -154,10 +154,10 @@ TEST(Dictionary, UnitsAreThoseOfTheFigures) {
 }
 
 TEST(Dictionary, WhatItSaysThatRunsReportIsReportedByOne) {
-  std::set<std::string_view> told;
-  for (const auto& [scene, of] : told_by_scenes()) {
-    for (const Figure& f : of.figures) told.insert(definition_of(name_of(f))->name);
-    for (const Channel& c : of.channels) told.insert(definition_of(c.name)->name);
+  std::set<std::string_view> reported;
+  for (const auto& [scene, of] : reported_by_scenes()) {
+    for (const Figure& f : of.figures) reported.insert(definition_of(name_of(f))->name);
+    for (const Channel& c : of.channels) reported.insert(definition_of(c.name)->name);
   }
   // No scene of the folder has the element, or the model of it, that brings them along.
   // The measured ones are told where a test's record is laid over the run (measured_test.cpp), the current of a cycle
@@ -167,7 +167,7 @@ TEST(Dictionary, WhatItSaysThatRunsReportIsReportedByOne) {
                                                     "measured_shift", "measured_offset",  "current_use"};
   for (const Definition& d : dictionary()) {
     if (!d.is_printed_by("run") || d.name == "coordinates" || d.name == "change_with") continue;
-    EXPECT_NE(told.contains(d.name), not_in_scenes.contains(d.name)) << d.name;
+    EXPECT_NE(reported.contains(d.name), not_in_scenes.contains(d.name)) << d.name;
   }
 }
 
@@ -175,7 +175,7 @@ TEST(Dictionary, ARunReportsNothingThatIsNotListed) {
   for (const char* name : {"dc_hoist", "press_drive", "worm_hoist"}) {
     Scene scene = test::scene_file(std::string("scenes/") + name + ".toml");
     std::set<std::string> listed;
-    for (const Figure& f : told_by_scenes().at(name).figures) listed.insert(f.name);
+    for (const Figure& f : reported_by_scenes().at(name).figures) listed.insert(f.name);
     for (const Figure& f : test::run(scene, false).figures) EXPECT_TRUE(listed.contains(f.name)) << f.name;
   }
 }
@@ -200,13 +200,13 @@ TEST(Dictionary, WordsFindWhatIsMeant) {
 }
 
 TEST(Dictionary, AFigureUnderAnotherNameIsNamed) {
-  const std::vector<std::string> told = {"cycle_fluctuation.press", "peak_torque.main", "cycle_max_speed.press"};
-  EXPECT_EQ(told_instead("delta.press", told), "cycle_fluctuation.press");
-  EXPECT_EQ(told_instead("delta", told), "cycle_fluctuation.press");
-  EXPECT_EQ(told_instead("cycle_peak_torque.main", told), "peak_torque.main");
-  EXPECT_EQ(told_instead("max_speed.press", told), "cycle_max_speed.press");
-  EXPECT_EQ(told_instead("delta.flywheel", told), "");
-  EXPECT_EQ(told_instead("impacts.press", told), "");
+  const std::vector<std::string> reported = {"cycle_fluctuation.press", "peak_torque.main", "cycle_max_speed.press"};
+  EXPECT_EQ(stated_instead("delta.press", reported), "cycle_fluctuation.press");
+  EXPECT_EQ(stated_instead("delta", reported), "cycle_fluctuation.press");
+  EXPECT_EQ(stated_instead("cycle_peak_torque.main", reported), "peak_torque.main");
+  EXPECT_EQ(stated_instead("max_speed.press", reported), "cycle_max_speed.press");
+  EXPECT_EQ(stated_instead("delta.flywheel", reported), "");
+  EXPECT_EQ(stated_instead("impacts.press", reported), "");
 }
 
 // The peaks of a cycle have names of their own: none is that of a whole run.
@@ -234,14 +234,14 @@ TEST(Dictionary, AFigureIsAskedForByItsNameOrItsQuantity) {
 }
 
 TEST(Dictionary, AListHasEveryFigureAndARunWhatItFound) {
-  const auto told = [](bool listing) {
+  const auto reported = [](bool listing) {
     std::vector<Figure> figures;
-    FigureTeller tell(figures, listing);
-    tell(quantities::mid_speed, "press", [] { return Found{6.2, 6, 1.5, true, 1e-9}; });
-    tell("thermal_use", "motor", []() -> std::optional<Found> { return {}; });
+    FigureReporter report(figures, listing);
+    report(quantities::mid_speed, "press", [] { return Found{6.2, 6, 1.5, true, 1e-9}; });
+    report("thermal_use", "motor", []() -> std::optional<Found> { return {}; });
     return figures;
   };
-  const std::vector<Figure> list = told(true), found = told(false);
+  const std::vector<Figure> list = reported(true), found = reported(false);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[0].name, "mid_speed.press");
   EXPECT_EQ(list[0].unit, "rad/s");

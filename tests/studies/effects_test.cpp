@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OfExample, testing::ValuesIn(example_scenes()),
 TEST_P(OfExample, AnEffectThatIsOffLeavesNoTrace) {
   const Scene scene = example(GetParam());
   for (const EffectFlag& flag : effect_flags()) {
-    if (flag.unsaid != EffectFlag::Unsaid::where_given || !has_parameters(scene, flag)) continue;
+    if (flag.by_default != EffectFlag::Default::where_given || !has_parameters(scene, flag)) continue;
     Scene never = scene;
     test::erase_effect(never, flag.name);
     if (has_parameters(never, flag)) continue;  // a component that is nothing but the effect
@@ -105,18 +105,18 @@ TEST(Effects, EachIsRankedByWhatItChanges) {
   const Scene scene = test::scene_from(resonant_branch);
   const EffectStudy study = study_effects(scene, plain());
   ASSERT_TRUE(study.full.complete);
-  ASSERT_EQ(study.left_out.size(), 2u);
-  EXPECT_EQ(study.left_out[0].effect.name, "elasticity:pump_shaft");
-  EXPECT_EQ(study.left_out[0].saved.states, 2);  // a twist and a speed
-  EXPECT_GT(study.left_out[0].saved.nonzeros, 0);
+  ASSERT_EQ(study.omitted.size(), 2u);
+  EXPECT_EQ(study.omitted[0].effect.name, "elasticity:pump_shaft");
+  EXPECT_EQ(study.omitted[0].saved.states, 2);  // a twist and a speed
+  EXPECT_GT(study.omitted[0].saved.nonzeros, 0);
   // By their own size the RMS and the peak are missed alike; both come before all else.
-  const auto peak = std::find_if(study.left_out[0].changes.begin(), study.left_out[0].changes.end(),
+  const auto peak = std::find_if(study.omitted[0].changes.begin(), study.omitted[0].changes.end(),
                                  [](const auto& change) { return change.figure == "peak_torque.pump_shaft"; });
-  ASSERT_NE(peak, study.left_out[0].changes.end());
+  ASSERT_NE(peak, study.omitted[0].changes.end());
   EXPECT_GT(peak->relative, 0.9);
-  EXPECT_NE(study.left_out[0].changes.front().figure.find("torque.pump_shaft"), std::string::npos);
+  EXPECT_NE(study.omitted[0].changes.front().figure.find("torque.pump_shaft"), std::string::npos);
   // Rigid, the shaft carries M + J α; at resonance 1/(2 ζ) times as much: most of it is missed.
-  EXPECT_GT(study.left_out[0].changes.front().relative, 0.9);
+  EXPECT_GT(study.omitted[0].changes.front().relative, 0.9);
 }
 
 TEST(Advise, KeepsALightlyDampedModeThatCarriesLittleEnergy) {

@@ -157,8 +157,8 @@ TEST_F(Fit, SharesUnknownsBetweenRecordsAndLeavesEachOut) {
   EXPECT_NEAR(found.unknowns[0].value, damping, 4 * *found.unknowns[0].error);
   EXPECT_NEAR(found.unknowns[1].value, omega0, 4 * *found.unknowns[1].error);
   EXPECT_NEAR(found.unknowns[2].value, coasted(0.2), 4 * *found.unknowns[2].error);
-  ASSERT_EQ(found.left_out.size(), 6u);
-  for (const WithoutRecord& l : found.left_out)
+  ASSERT_EQ(found.omitted.size(), 6u);
+  for (const WithoutRecord& l : found.omitted)
     if (l.name == "drag.damping") {
       EXPECT_LT(std::abs(*l.errors), 5);
     }

@@ -92,7 +92,7 @@ TEST(ForcesOfTheSteadyMotion, HaveTheSpeedsAndWorksOfTheSteadyCycle) {
 
 // Behind an elastic machine's curves stand those of the rigid one: what the study says of it alone, to the last bit.
 TEST(ForcesOfTheSteadyMotion, OfTheRigidMachineStandBehind) {
-  const Scene scene = test::scene_file("tests/agreement/swings/worm_losses_shaft.toml");
+  const Scene scene = test::scene_file("tests/agreement/vibrations/worm_losses_shaft.toml");
   ForcesOptions options;
   options.rigid_behind = true;
   const Forces f = find_forces(scene, options);
@@ -117,7 +117,7 @@ TEST(ForcesOfTheSteadyMotion, OfTheRigidMachineStandBehind) {
 TEST(CompiledMachine, TurnsTheCrankWithTheTorqueThatItsLinksNeed) {
   for (const char* name : {"joint_friction_rigid", "joint_friction_crank", "compressor", "light_flywheel"}) {
     const std::string folder = std::string(name) == "compressor"       ? "scenes"
-                               : std::string(name) == "light_flywheel" ? "tests/agreement/swings"
+                               : std::string(name) == "light_flywheel" ? "tests/agreement/vibrations"
                                                                        : "tests/agreement";
     const Forces f = find_forces(test::scene_file(fmt::format("{}/{}.toml", folder, name)), {});
     ASSERT_TRUE(f.simulated && f.simulated->machine_residual) << name;

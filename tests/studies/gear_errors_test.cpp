@@ -66,22 +66,22 @@ std::map<std::string, Real> pair_in_long_double(const GearPairData& d) {
           {"A.zeta", 1 - (t2 - start) / (u * (start - t1))}};
 }
 
-struct Told {
+struct Reported {
   Real value, error;
 };
-Told told(const Json& of, const std::string& key) {
+Reported reported(const Json& of, const std::string& key) {
   return {of.at(key).get<double>(), of.at(key + "_error").get<double>()};
 }
 
-Told told_of(const Json& pair, const std::string& name) {
-  if (name.starts_with("wheel.")) return told(pair["wheels"][0], name.substr(6));
+Reported reported_of(const Json& pair, const std::string& name) {
+  if (name.starts_with("wheel.")) return reported(pair["wheels"][0], name.substr(6));
   if (name.starts_with("A.") || name.starts_with("E.")) {
     const Json& at = pair["path"][name[0] == 'A' ? 0 : 4];
-    if (name.ends_with(".g")) return told(at, "g");
+    if (name.ends_with(".g")) return reported(at, "g");
     const int wheel = name[0] == 'A' ? 0 : 1;
     return {at["specific_sliding"][wheel].get<double>(), at["specific_sliding_error"][wheel].get<double>()};
   }
-  return told(pair, name);
+  return reported(pair, name);
 }
 
 TEST(GearErrors, cover_the_difference_to_long_double_and_are_those_of_rounding) {
@@ -108,7 +108,7 @@ TEST(GearErrors, cover_the_difference_to_long_double_and_are_those_of_rounding) 
     ++pairs;
     const Json json = Json::parse(output_of(gears).json())["pairs"][0];
     for (const auto& [name, exact] : pair_in_long_double(d)) {
-      const Told t = told_of(json, name);
+      const Reported t = reported_of(json, name);
       EXPECT_LE(std::abs(t.value - exact), t.error) << name << ", trial " << trial;
       const Real scale = name == "tip_shortening" || name == "backlash_normal" ? p.centre_distance / p.data.module
                          : name.ends_with(".g")                                ? p.centre_distance
@@ -191,8 +191,8 @@ TEST(GearErrors, of_bevel_and_worm_pairs_cover_the_difference_to_long_double) {
     const Real cone = static_cast<Real>(b.module) * b.teeth[0] / (2 * std::sin(one));
     EXPECT_LE(std::abs(bevel["cone_angle"][0].get<double>() - one), bevel["cone_angle_error"][0].get<double>());
     EXPECT_LE(std::abs(bevel["cone_angle"][1].get<double>() - two), bevel["cone_angle_error"][1].get<double>());
-    EXPECT_LE(std::abs(told(bevel, "cone_distance").value - cone), told(bevel, "cone_distance").error);
-    EXPECT_LT(told(bevel, "cone_distance").error, 1e-13L * cone);
+    EXPECT_LE(std::abs(reported(bevel, "cone_distance").value - cone), reported(bevel, "cone_distance").error);
+    EXPECT_LT(reported(bevel, "cone_distance").error, 1e-13L * cone);
     EXPECT_LE(std::abs(bevel["virtual_teeth"][1].get<double>() - b.teeth[1] / std::cos(two)),
               bevel["virtual_teeth_error"][1].get<double>());
 
@@ -205,11 +205,11 @@ TEST(GearErrors, of_bevel_and_worm_pairs_cover_the_difference_to_long_double) {
     const Real lead = std::atan(static_cast<Real>(w.starts) * w.module / w.worm_diameter);
     const Real friction = std::atan(w.friction / std::cos(static_cast<Real>(w.pressure_angle)));
     const Real back = std::tan(lead - friction) / std::tan(lead);
-    EXPECT_LE(std::abs(told(worm, "lead_angle").value - lead), told(worm, "lead_angle").error);
-    EXPECT_LE(std::abs(told(worm, "efficiency").value - std::tan(lead) / std::tan(lead + friction)),
-              told(worm, "efficiency").error);
-    EXPECT_LE(std::abs(told(worm, "efficiency_back").value - back), told(worm, "efficiency_back").error);
-    EXPECT_LT(told(worm, "efficiency_back").error, 1e-12L);
+    EXPECT_LE(std::abs(reported(worm, "lead_angle").value - lead), reported(worm, "lead_angle").error);
+    EXPECT_LE(std::abs(reported(worm, "efficiency").value - std::tan(lead) / std::tan(lead + friction)),
+              reported(worm, "efficiency").error);
+    EXPECT_LE(std::abs(reported(worm, "efficiency_back").value - back), reported(worm, "efficiency_back").error);
+    EXPECT_LT(reported(worm, "efficiency_back").error, 1e-12L);
   }
 }
 

@@ -17,22 +17,22 @@ Scene worn_pin() {
   return scene;
 }
 
-bool tells(const std::vector<std::string>& notes) {
+bool reports(const std::vector<std::string>& notes) {
   return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     return note.find("variable inertia is off") != std::string::npos &&
            note.find("joint clearance goes with it") != std::string::npos;
   });
 }
 
-TEST(IdleEffects, clearance_without_variable_inertia_is_told) {
+TEST(IdleEffects, clearance_without_variable_inertia_is_reported) {
   const Scene scene = worn_pin();
   Effects effects = scene.effects;
   EXPECT_TRUE(idle_effects(*compile(scene, effects)).empty());
   effects.variable_inertia = false;
-  EXPECT_TRUE(tells(idle_effects(*compile(scene, effects))));
+  EXPECT_TRUE(reports(idle_effects(*compile(scene, effects))));
   SimulateOptions brief;
   brief.measure_error = false;
-  EXPECT_TRUE(tells(simulate(scene, effects, "", brief).notes));
+  EXPECT_TRUE(reports(simulate(scene, effects, "", brief).notes));
   effects.joint_clearance = false;
   EXPECT_TRUE(idle_effects(*compile(scene, effects)).empty());
 }
@@ -41,7 +41,7 @@ TEST(IdleEffects, the_study_of_effects_says_what_its_row_of_variable_inertia_too
   SimulateOptions brief;
   brief.measure_error = false;
   const EffectStudy study = study_effects(worn_pin(), brief);
-  EXPECT_TRUE(tells(study.notes));
+  EXPECT_TRUE(reports(study.notes));
   EXPECT_NE(output_of(study).text().find("variable inertia is off"), std::string::npos);
 }
 

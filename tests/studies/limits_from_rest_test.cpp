@@ -153,10 +153,10 @@ TEST(LimitsFromRest, StartFactorCountsOnWhatTheStartAddsAndTemperatureOnAll) {
 
 // --- resonance ---
 
-std::string shaken_table(double mean, double swing) {
+std::string shaken_table(double mean, double vibratory) {
   std::string points;
   for (int k = 0; k < 72; ++k)
-    points += fmt::format("[{}, {:.17g}], ", 5 * k, mean + swing * std::cos(5 * k * pi / 180));
+    points += fmt::format("[{}, {:.17g}], ", 5 * k, mean + vibratory * std::cos(5 * k * pi / 180));
   return fmt::format(
       "[shaker]\nkind = \"load\"\non = \"disc\"\nacts = \"always\"\n[shaker.table]\nover = \"angle\"\nunit = [\"deg\", "
       "\"N*m\"]\ninterpolation = \"smooth\"\npoints = [{}]\n",
@@ -223,11 +223,11 @@ run = {{ start = {{ speed = "100 rad/s", equilibrium = true }} }}
     const ModesStudy m = modes_of(text);
     const double psi = damping * 2 * pi * f / stiffness;  // ψ/2π
     const double v = std::sqrt((1 + psi * psi) / (std::pow(1 - ratio * ratio, 2) + psi * psi));
-    const double swing = amplitude * far / (own + far) * v;
+    const double vibratory = amplitude * far / (own + far) * v;
     const double factor = f > 10 ? std::sqrt(f / 10) : 1;
-    EXPECT_NEAR(verdict_on(m, "vibratory").value, temperature * factor * swing, 1e-6 * swing) << ratio;
+    EXPECT_NEAR(verdict_on(m, "vibratory").value, temperature * factor * vibratory, 1e-6 * vibratory) << ratio;
     EXPECT_NEAR(verdict_on(m, "nominal").value, temperature * 40, 1e-6);
-    const double twist = swing / std::hypot(stiffness, damping * 2 * pi * f);
+    const double twist = vibratory / std::hypot(stiffness, damping * 2 * pi * f);
     EXPECT_NEAR(verdict_on(m, "dissipated").value, 0.5 * damping * std::pow(2 * pi * f * twist, 2), 1e-4) << ratio;
   }
 }
@@ -256,13 +256,13 @@ LimitedJoint joint_of(const DriveLimits& limits, double rated = 40, bool has_pla
   return joint;
 }
 // Mean and a resonance curve of width 5 around 80 rad/s, no swing far from it.
-std::vector<SpeedLoads> resonance(double mean, double swing) {
+std::vector<SpeedLoads> resonance(double mean, double vibratory) {
   std::vector<SpeedLoads> sweep;
   for (int i = 10; i <= 150; ++i) {
     JointLoad load;
     load.mean.value = mean;
-    load.swing.value = load.weighted.value = swing / (1 + std::pow((i - 80) / 5.0, 2));
-    load.upper.value = mean + load.swing.value, load.lower.value = mean - load.swing.value;
+    load.vibratory.value = load.weighted.value = vibratory / (1 + std::pow((i - 80) / 5.0, 2));
+    load.upper.value = mean + load.vibratory.value, load.lower.value = mean - load.vibratory.value;
     sweep.push_back({static_cast<double>(i), {load}});
   }
   return sweep;
@@ -317,8 +317,8 @@ effects = { elasticity = true }
 
 // Each limit bars alone: upper, lower, alternating, stress, heat; and where all are given, the one used most.
 TEST(BarredRanges, EveryLimitBars) {
-  const auto bars = [](const DriveLimits& limits, double mean, double swing) {
-    const auto ranges = barred_ranges({joint_of(limits)}, resonance(mean, swing), 1);
+  const auto bars = [](const DriveLimits& limits, double mean, double vibratory) {
+    const auto ranges = barred_ranges({joint_of(limits)}, resonance(mean, vibratory), 1);
     return ranges.empty() ? std::string() : ranges[0].reason;
   };
   DriveLimits maximum, vibratory, shear;
@@ -337,7 +337,8 @@ TEST(BarredRanges, EveryLimitBars) {
   DriveLimits heat;
   heat.power = 10;
   std::vector<SpeedLoads> sweep = resonance(20, 40);
-  for (SpeedLoads& s : sweep) s.joints[0].power.value = std::pow(s.joints[0].swing.value, 2) / 40;  // 40 W at the peak
+  for (SpeedLoads& s : sweep)
+    s.joints[0].power.value = std::pow(s.joints[0].vibratory.value, 2) / 40;  // 40 W at the peak
   const auto hot = barred_ranges({joint_of(heat)}, sweep, 1);
   ASSERT_EQ(hot.size(), 1u);
   EXPECT_EQ(hot[0].reason, "dissipated_power");
@@ -366,7 +367,7 @@ TEST(BarredRanges, EndsAreRootsWhereTheLoadsAreKnownBetweenThePoints) {
   const std::vector<LimitedJoint> joints = {joint_of(limits)};
   const auto at = [](double speed) {
     JointLoad load;
-    load.swing.value = load.weighted.value = 100 / (1 + std::pow((speed - 80) / 5.0, 2));
+    load.vibratory.value = load.weighted.value = 100 / (1 + std::pow((speed - 80) / 5.0, 2));
     return std::vector<JointLoad>{load};
   };
   const auto ranges = barred_ranges(joints, resonance(0, 100), 1, at);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double near_inertia = 0.5, far_inertia = 1.5, stiffness = 2400, damping = 6;  // ω₀ = 80 rad/s
-constexpr double drive = 40, swing = 8, speed = 100;
+constexpr double drive = 40, vibratory = 8, speed = 100;
 
 // Two masses on a spring. The load M = −(40 + 8 cos φ) N·m swings once a turn; `sense` −1: all of it turned round.
 std::string two_masses(int sense, const std::string& limits, const std::string& further = "") {
@@ -54,7 +54,7 @@ accuracy = 1e-6
                        std::string points;
                        for (int k = 0; k < 72; ++k)
                          points += fmt::format("[{}, {:.17g}], ", 5 * k,
-                                               sense * (drive + swing * std::cos(5 * k * pi / 180)));
+                                               sense * (drive + vibratory * std::cos(5 * k * pi / 180)));
                        return points;
                      }(),
                      sense * speed);
@@ -83,11 +83,11 @@ TEST(Limits, AmplitudesAboveTenHertzCountWithTheRootOfTheirFrequency) {
   const std::string limits = "vibratory_torque = \"30 N*m\"";
   const ModesStudy by_order = modes_of(two_masses(1, limits));
   const double f = speed / (2 * pi);  // 15.9 Hz
-  EXPECT_NEAR(verdict_on(by_order, "vibratory").value, std::sqrt(f / 10) * amplitude_of(swing, speed), 2e-5);
+  EXPECT_NEAR(verdict_on(by_order, "vibratory").value, std::sqrt(f / 10) * amplitude_of(vibratory, speed), 2e-5);
   for (const double hertz : {4.0, 40.0}) {
     const ModesStudy m =
         modes_of(two_masses(1, limits, fmt::format("amplitude = \"300 N*m\"\nfrequency = \"{} Hz\"", hertz)));
-    const double swings = amplitude_of(300, 2 * pi * hertz, far_inertia) + amplitude_of(swing, speed);
+    const double swings = amplitude_of(300, 2 * pi * hertz, far_inertia) + amplitude_of(vibratory, speed);
     const Verdict& verdict = verdict_on(m, "vibratory");
     EXPECT_NEAR(verdict.value, std::sqrt(std::max(1.0, hertz / 10)) * swings, 1e-4) << hertz;
     EXPECT_EQ(verdict.holds(), verdict.value <= 30);
@@ -145,16 +145,16 @@ TEST(Limits, ResonancesBelowTheOperatingSpeedArePassedAndBarredUpToTheLimit) {
   const ModesStudy m = modes_of(two_masses(1, "maximum_torque = \"45 N*m\""));
   double passing = 0;
   for (const SpeedResponse& s : m.sweep)
-    if (s.speed <= speed) passing = std::max(passing, drive + amplitude_of(swing, s.speed));
+    if (s.speed <= speed) passing = std::max(passing, drive + amplitude_of(vibratory, s.speed));
   EXPECT_NEAR(verdict_on(m, "maximum").value, passing, 1e-4 * passing);
-  EXPECT_GT(passing, drive + amplitude_of(swing, speed) + 1);
+  EXPECT_GT(passing, drive + amplitude_of(vibratory, speed) + 1);
   ASSERT_EQ(m.barred.size(), 1u);
   for (const double edge : {m.barred[0].from, m.barred[0].to})
-    EXPECT_NEAR(drive + amplitude_of(swing, edge), 45, 0.02) << edge;
+    EXPECT_NEAR(drive + amplitude_of(vibratory, edge), 45, 0.02) << edge;
   EXPECT_NEAR(m.barred[0].peak, passing, 1e-4 * passing);
   // and one above it is not
   ModesStudy slow = modes_of(two_masses(1, "maximum_torque = \"45 N*m\""), {.speed = 40.0, .fastest = 120});
-  EXPECT_LT(verdict_on(slow, "maximum").value, drive + amplitude_of(swing, 41));
+  EXPECT_LT(verdict_on(slow, "maximum").value, drive + amplitude_of(vibratory, 41));
 }
 
 }  // namespace

@@ -283,9 +283,9 @@ TEST(ForcesInALinkage, HaveTheFrictionOfTheJoints) {
   Effects off;
   ForcesOptions options;
   options.effects = off;
-  const Forces left_out = find_forces(test::scene_from(rough), options);
-  EXPECT_EQ(left_out.prescribed->torque.value, ideal.prescribed->torque.value);
-  EXPECT_NE(left_out.notes.back().find("friction in the joints is omitted"), std::string::npos);
+  const Forces omitted = find_forces(test::scene_from(rough), options);
+  EXPECT_EQ(omitted.prescribed->torque.value, ideal.prescribed->torque.value);
+  EXPECT_NE(omitted.notes.back().find("friction in the joints is omitted"), std::string::npos);
 }
 
 }  // namespace

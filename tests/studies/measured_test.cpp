@@ -187,8 +187,8 @@ TEST_F(Measured, ASteadyCycleTakesTheTimeModuloItsPeriod) {
   Findings f = findings_of(study);
   show(f, o);
   const StudyOutput output{std::move(f)};
-  const auto told = nlohmann::json::parse(output.json()).at("measured").at("models").at(0);
-  EXPECT_NEAR(told.at("shift").get<double>(), -0.2 * period, 1e-5 * period);
+  const auto reported = nlohmann::json::parse(output.json()).at("measured").at("models").at(0);
+  EXPECT_NEAR(reported.at("shift").get<double>(), -0.2 * period, 1e-5 * period);
   int measured = 0;
   for (const ReportSection& section : output.report().sections)
     for (const Card& card : section.cards)

@@ -167,9 +167,9 @@ TEST(ModesAtRest, RestUpsideDownIsStatedToGrow) {
     return held;
   }());
   EXPECT_TRUE(m.modes.empty());
-  bool told = false;
-  for (const std::string& note : m.notes) told = told || note.find("grows by itself") != std::string::npos;
-  EXPECT_TRUE(told);
+  bool reported = false;
+  for (const std::string& note : m.notes) reported = reported || note.find("grows by itself") != std::string::npos;
+  EXPECT_TRUE(reported);
 }
 
 // Without weights nothing brings it back: where it stands it does not swing, and pushed it comes to the end of its arc.

@@ -96,7 +96,7 @@ TEST(ModesByEnergy, AWindingAndAnInertiaShareTheirEnergyInHalves) {
   const double omega = constant / std::sqrt(inductance * (j1 + j2)), zeta = resistance / (2 * inductance * omega);
   EXPECT_NEAR(winding.omega, omega, 1e-5 * omega);
   EXPECT_NEAR(winding.ratio, zeta, 1e-5);
-  EXPECT_NEAR(winding.energy.in_own(), 0.5, 1e-5);
+  EXPECT_NEAR(winding.energy.in_internal_states(), 0.5, 1e-5);
   EXPECT_NEAR(winding.energy.inertias, 0.5, 1e-5);
   EXPECT_NE(modes::energy_text(m, winding).find("current of motor 50 %"), std::string::npos)
       << modes::energy_text(m, winding);

@@ -128,7 +128,7 @@ Seen equations_of(const Scene& scene) {
         };
         add(s.alpha, model->shafts.size());
         add(s.joint_torque, model->network.joints.size());
-        add(s.sums.own_rate, model->own_states.size());
+        add(s.sums.internal_rate, model->internal_states.size());
         add(s.sums.element_torque, model->network.elements.size());
         seen.numbers.push_back(equations.stored_energy(t, y));
       }

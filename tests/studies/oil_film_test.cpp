@@ -95,8 +95,8 @@ slider_pin = { radius = "20 mm", roughness = "0.3 um", bore_roughness = "0.4 um"
   EXPECT_LT(slider.parameter.value, 0.1);
   EXPECT_GT(slider.boundary, 0);
   EXPECT_LT(slider.boundary + slider.mixed, 1);
-  const Findings told = findings_of(f);
-  EXPECT_TRUE(std::any_of(told.figures.begin(), told.figures.end(), [&](const KeyFigure& k) {
+  const Findings reported = findings_of(f);
+  EXPECT_TRUE(std::any_of(reported.figures.begin(), reported.figures.end(), [&](const KeyFigure& k) {
     return k.means == "film_parameter" && k.value == main.parameter.value;
   }));
 }

@@ -55,12 +55,12 @@ TEST(OrbitCycle, LoadBehindASlippingLimiterIsItsLimit) {
 
 // dω/dφ = (M − ½ I′ ω²)/(I ω) and dt = dφ/ω by Runge and Kutta's fourth order from edge to edge, on the rigid machine's own
 // functions: a second source, with no step of the engine's.
-struct RoundOfEnergy {
+struct CycleOfEnergy {
   double end, time = 0, fastest, slowest;
 };
-RoundOfEnergy round_of_energy(RigidMachine& machine, double speed) {
+CycleOfEnergy cycle_of_energy(RigidMachine& machine, double speed) {
   constexpr int steps = 8000;  // from edge to edge; extremes at the steps
-  RoundOfEnergy r{.end = speed, .fastest = speed, .slowest = speed};
+  CycleOfEnergy r{.end = speed, .fastest = speed, .slowest = speed};
   const std::vector<double> edges = cycle_edges(machine);
   for (std::size_t piece = 0; piece + 1 < edges.size(); ++piece) {
     const double h = (edges[piece + 1] - edges[piece]) / steps;
@@ -105,7 +105,7 @@ press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia
   }
   EXPECT_NEAR(c.cycle.load.total(), 60e3 * (0.010 - 0.001), 1e-6);
   EXPECT_NEAR(c.cycle.drive.total(), c.cycle.load.total(), 1e-6);
-  const RoundOfEnergy exact = round_of_energy(machine, c.speed.value(0));
+  const CycleOfEnergy exact = cycle_of_energy(machine, c.speed.value(0));
   EXPECT_NEAR(exact.end, c.speed.value(0), 1e-9 * exact.end);
   EXPECT_NEAR(c.fastest.value, exact.fastest, 1e-8 * exact.fastest);
   EXPECT_NEAR(c.slowest.value, exact.slowest, 1e-8 * exact.slowest);
@@ -219,7 +219,7 @@ TEST(OrbitCycle, ASearchThatFailsProvesNothingOfAFlywheel) {
   const Watch watch = {};
   const SizedOrbit first = SizedOrbits(scene, parts, watch).at(s.methods.front().flywheel, scene.effects, {}, false);
   ASSERT_TRUE(first.found) << first.why;
-  parts.most_rounds = 0;
+  parts.most_periods = 0;
   const SizedOrbits::Meeting m =
       SizedOrbits(scene, parts, watch).meeting(0.5 * first.crank.value, first, s.motor_inertia, scene.effects, 1e-5);
   EXPECT_FALSE(m.orbit);

@@ -91,8 +91,9 @@ TEST(Orders, AreThoseOfAShakenWheelInClosedForm) {
       EXPECT_EQ(phase->unit, "deg");
     }
   // Two orders, and no others; the drive's speed is given and has none.
-  for (const char* channel : {"speed.wheel", "torque.coupling"}) EXPECT_EQ(orders_of(c, channel).telling().size(), 2u);
-  EXPECT_TRUE(orders_of(c, "speed.drive").telling().empty());
+  for (const char* channel : {"speed.wheel", "torque.coupling"})
+    EXPECT_EQ(orders_of(c, channel).reporting().size(), 2u);
+  EXPECT_TRUE(orders_of(c, "speed.drive").reporting().empty());
 }
 
 // The drive's speed is given: the part of its vibration that orders contain would be one of rounding.
@@ -112,7 +113,7 @@ TEST(Orders, ConserveTheMeanSquare) {
   const Scene scene = scene_from(Shaken::text());
   const SteadyCycle c = cycle_of(scene, scene.effects);
   const OrdersOf& torque = orders_of(c, "torque.coupling");
-  EXPECT_NEAR(torque.captured(torque.telling()), 1, 1e-9);
+  EXPECT_NEAR(torque.captured(torque.reporting()), 1, 1e-9);
   EXPECT_NEAR(std::sqrt(torque.mean_square), c.find("cycle_rms_torque.coupling")->value, 1e-8 * torque.mean_square);
   double sum = torque.mean * torque.mean;
   for (const Order& o : torque.orders) sum += 0.5 * std::norm(o.wave);
@@ -124,9 +125,9 @@ TEST(Orders, OfAFourStrokeCycleComeInHalves) {
   const SteadyCycle c = cycle_of(scene, scene.effects);
   for (const char* channel : {"torque.coupling", "speed.crank", "speed.fan"}) {
     const OrdersOf& of = orders_of(c, channel);
-    ASSERT_GE(of.telling().size(), 3u) << channel;
+    ASSERT_GE(of.reporting().size(), 3u) << channel;
     for (std::size_t n = 0; n < of.orders.size(); ++n) EXPECT_EQ(of.orders[n].order, 0.5 * static_cast<double>(n + 1));
-    EXPECT_EQ(of.telling().front().order, 0.5) << channel;
+    EXPECT_EQ(of.reporting().front().order, 0.5) << channel;
     EXPECT_NEAR(of.captured(of.orders), 1, 1e-4) << channel;  // what is above the 24th order
   }
   for (const char* name : {"torque_order.0.5.coupling", "torque_order.1.coupling", "torque_order.1.5.coupling",
@@ -153,9 +154,9 @@ run = {{ start = {{ angle = "33 deg" }}, until = "1 s" }}
         speed));
     const SteadyCycle c = cycle_of(scene, Effects{});
     const OrdersOf& of = orders_of(c, "torque.coupling");
-    ASSERT_EQ(of.telling().size(), 1u) << speed;
+    ASSERT_EQ(of.reporting().size(), 1u) << speed;
     EXPECT_NEAR(of.mean, -10, 1e-9);
-    const Order order = of.telling().front();
+    const Order order = of.reporting().front();
     EXPECT_EQ(order.order, 2);
     EXPECT_NEAR(std::abs(order.wave), 10, 1e-9);
     ASSERT_TRUE(order.phase());

@@ -171,8 +171,8 @@ TEST(Trace, PlotsReachThePeaksThatTheFiguresReport) {
   const Trace* torque = c.b.traces->find("torque.shaft");
   ASSERT_TRUE(torque);
   const double drawn = *std::max_element(torque->y.begin(), torque->y.end()),
-               told = c.b.find("peak_torque.shaft")->value;
-  EXPECT_NEAR(drawn, told, 5e-3 * told);
+               reported = c.b.find("peak_torque.shaft")->value;
+  EXPECT_NEAR(drawn, reported, 5e-3 * reported);
 }
 
 // T + V − Σ work stays the same along the traces.

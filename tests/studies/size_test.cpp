@@ -287,10 +287,10 @@ TEST(Size, DimensionsAreThoseOfTheFlywheelThatMeetsTheDemand) {
 }
 
 TEST(Size, RefusesInWords) {
-  const std::string sound = press(straight(1200, 9));
+  const std::string valid = press(straight(1200, 9));
   for (const double delta : {0.0, -0.05, 2.0, 3.0})
-    EXPECT_NE(refusal(sound, demand(delta)).find("must be > 0 and < 2"), std::string::npos) << delta;
-  EXPECT_NE(refusal(sound, SizeOptions{}).find("--delta 0.05"), std::string::npos);
+    EXPECT_NE(refusal(valid, demand(delta)).find("must be > 0 and < 2"), std::string::npos) << delta;
+  EXPECT_NE(refusal(valid, SizeOptions{}).find("--delta 0.05"), std::string::npos);
   // Too weak: 540 J a turn are 85.94 N·m; this motor's best mean torque is its stall torque of 20.
   const std::string weak = refusal(press(straight(20, 9)), demand(0.1));
   EXPECT_NE(weak.find("too weak"), std::string::npos) << weak;
@@ -307,14 +307,14 @@ TEST(Size, RefusesInWords) {
   SizeOptions at_speed = demand(0.1);
   at_speed.mid_speed = 5.0;
   const std::string idle = test::with(
-      sound, "load = { kind = \"press\", nominal_force = \"60 kN\", nominal_travel = \"10 mm\", rise = \"2 mm\" }",
+      valid, "load = { kind = \"press\", nominal_force = \"60 kN\", nominal_travel = \"10 mm\", rise = \"2 mm\" }",
       "load = { kind = \"constant\", force = \"100 N\" }");
   const std::string none =
       refusal(test::with(idle, straight(1200, 9), "kind = \"torque source\", torque = \"0 N*m\""), at_speed);
   EXPECT_NE(none.find("no net resistance"), std::string::npos) << none;
   SizeOptions named = demand(0.1);
   named.flywheel = "motor";
-  EXPECT_NE(refusal(sound, named).find("allowed: \"wheel\""), std::string::npos) << refusal(sound, named);
+  EXPECT_NE(refusal(valid, named).find("allowed: \"wheel\""), std::string::npos) << refusal(valid, named);
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ run = {{ start = "rest", until = "20 s" }}
 // q̇ of shafts that a gear ties: nearest by kinetic energy, and exact for speeds that obey it.
 // A pin that orbits in its gap: its mean place touches nothing, so that the linear drive is not the machine's.
 TEST(SmallMotions, WhereTheLinearResponseMissesTheAmplitudeItSaysSo) {
-  const Scene scene = test::scene_file("tests/agreement/swings/worn_pin_shaft.toml");
+  const Scene scene = test::scene_file("tests/agreement/vibrations/worn_pin_shaft.toml");
   const ModesStudy study = find_modes(scene, scene.effects, {});
   ASSERT_TRUE(study.cycle);
   EXPECT_LT(study.here.joints[0].peak, 0.01 * study.cycle->joints[0].peak);

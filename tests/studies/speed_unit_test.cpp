@@ -53,11 +53,11 @@ TEST(SpeedUnits, RaysOfTheCampbellDiagramKeepTheirSlope) {
 TEST(SpeedUnits, OnlyWordsAndTheNameOfTheUnitChange) {
   Scene scene = test::scene_file("scenes/crank_press.toml");
   scene.run.until = 0.2;
-  const auto told = [&](const SpeedUnit& unit) {
+  const auto reported = [&](const SpeedUnit& unit) {
     scene.speed_unit = unit;
     return nlohmann::json::parse(output_of(test::run(scene, false)).json());
   };
-  const nlohmann::json turns = told({}), radian = told(radians());
+  const nlohmann::json turns = reported({}), radian = reported(radians());
   EXPECT_EQ(turns["speed_unit"], "rpm");
   EXPECT_EQ(radian["speed_unit"], "rad/s");
   EXPECT_EQ(turns["figures"], radian["figures"]);

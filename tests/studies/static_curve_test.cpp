@@ -50,13 +50,13 @@ double peak_ratio(const Scene& scene) {
   return test::figure(c.b, "peak_torque.main_coupling") / test::figure(c.a, "peak_torque.main_coupling");
 }
 
-TEST(StaticCurve, ringing_at_a_third_of_the_mains_frequency_is_told_to_be_too_fast) {
+TEST(StaticCurve, ringing_at_a_third_of_the_mains_frequency_is_reported_to_be_too_fast) {
   const std::string note = note_of(test::run(press_with(""), false));
   EXPECT_NE(note.find("% of the mains' 50 Hz"), std::string::npos) << note;
   EXPECT_NE(note.find("frequency = \"50 Hz\""), std::string::npos) << note;
 }
 
-TEST(StaticCurve, a_scene_with_the_data_of_two_axes_is_told_to_switch_them_on) {
+TEST(StaticCurve, a_scene_with_the_data_of_two_axes_is_reported_to_switch_them_on) {
   Scene scene = press_with("frequency = \"50 Hz\"\nresistance_ratio = 1");
   scene.effects.transients = false;
   const std::string note = note_of(test::run(scene, false));
@@ -84,7 +84,7 @@ run   = { until = "5 s" }
 }
 
 // One sentence, whoever says it; people, page and programs get it.
-void expect_told(const char* verb, const StudyOutput& output) {
+void expect_reported(const char* verb, const StudyOutput& output) {
   const std::string begin = "the drive \"motor\" oscillates at about", end = "too fast for the curve";
   for (const std::string& text : {output.text(), output.json()}) {
     // In JSON its quotation marks are escaped.
@@ -96,7 +96,7 @@ void expect_told(const char* verb, const StudyOutput& output) {
 }
 
 // Which model the motor has, and why.
-void expect_lag_told(const char* verb, const StudyOutput& output) {
+void expect_lag_reported(const char* verb, const StudyOutput& output) {
   for (const std::string& text : {output.text(), output.json()})
     EXPECT_NE(text.find("lag of the fluxes"), std::string::npos) << verb;
 }
@@ -111,9 +111,9 @@ TEST(StaticCurve, is_judged_in_the_steady_motion) {
   const Scene scene = press_with("");
   SteadyOptions options;
   options.start_search = false;
-  expect_told("steady", output_of(steady(scene, {scene.effects}, options)));
+  expect_reported("steady", output_of(steady(scene, {scene.effects}, options)));
   const Scene lagging = lagging_press_with("");
-  expect_lag_told("steady", output_of(steady(lagging, {lagging.effects}, options)));
+  expect_lag_reported("steady", output_of(steady(lagging, {lagging.effects}, options)));
   Scene two_axes = press_with("frequency = \"50 Hz\"\nresistance_ratio = 1");
   two_axes.effects.transients = true;
   for (const std::string& note : steady(two_axes, {two_axes.effects}, options).notes)
@@ -123,26 +123,26 @@ TEST(StaticCurve, is_judged_in_the_steady_motion) {
 TEST(StaticCurve, is_judged_in_the_motion_of_the_sized_machine) {
   SizeOptions options;
   options.delta = 0.05;
-  expect_told("size", output_of(size_flywheel(press_with(""), options)));
-  expect_lag_told("size", output_of(size_flywheel(lagging_press_with(""), options)));
+  expect_reported("size", output_of(size_flywheel(press_with(""), options)));
+  expect_lag_reported("size", output_of(size_flywheel(lagging_press_with(""), options)));
 }
 
 TEST(StaticCurve, is_judged_where_models_are_compared) {
   const Scene scene = press_with("");
-  expect_told("compare", output_of(compare(scene, models_to_compare(scene), quick())));
+  expect_reported("compare", output_of(compare(scene, models_to_compare(scene), quick())));
   const Scene lagging = lagging_press_with("");
-  expect_lag_told("compare", output_of(compare(lagging, models_to_compare(lagging), quick())));
+  expect_lag_reported("compare", output_of(compare(lagging, models_to_compare(lagging), quick())));
 }
 
 // The full model has the lag, whatever the scene has.
 TEST(StaticCurve, lags_in_the_full_model_of_effects_and_advice) {
   const Scene scene = press_with("");
-  expect_lag_told("effects", output_of(study_effects(scene, quick())));
+  expect_lag_reported("effects", output_of(study_effects(scene, quick())));
   AdviseOptions options;
   options.simulate = quick();
   options.within = 0.05;
   options.held_out = false;
-  expect_lag_told("advise", output_of(advise(scene, options)));
+  expect_lag_reported("advise", output_of(advise(scene, options)));
 }
 
 TEST(StaticCurve, lags_on_the_fullest_level_of_accuracy) {
@@ -152,7 +152,7 @@ TEST(StaticCurve, lags_on_the_fullest_level_of_accuracy) {
   options.multibody = false;
   Scene scene = press_with("");
   scene.run.until = 1;
-  expect_lag_told("accuracy", output_of(measure_accuracy(scene, options)));
+  expect_lag_reported("accuracy", output_of(measure_accuracy(scene, options)));
 }
 
 // What docs/how_it_works.md says of the motor's models.

@@ -501,7 +501,7 @@ TEST(SteadyOutput, JsonHoldsFiguresMultipliersAndOperatingPoints) {
 
 // What weights take is not lost: a screw and a wedge that lift. As `run` has it (theory 1.3).
 TEST(Steady, EfficiencyCountsWeightsWithTheDrivingWork) {
-  const Scene scene = scene_file("tests/agreement/swings/screw_wedge_slide.toml");
+  const Scene scene = scene_file("tests/agreement/vibrations/screw_wedge_slide.toml");
   const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
   ASSERT_TRUE(study.cycles.size() == 1 && study.cycles[0].found);
   const SteadyCycle& cycle = study.cycles[0];

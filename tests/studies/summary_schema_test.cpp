@@ -87,11 +87,11 @@ void expect_explained(const std::string& verb, const Findings& findings) {
 
 void expect_met(const std::string& verb, const Findings& findings) {
   expect_explained(verb, findings);
-  test::expect_sound_conclusion(findings, verb);
+  test::expect_valid_conclusion(findings, verb);
   EXPECT_EQ(misfit(schema().at("$defs").at(verb), Json::parse(json_text(summary_of(findings))), verb), "");
 }
 template <class Study>
-void expect_told(const std::string& verb, const Study& study) {
+void expect_reported(const std::string& verb, const Study& study) {
   expect_met(verb, findings_of(study));
 }
 
@@ -103,27 +103,27 @@ Scene short_press() {
 
 TEST(SummarySchema, HoldsForRunsAndComparisons) {
   const Scene scene = short_press();
-  expect_told("run", simulate(scene, scene.effects, "elastic", {}));
+  expect_reported("run", simulate(scene, scene.effects, "elastic", {}));
   SimulateOptions unsure;
   unsure.measure_error = false;
-  expect_told("run", simulate(test::scene_file("scenes/stick_slip.toml"), {}, "rigid", unsure));
-  expect_told("compare", compare(scene, {{}, scene.effects, "rigid", "elastic"}, unsure));
+  expect_reported("run", simulate(test::scene_file("scenes/stick_slip.toml"), {}, "rigid", unsure));
+  expect_reported("compare", compare(scene, {{}, scene.effects, "rigid", "elastic"}, unsure));
 }
 
 TEST(SummarySchema, HoldsForStudiesOfTheCycle) {
   const Scene scene = short_press();
-  expect_told("steady", steady(scene, {Effects{}, scene.effects}, {}));
-  expect_told("modes", find_modes(scene, scene.effects, {.torque = "main_coupling"}));
-  expect_told("forces", find_forces(scene, {}));
-  expect_told("forces", find_forces(test::scene_file("scenes/four_bar_rocker.toml"), {}));
+  expect_reported("steady", steady(scene, {Effects{}, scene.effects}, {}));
+  expect_reported("modes", find_modes(scene, scene.effects, {.torque = "main_coupling"}));
+  expect_reported("forces", find_forces(scene, {}));
+  expect_reported("forces", find_forces(test::scene_file("scenes/four_bar_rocker.toml"), {}));
   SizeOptions size;
   size.delta = 0.05;
   size.simulate = false;
-  expect_told("size", size_flywheel(scene, size));
-  expect_told("reduce", reduce(scene, {}));
+  expect_reported("size", size_flywheel(scene, size));
+  expect_reported("reduce", reduce(scene, {}));
   ReduceOptions to_the_slider;
   to_the_slider.to = "press.slider";
-  expect_told("reduce", reduce(scene, to_the_slider));
+  expect_reported("reduce", reduce(scene, to_the_slider));
 }
 
 // Its figures are those of the questions that it asks, and are explained there.
@@ -131,34 +131,34 @@ TEST(SummarySchema, HoldsForTheReportOfATrain) {
   const Scene scene = test::scene_file("docs/tasks/gear_fan.toml");
   const StudyOutput report =
       question_named("report").answer({.scene = scene, .text = scene.text, .file = scene.file, .settings = {}}, {});
-  test::expect_sound_conclusion(report, "report");
+  test::expect_valid_conclusion(report, "report");
   EXPECT_EQ(misfit(schema().at("$defs").at("report"), Json::parse(report.json()), "report"), "");
 }
 
 TEST(SummarySchema, HoldsForGears) {
   GearsOptions turning;
   turning.speed = 100;
-  expect_told("gears", find_gears(test::scene_file("scenes/gear_pair.toml"), turning));
-  expect_told("bevel_pair", BevelPair{.teeth = {19, 40}, .module = 0.004, .shaft_angle = 1.5});
+  expect_reported("gears", find_gears(test::scene_file("scenes/gear_pair.toml"), turning));
+  expect_reported("bevel_pair", BevelPair{.teeth = {19, 40}, .module = 0.004, .shaft_angle = 1.5});
   expect_met("worm_pair", findings_of(WormPair{.starts = 1, .teeth = 40, .module = 0.004, .worm_diameter = 0.05}, 150));
 }
 
 TEST(SummarySchema, HoldsForStudiesOfTheModel) {
   Scene scene = test::scene_file("scenes/stick_slip.toml");
   scene.run.until = 1;
-  expect_told("effects", study_effects(scene, {}));
-  expect_told("advise", advise(scene, {}));
+  expect_reported("effects", study_effects(scene, {}));
+  expect_reported("advise", advise(scene, {}));
   AccuracyOptions brief;
   brief.time = 0.1;
-  expect_told("accuracy", measure_accuracy(scene, brief));
+  expect_reported("accuracy", measure_accuracy(scene, brief));
 }
 
 // The check itself finds what is missing, unknown, or of another type.
 TEST(SummarySchema, IsNotMetByWhatIsElse) {
   const Json& rule = schema().at("$defs").at("figure");
-  const Json sound = {{"name", "a"}, {"value", 1.5}, {"unit", "m"}, {"error", nullptr}};
-  EXPECT_EQ(misfit(rule, sound, ""), "");
-  Json less = sound, more = sound, other = sound;
+  const Json valid = {{"name", "a"}, {"value", 1.5}, {"unit", "m"}, {"error", nullptr}};
+  EXPECT_EQ(misfit(rule, valid, ""), "");
+  Json less = valid, more = valid, other = valid;
   less.erase("unit");
   more["colour"] = "red";
   other["value"] = "1.5 m";

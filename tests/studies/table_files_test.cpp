@@ -131,28 +131,28 @@ TEST(TableFiles, AMatFileHoldsTheTrajectoryInModelicasLayout) {
   ASSERT_EQ(info.dims[0], 4u);
   ASSERT_EQ(info.dims[1], names.size());
   ASSERT_EQ(words.size(), names.size());
-  const auto told = [&](std::size_t name, std::size_t what) {
+  const auto reported = [&](std::size_t name, std::size_t what) {
     return static_cast<const std::int32_t*>(info.data)[4 * name + what];
   };
   EXPECT_EQ(names[0], "time");
-  EXPECT_EQ(told(0, 0), 0);
-  EXPECT_EQ(told(0, 1), 1);
+  EXPECT_EQ(reported(0, 0), 0);
+  EXPECT_EQ(reported(0, 1), 1);
   const DataTable table = trajectory_data(ringing());
   const std::vector<std::vector<double>> numbers = columns_of(table);
   std::size_t quantities = 0, constants = 0;
   for (std::size_t i = 1; i < names.size(); ++i) {
-    const auto row = static_cast<std::size_t>(told(i, 1)) - 1;
+    const auto row = static_cast<std::size_t>(reported(i, 1)) - 1;
     ASSERT_GT(row, 0u) << "the first row is the time";
-    EXPECT_EQ(told(i, 2), 0) << "linear between";
-    if (told(i, 0) == 1) {
+    EXPECT_EQ(reported(i, 2), 0) << "linear between";
+    if (reported(i, 0) == 1) {
       ++constants;
-      EXPECT_EQ(told(i, 3), 0) << "constant beyond the ends";
+      EXPECT_EQ(reported(i, 3), 0) << "constant beyond the ends";
       const Figure* figure = ringing().find(names[i]);
       ASSERT_TRUE(figure) << names[i];
       for (const std::size_t end : {0u, 1u}) EXPECT_EQ(mat.number("data_1", row, end), figure->value) << names[i];
     } else {
       ++quantities;
-      EXPECT_EQ(told(i, 3), -1) << "unknown beyond the ends";
+      EXPECT_EQ(reported(i, 3), -1) << "unknown beyond the ends";
       ASSERT_EQ(names[i], table.columns[row].name);
       for (std::size_t at = 0; at < numbers[0].size(); ++at)
         EXPECT_EQ(mat.number("data_2", row, at), numbers[row][at]) << names[i] << at;

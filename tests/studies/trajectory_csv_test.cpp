@@ -81,13 +81,13 @@ TEST(TrajectoryCsv, HoldsThePeakBetweenItsRows) {
 }
 
 TEST(TrajectoryCsv, CoarseRowsAreReported) {
-  const auto told = [](const Result& r) {
+  const auto reported = [](const Result& r) {
     return std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& note) {
       return note.find("are too coarse for the motion") != std::string::npos;
     });
   };
-  EXPECT_TRUE(told(run_with(4)));
-  EXPECT_FALSE(told(run_with(1000)));
+  EXPECT_TRUE(reported(run_with(4)));
+  EXPECT_FALSE(reported(run_with(1000)));
 }
 
 // Two masses with 4 rows as with 1001: the equidistant rows do not move.

@@ -147,12 +147,12 @@ TEST(Uncertainty, WrongTolerancesAreReportedInTheirPlace) {
       {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", k = 2 }", "normal"},
       {"{ value = \"1.5 kg\", tolerance = \"3 %\" }", "inertia"},
       {"{ value = \"1.5 kg*m2\", from = \"2 kg*m2\", to = \"3 kg*m2\" }", "between"}};
-  for (const auto& [text, told] : cases) {
+  for (const auto& [text, reported] : cases) {
     try {
       test::scene_from(resonator(text).text);
       ADD_FAILURE() << text;
     } catch (const SceneError& error) {
-      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << text << "\n" << error.what();
+      EXPECT_NE(std::string(error.what()).find(reported), std::string::npos) << text << "\n" << error.what();
     }
   }
   MachineQuestion none = resonator("\"1.5 kg*m2\"");

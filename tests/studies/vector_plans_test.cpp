@@ -21,7 +21,7 @@ const char* const scenes[] = {"scenes/crank_press.toml",       "scenes/shaper.to
                               "scenes/straight_line_saw.toml", "scenes/drag_link_feeder.toml",
                               "scenes/six_link_press.toml",    "scenes/stephenson.toml",
                               "scenes/scotch_yoke.toml",       "scenes/straight_line.toml",
-                              "scenes/walking_leg.toml",       "tests/agreement/swings/inverted_crank_shaft.toml"};
+                              "scenes/walking_leg.toml",       "tests/agreement/vibrations/inverted_crank_shaft.toml"};
 
 // A spring from the yoke's point Y to F in the frame; joints rub.
 const char* const sprung_yoke = R"(
@@ -99,7 +99,7 @@ start = { speed = "60 rpm" }
 
 // The block at A on the slot of lever 3: L² = a² + r² − 2 a r cos φ, v = L′ ω, ω₃ = (r² − a r cos φ) ω/L², aᶜ = 2 ω₃ v.
 TEST(VectorPlans, ASlidingBlockHasCoriolisAcceleration) {
-  const ForcesSheet sheet = sheet_of_scene(test::scene_file("tests/agreement/swings/inverted_crank_shaft.toml"));
+  const ForcesSheet sheet = sheet_of_scene(test::scene_file("tests/agreement/vibrations/inverted_crank_shaft.toml"));
   const double r = 0.1, a = 0.3, w = 3;
   for (const double phi : {0.4, 1.7, 3.0, 5.0}) {
     const LinkAt at{phi, w, 0};

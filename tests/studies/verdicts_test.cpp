@@ -295,7 +295,7 @@ TEST(Effects, ATinyFigureWithinItsErrorDoesNotDominate) {
   ASSERT_FALSE(changes.empty());
   EXPECT_EQ(changes.front().figure, "peak_torque.pump");
   EXPECT_NEAR(changes.front().relative, 0.1, 1e-12);
-  for (const FigureChange& change : changes) EXPECT_EQ(change.told(), change.figure == "peak_torque.pump");
+  for (const FigureChange& change : changes) EXPECT_EQ(change.reported(), change.figure == "peak_torque.pump");
 }
 
 // The measured error is the floor: a looser run's tolerance hides no figure that was measured well.

@@ -43,7 +43,7 @@ inline std::string in_one_run_of_words(std::string text) {
 }
 
 // The same first sentence on the terminal, in the short and the full form, on the page and in JSON; at most four digits.
-inline void expect_sound_conclusion(const Findings& f, const std::string& whose) {
+inline void expect_valid_conclusion(const Findings& f, const std::string& whose) {
   const std::vector<std::string> sentences = concluded(f.claims);
   ASSERT_FALSE(sentences.empty()) << whose;
   const std::string& first = sentences.front();
@@ -52,9 +52,9 @@ inline void expect_sound_conclusion(const Findings& f, const std::string& whose)
       << whose;
   EXPECT_NE(terminal_text(f).find(first), std::string::npos) << whose << ": " << first;
   if (f.brief) {
-    const std::string told = in_one_run_of_words(headline_text(f)), wanted = in_one_run_of_words(first);
+    const std::string reported = in_one_run_of_words(headline_text(f)), wanted = in_one_run_of_words(first);
     const std::size_t n = std::min<std::size_t>(60, wanted.size());  // what is longer may be cut
-    EXPECT_EQ(told.substr(0, n), wanted.substr(0, n)) << whose;
+    EXPECT_EQ(reported.substr(0, n), wanted.substr(0, n)) << whose;
     EXPECT_NE(brief_text(f).find(headline_text(f)), std::string::npos) << whose;
   }
   for (const std::string& number : numbers_in(f.conclusion()))

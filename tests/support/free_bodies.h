@@ -32,15 +32,15 @@ inline OpenNode most_open_node(Equations& equations, double t, std::span<const d
   };
   for (std::size_t n = 0; n < net.nodes.size(); ++n)
     act(static_cast<int>(n), -net.nodes[n].inertia * m.gain_of_node[n] * s.alpha[m.shaft_of_node[n]]);
-  std::vector<char> is_left_out(net.nodes.size(), 0);
+  std::vector<char> is_omitted(net.nodes.size(), 0);
   for (const GearTorque& gear : m.gear_torques)
     for (const GearTorque::Term& term : gear.terms)
-      if (term.joint >= 0) is_left_out[at(gear.node)] = 1;
+      if (term.joint >= 0) is_omitted[at(gear.node)] = 1;
   for (std::size_t e = 0; e < net.elements.size(); ++e) {
     const int node = net.elements[e].node, shaft = m.shaft_of_node[at(node)];
     const double alpha = m.gain_of_node[at(node)] * s.alpha[shaft];
     act(node, s.sums.element_torque[e] - s.sums.element_inertia[e] * alpha);
-    if (net.elements[e].element->is.directional && equations.at_standstill(at(shaft))) is_left_out[at(node)] = 1;
+    if (net.elements[e].element->is.directional && equations.at_standstill(at(shaft))) is_omitted[at(node)] = 1;
   }
   std::vector<double> turning(net.joints.size(), 0.0);
   for (std::size_t i = 0; i < m.elastic.size(); ++i) turning[at(m.elastic[i].joint)] = s.sums.turning_torque[i];
@@ -57,7 +57,7 @@ inline OpenNode most_open_node(Equations& equations, double t, std::span<const d
   }
   OpenNode worst;
   for (std::size_t n = 0; n < net.nodes.size(); ++n) {
-    if (is_left_out[n]) continue;
+    if (is_omitted[n]) continue;
     const int p = m.shafts[at(m.shaft_of_node[n])].prescribed;
     if (p >= 0 && net.prescribed[at(p)].is_nothing()) continue;
     if (net.nodes[n].prescribed >= 0) act(static_cast<int>(n), s.reaction[n]);

@@ -371,7 +371,7 @@ inline void expect_same_events(const Result& first, const Result& second, const 
     return kept;
   };
   const std::vector<Event> a = own(first.events), b = own(second.events);
-  const auto told = [](const std::vector<Event>& list) {
+  const auto reported = [](const std::vector<Event>& list) {
     std::string text;
     for (const Event& e : list)
       text += fmt::format("    {:.9g} s {}: {} (from {})\n", e.t, e.component, e.what, e.from);
@@ -387,7 +387,7 @@ inline void expect_same_events(const Result& first, const Result& second, const 
            (other_end ? at_other_end(a[k].what) : turned(a[k].what, sign)) == b[k].what &&
            turned(a[k].from, sign) == b[k].from && std::abs(a[k].t - b[k].t) <= 30 * allowed * second.until;
   }
-  EXPECT_TRUE(same) << "events\n" << told(a) << "and\n" << told(b);
+  EXPECT_TRUE(same) << "events\n" << reported(a) << "and\n" << reported(b);
 }
 
 inline void expect_same_energy(const EnergyBalance& a, const EnergyBalance& b, double allowed) {

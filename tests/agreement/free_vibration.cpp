@@ -1,5 +1,5 @@
-// free_swing.cpp — pushes, what the runs make of them, and the exponents of that.
-#include "tests/agreement/free_swing.h"
+// free_vibration.cpp — pushes, what the runs make of them, and the exponents of that.
+#include "tests/agreement/free_vibration.h"
 
 #include <fmt/format.h>
 
@@ -37,9 +37,9 @@ constexpr double real_enough = 1e-3;       // of a double exponent half the digi
 constexpr double much = 0.1;               // of the energy
 
 // States at equal times.
-class Looks final : public Observer {
+class StateSamples final : public Observer {
  public:
-  Looks(double from, double step, int number) : from_(from), step_(step), number_(number) {}
+  StateSamples(double from, double step, int number) : from_(from), step_(step), number_(number) {}
   void begin(double, std::span<const double> y, Equations& equations) override {
     if (list_.empty()) take(y, equations);
   }
@@ -84,7 +84,7 @@ class Pushing {
     weigh();
   }
 
-  FreeSwings find() {
+  FreeVibrations find() {
     try {
       measure();
     } catch (const std::runtime_error& error) {
@@ -110,9 +110,9 @@ class Pushing {
     }
     for (Stretch* s : {both_.data(), one_.data()})
       for (int k = 0; k < found_.sub_intervals; ++k) s[k].basis = basis_of(both_[at(k)].begin);
-    found_.list = swings_of(both_);
-    const std::vector<FreeSwing> other = swings_of(one_);
-    for (FreeSwing& s : found_.list) add_error(s, other);
+    found_.list = vibrations_of(both_);
+    const std::vector<FreeVibration> other = vibrations_of(one_);
+    for (FreeVibration& s : found_.list) add_error(s, other);
     found_.measured = true;
   }
 
@@ -152,19 +152,19 @@ class Pushing {
     }
     if (!a.allFinite()) return {};
     const Eigen::VectorXcd values = eigenvalues(a);
-    std::vector<Complex> swinging;
+    std::vector<Complex> vibrating;
     for (const Complex& value : values)
-      if (value.imag() > 1e-3 * std::abs(value)) swinging.push_back(value);
-    std::sort(swinging.begin(), swinging.end(), [](Complex u, Complex v) { return std::abs(u) < std::abs(v); });
-    return swinging;
+      if (value.imag() > 1e-3 * std::abs(value)) vibrating.push_back(value);
+    std::sort(vibrating.begin(), vibrating.end(), [](Complex u, Complex v) { return std::abs(u) < std::abs(v); });
+    return vibrating;
   }
   void choose_sub_intervals() {
     held_ = rates();
-    const std::vector<Complex>& swinging = held_;
+    const std::vector<Complex>& vibrating = held_;
     double fastest = run_.base == Base::none ? 1 : 2 * pi / run_.period, fading = 0;
-    for (std::size_t i = 0; i < std::min(looked_for, swinging.size()); ++i) {
-      fastest = std::max(fastest, std::abs(swinging[i]));
-      fading = std::max(fading, std::abs(swinging[i].real()));
+    for (std::size_t i = 0; i < std::min(looked_for, vibrating.size()); ++i) {
+      fastest = std::max(fastest, std::abs(vibrating[i]));
+      fading = std::max(fading, std::abs(vibrating[i].real()));
     }
     period_ = run_.base == Base::none ? 1.5 / fastest : run_.period;
     const double number = std::ceil(period_ * fading / dies_by);
@@ -181,9 +181,9 @@ class Pushing {
 
   // --- runs ---
 
-  Looks run_from(const Checkpoint& from, Checkpoint* end) const {
+  StateSamples run_from(const Checkpoint& from, Checkpoint* end) const {
     Equations equations(run_.model, false);
-    Looks looks(from.state.t, step_ / looks_, looks_);
+    StateSamples looks(from.state.t, step_ / looks_, looks_);
     RunOptions options{.tolerance = settings_.tolerance,
                        .method = "auto",
                        .until = from.state.t + step_,
@@ -198,7 +198,7 @@ class Pushing {
       *end = outcome.checkpoint;
       end->integrals.clear(), end->observers.clear();
     }
-    Looks whole = looks;
+    StateSamples whole = looks;
     return whole;
   }
   // Speeds that are tied stay so.
@@ -247,7 +247,7 @@ class Pushing {
     return look * s.begin.completeOrthogonalDecomposition().solve(s.basis);
   }
 
-  std::vector<FreeSwing> swings_of(const std::vector<Stretch>& stretches) const {
+  std::vector<FreeVibration> vibrations_of(const std::vector<Stretch>& stretches) const {
     const std::size_t number = stretches.size();
     std::vector<Index> first(number + 1, 0);
     for (std::size_t k = 0; k < number; ++k) first[k + 1] = first[k] + stretches[k].basis.cols();
@@ -258,7 +258,7 @@ class Pushing {
       cyclic.block(first[(k + 1) % number], first[k], next.basis.cols(), image.cols()) = next.basis.transpose() * image;
     }
     const Eigenpairs pairs = eigenpairs(cyclic);
-    std::vector<FreeSwing> list;
+    std::vector<FreeVibration> list;
     const double sector = pi / static_cast<double>(number);
     for (Index e = 0; e < first[number]; ++e) {
       // Of N values that differ by roots of one, and their conjugates, the one next to the positive axis.
@@ -267,47 +267,48 @@ class Pushing {
       std::vector<Eigen::VectorXcd> pieces;
       for (std::size_t k = 0; k < number; ++k)
         pieces.push_back(pairs.vectors.col(e).segment(first[k], stretches[k].basis.cols()));
-      const FreeSwing swing = followed(stretches, pieces, mu);
-      const bool seen = std::any_of(list.begin(), list.end(), [&](const FreeSwing& s) {
-        return std::abs(s.omega - swing.omega) + std::abs(s.decay - swing.decay) < 1e-9 * s.natural();
+      const FreeVibration vibration = followed(stretches, pieces, mu);
+      const bool seen = std::any_of(list.begin(), list.end(), [&](const FreeVibration& s) {
+        return std::abs(s.omega - vibration.omega) + std::abs(s.decay - vibration.decay) < 1e-9 * s.natural();
       });
-      if (swing.omega > 0 && !seen) list.push_back(swing);
+      if (vibration.omega > 0 && !seen) list.push_back(vibration);
     }
     // What is locked comes in two, and takes the place of a swing; else what never changes its sign from period to period is
     // a slow change of speed that the forced swing follows.
-    const std::vector<FreeSwing> all = list;
-    const auto free = std::count_if(all.begin(), all.end(), [](const FreeSwing& s) { return !s.locked; });
-    std::erase_if(list, [&](const FreeSwing& s) {
+    const std::vector<FreeVibration> all = list;
+    const auto free = std::count_if(all.begin(), all.end(), [](const FreeVibration& s) { return !s.locked; });
+    std::erase_if(list, [&](const FreeVibration& s) {
       return s.locked && !s.turned &&
              (free >= static_cast<std::ptrdiff_t>(held_.size()) ||
-              std::none_of(all.begin(), all.end(), [&](const FreeSwing& o) {
+              std::none_of(all.begin(), all.end(), [&](const FreeVibration& o) {
                 return o.locked && o.decay != s.decay && std::abs(o.omega - s.omega) < 1.02 * pi / period_;
               }));
     });
-    if (!run_.model->own_states.empty()) leave_others(list);
-    std::sort(list.begin(), list.end(), [](const FreeSwing& a, const FreeSwing& b) { return a.omega < b.omega; });
+    if (!run_.model->internal_states.empty()) leave_others(list);
+    std::sort(list.begin(), list.end(),
+              [](const FreeVibration& a, const FreeVibration& b) { return a.omega < b.omega; });
     return list;
   }
   // Currents, deflections of rods: what has its energy in these may turn with the shafts at a frequency that is not its
   // own. A swing of shafts is one that the machine has, or nearly, while its angles are held, and it is the nearest.
-  void leave_others(std::vector<FreeSwing>& list) const {
-    const auto apart = [](const FreeSwing& s, const Complex& rate) {
+  void leave_others(std::vector<FreeVibration>& list) const {
+    const auto apart = [](const FreeVibration& s, const Complex& rate) {
       return std::hypot(s.omega - rate.imag(), s.decay + rate.real());
     };
-    const std::vector<FreeSwing> all = list;
-    for (FreeSwing& s : list) {
+    const std::vector<FreeVibration> all = list;
+    for (FreeVibration& s : list) {
       const auto rate = std::min_element(held_.begin(), held_.end(),
                                          [&](const Complex& a, const Complex& b) { return apart(s, a) < apart(s, b); });
       if (rate == held_.end() || apart(s, *rate) > 0.35 * s.natural()) s.share = 0;
-      for (const FreeSwing& o : all)
+      for (const FreeVibration& o : all)
         if (rate != held_.end() && apart(o, *rate) < apart(s, *rate) && apart(s, *rate) > 0.1 * s.natural())
           s.share = 0;
     }
   }
 
   // Along the period: how the twist that swings most turns.
-  FreeSwing followed(const std::vector<Stretch>& stretches, const std::vector<Eigen::VectorXcd>& pieces,
-                     Complex mu) const {
+  FreeVibration followed(const std::vector<Stretch>& stretches, const std::vector<Eigen::VectorXcd>& pieces,
+                         Complex mu) const {
     std::vector<Eigen::VectorXcd> path;
     const double log_mu = std::log(std::abs(mu));
     for (std::size_t k = 0; k < stretches.size(); ++k) {
@@ -322,29 +323,29 @@ class Pushing {
         path.push_back(phase * std::exp(-log_mu * part) * (s.looks[i].cast<Complex>() * weights));
       }
     }
-    return swing_of(path, log_mu, std::arg(mu));
+    return vibration_of(path, log_mu, std::arg(mu));
   }
 
   // Of a path without its decay, e^{iωt} p(t): in which of its frequencies the machine's parts have most energy.
-  FreeSwing swing_of(const std::vector<Eigen::VectorXcd>& path, double log_mu, double arg_mu) const {
-    FreeSwing swing;
-    swing.decay = -log_mu / step_;
+  FreeVibration vibration_of(const std::vector<Eigen::VectorXcd>& path, double log_mu, double arg_mu) const {
+    FreeVibration vibration;
+    vibration.decay = -log_mu / step_;
     const auto twists = static_cast<Index>(equations_.twists_begin());
     const auto joints = static_cast<Index>(run_.model->elastic.size());
     const double lowest = arg_mu / step_;
     const MatrixXd energy = energies(path, lowest);
     Index joint = 0;
     const Index k = sideband_of(energy.colwise().sum(), lowest);
-    swing.omega = frequency(lowest, k, energy.cols());
-    swing.share = energy.col(k).segment(twists, joints).sum() / std::max(energy.col(k).sum(), 1e-300);
+    vibration.omega = frequency(lowest, k, energy.cols());
+    vibration.share = energy.col(k).segment(twists, joints).sum() / std::max(energy.col(k).sum(), 1e-300);
     energy.col(k).segment(twists, joints).maxCoeff(&joint);
-    swing.joint = run_.model->network.joints[at(run_.model->elastic[at(joint)].joint)].component;
+    vibration.joint = run_.model->network.joints[at(run_.model->elastic[at(joint)].joint)].component;
     const double phase = std::abs(lowest) * period_;  // over a period
-    swing.locked = phase < real_enough || std::abs(phase - pi) < real_enough;
-    swing.turned = swing.locked && phase > 1;
+    vibration.locked = phase < real_enough || std::abs(phase - pi) < real_enough;
+    vibration.turned = vibration.locked && phase > 1;
     // The motion itself, later or earlier, neither grows nor dies away; nor does what is bound to stay as it is.
-    if (swing.locked && (swing.share < 0.25 || std::abs(swing.decay) * period_ < 1e-4)) swing.omega = 0;
-    return swing;
+    if (vibration.locked && (vibration.share < 0.25 || std::abs(vibration.decay) * period_ < 1e-4)) vibration.omega = 0;
+    return vibration;
   }
   double frequency(double lowest, Index k, Index number) const {
     return std::abs(lowest + 2 * pi * static_cast<double>(k <= number / 2 ? k : k - number) / period_);
@@ -354,7 +355,7 @@ class Pushing {
   Index sideband_of(const Eigen::RowVectorXd& energy, double lowest) const {
     Index best = 0;
     const double most = energy.maxCoeff(&best);
-    if (run_.model->own_states.empty()) return best;
+    if (run_.model->internal_states.empty()) return best;
     double nearest = HUGE_VAL;
     for (Index k = 0; k < energy.size(); ++k)
       for (const Complex& rate : held_) {
@@ -380,13 +381,16 @@ class Pushing {
     return energy;
   }
 
-  void add_error(FreeSwing& swing, const std::vector<FreeSwing>& others) const {
-    const auto apart = [&](const FreeSwing& o) { return std::hypot(o.omega - swing.omega, o.decay - swing.decay); };
-    const auto nearest = std::min_element(others.begin(), others.end(),
-                                          [&](const FreeSwing& a, const FreeSwing& b) { return apart(a) < apart(b); });
-    const double runs = left_by_runs / settings_.push * std::exp(swing.decay * step_) / step_;
-    const double of_sides = nearest == others.end() ? swing.natural() : apart(*nearest);
-    swing.omega_error = swing.decay_error = runs + of_sides;
+  void add_error(FreeVibration& vibration, const std::vector<FreeVibration>& others) const {
+    const auto apart = [&](const FreeVibration& o) {
+      return std::hypot(o.omega - vibration.omega, o.decay - vibration.decay);
+    };
+    const auto nearest =
+        std::min_element(others.begin(), others.end(),
+                         [&](const FreeVibration& a, const FreeVibration& b) { return apart(a) < apart(b); });
+    const double runs = left_by_runs / settings_.push * std::exp(vibration.decay * step_) / step_;
+    const double of_sides = nearest == others.end() ? vibration.natural() : apart(*nearest);
+    vibration.omega_error = vibration.decay_error = runs + of_sides;
   }
 
   const SettledRun& run_;
@@ -398,14 +402,16 @@ class Pushing {
   double period_ = 0, step_ = 0;
   int looks_ = 1;
   std::vector<Stretch> both_, one_;  // pushes to both sides, to one
-  FreeSwings found_;
+  FreeVibrations found_;
 };
 
 }  // namespace
 
-double FreeSwing::natural() const { return std::hypot(omega, decay); }
-double FreeSwing::ratio() const { return natural() > 0 ? decay / natural() : 1; }
+double FreeVibration::natural() const { return std::hypot(omega, decay); }
+double FreeVibration::ratio() const { return natural() > 0 ? decay / natural() : 1; }
 
-FreeSwings free_swings_of(const SettledRun& run, const PushSettings& settings) { return Pushing(run, settings).find(); }
+FreeVibrations free_vibrations_of(const SettledRun& run, const PushSettings& settings) {
+  return Pushing(run, settings).find();
+}
 
 }  // namespace kurbel::agreement

@@ -1,4 +1,4 @@
-// round_figures.h — figures of one period of a steady cycle: speeds, torques, drives, works.
+// cycle_figures.h — figures of one period of a steady cycle: speeds, torques, drives, works.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ struct NamedShaft {
 std::vector<NamedShaft> shafts_of(const Model& model);
 
 // All results for one period of a fixed point.
-struct Round {
+struct Period {
   std::vector<Figure> figures = {};
-  OrdersOfRound orders = {};
+  OrdersOfCycle orders = {};
   std::vector<ShaftFluctuation> shafts = {};
   std::vector<MotorUse> motors = {};
   double work_residual = 0;
@@ -28,6 +28,6 @@ struct Round {
 };
 
 // Integrates one period from the map's fixed point with this tolerance.
-Round go_round(const ReturnMap& map, const SteadyPoint& point, double tolerance);
+Period figures_of_period(const ReturnMap& map, const SteadyPoint& point, double tolerance);
 
 }  // namespace kurbel

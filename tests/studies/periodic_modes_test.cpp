@@ -1,4 +1,4 @@
-// periodic_swings_test.cpp — swings where coefficients or contacts change within the round: `modes` against pushes of the
+// periodic_modes_test.cpp — swings where coefficients or contacts change within the round: `modes` against pushes of the
 // settled run, each of a kind that the mean of the coefficients gets wrong.
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "tests/agreement/agreement.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::periodic_swings_test {
+namespace kurbel::periodic_modes_test {
 namespace {
 
 ModesStudy modes_of(const std::string& file) {
@@ -19,7 +19,7 @@ ModesStudy modes_of(const std::string& file) {
 }
 
 // Frequencies and damping ratios of all swings that the pushes show, and of none that they do not.
-void expect_swings_of_the_run(const std::string& file) {
+void expect_vibrations_of_the_run(const std::string& file) {
   SCOPED_TRACE(file);
   const agreement::Row row = agreement::compare_modes(test::scene_file(file));
   int compared = 0;
@@ -33,25 +33,25 @@ void expect_swings_of_the_run(const std::string& file) {
 
 // A governor's slow swing: 0.2402 Hz, ζ = 0.691; its mode has little of the motion's states beside those of the coupling.
 TEST(PeriodicOscillations, SlowOscillationOfAGovernorIsNotTakenForOneOfTheCoupling) {
-  expect_swings_of_the_run("tests/agreement/governor_crank.toml");
+  expect_vibrations_of_the_run("tests/agreement/governor_crank.toml");
 }
 
 // A limiter that slips once a round: both multipliers of the swing are real, of two signs, and their turns in a round are
 // a matter of counting.
 TEST(PeriodicOscillations, OscillationBehindALimiterIsLockedToTheCycle) {
-  expect_swings_of_the_run("tests/agreement/swings/limiter_slips_with_shaft.toml");
-  const ModesStudy study = modes_of("tests/agreement/swings/limiter_slips_with_shaft.toml");
+  expect_vibrations_of_the_run("tests/agreement/vibrations/limiter_slips_with_shaft.toml");
+  const ModesStudy study = modes_of("tests/agreement/vibrations/limiter_slips_with_shaft.toml");
   ASSERT_EQ(study.modes.front().periodic.size(), 2u);
-  for (const PeriodicSwing& swing : study.modes.front().periodic) {
-    EXPECT_TRUE(swing.branch_by_mean);
-    EXPECT_GT(swing.error, 0);
+  for (const PeriodicMode& vibration : study.modes.front().periodic) {
+    EXPECT_TRUE(vibration.branch_by_mean);
+    EXPECT_GT(vibration.error, 0);
   }
 }
 
 // The pin lies on its bush all round; at the mean of its place it hangs in the gap and would swing at 0.9 Hz.
 TEST(PeriodicOscillations, RodThatFloatsInTheGapOfTheMeanDoesNotOscillate) {
-  expect_swings_of_the_run("tests/agreement/swings/worn_pin_shaft.toml");
-  const ModesStudy study = modes_of("tests/agreement/swings/worn_pin_shaft.toml");
+  expect_vibrations_of_the_run("tests/agreement/vibrations/worn_pin_shaft.toml");
+  const ModesStudy study = modes_of("tests/agreement/vibrations/worn_pin_shaft.toml");
   EXPECT_TRUE(std::any_of(study.modes.begin(), study.modes.end(), [](const Mode& mode) { return mode.only_of_mean; }));
 }
 
@@ -67,4 +67,4 @@ TEST(PeriodicOscillations, WhatSticksOnceACycleDoesNotOscillateOn) {
 }
 
 }  // namespace
-}  // namespace kurbel::periodic_swings_test
+}  // namespace kurbel::periodic_modes_test

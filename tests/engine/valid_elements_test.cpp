@@ -1,12 +1,12 @@
-// sound_elements_test.cpp — an element whose member is misspelt, of another form, or there without its trait is none:
+// valid_elements_test.cpp — an element whose member is misspelt, of another form, or there without its trait is none:
 // each capability is misspelt once. Had it been taken, it would have done nothing and said nothing.
-#include "engine/elements/sound.h"
+#include "engine/elements/valid.h"
 
 #include <gtest/gtest.h>
 
 #include "mechanisms/loads/slider_loads.h"
 
-namespace kurbel::sound_elements_test {
+namespace kurbel::valid_elements_test {
 namespace {
 
 // --- connections ---
@@ -37,7 +37,7 @@ struct Clutch : Torque {
   Hold hold(const Twist<double>&) const { return {}; }
   double capacity() const { return 1; }
 };
-static_assert(SoundConnection<Spring> && SoundConnection<Film> && SoundConnection<Clutch>);
+static_assert(ValidConnection<Spring> && ValidConnection<Film> && ValidConnection<Clutch>);
 
 struct WithoutTraits : Torque {
   double spring_torque(double) const { return 0; }
@@ -45,43 +45,43 @@ struct WithoutTraits : Torque {
   double twist_at(double) const { return 0; }
   double stiffness_at_rest() const { return 1; }
 };
-static_assert(!SoundConnection<WithoutTraits>);
+static_assert(!ValidConnection<WithoutTraits>);
 
 struct TraitAsMember : Spring {  // as it was said once
   static constexpr bool commanded = true;
 };
-static_assert(!SoundConnection<TraitAsMember>);
+static_assert(!ValidConnection<TraitAsMember>);
 
 struct TorqueOfDoublesAlone : Spring {
   double torque(const Twist<double>&) const { return 0; }
 };
-static_assert(!SoundConnection<TorqueOfDoublesAlone>);
+static_assert(!ValidConnection<TorqueOfDoublesAlone>);
 
 struct MisspeltCapacity : Torque {
   static constexpr ConnectionTraits is{.slips = true};
   Hold hold(const Twist<double>&) const { return {}; }
   double capcity() const { return 1; }
 };
-static_assert(!SoundConnection<MisspeltCapacity>);
+static_assert(!ValidConnection<MisspeltCapacity>);
 
 struct HoldOfAShaft : Torque {
   static constexpr ConnectionTraits is{.slips = true};
   Hold hold(const ShaftState<double>&) const { return {}; }
   double capacity() const { return 1; }
 };
-static_assert(!SoundConnection<HoldOfAShaft>);
+static_assert(!ValidConnection<HoldOfAShaft>);
 
 struct ForgottenSlips : Spring {
   Hold hold(const Twist<double>&) const { return {}; }
 };
-static_assert(!SoundConnection<ForgottenSlips>);
+static_assert(!ValidConnection<ForgottenSlips>);
 
 struct SpringThatSlips : Spring {
   static constexpr ConnectionTraits is{.slips = true};
   Hold hold(const Twist<double>&) const { return {}; }
   double capacity() const { return 1; }
 };
-static_assert(!SoundConnection<SpringThatSlips>);
+static_assert(!ValidConnection<SpringThatSlips>);
 
 struct MisspeltStiffness : Torque {
   static constexpr ConnectionTraits is{};
@@ -90,12 +90,12 @@ struct MisspeltStiffness : Torque {
   double twist_at(double) const { return 0; }
   double stifness_at_rest() const { return 1; }
 };
-static_assert(!SoundConnection<MisspeltStiffness>);
+static_assert(!ValidConnection<MisspeltStiffness>);
 
 struct SpringOfTheTwistOnly : Spring {
   static constexpr ConnectionTraits is{.spring_takes_motion = true};
 };
-static_assert(!SoundConnection<SpringOfTheTwistOnly>);
+static_assert(!ValidConnection<SpringOfTheTwistOnly>);
 
 struct Hooke : SpringOfMotion {
   static constexpr ConnectionTraits is{.uses_angle = true, .turns_unevenly = true, .spring_takes_motion = true};
@@ -107,7 +107,7 @@ struct Hooke : SpringOfMotion {
   double rest_ratio(double) const { return 1; }
   double rest_ratio_slope(double) const { return 0; }
 };
-static_assert(SoundConnection<Hooke>);
+static_assert(ValidConnection<Hooke>);
 
 struct MisspeltTurningTorque : SpringOfMotion {
   static constexpr ConnectionTraits is{.uses_angle = true, .spring_takes_motion = true};
@@ -116,12 +116,12 @@ struct MisspeltTurningTorque : SpringOfMotion {
     return T(0.0);
   }
 };
-static_assert(!SoundConnection<MisspeltTurningTorque>);
+static_assert(!ValidConnection<MisspeltTurningTorque>);
 
 struct ForgottenUnevenness : Hooke {
   static constexpr ConnectionTraits is{.uses_angle = true, .spring_takes_motion = true};
 };
-static_assert(!SoundConnection<ForgottenUnevenness>);
+static_assert(!ValidConnection<ForgottenUnevenness>);
 
 struct MisspeltRestRatio : SpringOfMotion {
   static constexpr ConnectionTraits is{.uses_angle = true, .turns_unevenly = true, .spring_takes_motion = true};
@@ -133,7 +133,7 @@ struct MisspeltRestRatio : SpringOfMotion {
   double rest_ration(double) const { return 1; }
   double rest_ratio_slope(double) const { return 0; }
 };
-static_assert(!SoundConnection<MisspeltRestRatio>);
+static_assert(!ValidConnection<MisspeltRestRatio>);
 
 struct AngleWithoutMotion : Spring {
   static constexpr ConnectionTraits is{.uses_angle = true};
@@ -142,18 +142,18 @@ struct AngleWithoutMotion : Spring {
     return T(0.0);
   }
 };
-static_assert(!SoundConnection<AngleWithoutMotion>);
+static_assert(!ValidConnection<AngleWithoutMotion>);
 
 struct MisspeltLoss : Spring {
-  static constexpr ConnectionTraits is{.tells_loss = true};
+  static constexpr ConnectionTraits is{.reports_loss = true};
   double loss_pwer(const Twist<double>&) const { return 0; }
 };
-static_assert(!SoundConnection<MisspeltLoss>);
+static_assert(!ValidConnection<MisspeltLoss>);
 
 struct ForgottenLoss : Spring {
   double loss_power(const Twist<double>&) const { return 0; }
 };
-static_assert(!SoundConnection<ForgottenLoss>);
+static_assert(!ValidConnection<ForgottenLoss>);
 
 struct Gap : Spring {
   static constexpr ConnectionTraits is{.guards = 2, .regularised_mode = 7};
@@ -162,12 +162,12 @@ struct Gap : Spring {
   int next_mode(const Twist<double>&, int) const { return 0; }
   std::string mode_name(int) const { return {}; }
 };
-static_assert(SoundConnection<Gap>);
+static_assert(ValidConnection<Gap>);
 
 struct ForgottenGuards : Gap {
   static constexpr ConnectionTraits is{};
 };
-static_assert(!SoundConnection<ForgottenGuards>);
+static_assert(!ValidConnection<ForgottenGuards>);
 
 struct MisspeltNextMode : Spring {
   static constexpr ConnectionTraits is{.guards = 2};
@@ -176,63 +176,63 @@ struct MisspeltNextMode : Spring {
   int next_mod(const Twist<double>&, int) const { return 0; }
   std::string mode_name(int) const { return {}; }
 };
-static_assert(!SoundConnection<MisspeltNextMode>);
+static_assert(!ValidConnection<MisspeltNextMode>);
 
 struct RegularisedWithoutGuards : Spring {
   static constexpr ConnectionTraits is{.regularised_mode = 7};
 };
-static_assert(!SoundConnection<RegularisedWithoutGuards>);
+static_assert(!ValidConnection<RegularisedWithoutGuards>);
 
 struct Creep : SpringOfMotion {
-  static constexpr ConnectionTraits is{.spring_takes_motion = true, .tells_loss = true, .states = 1};
+  static constexpr ConnectionTraits is{.spring_takes_motion = true, .reports_loss = true, .states = 1};
   template <class T>
   void rates(const Twist<T>&, T*) const {}
   void first_states(const Twist<double>&, double*) const {}
-  OwnState state(int) const { return {}; }
+  InternalState state(int) const { return {}; }
   double loss_power(const Twist<double>&) const { return 0; }
 };
-static_assert(SoundConnection<Creep>);
+static_assert(ValidConnection<Creep>);
 
 struct MisspeltFirstStates : SpringOfMotion {
-  static constexpr ConnectionTraits is{.spring_takes_motion = true, .tells_loss = true, .states = 1};
+  static constexpr ConnectionTraits is{.spring_takes_motion = true, .reports_loss = true, .states = 1};
   template <class T>
   void rates(const Twist<T>&, T*) const {}
   void first_state(const Twist<double>&, double*) const {}
-  OwnState state(int) const { return {}; }
+  InternalState state(int) const { return {}; }
   double loss_power(const Twist<double>&) const { return 0; }
 };
-static_assert(!SoundConnection<MisspeltFirstStates>);
+static_assert(!ValidConnection<MisspeltFirstStates>);
 
 struct StatesWithoutLoss : Creep {
   static constexpr ConnectionTraits is{.spring_takes_motion = true, .states = 1};
 };
-static_assert(!SoundConnection<StatesWithoutLoss>);
+static_assert(!ValidConnection<StatesWithoutLoss>);
 
 struct MisspeltWords : Spring {
   static constexpr ConnectionTraits is{.described = true};
   std::string discribe() const { return {}; }
 };
-static_assert(!SoundConnection<MisspeltWords>);
+static_assert(!ValidConnection<MisspeltWords>);
 
 struct ForgottenWords : Spring {
   std::string describe() const { return {}; }
 };
-static_assert(!SoundConnection<ForgottenWords>);
+static_assert(!ValidConnection<ForgottenWords>);
 
 struct NoOtherForm : Spring {
   static constexpr ConnectionTraits is{.other_forms = true};
 };
 [[maybe_unused]] ConnectionForm undr(const NoOtherForm&, const Effects&) { return nullptr; }
-static_assert(!SoundConnection<NoOtherForm>);
+static_assert(!ValidConnection<NoOtherForm>);
 
 struct ForgottenForm : Spring {};
 [[maybe_unused]] ConnectionForm under(const ForgottenForm&, const Effects&) { return nullptr; }
-static_assert(!SoundConnection<ForgottenForm>);
+static_assert(!ValidConnection<ForgottenForm>);
 
 struct MemberOfAShaftElement : Spring {
   bool opens_at_zero() const { return true; }
 };
-static_assert(!SoundConnection<MemberOfAShaftElement>);
+static_assert(!ValidConnection<MemberOfAShaftElement>);
 
 // --- specifications ---
 struct Settles {
@@ -249,8 +249,8 @@ struct SpecifiedForm : Settles {
 };
 struct ForgottenSpecifiedForm : Settles {};
 [[maybe_unused]] ConnectionForm under(const ForgottenSpecifiedForm&, const Effects&) { return nullptr; }
-static_assert(SoundSpecification<Settles> && !SoundSpecification<MisspeltSettled>);
-static_assert(!SoundSpecification<SpecifiedForm> && !SoundSpecification<ForgottenSpecifiedForm>);
+static_assert(ValidSpecification<Settles> && !ValidSpecification<MisspeltSettled>);
+static_assert(!ValidSpecification<SpecifiedForm> && !ValidSpecification<ForgottenSpecifiedForm>);
 
 // --- shaft elements ---
 struct OnShaft {
@@ -265,7 +265,7 @@ struct Source : OnShaft {
   bool uses_speed() const { return false; }
   Rated rated() const { return {}; }
 };
-static_assert(SoundShaftElement<Source> && !SoundConnection<Source> && !SoundShaftElement<Spring>);
+static_assert(ValidShaftElement<Source> && !ValidConnection<Source> && !ValidShaftElement<Spring>);
 
 struct MisspeltRated : OnShaft {
   static constexpr ShaftTraits is{.account = Account::driving};
@@ -273,7 +273,7 @@ struct MisspeltRated : OnShaft {
   bool uses_speed() const { return false; }
   Rated ratd() const { return {}; }
 };
-static_assert(!SoundShaftElement<MisspeltRated>);
+static_assert(!ValidShaftElement<MisspeltRated>);
 
 struct MisspeltUsesTime : OnShaft {
   static constexpr ShaftTraits is{.account = Account::driving};
@@ -281,7 +281,7 @@ struct MisspeltUsesTime : OnShaft {
   bool uses_speed() const { return false; }
   Rated rated() const { return {}; }
 };
-static_assert(!SoundShaftElement<MisspeltUsesTime>);
+static_assert(!ValidShaftElement<MisspeltUsesTime>);
 
 struct NoAccount : Source {
   static constexpr ShaftTraits is{};
@@ -294,7 +294,7 @@ struct OwnAccount : Source {
 struct TwoAccounts : OwnAccount {
   static constexpr ShaftTraits is{.account = Account::driving};
 };
-static_assert(!SoundShaftElement<NoAccount> && SoundShaftElement<OwnAccount> && !SoundShaftElement<TwoAccounts>);
+static_assert(!ValidShaftElement<NoAccount> && ValidShaftElement<OwnAccount> && !ValidShaftElement<TwoAccounts>);
 
 struct MisspeltHold : Source {
   static constexpr ShaftTraits is{.account = Account::harmful, .directional = true};
@@ -303,7 +303,7 @@ struct MisspeltHold : Source {
 struct ForgottenDirection : Source {
   Hold hold(const ShaftState<double>&) const { return {}; }
 };
-static_assert(!SoundShaftElement<MisspeltHold> && !SoundShaftElement<ForgottenDirection>);
+static_assert(!ValidShaftElement<MisspeltHold> && !ValidShaftElement<ForgottenDirection>);
 
 struct MisspeltOpening : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .commanded = true};
@@ -312,13 +312,13 @@ struct MisspeltOpening : Source {
 struct ReversibleByNobody : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .reversible = true};
 };
-static_assert(!SoundShaftElement<MisspeltOpening> && !SoundShaftElement<ReversibleByNobody>);
+static_assert(!ValidShaftElement<MisspeltOpening> && !ValidShaftElement<ReversibleByNobody>);
 
 struct MisspeltAnglePeriod : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .uses_angle = true};
   double angle_perod() const { return 1; }
 };
-static_assert(!SoundShaftElement<MisspeltAnglePeriod>);
+static_assert(!ValidShaftElement<MisspeltAnglePeriod>);
 
 struct MisspeltEdge : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .timed = true};
@@ -329,7 +329,7 @@ struct ForgottenTime : Source {
   double next_edge(double) const { return 1; }
   int mode_at(double) const { return 0; }
 };
-static_assert(!SoundShaftElement<MisspeltEdge> && !SoundShaftElement<ForgottenTime>);
+static_assert(!ValidShaftElement<MisspeltEdge> && !ValidShaftElement<ForgottenTime>);
 
 struct MisspeltPeriod : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .periodic = true};
@@ -339,14 +339,14 @@ struct MisspeltSettling : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .settles = true};
   double settles_from() const { return 1; }
 };
-static_assert(!SoundShaftElement<MisspeltPeriod> && !SoundShaftElement<MisspeltSettling>);
+static_assert(!ValidShaftElement<MisspeltPeriod> && !ValidShaftElement<MisspeltSettling>);
 
 struct Circuit : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .states = 1, .stores = true, .feels_switching = true};
   template <class T>
   void rates(const ShaftState<T>&, T*) const {}
   void first_states(const ShaftState<double>&, double*) const {}
-  OwnState state(int) const { return {}; }
+  InternalState state(int) const { return {}; }
   double stored(const double*) const { return 0; }
   double loss_power(const ShaftState<double>&) const { return 0; }
   void switched(const ShaftState<double>&, double*) const {}
@@ -363,19 +363,19 @@ struct RatesOfDoublesAlone : Circuit {
 struct SwitchedWithAnotherForm : Circuit {
   void switched(double*) const {}
 };
-static_assert(SoundShaftElement<Circuit> && !SoundShaftElement<ForgottenStore> && !SoundShaftElement<ForgottenSwitch>);
-static_assert(!SoundShaftElement<RatesOfDoublesAlone> && !SoundShaftElement<SwitchedWithAnotherForm>);
+static_assert(ValidShaftElement<Circuit> && !ValidShaftElement<ForgottenStore> && !ValidShaftElement<ForgottenSwitch>);
+static_assert(!ValidShaftElement<RatesOfDoublesAlone> && !ValidShaftElement<SwitchedWithAnotherForm>);
 
 struct MisspeltStored : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .states = 1, .stores = true};
   template <class T>
   void rates(const ShaftState<T>&, T*) const {}
   void first_states(const ShaftState<double>&, double*) const {}
-  OwnState state(int) const { return {}; }
+  InternalState state(int) const { return {}; }
   double stord(const double*) const { return 0; }
   double loss_power(const ShaftState<double>&) const { return 0; }
 };
-static_assert(!SoundShaftElement<MisspeltStored>);
+static_assert(!ValidShaftElement<MisspeltStored>);
 
 struct MisspeltModeName : Source {
   static constexpr ShaftTraits is{.account = Account::driving, .guards = 1};
@@ -384,12 +384,12 @@ struct MisspeltModeName : Source {
   int next_mode(const ShaftState<double>&, int) const { return 0; }
   std::string modename(int) const { return {}; }
 };
-static_assert(!SoundShaftElement<MisspeltModeName>);
+static_assert(!ValidShaftElement<MisspeltModeName>);
 
 struct CapacityOnAShaft : Source {
   double capacity() const { return 1; }
 };
-static_assert(!SoundShaftElement<CapacityOnAShaft>);
+static_assert(!ValidShaftElement<CapacityOnAShaft>);
 
 // --- loads on a mechanism's output ---
 struct Pieces {
@@ -414,9 +414,9 @@ struct OpposesWithoutHold : Pieces {
 static_assert(SoundLoad<Pieces> && !SoundLoad<ForgottenTurn> && !SoundLoad<OpposesWithoutHold>);
 
 TEST(ValidElements, AMisspeltMemberIsRefusedWhenItIsCompiled) {
-  EXPECT_TRUE(SoundConnection<Clutch>);
-  EXPECT_FALSE(SoundConnection<MisspeltCapacity>);
+  EXPECT_TRUE(ValidConnection<Clutch>);
+  EXPECT_FALSE(ValidConnection<MisspeltCapacity>);
 }
 
 }  // namespace
-}  // namespace kurbel::sound_elements_test
+}  // namespace kurbel::valid_elements_test

@@ -1,4 +1,4 @@
-// swings_agreement_test.cpp — free and forced swings as runs show them, against closed forms; and `modes`, `forces`
+// vibrations_agreement_test.cpp — free and forced swings as runs show them, against closed forms; and `modes`, `forces`
 // against them: a small form of `kurbel_bench agreement2`.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,30 +13,32 @@
 #include "engine/matrices/linear_algebra.h"
 #include "mechanisms/kinds/kinds.h"
 #include "tests/agreement/agreement.h"
-#include "tests/agreement/forced_swing.h"
-#include "tests/agreement/free_swing.h"
+#include "tests/agreement/forced_vibration.h"
+#include "tests/agreement/free_vibration.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel::agreement::swings_agreement_test {
+namespace kurbel::agreement::vibrations_agreement_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Scene swing_scene(const std::string& name) { return test::scene_file("tests/agreement/swings/" + name + ".toml"); }
+Scene vibration_scene(const std::string& name) {
+  return test::scene_file("tests/agreement/vibrations/" + name + ".toml");
+}
 SettledRun settled(const Scene& scene) { return settle(scene, scene.effects); }
 
 // Swinging eigenvalues with Im > 0, by frequency.
-std::vector<std::complex<double>> swings_of(const Eigen::MatrixXd& a) {
+std::vector<std::complex<double>> vibrations_of(const Eigen::MatrixXd& a) {
   std::vector<std::complex<double>> list;
   for (const std::complex<double>& value : eigenvalues(a))
     if (value.imag() > 0) list.push_back(value);
   std::sort(list.begin(), list.end(), [](auto u, auto v) { return u.imag() < v.imag(); });
   return list;
 }
-void expect_swings(const std::string& text, const Eigen::MatrixXd& a) {
-  const FreeSwings found = free_swings_of(settled(test::scene_from(text)));
+void expect_vibrations(const std::string& text, const Eigen::MatrixXd& a) {
+  const FreeVibrations found = free_vibrations_of(settled(test::scene_from(text)));
   ASSERT_TRUE(found.measured) << found.why;
-  const std::vector<std::complex<double>> exact = swings_of(a);
+  const std::vector<std::complex<double>> exact = vibrations_of(a);
   ASSERT_EQ(found.list.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const double allowed = 1e-6 * std::abs(exact[i]) + found.list[i].omega_error;
@@ -82,7 +84,7 @@ TEST(FreeOscillation, OfTwoInertiasHasTheirEigenvalues) {
   a << 0, 1, -1,                               //
       -6000 / 0.5, -(3 + 1.5) / 0.5, 3 / 0.5,  //
       6000 / 0.6, 3 / 0.6, -(3 + 1.25) / 0.6;
-  expect_swings(drive(spring, R"("coupling")"), a);
+  expect_vibrations(drive(spring, R"("coupling")"), a);
 }
 
 // A branch k₁ in series with k₁ T₁ beside the spring: its torque is a state, τ̇₁ = k₁ θ̇ − τ₁/T₁.
@@ -92,14 +94,14 @@ TEST(FreeOscillation, OfRubberHasItsBranchAsAState) {
       0, -1 / 0.01, 3000, -3000,                         //
       -3000 / 0.5, -1 / 0.5, -(1 + 1.5) / 0.5, 1 / 0.5,  //
       3000 / 0.6, 1 / 0.6, 1 / 0.6, -(1 + 1.25) / 0.6;
-  expect_swings(drive(R"([rubber]
+  expect_vibrations(drive(R"([rubber]
 kind = "rubber coupling"
 stiffness = "3 kN*m/rad"
 damping = "1 N*m*s/rad"
 branches = [{ stiffness = "3 kN*m/rad", relaxation_time = "10 ms" }]
 )",
-                      R"("rubber")"),
-                a);
+                          R"("rubber")"),
+                    a);
 }
 
 // A clutch that slips for good hands on 12 N·m whatever the speeds: the motor takes no part.
@@ -108,14 +110,14 @@ TEST(FreeOscillation, BehindAClutchThatSlipsIsThatOfWhatIsBehindIt) {
   a << 0, 1, -1,                       //
       -6000 / 0.2, -3 / 0.2, 3 / 0.2,  //
       6000 / 0.6, 3 / 0.6, -(3 + 1.25) / 0.6;
-  expect_swings(drive(std::string(R"([clutch]
+  expect_vibrations(drive(std::string(R"([clutch]
 kind = "clutch"
 torque = "12 N*m"
 static_torque = "15 N*m"
 inertia_out = "0.2 kg*m2"
 )") + spring,
-                      R"("clutch", "coupling")"),
-                a);
+                          R"("clutch", "coupling")"),
+                    a);
 }
 
 // A ring of 0.15 kg·m² on a film: neither locked to the drum nor free of it.
@@ -127,28 +129,28 @@ TEST(FreeOscillation, OfAViscousDamperHasItsRingAsABodyOfItsOwn) {
         -6000 / 0.5, -(3 + 1.5) / 0.5, 3 / 0.5, 0,                  //
         6000 / 0.6, 3 / 0.6, -(3 + 1.25 + film) / 0.6, film / 0.6,  //
         0, 0, film / 0.15, -film / 0.15;
-    expect_swings(drive(std::string(spring) + fmt::format(R"([damper]
+    expect_vibrations(drive(std::string(spring) + fmt::format(R"([damper]
 kind = "viscous damper"
 on = "drum"
 ring_inertia = "0.15 kg*m2"
 damping = "{} N*m*s/rad"
 )",
-                                                          film),
-                        R"("coupling")"),
-                  a);
+                                                              film),
+                            R"("coupling")"),
+                      a);
   }
 }
 
 // The crank's inertia varies: the swing is a Floquet solution, and its decay over a turn that of one run beside another.
 TEST(FreeOscillation, OfACrankIsWhatALongRingDownShows) {
-  const Scene scene = swing_scene("light_flywheel");
+  const Scene scene = vibration_scene("light_flywheel");
   const SettledRun run = settled(scene);
-  const FreeSwings found = free_swings_of(run);
+  const FreeVibrations found = free_vibrations_of(run);
   ASSERT_EQ(found.list.size(), 1u) << found.why;
-  const double swing = std::exp(-found.list[0].decay * run.period);
+  const double vibration = std::exp(-found.list[0].decay * run.period);
   const Decay slow = decay_of(run);  // the slower motion, of the speed as a whole
   ASSERT_TRUE(slow.measured);
-  EXPECT_LT(swing, slow.factor);
+  EXPECT_LT(vibration, slow.factor);
   EXPECT_NEAR(found.list[0].omega / (2 * pi), 26.956, 0.001);  // 26.468 by the mean of its inertia
 }
 
@@ -163,17 +165,17 @@ amplitude = "5 N*m"
 frequency = "11 Hz"
 )",
                                                         R"("coupling")")));
-  const std::vector<JointSwing> swings = joint_swings_of(run, 4);
-  ASSERT_EQ(swings.size(), 1u);
+  const std::vector<JointVibration> vibrations = joint_vibrations_of(run, 4);
+  ASSERT_EQ(vibrations.size(), 1u);
   using Complex = std::complex<double>;
   const Complex s(0, 2 * pi * 11), spring_torque = 6000.0 + 3.0 * s;
   Eigen::Matrix2cd dynamic;  // of the angles
   dynamic << 0.5 * s * s + 1.5 * s + spring_torque, -spring_torque, -spring_torque,
       0.6 * s * s + 1.25 * s + spring_torque;
   const Eigen::Vector2cd q = dynamic.partialPivLu().solve(Eigen::Vector2cd(0, 5));
-  EXPECT_NEAR(std::abs(swings[0].harmonic[1]), std::abs(spring_torque * (q[0] - q[1])), 1e-5);
-  EXPECT_NEAR(std::abs(swings[0].harmonic[2]), 0, 1e-6);
-  EXPECT_NEAR(swings[0].mean, 60 * 1.25 / 2.75, 1e-5);
+  EXPECT_NEAR(std::abs(vibrations[0].harmonic[1]), std::abs(spring_torque * (q[0] - q[1])), 1e-5);
+  EXPECT_NEAR(std::abs(vibrations[0].harmonic[2]), 0, 1e-6);
+  EXPECT_NEAR(vibrations[0].mean, 60 * 1.25 / 2.75, 1e-5);
 }
 
 // --- the machines ---
@@ -181,7 +183,7 @@ frequency = "11 Hz"
 // Kinds that join, drive, load or move: each swings, or is forced, in some machine of the matrix.
 TEST(AgreementOfOscillations, EveryKindOccursInSomeMachine) {
   std::string all;
-  for (const char* folder : {"scenes", "tests/agreement", "tests/agreement/swings"})
+  for (const char* folder : {"scenes", "tests/agreement", "tests/agreement/vibrations"})
     for (const std::string& file : scene_files(test::source_path(folder))) {
       const Scene scene = read_scene(file, all_kinds());
       for (const Section& s : scene.components) {
@@ -219,23 +221,23 @@ void expect_agreement(const Row& row, const std::string& name) {
 
 TEST(AgreementOfOscillations, ModesSpeakOfDrivesWhoseInertiaIsConstant) {
   for (const char* name : {"backlash_closed", "limiter_holds", "one_way_clutch_drives", "brake_drags_shaft"})
-    expect_agreement(compare_modes(swing_scene(name)), name);
+    expect_agreement(compare_modes(vibration_scene(name)), name);
 }
 // Locked, a belt that slips swung at 18.0 Hz for 42.1, a clutch at 15.3 for 22.5, a damper of 0.05 and of 150 N·m·s/rad
 // alike; rubber without its branches had ζ 0.280 for 0.180.
 TEST(AgreementOfOscillations, ModesSpeakOfWhatSlipsAndOfWhatRelaxes) {
   for (const char* name : {"belt_slips", "clutch_slips", "damper_loose", "damper_tuned", "damper_tight",
                            "fluid_coupling_shaft", "rubber_stiff_branch", "one_way_clutch_overruns"})
-    expect_agreement(compare_modes(swing_scene(name)), name);
+    expect_agreement(compare_modes(vibration_scene(name)), name);
 }
 // A universal joint's order 2 was 0 for 21 N·m; these gears were refused.
 TEST(AgreementOfOscillations, ModesSpeakOfUniversalJointsAndOfGearsThatTieShafts) {
   for (const char* name : {"hooke_joint_crank", "housing_support_fan", "planetary_free"})
-    expect_agreement(compare_modes(swing_scene(name)), name);
+    expect_agreement(compare_modes(vibration_scene(name)), name);
 }
 TEST(AgreementOfOscillations, ForcesSpeakOfTheTorqueThatTheCouplingHandsOn) {
-  for (const char* name : {"light_flywheel"}) expect_agreement(compare_forces(swing_scene(name)), name);
+  for (const char* name : {"light_flywheel"}) expect_agreement(compare_forces(vibration_scene(name)), name);
 }
 
 }  // namespace
-}  // namespace kurbel::agreement::swings_agreement_test
+}  // namespace kurbel::agreement::vibrations_agreement_test

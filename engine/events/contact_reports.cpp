@@ -1,4 +1,4 @@
-// contacts_told.cpp — reports of contacts: changes, shares of a holding torque, and the torque missing to move.
+// contact_reports.cpp — reports of contacts: changes, shares of a holding torque, and the torque missing to move.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,8 +31,8 @@ Shares Contacts::sharing(const Contact& contact) const {
   return shares;
 }
 
-void Contacts::tell(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
-                    const std::vector<std::size_t>& always, EventLog& log) const {
+void Contacts::report(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
+                      const std::vector<std::size_t>& always, EventLog& log) const {
   for (const std::size_t c : among) {
     const Contact& contact = list()[c];
     const int now = sense(c);

@@ -1,5 +1,5 @@
-// forced_swing.cpp — torques at equal times of a period, and their orders.
-#include "tests/agreement/forced_swing.h"
+// forced_vibration.cpp — torques at equal times of a period, and their orders.
+#include "tests/agreement/forced_vibration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,29 +64,29 @@ std::complex<double> harmonic(const std::vector<double>& values, std::size_t h) 
 
 }  // namespace
 
-std::vector<JointSwing> joint_swings_of(const SettledRun& run, std::size_t harmonics) {
-  std::vector<JointSwing> list;
+std::vector<JointVibration> joint_vibrations_of(const SettledRun& run, std::size_t harmonics) {
+  std::vector<JointVibration> list;
   if (run.kind != Motion::repeats || run.model->elastic.empty()) return list;
   const std::vector<std::vector<double>> close = torques_of(run, 1e-10), loose = torques_of(run, 1e-8);
   for (std::size_t j = 0; j < close.size(); ++j) {
     const std::vector<double>& values = close[j];
-    JointSwing swing;
-    swing.component = run.model->network.joints[at(run.model->elastic[j].joint)].component;
-    swing.elastic = j;
+    JointVibration vibration;
+    vibration.component = run.model->network.joints[at(run.model->elastic[j].joint)].component;
+    vibration.elastic = j;
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    swing.least = *least, swing.greatest = *greatest;
-    swing.scale = std::max(std::abs(*least), std::abs(*greatest));
+    vibration.least = *least, vibration.greatest = *greatest;
+    vibration.scale = std::max(std::abs(*least), std::abs(*greatest));
     for (std::size_t h = 0; h <= std::min<std::size_t>(harmonics, looks / 8); ++h)
-      swing.harmonic.push_back(harmonic(values, h));
-    swing.mean = swing.harmonic.front().real();
+      vibration.harmonic.push_back(harmonic(values, h));
+    vibration.mean = vibration.harmonic.front().real();
     for (std::size_t k = 0; k < std::min(values.size(), loose[j].size()); ++k)
-      swing.error = std::max(swing.error, std::abs(values[k] - loose[j][k]));
+      vibration.error = std::max(vibration.error, std::abs(values[k] - loose[j][k]));
     // Between looks an extreme may lie higher, at an edge by half of the second difference.
     double between = 0;
     for (std::size_t k = 2; k < values.size(); ++k)
       between = std::max(between, std::abs(values[k] - 2 * values[k - 1] + values[k - 2]));
-    swing.extremes_error = swing.error + 0.5 * between;
-    list.push_back(std::move(swing));
+    vibration.extremes_error = vibration.error + 0.5 * between;
+    list.push_back(std::move(vibration));
   }
   return list;
 }

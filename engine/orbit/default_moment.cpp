@@ -1,5 +1,5 @@
-// kept_moment.cpp — the motion at the end of all switching, and before one step after the other of it.
-#include "engine/orbit/kept_moment.h"
+// default_moment.cpp — the motion at the end of all switching, and before one step after the other of it.
+#include "engine/orbit/default_moment.h"
 
 #include <fmt/format.h>
 
@@ -41,8 +41,8 @@ bool keeps_a_motion(const Scene& scene, const Effects& effects, const Moment& mo
 
 }  // namespace
 
-std::string choose_kept_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at,
-                               const Orbit* known) {
+std::string choose_default_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at,
+                                  const Orbit* known) {
   if (at.any()) return {};
   const std::vector<Moment> earlier = earlier_moments(scene);
   if (earlier.empty()) return {};

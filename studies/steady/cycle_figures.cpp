@@ -1,5 +1,5 @@
-// round_figures.cpp — one period with all quantities of its figures recorded.
-#include "studies/steady/round_figures.h"
+// cycle_figures.cpp — one period with all quantities of its figures recorded.
+#include "studies/steady/cycle_figures.h"
 
 #include <fmt/format.h>
 
@@ -142,9 +142,9 @@ std::vector<ExtremeOf> wanted_of(const Model& m) {
   return wanted;
 }
 
-class RoundFigures {
+class CycleFigures {
  public:
-  RoundFigures(const ReturnMap& map, const SteadyPoint& point, double tolerance)
+  CycleFigures(const ReturnMap& map, const SteadyPoint& point, double tolerance)
       : map_(map),
         point_(point),
         tolerance_(tolerance),
@@ -160,7 +160,7 @@ class RoundFigures {
     if (outcome_.diagnosis.empty()) turned_ += link_angle(outcome_.state);
   }
 
-  Round collect() {
+  Period collect() {
     if (!outcome_.diagnosis.empty()) return {.failed = outcome_.diagnosis};
     add_speeds();
     add_vibration();
@@ -168,7 +168,7 @@ class RoundFigures {
     add_works();
     add_drives();
     round_.outside_data = ranges_.sentences();
-    round_.orders = orders_of_round(map_, point_, tolerance_, turned_);
+    round_.orders = orders_of_cycle(map_, point_, tolerance_, turned_);
     return std::move(round_);
   }
 
@@ -282,7 +282,7 @@ class RoundFigures {
   Equations equations_;
   DriveQuadratures drives_;
   RunOutcome outcome_;
-  Round round_;
+  Period round_;
   double turned_ = 0;  // by the link [rad]
 };
 
@@ -306,8 +306,8 @@ std::vector<NamedShaft> shafts_of(const Model& m) {
   return shafts;
 }
 
-Round go_round(const ReturnMap& map, const SteadyPoint& point, double tolerance) {
-  return RoundFigures(map, point, tolerance).collect();
+Period figures_of_period(const ReturnMap& map, const SteadyPoint& point, double tolerance) {
+  return CycleFigures(map, point, tolerance).collect();
 }
 
 }  // namespace kurbel

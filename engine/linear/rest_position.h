@@ -1,4 +1,4 @@
-// rest_place.h — rest position of a machine that oscillates about it: a pendulum, a rocking crank.
+// rest_position.h — rest position of a machine that oscillates about it: a pendulum, a rocking crank.
 //
 // At rest the angle is fixed: weights and loads that depend on it act as springs, K = −∂M/∂φ. For a pendulum
 //     ω² = m g l/J
@@ -11,7 +11,7 @@
 
 namespace kurbel {
 
-struct RestPlace {
+struct RestPosition {
   double angle = 0;                         // of the reduction link [rad]
   std::shared_ptr<const MeanMotion> orbit;  // of its rest; null: found by the torque only
 };
@@ -23,6 +23,6 @@ bool rests_by_its_angle(const Model& model, const Orbit& orbit);
 
 // The position of a steady motion at rest; else the position to which the torques drive the machine from its start:
 // Σ M = 0 with ∂M/∂φ < 0. Throws std::invalid_argument if there is none.
-RestPlace place_of_rest(const std::shared_ptr<const Model>& model, const Orbit& orbit);
+RestPosition position_of_rest(const std::shared_ptr<const Model>& model, const Orbit& orbit);
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// free_swing.h — how a settled machine swings when it is pushed out of its motion: frequencies and decays, from runs alone.
+// free_vibration.h — how a settled machine swings when it is pushed out of its motion: frequencies and decays, from runs alone.
 //
 //     x₊(t) − x₋(t) = Σ Re a_m e^{λ_m t} p_m(t),   p_m(t + T) = p_m(t)                                    (Floquet)
 // Two runs side by side for each state, pushed forwards and backwards; the period in sub-intervals, at whose begins the
@@ -17,7 +17,7 @@
 
 namespace kurbel::agreement {
 
-struct FreeSwing {
+struct FreeVibration {
   double omega = 0, decay = 0;              // λ = −decay ± i omega [rad/s], [1/s]
   double omega_error = 0, decay_error = 0;  // pushes to one side only against pushes to both; what runs leave
   std::string joint;                        // that swings most
@@ -28,10 +28,10 @@ struct FreeSwing {
   double ratio() const;  // ζ
 };
 
-struct FreeSwings {
+struct FreeVibrations {
   bool measured = false;
   std::string why;                   // it was not
-  std::vector<FreeSwing> list;       // of those that swing, by frequency; without what dies within a sub-interval
+  std::vector<FreeVibration> list;   // of those that swing, by frequency; without what dies within a sub-interval
   double fastest = 0, shortest = 0;  // what could be seen: frequencies up to [rad/s], decays up to [1/s]
   int sub_intervals = 0, pushes = 0;
   double cpu_seconds = 0;
@@ -44,6 +44,6 @@ struct PushSettings {
   double budget = 12;  // processor time [s]
 };
 
-FreeSwings free_swings_of(const SettledRun& run, const PushSettings& settings = {});
+FreeVibrations free_vibrations_of(const SettledRun& run, const PushSettings& settings = {});
 
 }  // namespace kurbel::agreement

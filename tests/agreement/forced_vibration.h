@@ -1,4 +1,4 @@
-// forced_swing.h — how a settled machine swings by itself: the torque of every elastic joint over one period, by orders.
+// forced_vibration.h — how a settled machine swings by itself: the torque of every elastic joint over one period, by orders.
 //
 //     τ(t) = τ₀ + Σ_h Re c_h e^{2πi h t/T}         c_h by the trapezium rule, T the period of the settled run
 // In a machine whose link turns by Φ in T, h is the order 2πh/Φ of the link's turn.
@@ -12,7 +12,7 @@
 
 namespace kurbel::agreement {
 
-struct JointSwing {
+struct JointVibration {
   std::string component;
   std::size_t elastic = 0;                     // of the model
   double scale = 0;                            // largest torque of the period [N·m]
@@ -23,6 +23,6 @@ struct JointSwing {
 };
 
 // Empty where the machine does not repeat. Throws std::runtime_error where a period more fails.
-std::vector<JointSwing> joint_swings_of(const SettledRun& run, std::size_t harmonics);
+std::vector<JointVibration> joint_vibrations_of(const SettledRun& run, std::size_t harmonics);
 
 }  // namespace kurbel::agreement

@@ -1,4 +1,4 @@
-// kept_moment.h — the default moment of a machine for studies of steady motion: the last one with a steady motion.
+// default_moment.h — the default moment of a machine for studies of steady motion: the last one with a steady motion.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace kurbel {
 // 21.2 s …". For other machines `at` stays empty (the end of all switching), and so does the text. Searches like
 // find_orbit(), only if something is switched; `last`: the steady motion after all switching; null: unknown. Throws as
 // find_orbit().
-std::string choose_kept_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at,
-                               const Orbit* last = nullptr);
+std::string choose_default_moment(const Scene& scene, const Effects& effects, const OrbitOptions& options, Moment& at,
+                                  const Orbit* last = nullptr);
 
 }  // namespace kurbel

@@ -1,5 +1,5 @@
-// rest_place.cpp — the state of a steady motion at rest, or a root of the torque at standstill, downhill from the start.
-#include "engine/linear/rest_place.h"
+// rest_position.cpp — the state of a steady motion at rest, or a root of the torque at standstill, downhill from the start.
+#include "engine/linear/rest_position.h"
 
 #include <fmt/format.h>
 
@@ -74,7 +74,7 @@ bool rests_by_its_angle(const Model& model, const Orbit& orbit) {
   return by_angle && std::count(sense.begin(), sense.end(), 0) == 0;
 }
 
-RestPlace place_of_rest(const std::shared_ptr<const Model>& model, const Orbit& orbit) {
+RestPosition position_of_rest(const std::shared_ptr<const Model>& model, const Orbit& orbit) {
   if (stands(orbit)) {
     MeanMotion rest = *means_of_equilibrium(model, orbit.state);
     rest.speed = 0;

@@ -13,7 +13,7 @@
 #include "engine/numerics/dual.h"
 
 namespace kurbel {
-namespace sound {
+namespace valid {
 
 // All names of members of traits. A member of E with such a name (function, overload, template, data, private) makes
 // &Free<E>::name ambiguous.
@@ -25,7 +25,7 @@ struct Names {
       opens_at_zero;
   int turned_mode;  // of a load on a mechanism's output
   // Traits are declared in `is`; a member with such a name would have no effect.
-  int slips, springless, commanded, uses_angle, uses_speeds, turns_unevenly, spring_takes_motion, tells_loss;
+  int slips, springless, commanded, uses_angle, uses_speeds, turns_unevenly, spring_takes_motion, reports_loss;
   int guards, regularised_mode, states, described, other_forms;
   int account, directional, reversible, timed, periodic, settles, stores, feels_switching, starts_anew;
 };
@@ -41,7 +41,7 @@ concept SaysTraitsInIs = requires {
   &Free<E>::uses_speeds;
   &Free<E>::turns_unevenly;
   &Free<E>::spring_takes_motion;
-  &Free<E>::tells_loss;
+  &Free<E>::reports_loss;
   &Free<E>::guards;
   &Free<E>::regularised_mode;
   &Free<E>::states;
@@ -83,7 +83,7 @@ concept States = (E::is.states > 0 &&
                     { e.rates(x, own) } -> std::same_as<void>;
                     { e.rates(dual, rate) } -> std::same_as<void>;
                     { e.first_states(x, own) } -> std::same_as<void>;
-                    { e.state(0) } -> std::same_as<OwnState>;
+                    { e.state(0) } -> std::same_as<InternalState>;
                   }) ||
                  (E::is.states == 0 && requires {
                    &Free<E>::rates;
@@ -140,11 +140,11 @@ concept SpringOfTwist = !E::is.spring_takes_motion && E::is.states == 0 && !E::i
 template <class E>
 concept SpringTakes = SpringOfMotion<E> || SpringOfTwist<E> ||(!E::is.has_spring() && !E::is.spring_takes_motion);
 template <class E>
-concept TellsLoss = (E::is.tells_loss && E::is.has_spring() &&
-                     requires(const E& e, const Twist<double>& x) {
-                       { e.loss_power(x) } -> std::same_as<double>;
-                     }) ||
-                    (!E::is.tells_loss && E::is.states == 0 && requires { &Free<E>::loss_power; });
+concept ReportsLoss = (E::is.reports_loss && E::is.has_spring() &&
+                       requires(const E& e, const Twist<double>& x) {
+                         { e.loss_power(x) } -> std::same_as<double>;
+                       }) ||
+                      (!E::is.reports_loss && E::is.states == 0 && requires { &Free<E>::loss_power; });
 template <class E>
 concept UsesAngle = (E::is.uses_angle &&
                      requires(const E& e, const Twist<double>& x, const Twist<Dual<1>>& dual) {
@@ -267,104 +267,104 @@ concept OfNoConnection = requires {
 template <class E, class Traits>
 concept SaysWhatItIs = std::same_as<std::remove_cvref_t<decltype(E::is)>, Traits>;
 
-}  // namespace sound
+}  // namespace valid
 
 template <class E>
-concept SoundConnection = sound::SaysWhatItIs<E, ConnectionTraits> && sound::SaysTraitsInIs<E> &&
-    sound::Torque<E, Twist<double>, Twist<Dual<1>>> && sound::Slips<E> && sound::Spring<E> && sound::SpringTakes<E> &&
-    sound::TellsLoss<E> && sound::UsesAngle<E> && sound::TurnsUnevenly<E> && sound::Guards<E, Twist<double>> &&
-    sound::States<E, Twist<double>, Twist<Dual<1>>> && sound::Described<E> && sound::OtherForms<E, ConnectionForm> &&
-    sound::OfNoShaftElement<E>;
+concept ValidConnection = valid::SaysWhatItIs<E, ConnectionTraits> && valid::SaysTraitsInIs<E> &&
+    valid::Torque<E, Twist<double>, Twist<Dual<1>>> && valid::Slips<E> && valid::Spring<E> && valid::SpringTakes<E> &&
+    valid::ReportsLoss<E> && valid::UsesAngle<E> && valid::TurnsUnevenly<E> && valid::Guards<E, Twist<double>> &&
+    valid::States<E, Twist<double>, Twist<Dual<1>>> && valid::Described<E> && valid::OtherForms<E, ConnectionForm> &&
+    valid::OfNoShaftElement<E>;
 
 template <class E>
-concept SoundShaftElement = sound::SaysWhatItIs<E, ShaftTraits> && sound::SaysTraitsInIs<E> &&
-    sound::Torque<E, ShaftState<double>, ShaftState<Dual<1>>> && sound::Always<E> && sound::HasAccount<E> &&
-    sound::Directional<E> && sound::Commanded<E> && sound::HasPeriodOfAngle<E> && sound::Timed<E> &&
-    sound::Periodic<E> && sound::Settles<E> && sound::Guards<E, ShaftState<double>> &&
-    sound::States<E, ShaftState<double>, ShaftState<Dual<1>>> && sound::Stores<E> && sound::FeelsSwitching<E> &&
-    sound::StartsAnew<E> && sound::Described<E> && sound::OtherForms<E, ShaftForm> && sound::OfNoConnection<E>;
+concept ValidShaftElement = valid::SaysWhatItIs<E, ShaftTraits> && valid::SaysTraitsInIs<E> &&
+    valid::Torque<E, ShaftState<double>, ShaftState<Dual<1>>> && valid::Always<E> && valid::HasAccount<E> &&
+    valid::Directional<E> && valid::Commanded<E> && valid::HasPeriodOfAngle<E> && valid::Timed<E> &&
+    valid::Periodic<E> && valid::Settles<E> && valid::Guards<E, ShaftState<double>> &&
+    valid::States<E, ShaftState<double>, ShaftState<Dual<1>>> && valid::Stores<E> && valid::FeelsSwitching<E> &&
+    valid::StartsAnew<E> && valid::Described<E> && valid::OtherForms<E, ShaftForm> && valid::OfNoConnection<E>;
 
 // A specification that becomes a connection.
 template <class S>
-concept SoundSpecification = requires(const S& given) {
+concept ValidSpecification = requires(const S& given) {
   typename S::Element;
   { given.settled(1.0) } -> std::same_as<typename S::Element>;
   { given.damping_hangs_on_inertia() } -> std::same_as<bool>;
 }
-&&sound::FindsForms<S, ConnectionForm> == requires { requires S::other_forms; };
+&&valid::FindsForms<S, ConnectionForm> == requires { requires S::other_forms; };
 
 // Checks of both kinds with messages.
 template <class E, class X, class D>
 consteval void demand_common() {
-  static_assert(sound::SaysTraitsInIs<E>, "a trait stands beside `is`: say it in `is`, as .slips = true");
-  static_assert(sound::Torque<E, X, D>,
+  static_assert(valid::SaysTraitsInIs<E>, "a trait stands beside `is`: say it in `is`, as .slips = true");
+  static_assert(valid::Torque<E, X, D>,
                 "an element has template <class T> T torque(const Twist<T>&) const, of a shaft "
                 "element const ShaftState<T>&");
-  static_assert(sound::Guards<E, X>,
+  static_assert(valid::Guards<E, X>,
                 ".guards = n goes with guard(x, double*), first_mode(x), next_mode(x, int) and "
                 "mode_name(int), all const; and .regularised_mode with .guards");
-  static_assert(sound::States<E, X, D>,
+  static_assert(valid::States<E, X, D>,
                 ".states = n goes with template rates(x, T*), first_states(x, double*) and "
                 "state(int), all const");
-  static_assert(sound::Described<E>, ".described goes with std::string describe() const");
+  static_assert(valid::Described<E>, ".described goes with std::string describe() const");
 }
 
 template <class E>
-consteval bool demand_sound_connection() {
-  static_assert(sound::SaysWhatItIs<E, ConnectionTraits>,
+consteval bool demand_valid_connection() {
+  static_assert(valid::SaysWhatItIs<E, ConnectionTraits>,
                 "a connection says what it is: static constexpr ConnectionTraits is{…}");
   demand_common<E, Twist<double>, Twist<Dual<1>>>();
-  static_assert(sound::Slips<E>,
+  static_assert(valid::Slips<E>,
                 ".slips goes with Hold hold(const Twist<double>&) const and double capacity() const, "
                 "and not with .springless");
-  static_assert(sound::Spring<E>,
+  static_assert(valid::Spring<E>,
                 "a connection has double twist_at(double) const, double stiffness_at_rest() const, "
                 "spring_torque and energy, unless it .slips or is .springless");
-  static_assert(sound::SpringTakes<E>,
+  static_assert(valid::SpringTakes<E>,
                 "double spring_torque(x) const and double energy(x) const take the twist, or "
                 "with .spring_takes_motion, always with .states or .uses_angle, the motion");
-  static_assert(sound::TellsLoss<E>, ".tells_loss, always with .states, goes with double loss_power(x) const");
-  static_assert(sound::UsesAngle<E>,
+  static_assert(valid::ReportsLoss<E>, ".tells_loss, always with .states, goes with double loss_power(x) const");
+  static_assert(valid::UsesAngle<E>,
                 ".uses_angle goes with template <class T> T turning_torque(const Twist<T>&) const");
-  static_assert(sound::TurnsUnevenly<E>,
+  static_assert(valid::TurnsUnevenly<E>,
                 ".turns_unevenly, with .uses_angle, goes with rest_twist(double), rest_ratio(double) "
                 "and rest_ratio_slope(double), all double and const");
-  static_assert(sound::OtherForms<E, ConnectionForm>,
+  static_assert(valid::OtherForms<E, ConnectionForm>,
                 ".other_forms goes with ConnectionForm under(const E&, const Effects&)");
-  static_assert(sound::OfNoShaftElement<E>, "this member belongs to a trait of shaft elements");
+  static_assert(valid::OfNoShaftElement<E>, "this member belongs to a trait of shaft elements");
   return true;
 }
 
 template <class E>
-consteval bool demand_sound_shaft_element() {
-  static_assert(sound::SaysWhatItIs<E, ShaftTraits>,
+consteval bool demand_valid_shaft_element() {
+  static_assert(valid::SaysWhatItIs<E, ShaftTraits>,
                 "a shaft element says what it is: static constexpr ShaftTraits is{…}");
   demand_common<E, ShaftState<double>, ShaftState<Dual<1>>>();
-  static_assert(sound::Always<E>,
+  static_assert(valid::Always<E>,
                 "a shaft element has Rated rated() const, bool uses_time() const and bool uses_speed() "
                 "const");
-  static_assert(sound::HasAccount<E>, "a shaft element has either .account = … or a member Account work_account");
-  static_assert(sound::Directional<E>, ".directional goes with Hold hold(const ShaftState<double>&) const");
-  static_assert(sound::Commanded<E>,
+  static_assert(valid::HasAccount<E>, "a shaft element has either .account = … or a member Account work_account");
+  static_assert(valid::Directional<E>, ".directional goes with Hold hold(const ShaftState<double>&) const");
+  static_assert(valid::Commanded<E>,
                 ".commanded goes with bool opens_at_zero() const, and .reversible with .commanded");
-  static_assert(sound::HasPeriodOfAngle<E>, ".uses_angle goes with double angle_period() const");
-  static_assert(sound::Timed<E>, ".timed goes with double next_edge(double) const and int mode_at(double) const");
-  static_assert(sound::Periodic<E>, ".periodic goes with double time_period() const");
-  static_assert(sound::Settles<E>, ".settles goes with double settled_from() const");
-  static_assert(sound::Stores<E>,
+  static_assert(valid::HasPeriodOfAngle<E>, ".uses_angle goes with double angle_period() const");
+  static_assert(valid::Timed<E>, ".timed goes with double next_edge(double) const and int mode_at(double) const");
+  static_assert(valid::Periodic<E>, ".periodic goes with double time_period() const");
+  static_assert(valid::Settles<E>, ".settles goes with double settled_from() const");
+  static_assert(valid::Stores<E>,
                 ".stores, with .states, goes with double stored(const double*) const and double "
                 "loss_power(x) const");
-  static_assert(sound::FeelsSwitching<E>, ".feels_switching, with .states, goes with void switched(x, double*) const");
-  static_assert(sound::StartsAnew<E>, ".starts_anew, with .guards, goes with int mode_anew(x) const");
-  static_assert(sound::OtherForms<E, ShaftForm>, ".other_forms goes with ShaftForm under(const E&, const Effects&)");
-  static_assert(sound::OfNoConnection<E>, "this member belongs to a trait of connections");
+  static_assert(valid::FeelsSwitching<E>, ".feels_switching, with .states, goes with void switched(x, double*) const");
+  static_assert(valid::StartsAnew<E>, ".starts_anew, with .guards, goes with int mode_anew(x) const");
+  static_assert(valid::OtherForms<E, ShaftForm>, ".other_forms goes with ShaftForm under(const E&, const Effects&)");
+  static_assert(valid::OfNoConnection<E>, "this member belongs to a trait of connections");
   return true;
 }
 
 template <class S>
-consteval bool demand_sound_specification() {
+consteval bool demand_valid_specification() {
   static_assert(
-      SoundSpecification<S>,
+      ValidSpecification<S>,
       "a specification has using Element = E, E settled(double) const, bool "
       "damping_hangs_on_inertia() const, and with other_forms = true ConnectionForm under(const S&, const Effects&)");
   return true;
