@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "mechanisms/deforming/slider_crank_pose.h"
+#include "tests/mechanisms/slider_crank_pose.h"
 #include "tests/mechanisms/slider_crank_statics_friction.h"
 
 namespace kurbel {

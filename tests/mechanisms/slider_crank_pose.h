@@ -1,5 +1,4 @@
-// slider_crank_pose.h — pose of rod and slider of a slider-crank with two derivatives by φ, also for dual numbers; used at
-// every step for the reactions and the friction of its joints.
+// slider_crank_pose.h — pose of rod and slider of a slider-crank with two derivatives by φ, also for dual numbers.
 #pragma once
 
 #include <cmath>
