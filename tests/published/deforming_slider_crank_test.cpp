@@ -7,6 +7,7 @@
 
 #include "engine/events/equations.h"
 #include "engine/run/run.h"
+#include "mechanisms/deforming/deforming_mechanism.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "tests/support/scenes.h"
 #include "tests/support/validation.h"
@@ -40,7 +41,9 @@ std::shared_ptr<const Model> with_stretching_masses(const Scene& scene, double f
   for (Network::ShaftElement& e : net.elements)
     if (const MechanismElement* element = mechanism_of(e)) {
       Mechanism changed = element->mechanism();
-      changed.flexibility->stretching_mass_factor = factor;
+      const auto parts = std::make_shared<Deformation>(deformation_of(changed));
+      parts->flexibility->stretching_mass_factor = factor;
+      changed.deforming = parts;
       e.element = std::make_shared<MechanismElement>(std::move(changed));
     }
   return compile_network(std::move(net), scene, scene.effects);
