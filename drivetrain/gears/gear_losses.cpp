@@ -12,8 +12,8 @@ std::string GearEfficiency::describe(double ratio) const {
     text += fmt::format("; bearings {:.4g} and {:.4g} N·m on the input", bearing_driving, bearing_driven);
   if (self_locking())
     return text + fmt::format(
-                      "; self-locking: at rest it holds any torque on the output; to move along with a load on "
-                      "the output it wants {:.4g} N·m on the input per N·m of the load",
+                      "; self-locking: at rest it holds any torque on the output; to move with a load on "
+                      "the output it needs {:.4g} N·m on the input per N·m of the load",
                       -backwards / std::abs(ratio));
   const double held = bearing_driven * std::abs(ratio);
   if (held > 0) text += fmt::format("; without torque on the input it holds up to {:.4g} N·m on the output", held);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <numbers>
 #include <stdexcept>
 
@@ -39,24 +40,28 @@ const std::vector<std::string>& any_abscissa() {
 
 namespace {
 
-// What drives goes on beyond its table along the last slope, where that falls and still drives; else nobody knows how it
-// goes on, and a motion that gets there is refused.
-void go_on_as_drive(Curve& curve) {
+constexpr double above_no_load = 0.05;  // of the no-load speed: so far the last slope of a drive counts as data
+
+// A drive continues beyond its table along the last slope, where that falls; if it neither falls nor has come to 0, a motion
+// that gets there is refused. Returns whether the first and the last point are no-load speeds: there it brakes beyond.
+std::array<bool, 2> go_on_as_drive(Curve& curve) {
   const double first = curve.x().front(), last = curve.x().back();
   Beyond before = curve.beyond_first(), after = curve.beyond_last();
-  if (last > 0 && curve.y().back() > 0 && after == Beyond::unspecified) {
+  std::array<bool, 2> no_load = {};
+  if (last > 0 && curve.y().back() >= 0 && after == Beyond::unspecified) {
     if (curve.last_slope() < 0)
-      curve.follow_last_slope();
-    else
+      curve.follow_last_slope(), no_load[1] = curve.y().back() == 0;
+    else if (curve.y().back() > 0)
       after = Beyond::refuse;
   }
-  if (first < 0 && curve.before() < 0 && before == Beyond::unspecified) {
+  if (first < 0 && curve.before() <= 0 && before == Beyond::unspecified) {
     if (curve.first_slope() < 0)
-      curve.follow_first_slope();
-    else
+      curve.follow_first_slope(), no_load[0] = curve.before() == 0;
+    else if (curve.before() < 0)
       before = Beyond::refuse;
   }
   curve.say(before, after);
+  return no_load;
 }
 
 }  // namespace
@@ -71,8 +76,15 @@ void put_curve(Network& net, int node, const std::string& component, const Torqu
     net.put(node, component, TorqueOverTime{account, curve, sign}, window);
   } else if (data.over == "speed") {
     if (data.period > 0) refuse("a table over speed has no period");
-    if (account == Account::driving) go_on_as_drive(curve);
+    const auto no_load = account == Account::driving ? go_on_as_drive(curve) : std::array<bool, 2>{};
+    const std::size_t ranges = net.ranges.size();
     net.limit({.component = component, .of = "torque", .over = Over::speed, .node = node, .unit = "rad/s"}, curve);
+    if (net.ranges.size() > ranges && (no_load[0] || no_load[1])) {
+      Network::DataRange& range = net.ranges.back();
+      range.of = "torque, which counts up to 5 % above no load,";
+      if (no_load[0]) range.low *= 1 + above_no_load;
+      if (no_load[1]) range.high *= 1 + above_no_load;
+    }
     net.put(node, component, TorqueOverSpeed{account, curve, sign}, window);
   } else {
     CurveData closed = data;

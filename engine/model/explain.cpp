@@ -110,7 +110,7 @@ std::string Model::explain() const {
     if (relation.lossy && !relation.words.empty()) text += "    " + relation.words + "\n";
   }
   for (const PlacedInternalState& own : internal_states)
-    text += fmt::format("  state of its own: {} of {}\n", own.state.name, own.component);
+    text += fmt::format("  internal state: {} of {}\n", own.state.name, own.component);
   for (const Network::ShaftElement& e : network.elements)
     if (const std::string words = e.element->describe(); !words.empty()) text += "  " + words + "\n";
   return text + merged_lines(*this);

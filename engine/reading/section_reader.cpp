@@ -96,6 +96,10 @@ bool read_nested(const DocumentValue& value, const Key& key, const std::string& 
   bool valid = true;  // else something was said, be it of a table used by name, before this component was come to
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const DocumentValue& table = *tables[i];
+    if (table.computed && table.computed->faulty) {
+      valid = false;
+      continue;
+    }
     const std::string name = value.type == Type::table ? what : fmt::format("{}[{}]", what, i + 1);
     const bool one_kind = key.nested->size() == 1;
     const Kind* kind = one_kind ? &key.nested->front() : read_kind(table, *key.nested, name, table.at, messages);
@@ -123,6 +127,10 @@ bool read_named(const DocumentValue& value, const Key& key, const std::string& w
   bool valid = true;
   for (const DocumentEntry& entry : value.entries) {
     DocumentValue table = entry.value;
+    if (table.computed && table.computed->faulty) {
+      valid = false;
+      continue;
+    }
     if (table.type != Type::table) {
       table = {};
       table.at = entry.at, table.end = entry.value.end;

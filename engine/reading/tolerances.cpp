@@ -32,8 +32,9 @@ class ToleranceReader {
     Tolerance t{.path = path_, .unit = {}, .at = table_.at};
     for (const DocumentEntry& entry : table_.entries)
       if (std::find(keys_of_tolerance().begin(), keys_of_tolerance().end(), entry.key) == keys_of_tolerance().end())
-        refuse(entry.at, fmt::format("{} is no key of a value with a tolerance{}; allowed: {}", in_quotes(entry.key),
-                                     suggestion(entry.key, keys_of_tolerance()), listed(keys_of_tolerance())));
+        refuse(entry.at,
+               fmt::format("unknown key {}{}; allowed: {}; the value itself is \"value\"", in_quotes(entry.key),
+                           suggestion(entry.key, keys_of_tolerance()), listed(keys_of_tolerance())));
     read_value(t);
     read_distribution(t);
     read_ends(t);

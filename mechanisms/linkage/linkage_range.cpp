@@ -11,9 +11,10 @@ namespace {
 
 const long double whole_turn = 2 * std::acos(-1.0L);
 constexpr int steps_of_turn = 360;
-constexpr long double least_step = 1e-13L;   // [rad]: how well the place of a lock is found
-constexpr long double least_way = 1e-3L;     // [rad]
-constexpr long double least_margin = 1e-6L;  // nearer to a dead position rounding would choose the branch
+constexpr long double least_step = 1e-13L;  // [rad]: how well the place of a lock is found
+constexpr long double least_way = 1e-3L;    // [rad]
+constexpr long double least_margin =
+    1e-6L;  // sin² of a transmission angle: below it a millionth of a length decides the branch
 
 std::string in_degrees_of(long double phi) {
   const double degrees = static_cast<double>(phi * 360 / whole_turn);
@@ -152,12 +153,13 @@ std::string Linkage::undetermined(const AssurGroup& group) const {
 
 void Linkage::refuse_change_point(int group, long double phi) {
   const AssurGroup& of = structure_.groups[static_cast<std::size_t>(group)];
-  refuse("points", fmt::format("at φ = {} {}, or so nearly that rounding would choose how the links go on: a change "
-                               "point. {}; the kinds four-bar, slider-crank and inverted slider-crank know how theirs "
-                               "are passed",
-                               in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
-                               of.superfluous > 0 ? "Put a bearing of parallel cranks out of the line of the others"
-                                                  : "Change a length clearly"));
+  refuse("points",
+         fmt::format("at φ = {} {}, or so nearly that a millionth of a length decides how the links continue: a change "
+                     "point. {}; the kinds four-bar, slider-crank and inverted slider-crank know how theirs "
+                     "are passed",
+                     in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
+                     of.superfluous > 0 ? "Put a bearing of parallel cranks out of the line of the others"
+                                        : "Change a length clearly"));
 }
 
 void Linkage::refuse_stop(const Closed& stopped, long double phi) {

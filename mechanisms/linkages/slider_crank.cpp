@@ -12,7 +12,7 @@ namespace kurbel {
 namespace {
 
 // A rod shorter than r + |e| lets the crank rock, if its pin comes within the rod's reach of the slider's line, and clearly
-// so: a stop that is hardly one is a change point that rounding would choose the branch of.
+// so: at a stop that is hardly one a millionth of a length would decide the branch.
 void add_rod_faults(const SliderCrankData& d, DataFaults& faults) {
   constexpr double hardly = 1e-6;
   const double reach = d.radius + std::abs(d.offset), near = std::abs(d.offset) - d.radius;
@@ -24,7 +24,7 @@ void add_rod_faults(const SliderCrankData& d, DataFaults& faults) {
   else if (d.rocks() && (close_to(reach) || close_to(std::abs(near))))
     faults.push_back(
         {"rod", fmt::format("rod = {} differs by only {:.1e} of itself from the length at which crank and rod pass "
-                            "upright, so that rounding would choose the branch; lengthen or shorten it clearly",
+                            "upright: a millionth of a length would decide the branch; lengthen or shorten it clearly",
                             in_mm(d.rod_length),
                             std::abs(d.rod_length - (close_to(reach) ? reach : std::abs(near))) / d.rod_length)});
   else if (d.folds && !d.changes() && !d.rocks())

@@ -70,8 +70,8 @@ std::string conclusion_of(const EffectStudy& s) {
       std::max_element(s.omitted.begin(), s.omitted.end(),
                        [](const OmittedEffect& a, const OmittedEffect& b) { return a.time_ratio < b.time_ratio; });
   if (dearest->time_ratio > alike_in_time)
-    text +=
-        fmt::format("; {} takes most time, {:.2g} × the time without it", dearest->effect.words, dearest->time_ratio);
+    text += fmt::format("; most time is due to {}, {:.2g} × the time without it", dearest->effect.words,
+                        dearest->time_ratio);
   return text + "." + beyond(s);
 }
 

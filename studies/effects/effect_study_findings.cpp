@@ -12,6 +12,7 @@ constexpr std::size_t most_figures = 8;  // columns of the matrix of changes
 constexpr double least_shown = 1e-6;     // percent; smaller changes lie on the axis
 
 std::string percent(const FigureChange& change) {
+  if (100 * std::abs(change.relative) < least_shown) return "0";
   return change.from_nothing && change.relative > 1 ? std::string("from zero")
                                                     : fmt::format("{:.3g} %", 100 * change.relative);
 }

@@ -289,7 +289,8 @@ void describe(const AskedMechanism& asked, Forces& out) {
 void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const MachineMotion& machine, Forces& out,
                     ForceCycle& cycle) {
   cycle.label = "prescribed";
-  cycle.description = fmt::format("crank turning at {} throughout, {}", out.speed_unit.text(speed.value), speed.source);
+  cycle.description =
+      fmt::format("crank turning at {} throughout, {}", out.speed_unit.text(speed.value, 4), speed.source);
   for (const std::string& words : {out.unbounded.any() ? out.unbounded.words : "", loads.words_of_sequence()})
     if (!words.empty()) out.notes.push_back(words);
   for (const std::string& note : substitutes(machine.model())) out.notes.push_back(note);

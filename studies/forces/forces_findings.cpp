@@ -37,9 +37,9 @@ Findings begin_findings(const Forces& f, const ForceCycle& front, const std::str
 
 // "press at 60 rpm: the main bearing carries up to 10.45 kN (at 90.0°)", or that reactions have no bound.
 std::string begin_conclusion(const Forces& f, const ForceCycle& front, const Peak& main_bearing) {
-  const double swing = front.greatest_speed.value - front.least_speed.value;
+  const double range = front.greatest_speed.value - front.least_speed.value;
   const std::string moving = fmt::format("{} at {}{}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4),
-                                         swing > 1e-4 * std::abs(front.mean_speed.value) ? " on average" : "");
+                                         range > 1e-4 * std::abs(front.mean_speed.value) ? " on average" : "");
   if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
   return fmt::format("{}: the main bearing carries up to {} (at {})", moving, in_words(main_bearing, "N"),
                      at_angle(main_bearing));
@@ -216,8 +216,14 @@ Rows counterweight_table(const Forces& f) {
 
 void say_links(Findings& to, Chapter in, const ForceCycle& c) {
   using L = const LinkOfCycle&;
-  const auto reported = [](auto LinkOfCycle::*of, double factor = 1) {
-    return [of, factor](L l) { return with_error(factor * (l.*of), ""); };
+  const auto reported = [](auto LinkOfCycle::*of) { return [of](L l) { return with_error(l.*of, ""); }; };
+  const auto percent = [](auto LinkOfCycle::*of) {
+    return [of](L l) {
+      constexpr double least = 0.001;  // [%]
+      const Estimate share = 100.0 * (l.*of);
+      return share.value < std::max(least, share.error.value_or(0)) ? std::string("0")
+                                                                    : fmt::format("{:.4g}", share.value);
+    };
   };
   to.say(in, table_of("", "Motion and inertia forces of the links, largest over the cycle", c.links)
                  .headed("links: motion and inertia forces, largest over the cycle")
@@ -235,11 +241,11 @@ void say_links(Findings& to, Chapter in, const ForceCycle& c) {
                  .always()
                  .only_for_people("link", &LinkOfCycle::name)
                  .only_for_people("I_r [kg·m²]", reported(&LinkOfCycle::reduced_inertia))
-                 .only_for_people("of I_r [%]", reported(&LinkOfCycle::inertia_share, 100))
-                 .only_for_people("least [%]", reported(&LinkOfCycle::least_share, 100))
-                 .only_for_people("most [%]", reported(&LinkOfCycle::greatest_share, 100))
+                 .only_for_people("of I_r [%]", percent(&LinkOfCycle::inertia_share))
+                 .only_for_people("least [%]", percent(&LinkOfCycle::least_share))
+                 .only_for_people("most [%]", percent(&LinkOfCycle::greatest_share))
                  .only_for_people("T [J]", reported(&LinkOfCycle::energy))
-                 .only_for_people("of T [%]", reported(&LinkOfCycle::energy_share, 100)));
+                 .only_for_people("of T [%]", percent(&LinkOfCycle::energy_share)));
   to.draw(in, [&c] { return link_plots(c); });
 }
 
@@ -375,9 +381,10 @@ bool is_nothing(const Peak& p) {
 
 std::string in_words(const Peak& p, const std::string& si_unit) {
   const ReadableUnit unit = readable_unit(p.value, si_unit);
-  if (std::abs(p.value) <= p.error.value_or(0) && !is_nothing(p))  // not told from zero: alone it would say too much
+  if (std::abs(p.value) <= p.error.value_or(0) &&
+      !is_nothing(p))  // not distinguished from zero: alone it would say too much
     return with_error(unit.factor * p, unit.unit);
-  return fmt::format("{:.5g} {}", unit.factor * p.value, unit.unit);
+  return fmt::format("{:.4g} {}", unit.factor * p.value, unit.unit);
 }
 
 double or_zero(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }

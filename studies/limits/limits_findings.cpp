@@ -42,7 +42,7 @@ std::string load_text(const Verdict& v) {
 bool is_reported_first(const BarredRange& b) { return !(b.everywhere && b.by == BarredRange::By::rule); }
 
 std::string range_text(const BarredRange& b, const SpeedUnit& unit) {
-  return fmt::format("{:.5g} … {}", unit.of(b.from), unit.text(b.to, 5));
+  return fmt::format("{:.4g} … {}", unit.of(b.from), unit.text(b.to, 4));
 }
 
 // ": up to 939.9 N·m where 75 N·m are allowed": by a limit that is given.

@@ -33,6 +33,14 @@ double quantity_of(const std::string& option, const std::string& text, const std
   return value->value;
 }
 
+void check_example(const OptionText& option) {
+  UnitError error;
+  const auto example = parse_quantity(option.example, error);
+  if (!example || !option.domain.contains(example->value))
+    throw std::logic_error(fmt::format("option \"{}\" is a quantity; its example {} is none that it accepts",
+                                       option.name, in_quotes(option.example)));
+}
+
 Moment moment_of(const std::string& option, const std::string& at, std::optional<double>& speed) {
   Moment moment;
   const std::string example = "\"step 2\", a time such as \"1.5 s\", or a speed such as \"60 rpm\"";
@@ -71,6 +79,7 @@ void OptionValues::refuse(const std::string& text, const std::string& must) cons
 }
 
 double OptionValues::quantity(const std::string& text) const {
+  check_example(option_.text);
   return quantity_of(label(), text, option_.text.what, option_.text.example, option_.text.domain);
 }
 

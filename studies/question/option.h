@@ -32,6 +32,10 @@ namespace kurbel {
 double quantity_of(const std::string& option, const std::string& text, const std::string& what,
                    const std::string& example, const Domain& domain);
 
+// Throws std::logic_error unless the example of a quantity's option is one that the option accepts: it defines the unit.
+struct OptionText;
+void check_example(const OptionText& option);
+
 // After "step 2" of the operating sequence, at "1.5 s", or at a speed, which is stored in `speed` [rad/s]. Throws
 // std::invalid_argument for anything else.
 Moment moment_of(const std::string& option, const std::string& at, std::optional<double>& speed);
@@ -113,6 +117,16 @@ inline constexpr bool has_several<std::vector<T>> = true;
 template <class T, std::size_t count>
 inline constexpr bool has_several<std::array<T, count>> = true;
 
+// A double, or a list or an option of them: quantities, read by the unit of the example.
+template <class T>
+inline constexpr bool has_quantities = std::is_same_v<T, double>;
+template <class T>
+inline constexpr bool has_quantities<std::optional<T>> = has_quantities<T>;
+template <class T>
+inline constexpr bool has_quantities<std::vector<T>> = has_quantities<T>;
+template <class T, std::size_t count>
+inline constexpr bool has_quantities<std::array<T, count>> = has_quantities<T>;
+
 template <class Asked>
 class OptionsOf {
  public:
@@ -120,6 +134,7 @@ class OptionsOf {
 
   template <class M, class B>
   OptionsOf& add(OptionText text, M B::*member) {
+    if constexpr (has_quantities<M>) check_example(text);
     return add(std::move(text), has_several<M> ? OptionForm::several : OptionForm::one,
                [member](Asked& asked, const OptionValues& given) { given.read(asked.*member); });
   }

@@ -47,13 +47,18 @@ struct QuestionText {
 
 struct Question : QuestionText {
   std::vector<DeclaredOption> options;
+  // Reads options without an answer. Throws std::invalid_argument for invalid ones.
+  std::function<void(const GivenOptions&, const Scene&)> check;
   // Throws std::invalid_argument for invalid options, SceneError for errors of the scene.
   std::function<StudyOutput(const Inquiry&, const GivenOptions&)> answer;
 };
 
 template <class Asked>
 Question make_question(QuestionText text, OptionsOf<Asked> options, StudyOutput (*answer)(const Inquiry&, Asked)) {
-  Question question{std::move(text), options.declared(), {}};
+  Question question{std::move(text), options.declared(), {}, {}};
+  question.check = [name = question.name, options](const GivenOptions& given, const Scene& scene) {
+    options.read(given, name, scene);
+  };
   question.answer = [name = question.name, options = std::move(options), answer](const Inquiry& inquiry,
                                                                                  const GivenOptions& given) {
     return answer(inquiry, options.read(given, name, inquiry.scene));

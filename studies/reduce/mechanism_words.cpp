@@ -27,7 +27,7 @@ std::string time_ratio(const Mechanism& m, const std::vector<double>& ends) {
   if (ends.size() != 2) return {};
   const double one = ends[1] - ends[0], other = m.cycle() - one, slow = std::max(one, other),
                quick = std::min(one, other);
-  return fmt::format("; one stroke takes {:.5g}°, the other {:.5g}°: time ratio {:.4g}", slow / degree, quick / degree,
+  return fmt::format("; one stroke takes {:.4g}°, the other {:.4g}°: time ratio {:.4g}", slow / degree, quick / degree,
                      slow / quick);
 }
 
@@ -39,9 +39,9 @@ std::string travel(const Mechanism& m) {
   if (m.stroke() == 0) return "its output stands still";
   const std::vector<double> ends = reversals_of(m);
   std::string centres;
-  for (const double phi : ends) centres += fmt::format("{}{:.5g}°", centres.empty() ? "" : ", ", phi / degree);
+  for (const double phi : ends) centres += fmt::format("{}{:.4g}°", centres.empty() ? "" : ", ", phi / degree);
   return fmt::format("{} {}, dead centres at φ = {}{}", m.rocks() ? "swing" : "stroke",
-                     m.rocks() ? fmt::format("{:.6g}°", m.stroke() / degree) : with_unit(m.stroke(), "m", 6), centres,
+                     m.rocks() ? fmt::format("{:.4g}°", m.stroke() / degree) : with_unit(m.stroke(), "m", 4), centres,
                      time_ratio(m, ends));
 }
 

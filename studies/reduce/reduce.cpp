@@ -365,7 +365,7 @@ class Reducer : MachineOnBasis {
       r_.notes.push_back(fmt::format(
           "classical: at constant speed, rigid; the fluctuation of the speed is neglected{}: in the steady cycle (mid "
           "speed {}) the mean driving torque is {}, the mean resisting torque {}, and 2T/ω² {}",
-          and_effects(), r_.speed_unit.text(c.mid_speed()), in_place_of(c.cycle.drive.mean(), r_.mean_drive.value),
+          and_effects(), r_.speed_unit.text(c.mid_speed(), 4), in_place_of(c.cycle.drive.mean(), r_.mean_drive.value),
           in_place_of(c.cycle.load.mean(), r_.mean_load.value),
           off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));
     } catch (const std::invalid_argument&) {  // no steady cycle of which the link's angle tells
@@ -389,8 +389,8 @@ class Reducer : MachineOnBasis {
     });
     if (peak == r_.curve.end() || std::abs(peak->load) <= 1.05 * seen) return;
     r_.notes.push_back(
-        fmt::format("between the positions the resistance reaches {} at {:.5g}°; more --positions show it",
-                    with_unit(peak->load, r_.to_output && !r_.to_rocker ? "N" : "N*m"), peak->phi * 360 / turn));
+        fmt::format("between the positions the resistance reaches {} at {:.4g}°; more --positions show it",
+                    with_unit(peak->load, r_.to_output && !r_.to_rocker ? "N" : "N*m", 4), peak->phi * 360 / turn));
   }
 
   static constexpr double rounding = 1e-12;

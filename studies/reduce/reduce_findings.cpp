@@ -240,12 +240,15 @@ Formulas formulas_of(const MachineReduction& r) {
            p->drive_inertia, p->mechanism_inertia, p->inertia)
       .note(where);
   std::string sum;
-  for (const std::size_t k : acting(r, above_rounding))
+  for (const std::size_t k : acting(r, above_rounding)) {
+    if (std::abs(p->share[k]) <= above_rounding * (std::abs(p->drive) + std::abs(p->load)))
+      continue;  // 0 at this angle
     sum += fmt::format("{}{:.6g}",
                        sum.empty()       ? (p->share[k] < 0 ? "−" : "")
                        : p->share[k] < 0 ? " − "
                                          : " + ",
                        std::abs(p->share[k]));
+  }
   const double net = p->drive - p->load;
   list.add("Reduced torque (theory 2.2)", "M_r = Σ [F·v + M·ω]/ω = M_d − M_c", "M_r = {} = {:.6g} N·m",
            sum.empty() ? "0" : sum, std::abs(net) > above_rounding * std::abs(p->drive) ? net : 0)

@@ -90,7 +90,7 @@ bool is_dust(const Harmonic& h, const Spectrum& s) {
 }
 
 std::string speed_text(const MachineReduction& r) {
-  return fmt::format("torques at {} of {} ({})", r.speed_unit.text(r.speed), r.link, r.speed_source);
+  return fmt::format("torques at {} of {} ({})", r.speed_unit.text(r.speed, 4), r.link, r.speed_source);
 }
 
 std::vector<Plot> motion_plots(const MachineReduction& r) {

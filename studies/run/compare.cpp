@@ -50,7 +50,7 @@ std::map<std::string, double> torques_at_start(const Result& result) {
 
 // Suddenly applied loads: even for large stiffness the elastic peak exceeds the rigid one (theory 5.15).
 void note_sudden_loads(Comparison& c) {
-  if (c.b.model && !is_elastic(*c.b.model)) return;  // nothing swings
+  if (c.b.model && !is_elastic(*c.b.model)) return;  // nothing vibrates
   if (c.a.model && is_elastic(*c.a.model)) return;   // both do
   std::vector<std::string> sudden;
   const std::map<std::string, double> rigid_torques = torques_at_start(c.a), elastic_torques = torques_at_start(c.b);
@@ -59,9 +59,12 @@ void note_sudden_loads(Comparison& c) {
     const auto rigid = rigid_torques.find(joint), elastic = elastic_torques.find(joint);
     const Figure* peak = c.a.find(quantities::peak_torque, joint);
     if (rigid == rigid_torques.end() || elastic == elastic_torques.end() || !peak) continue;
+    const auto text = [&](double torque) {
+      return with_unit(without_rounding({torque, {}}, peak->value).value, "N*m", 4);
+    };
     if (std::abs(rigid->second - elastic->second) > 0.05 * std::abs(peak->value))
-      sudden.push_back(fmt::format("at the start {} jumps from {} to {}", joint, with_unit(elastic->second, "N*m", 4),
-                                   with_unit(rigid->second, "N*m", 4)));
+      sudden.push_back(
+          fmt::format("at the start {} jumps from {} to {}", joint, text(elastic->second), text(rigid->second)));
   }
   const auto edges = std::count_if(c.b.events.begin(), c.b.events.end(), [](const Event& e) {
     return e.kind == EventKind::load_edge || e.kind == EventKind::window;

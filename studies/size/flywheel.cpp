@@ -207,13 +207,13 @@ const CustomaryDelta& customary_delta(const std::string& machine) {
 std::string unbalanced(double drive, double load, double rest) {
   const std::string text = load == 0 ? fmt::format(
                                            "the driving torque varies with the angle and the scene has no load on "
-                                           "the cycle: its mean of {:.5g} N·m is not balanced",
+                                           "the cycle: its mean of {:.4g} N·m is not balanced",
                                            drive)
                                      : fmt::format(
-                                           "the driving torque varies with the angle; of its mean of {:.5g} N·m the "
-                                           "load of the scene takes {:.5g} N·m{}",
+                                           "the driving torque varies with the angle; of its mean of {:.4g} N·m the "
+                                           "load of the scene takes {:.4g} N·m{}",
                                            drive, load, rest < 0 ? ", more than there is" : "");
-  return text + fmt::format("; sized as if a constant {} of {:.5g} N·m, which the scene does not have, balanced them",
+  return text + fmt::format("; sized as if a constant {} of {:.4g} N·m, which the scene does not have, balanced them",
                             rest > 0 ? "load" : "drive", std::abs(rest));
 }
 

@@ -186,7 +186,7 @@ class Reach {
     if ((!found.orbit || found.none_needed) && first.crank.value <= s_.delta) return;  // smooth enough as it is
     if (!found.orbit) {
       s_.meeting_words = fmt::format(
-          "no flywheel was found with which the {} machine has δ = {:g}: the least of {} steady motions is {:.5g}, "
+          "no flywheel was found with which the {} machine has δ = {:g}: the least of {} steady motions is {:.4g}, "
           "with {:.6g} kg·m²",
           which, s_.delta, found.orbits, found.least, found.least_at);
       if (!found.unknown.empty())
@@ -235,20 +235,20 @@ void report_omitted(Sizing& s, const std::vector<std::string>& beyond) {
     const double least = *s.delta_of_orbit, by_work = s.delta_now;
     s.notes.push_back(
         fmt::format("the work equation of the rigid machine omits {}: at the scene's own inertia it gives {}, the "
-                    "steady cycle has δ = {:.5g}",
+                    "steady cycle has δ = {:.4g}",
                     what.empty() ? "what the scene's effects change" : what,
                     std::isnan(by_work) ? "no cycle (the machine would stop)"
-                                        : fmt::format("δ = {:.5g} ({:+.3g} %)", by_work, 100 * (by_work / least - 1)),
+                                        : fmt::format("δ = {:.4g} ({:+.3g} %)", by_work, 100 * (by_work / least - 1)),
                     least));
   } else if (!what.empty()) {
     s.notes.push_back(
         fmt::format("classical: {} omitted{}", what, beyond.size() == 1 ? " is" : " are") +
-        (rigid ? fmt::format("; with it the sized machine has δ = {:.5g} instead of {:g}", rigid->crank.value, s.delta)
+        (rigid ? fmt::format("; with it the sized machine has δ = {:.4g} instead of {:g}", rigid->crank.value, s.delta)
                : std::string()));
   }
   if (rigid && elastic && s.basis == CycleBasis::classical)
     s.notes.push_back(
-        fmt::format("the work equation omits elasticity: with it δ is {:.5g} instead of {:.5g} ({:+.3g} %)",
+        fmt::format("the work equation omits elasticity: with it δ is {:.4g} instead of {:.4g} ({:+.3g} %)",
                     elastic->crank.value, rigid->crank.value, 100 * (elastic->crank.value / rigid->crank.value - 1)));
 }
 

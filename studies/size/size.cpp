@@ -199,7 +199,7 @@ class Sizer : MachineOnBasis {
     if (tried == s_.flywheel_now) {
       s_.delta_of_orbit = found.delta();
     } else {
-      s_.notes.push_back(fmt::format("as the scene is, {}; the torques are those with {:.6g} kg·m² on \"{}\"", as_it_is,
+      s_.notes.push_back(fmt::format("as the scene is, {}; the torques are those with {:.4g} kg·m² on \"{}\"", as_it_is,
                                      tried, s_.flywheel));
     }
     start_speed_ = found.sense * found.speed.value(0);
@@ -257,12 +257,12 @@ class Sizer : MachineOnBasis {
   void compare_constant_drive(double drive, double load) {
     if (drive < load * (1 - 1e-9))
       throw WeakDrive(
-          fmt::format("the drive is too weak for the cycle: it gives {:.6g} N·m on {} at any speed, the load takes "
-                      "{:.6g} N·m on the mean; {:.6g} N·m are missing ({:.3g} % of the load)",
+          fmt::format("the drive is too weak for the cycle: it gives {:.4g} N·m on {} at any speed, the load takes "
+                      "{:.4g} N·m on the mean; {:.4g} N·m are missing ({:.3g} % of the load)",
                       drive, s_.link, load, load - drive, 100 * (load - drive) / load));
     if (drive > load * (1 + 1e-9))
       s_.notes.push_back(
-          fmt::format("the scene's drive gives {:.6g} N·m at any speed, {:.6g} N·m more than the mean load: the "
+          fmt::format("the scene's drive gives {:.4g} N·m at any speed, {:.4g} N·m more than the mean load: the "
                       "machine would run ever faster; sized for the torque that balances the load",
                       drive, drive - load));
   }

@@ -29,20 +29,20 @@ std::string conclusion_of(const Sizing& s) {
   if (s.needed && exact.flywheel <= 0)
     return fmt::format(
         "By the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
-        "{:.5g}; {}",
+        "{:.4g}; {}",
         s.delta, s.reached.front().crank.value, s.meeting_words);
   if (!s.needed)
     return fmt::format(
         "{} flywheel is needed for δ = {:g}: without any, δ is smaller already; {}",
         s.estimate ? "By an estimate, the rigid machine without its losses, no" : "No", s.delta,
         exact.drive_inertia > 0
-            ? fmt::format("the drive could be lighter by {:.5g} kg·m² on {}", -exact.flywheel, s.flywheel)
+            ? fmt::format("the drive could be lighter by {:.4g} kg·m² on {}", -exact.flywheel, s.flywheel)
             : std::string("its torques would not make the speed fluctuate as much with any inertia"));
   std::string text = s.estimate ? fmt::format(
                                       "An estimate, by the rigid machine without its losses: a flywheel of about "
                                       "{:.3g} kg·m² on {} for δ = {:g} {}",
                                       exact.flywheel, s.flywheel, s.delta, basis_of(s))
-                                : fmt::format("A flywheel of {:.6g} kg·m² on {} keeps δ at {:g} {}", exact.flywheel,
+                                : fmt::format("A flywheel of {:.4g} kg·m² on {} keeps δ at {:g} {}", exact.flywheel,
                                               s.flywheel, s.delta, basis_of(s));
   text +=
       fmt::format(", at a mid speed of {} of {} ({})", s.speed_unit.text(s.mid_speed, 4), s.link, s.mid_speed_source);
@@ -51,7 +51,7 @@ std::string conclusion_of(const Sizing& s) {
     const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
     text += s.soft->none_needed
                 ? fmt::format("; with {} considered none is needed", slope_of_what(s))
-                : fmt::format("; with {} considered {:.6g} kg·m² {} ({:.3g} % {})", slope_of_what(s), s.soft->flywheel,
+                : fmt::format("; with {} considered {:.4g} kg·m² {} ({:.3g} % {})", slope_of_what(s), s.soft->flywheel,
                               less >= 0 ? "suffice" : "are needed", std::abs(less), less >= 0 ? "less" : "more");
   }
   if (!s.meeting_words.empty()) text += "; " + s.meeting_words;
@@ -61,17 +61,17 @@ std::string conclusion_of(const Sizing& s) {
 // Results of the sized machine, one sentence per model: δ is demanded and assessed at the crank.
 std::string words_of(const Sizing& s, const DeltaReached& r) {
   return fmt::format(
-      "{} with {:.6g} kg·m², δ is {:.5g} at the crank, where {:g} is demanded{}",
+      "{} with {:.4g} kg·m², δ is {:.4g} at the crank, where {:g} is demanded{}",
       r.model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", r.flywheel, r.crank.value, s.delta,
-      s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.5g} at the motor", r.motor.value));
+      s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.4g} at the motor", r.motor.value));
 }
 
 std::string comparison_with_scene(const Sizing& s) {
   if (s.flywheel_added) return fmt::format("The scene has no flywheel; it is put on the shaft of {}.", s.link);
   const double needed = s.chosen().flywheel;
   const std::string now = std::isnan(s.delta_now) ? "the machine would stop within the cycle"
-                                                  : fmt::format("δ = {:.5g} {}", s.delta_now, basis_of(s));
-  return fmt::format("The scene's \"{}\" has {:.6g} kg·m²: {}; it is {}.", s.flywheel, s.flywheel_now, now,
+                                                  : fmt::format("δ = {:.4g} {}", s.delta_now, basis_of(s));
+  return fmt::format("The scene's \"{}\" has {:.4g} kg·m²: {}; it is {}.", s.flywheel, s.flywheel_now, now,
                      s.flywheel_now >= needed ? "already larger than needed" : "too small");
 }
 

@@ -106,8 +106,8 @@ Formulas motor_formulas(const Sizing& s) {
   if (s.with_motor)
     list.add(s.operating->drive_slope < 0 ? "The drive's speed yields: its torque rises as the speed falls"
                                           : "The drive does not give way: what holds the speed is the load",
-             "d(½ I ω²)/dφ = M_d − M_c,   ω(Φ) = ω(0)", "δ = {:.6g} instead of {:g}, at a mid speed of {:.6g} rad/s",
-             s.with_motor->crank.value, s.delta, s.with_motor->mid_speed)
+             "d(½ I ω²)/dφ = M_d − M_c,   ω(Φ) = ω(0)", "δ = {:.6g} instead of {:g}, at a mid speed of {}",
+             s.with_motor->crank.value, s.delta, s.speed_unit.text(s.with_motor->mid_speed))
         .note(fmt::format(
             "Slope of the torques at the operating speed {:.4g} N·m·s/rad{}.", s.operating->slope,
             s.with_motor->multiplier

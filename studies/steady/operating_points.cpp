@@ -1,4 +1,4 @@
-// operating_points.cpp — mean torques by quadrature, their intersections, starts from rest.
+// operating_points.cpp — intersections of the mean torques, starts from rest.
 #include "studies/steady/operating_points.h"
 
 #include <fmt/format.h>
@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "drivetrain/gears/gear_keys.h"
-#include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "engine/run/run.h"
@@ -21,94 +19,15 @@
 namespace kurbel {
 namespace {
 
-constexpr int scan_points = 250;         // over the rated range
-constexpr int scan_points_moving = 100;  // where each torque is asked of the equations of motion
-constexpr double scan_beyond = 1.25;     // of the rated speed
-constexpr int most_doublings = 6;        // beyond that: it runs away
-constexpr double widest_interval = std::numbers::pi / 12;
+constexpr int scan_points = 250;              // over the rated range
+constexpr int scan_points_moving = 100;       // where each torque is asked of the equations of motion
+constexpr double scan_beyond = 1.25;          // of the rated speed
+constexpr int most_doublings = 6;             // beyond that: it runs away
 constexpr double rounding_of_tables = 1e-11;  // of the turnover: what tables of mechanisms leave of torques that cancel
 
 std::string speed_text(const SpeedUnit& unit, double omega) { return unit.text(std::abs(omega), 5); }
 
 }  // namespace
-
-Effects rigid_with_losses(const Effects& effects) {
-  Effects rigid = rigid_effects();
-  rigid.gear_losses = effects.gear_losses;
-  rigid.joint_friction = effects.joint_friction;
-  rigid.bearing_friction = effects.bearing_friction;
-  return rigid;
-}
-
-std::shared_ptr<const Model> machine_with_losses(const Network& network, const Scene& scene, const Effects& effects) {
-  const Effects rigid = rigid_with_losses(effects);
-  if (rigid.describe() == rigid_effects().describe()) return nullptr;
-  return compile_network(network, scene, rigid);
-}
-
-MeanCharacteristic::MeanCharacteristic(RigidMachine& machine, int direction, int finer,
-                                       const std::shared_ptr<const Model>& lossy)
-    : machine_(machine), moving_(lossy ? std::make_unique<Equations>(lossy, true) : nullptr), direction_(direction) {
-  std::vector<double> ends = machine.edges(direction);
-  ends.push_back(0);
-  ends.push_back(machine.cycle());
-  std::sort(ends.begin(), ends.end());
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const double length = ends[i + 1] - ends[i];
-    if (length < 1e-12) continue;
-    const int parts = finer * static_cast<int>(std::ceil(length / widest_interval));
-    for (int k = 0; k < parts; ++k) {
-      begin_.push_back(ends[i] + length * k / parts);
-      width_.push_back(length / parts);
-    }
-  }
-}
-
-MeanTorques MeanCharacteristic::at(double omega) {
-  MeanTorques mean{direction_ * std::abs(omega), 0, 0, 0};
-  for (std::size_t i = 0; i < begin_.size(); ++i) moving_ ? add_moving(mean, i) : add_static(mean, i);
-  return mean;
-}
-
-namespace {
-
-// Shares of the accounts, reduced to the link.
-void add_shares(MeanTorques& mean, const std::vector<WorkAccount>& accounts, std::span<const double> share,
-                double weight) {
-  for (std::size_t a = 0; a < accounts.size(); ++a) {
-    (accounts[a].kind == Account::driving ? mean.drive : mean.load) +=
-        weight * (accounts[a].kind == Account::driving ? share[a] : -share[a]);
-    mean.turnover += std::abs(weight * share[a]);
-  }
-}
-
-}  // namespace
-
-void MeanCharacteristic::add_static(MeanTorques& mean, std::size_t i) {
-  machine_.set_modes(begin_[i] + 0.5 * width_[i], mean.omega);
-  gauss<5>.over(begin_[i], width_[i], [&](double phi, double weight) {
-    const RigidMachine::At here = machine_.at(phi, mean.omega, true);
-    add_shares(mean, machine_.model().accounts, here.share, weight / machine_.cycle() * direction_);
-  });
-}
-
-// Powers of the accounts over the link's speed: with the accelerations of the motion and the flanks in contact.
-void MeanCharacteristic::add_moving(MeanTorques& mean, std::size_t i) try {
-  const Model& m = moving_->model();
-  std::vector<double> rate(moving_->size()), share(m.accounts.size());
-  gauss<5>.over(begin_[i], width_[i], [&](double phi, double weight) {
-    StartSettings settings{};
-    settings.angle = phi;
-    settings.speed = mean.omega;
-    std::vector<double> y = moving_->start(0, settings);
-    y.resize(moving_->size(), 0.0);
-    moving_->flow(0, y, rate);
-    for (std::size_t a = 0; a < share.size(); ++a) share[a] = rate[moving_->work_index(a)] / mean.omega;
-    add_shares(mean, m.accounts, share, weight / machine_.cycle() * direction_);
-  });
-} catch (const std::runtime_error&) {  // joints that jam
-  mean.drive = mean.load = std::nan("");
-}
 
 const OperatingPoint* OperatingDiagram::working_point() const {
   const OperatingPoint* fastest = nullptr;
@@ -179,7 +98,7 @@ double error_of(MeanCharacteristic& finer, const MeanTorques& mean, double withi
 
 }  // namespace
 
-OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const std::shared_ptr<const Model>& lossy) {
+OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const LossyMachine& lossy) {
   OperatingDiagram result;
   result.speed_unit = machine.model().scene.speed_unit;
   result.direction = direction;
@@ -187,12 +106,12 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
   if (machine.model().commands.empty()) result.brakes = brakes_of(machine.model().network);
   MeanCharacteristic mean(machine, direction, 1, lossy), finer(machine, direction, 2, lossy);
   const double rated = machine.model().speed_scale,
-               step = scan_beyond * rated / (lossy ? scan_points_moving : scan_points);
-  const int points = lossy ? scan_points_moving : scan_points;
+               step = scan_beyond * rated / (lossy.model ? scan_points_moving : scan_points);
+  const int points = lossy.model ? scan_points_moving : scan_points;
   for (int i = 0; i <= points; ++i) result.curve.push_back(mean.at(i == 0 ? 1e-6 * rated : i * step));
-  const bool known = lossy == nullptr || (lossy->internal_states.empty() &&
-                                          std::all_of(result.curve.begin(), result.curve.end(),
-                                                      [](const MeanTorques& m) { return std::isfinite(m.net()); }));
+  const bool known = !lossy.model || (lossy.model->internal_states.empty() &&
+                                      std::all_of(result.curve.begin(), result.curve.end(),
+                                                  [](const MeanTorques& m) { return std::isfinite(m.net()); }));
   if (!known) {
     result = operating_diagram(machine, direction);
     result.become_estimate();
@@ -217,7 +136,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const s
       std::max_element(result.curve.begin(), result.curve.end(), [](auto& a, auto& b) { return a.net() < b.net(); });
   const double within = left_by_tables(machine.model().scene), error = error_of(finer, result.curve.back(), within);
   // Losses by inertia torques depend on the speed, too.
-  if (lossy && std::any_of(result.curve.begin(), result.curve.end(), [&](const MeanTorques& m) {
+  if (lossy.model && std::any_of(result.curve.begin(), result.curve.end(), [&](const MeanTorques& m) {
         return std::abs(m.net() - result.curve.back().net()) > 10 * error + 1e-9 * m.turnover;
       }))
     result.uses_speed = true;

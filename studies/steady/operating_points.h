@@ -2,8 +2,9 @@
 //
 //     M̄(ω) = (1/Φ) ∮ M(φ, ω) dφ at constant ω;  operating points M̄_d(ω) = M̄_c(ω), stable where dM̄_d/dω < dM̄_c/dω
 //                                                                                                 (theory 4.15)
-// Losses that depend on transmitted loads (gears, joints, bearings) are included in the torques at φ and ω: from the
-// machine's equations of motion, with its acceleration.
+// Losses that depend on transmitted loads (gears, joints, bearings) are included in the torques at φ and ω, from the
+// machine's equations of motion: M̄_c is the drive torque that keeps the mean speed, so that no mean acceleration passes
+// through the losses.
 #pragma once
 
 #include <atomic>
@@ -27,25 +28,30 @@ struct MeanTorques {
 
 // The effects of the rigid machine including load-dependent losses.
 Effects rigid_with_losses(const Effects& effects);
-// Its equations of motion; null if the effects include no such losses.
-std::shared_ptr<const Model> machine_with_losses(const Network& network, const Scene& scene, const Effects& effects);
+// The same machine with these losses, and with a torque at every drive, equally strong on the link, that keeps its speed.
+struct LossyMachine {
+  std::shared_ptr<const Model> model = {};  // null: the effects include no such losses
+  std::shared_ptr<double> holding = {};     // on the link, in the direction of its angle; 0 unless set [N·m]
+};
+LossyMachine machine_with_losses(const Network& network, const Scene& scene, const Effects& effects);
 
 // Gauss–Legendre integration between the load edges.
 class MeanCharacteristic {
  public:
-  // direction: ±1, of the link's rotation; finer: factor on the number of intervals; lossy: the same machine with its
-  // losses, or null.
-  MeanCharacteristic(RigidMachine& machine, int direction, int finer = 1,
-                     const std::shared_ptr<const Model>& lossy = nullptr);
+  // direction: ±1, of the link's rotation; finer: factor on the number of intervals.
+  MeanCharacteristic(RigidMachine& machine, int direction, int finer = 1, LossyMachine lossy = {});
   // |omega| > 0. NaN if the machine jams, or has states besides angle and speed.
   MeanTorques at(double omega);
 
  private:
+  MeanTorques with_losses(double omega, double holding);
   void add_static(MeanTorques& mean, std::size_t interval);
   void add_moving(MeanTorques& mean, std::size_t interval);
 
   RigidMachine& machine_;
+  LossyMachine lossy_;
   std::unique_ptr<Equations> moving_;  // with losses
+  double holding_ = 0, slope_ = 1;     // at the last speed: the torque that keeps it, ∂net/∂holding
   int direction_;
   std::vector<double> begin_, width_;  // intervals of the cycle without edges inside [rad]
 };
@@ -82,8 +88,7 @@ struct OperatingDiagram {
 };
 
 // Scans the speeds up to 1.25 × the rated one, and further while the drive is stronger.
-OperatingDiagram operating_diagram(RigidMachine& machine, int direction,
-                                   const std::shared_ptr<const Model>& lossy = nullptr);
+OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const LossyMachine& lossy = {});
 
 // A source or a load is switched at some time.
 bool is_switched(const Network& network);

@@ -166,7 +166,7 @@ class Study {
     // If losses balance the machine, or if it completes no turn, the scene's own start determines the member of the
     // family.
     const double cycle = periodicity_of(*rigid_).angle;
-    if (is_balanced(*out_.diagram) && (lossy_ || turns_back(rigid_, cycle))) return;
+    if (is_balanced(*out_.diagram) && (lossy_.model || turns_back(rigid_, cycle))) return;
     throw std::invalid_argument(family_text(*out_.diagram, cycle, out_.link));
   }
 
@@ -290,7 +290,8 @@ class Study {
   const Scene& scene_;
   const std::vector<Effects>& effects_;
   SteadyOptions options_;
-  std::shared_ptr<const Model> rigid_, lossy_;  // lossy: with losses by the load; null: none
+  std::shared_ptr<const Model> rigid_;
+  LossyMachine lossy_;
   SteadyStudy out_;
 };
 

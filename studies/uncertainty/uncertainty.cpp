@@ -239,7 +239,7 @@ class UncertaintyWork {
       const std::string unit = unit_of(f);
       study_.notes.push_back(fmt::format(
           "{} does not follow its gradients over these tolerances: the samples have a deviation of {:.3g}{} about "
-          "{:.5g}{}, gradients say {:.3g}{} about {:.5g}{}; the samples are right, and shares by gradients are of "
+          "{:.4g}{}, gradients say {:.3g}{} about {:.4g}{}; the samples are right, and shares by gradients are of "
           "small tolerances only (kurbel sweep --design saltelli:N shares out what is not linear)",
           f.figure.name, reported(f, f.by_samples), unit, reported(f, f.mean), unit, reported(f, f.by_gradients), unit,
           reported(f, f.value), unit));
@@ -268,7 +268,7 @@ class UncertaintyWork {
     if (figure != study_.figures.end()) {
       const ToleranceShare& most = figure->shares.front();
       const std::string unit = unit_of(*figure);
-      text += fmt::format("{}{} is {:.5g}{} with a standard deviation of {:.2g}{} by the tolerances",
+      text += fmt::format("{}{} is {:.4g}{} with a standard deviation of {:.2g}{} by the tolerances",
                           text.empty() ? "" : "; ", figure->figure.name, reported(*figure, figure->value), unit,
                           reported(*figure, figure->deviation()), unit);
       text += figure->is_linear() ? fmt::format("; {} contributes most: without its tolerance {:.2g}{}",

@@ -109,6 +109,28 @@ run = {{ until = "60 s" }}
   EXPECT_NE(refusal(scene(0.4)).find("\"motor\": its table of torque ends at"), std::string::npos);
 }
 
+// M = k (ω₀ − ω) from a table that ends at ω₀: a weight −M₀ overruns it to ω₀ + M₀/k, within 5 % without a word and with errors,
+// further with both.
+TEST(BeyondTables, ADriveThatEndsAtItsNoLoadSpeedBrakesBeyond) {
+  const double k = 0.5, no_load = 100;
+  for (const double over : {0.001, 0.04, 0.08})
+    for (const int sense : {1, -1}) {
+      const Scene scene =
+          scene_from(fmt::format(R"(
+line = ["motor", "drum"]
+motor = {{ kind = "motor", inertia = "1 kg*m2", torque = {{ over = "speed", unit = ["rad/s", "N*m"], points = [[{}, {}], [{}, {}]] }} }}
+drum = {{ kind = "load", torque = "{} N*m", inertia = "1 kg*m2" }}
+run = {{ until = "200 s", start = {{ speed = "{} rad/s" }} }}
+)",
+                                 sense > 0 ? 0 : -no_load, sense > 0 ? k * no_load : 0, sense > 0 ? no_load : 0,
+                                 sense > 0 ? 0 : -k * no_load, -sense * k * no_load * over, sense * 90));
+      const Result r = run(scene);
+      EXPECT_NEAR(figure(r, "final_speed.drum"), sense * no_load * (1 + over), 1e-6) << over;
+      EXPECT_EQ(reports(r), over > 0.05) << over;
+      EXPECT_EQ(bool(r.find("final_speed.drum")->error), over < 0.05) << over;
+    }
+}
+
 // λ below its first speed ratio keeps its first value: a start from rest is taken from outside the data.
 TEST(BeyondTables, AFluidCouplingBelowItsFirstSpeedRatio) {
   const auto scene = [](const std::string& lambda) {

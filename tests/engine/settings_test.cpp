@@ -126,6 +126,23 @@ TEST(Settings, FaultsAreReportedAtTheirPlaceInTheSetting) {
 }
 
 // Whatever is given: the scene is read, or refused with a place.
+// A table that is at fault as a value with a tolerance is read as nothing else.
+TEST(Settings, AWrongKeyOfAValueWithAToleranceIsOneFault) {
+  std::stringstream stream;
+  stream << std::ifstream(test::source_path("scenes/straight_line.toml")).rdbuf();
+  std::string text = stream.str();
+  const std::string length = "OA = \"280 mm\"", mass = "{ points = \"O A\", mass = \"1 kg\"";
+  text.replace(text.find(length), length.size(), "OA = { value = \"280 mm\", tolerance = \"0.1 mm\" }");
+  text.replace(text.find(mass), mass.size(), "{ points = \"O A\", mass = { value = \"1 kg\", tolerance = \"5 %\" }");
+  for (const char* path : {"saw.lengths.OA.length=281 mm", "saw.links.arm_a.mass.val=2 kg"}) {
+    const std::vector<Message> list = faults(text, {path});
+    ASSERT_EQ(list.size(), 1u) << path;
+    EXPECT_NE(list[0].text.find("the value itself is \"value\""), std::string::npos) << list[0].text;
+    EXPECT_EQ(list[0].file, std::string("--set \"") + path + "\"");
+  }
+  EXPECT_TRUE(faults(text, {"saw.lengths.OA.value=280.05 mm"}).empty());
+}
+
 TEST(Settings, OfAnyCharactersAreReadOrRefusedWithAPlace) {
   const std::vector<std::string> pieces = {"shaft", "motor", "run",  "start",     "line", "title", ".",   "=",
                                            "[1]",   "[",     "]",    " ",         "\"",   "'",     "{",   "}",

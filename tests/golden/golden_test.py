@@ -67,8 +67,8 @@ class Comparison(unittest.TestCase):
         self.judged("identical", changed("stdout", to=lambda s: s.replace("3.1 ms of", "1.04 s of")))
         self.judged("identical", changed("summary", "conclusion", to=lambda s: s.replace("costs 36 ×", "costs 1.5 ×")))
         # Which effect costs most is a time, too, and may be none.
-        dear = {"exit": 0, "summary": {"conclusion": "The strongest effect is gravity, 33 % off; backlash takes most time, 1.5 × the time without it."}}
-        for other in ("; gravity takes most time, 1.6 × the time without it.", "."):
+        dear = {"exit": 0, "summary": {"conclusion": "The strongest effect is gravity, 33 % off; most time is due to backlash, 1.5 × the time without it."}}
+        for other in ("; most time is due to gravity, 1.6 × the time without it.", "."):
             self.judged("identical", {"exit": 0, "summary": {"conclusion": "The strongest effect is gravity, 33 % off" + other}}, dear)
 
     def test_numbers_of_steps_are_told_apart(self):

@@ -32,12 +32,12 @@ std::string travel(const std::string& begin, double first, double second) {
   if (first > second) std::swap(first, second);
   const double one = second - first, slow = std::max(one, 2 * pi - one), quick = 2 * pi - slow;
   return fmt::format(
-      "m: {}, dead centres at φ = {:.5g}°, {:.5g}°; one stroke takes {:.5g}°, the other {:.5g}°: time "
+      "m: {}, dead centres at φ = {:.4g}°, {:.4g}°; one stroke takes {:.4g}°, the other {:.4g}°: time "
       "ratio {:.4g}",
       begin, first * 180 / pi, second * 180 / pi, slow * 180 / pi, quick * 180 / pi, slow / quick);
 }
-std::string stroke(double way) { return "stroke " + with_unit(way, "m", 6); }
-std::string swing(double angle) { return fmt::format("swing {:.6g}°", angle * 180 / pi); }
+std::string stroke(double way) { return "stroke " + with_unit(way, "m", 4); }
+std::string swing(double angle) { return fmt::format("swing {:.4g}°", angle * 180 / pi); }
 
 // That both commands say these, of so many in all.
 void expect_words(const std::string& mechanism, std::ptrdiff_t count, const std::vector<std::string>& words) {

@@ -398,6 +398,27 @@ TEST(OperatingPoints, InductionMotorUnderConstantLoadHasAStableAndAnUnstablePoin
   EXPECT_NEAR(d.strongest_at, 100 * (1 - sb), 1e-4);
 }
 
+// Behind i = 12 with η = 0.9 the drive keeps any speed by M₀/(i η) + c ω/(i² η), whatever the inertias are.
+TEST(OperatingPoints, OfALoadBehindLossesAreThoseOfSpeedsThatAreKept) {
+  for (const char* inertia : {"0.012 kg*m2", "0.4 kg*m2"})
+    for (const double damping : {0.0, 2.0}) {
+      const Scene scene = scene_from(fmt::format(
+          "line = [\"motor\", \"gearbox\", \"drum\"]\nmotor = {{ kind = \"induction motor\", rated_power = \"4 kW\", "
+          "rated_speed = \"1430 rpm\", synchronous_speed = \"1500 rpm\", breakdown_ratio = 2.8, inertia = \"{}\" }}\n"
+          "gearbox = {{ kind = \"gearbox\", stages = [{{ teeth = [20, 60] }}, {{ teeth = [20, 80] }}], efficiency = "
+          "0.9 }}\n"
+          "drum = {{ kind = \"load\", torque = \"200 N*m\", damping = \"{} N*m*s/rad\", inertia = \"2 kg*m2\" }}\n",
+          inertia, damping));
+      const SteadyStudy study = steady(scene, {scene.effects}, {});
+      ASSERT_TRUE(study.diagram && !study.diagram->estimate);
+      for (const MeanTorques& at : study.diagram->curve)
+        EXPECT_NEAR(at.load, 200 / (12 * 0.9) + damping * at.omega / (144 * 0.9), 1e-9) << inertia << at.omega;
+      const OperatingPoint* point = study.diagram->working_point();
+      ASSERT_NE(point, nullptr);
+      EXPECT_NEAR(point->load_slope, damping / (144 * 0.9), 1e-7) << inertia;
+    }
+}
+
 // The press force does 200 J a turn: mean torque 200/2π at any speed.
 TEST(OperatingPoints, MeanLoadTorqueIsWorkPerTurnOverTheTurn) {
   RigidMachine machine(scene_file("scenes/driven_slider_crank.toml"));
