@@ -6,6 +6,7 @@
 
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
+#include "engine/run/turns.h"
 
 namespace kurbel {
 namespace {
@@ -58,12 +59,21 @@ void LinkRecorder::step(StepView& view) {
     hindmost_ = extreme_ > foremost_ ? extreme_ : std::min(hindmost_, extreme_);
     foremost_ = std::max(foremost_, extreme_);
   }
+  const auto beyond = [&](double t) { return std::abs(link.gain * speed_at(t)) - least; };
+  constexpr int parts = 8;
+  double after = view.t(), beyond_after = std::abs(speed) - least;
+  if (turns) turned_at_ = after;
+  bool turned = turns;
+  for (int k = parts - 1; k >= 0 && !turned; --k) {
+    const double t = std::lerp(view.t_previous(), view.t(), static_cast<double>(k) / parts), now = beyond(t);
+    turned = now > 0;
+    if (turned) turned_at_ = find_root(beyond, t, now, after, beyond_after);
+    after = t, beyond_after = now;
+  }
+  if (view.t() < late_from_) return;
   double reached = std::abs(speed);  // a swing may have its greatest speeds within steps
-  const bool is_late = view.t() >= late_from_;
-  for (double part = 0.25; part < 1 && (is_late || !(reached > least)); part += 0.25)
-    reached = std::max(reached, std::abs(link.gain * speed_at(std::lerp(view.t_previous(), view.t(), part))));
-  if (reached > least) turned_at_ = view.t();
-  if (!is_late) return;
+  for_each_turn_within(view.t_previous(), view.t(), speed_at,
+                       [&](double t) { reached = std::max(reached, std::abs(link.gain * speed_at(t))); });
   if (view.t_previous() < late_from_) late_begin_ = low_ = high_ = before;
   way_ += std::abs(angle_ - before), late_fastest_ = std::max(late_fastest_, std::abs(speed));
   low_ = std::min(low_, angle_), high_ = std::max(high_, angle_);

@@ -8,8 +8,8 @@
 
 namespace kurbel {
 
-// Evaluated at the ends of steps; reversals are located on the solution. The link turns above 1e-3 of its usual
-// speed, at quarters of a step; its sense of rotation is updated above 1e-2 of it.
+// Evaluated at the ends of steps; reversals, the last turning and the speeds of a vibration are located on the solution. The
+// link turns above 1e-3 of its usual speed; its sense of rotation is updated above 1e-2 of it.
 class LinkRecorder final : public Observer {
  public:
   LinkRecorder(const Model& model, double until) : m_(model), sources_(model), until_(until) {}
@@ -29,7 +29,7 @@ class LinkRecorder final : public Observer {
   // Greatest speed of that rotation while anything drove [rad/s, ≤ 0].
   double driven_back() const { return driven_back_; }
   double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
-  double turned_at() const { return turned_at_; }              // end of the last step in which it turned [s]
+  double turned_at() const { return turned_at_; }              // when it last turned [s]
   // It has not turned for the last fiftieth of the time up to t, nor for the time between its last two reversals: a swing
   // stands where it turns.
   bool rests(double t) const { return t - turned_at_ > std::max(0.02 * t, half_swing_); }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
+#include "engine/run/turns.h"
 
 namespace kurbel {
 namespace {
@@ -54,9 +55,14 @@ void SlipRecorder::step(StepView& view) {
     joint.state = state;
     if (!spell || state == State::open) continue;
     const ElasticJoint& e = m.elastic[joint.elastic];
-    const Snapshot& s = view.snapshot(view.t());
-    spell->fastest =
-        std::max(spell->fastest, std::abs(e.gain_a * s.now.speed[e.shaft_a] - e.gain_b * s.now.speed[e.shaft_b]));
+    const auto speed = [&](int shaft, double t) {
+      return at(shaft) < m.free_shafts ? view.at(t, view.equations().speed_index(shaft))
+                                       : view.snapshot(t).now.speed[shaft];
+    };
+    const auto slip = [&](double t) { return e.gain_a * speed(e.shaft_a, t) - e.gain_b * speed(e.shaft_b, t); };
+    const auto see = [&](double t) { spell->fastest = std::max(spell->fastest, std::abs(slip(t))); };
+    see(view.t_previous()), see(view.t());
+    for_each_turn_within(view.t_previous(), view.t(), slip, see);
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
-#include "engine/numerics/roots.h"
+#include "engine/run/turns.h"
 
 namespace kurbel {
 namespace {
@@ -65,11 +65,8 @@ void FlywheelFalls::step(StepView& view) {
 
 template <class See>
 void FlywheelFalls::search(StepView& view, const Wheel& w, const See& see) {
-  const double begin = view.t_previous(), end = view.t(), middle = 0.5 * (begin + end), delta = 1e-3 * (end - begin);
   const auto speed = [&](double t) { return std::abs(w.gain * view.at(t, w.state)); };
-  const auto rate = [&](double t) { return speed(std::min(t + delta, end)) - speed(std::max(t - delta, begin)); };
-  for_each_turn(rate, {begin, rate(begin)}, {middle, rate(middle)}, {end, rate(end)},
-                [&](double t) { see(t, speed(t)); });
+  for_each_turn_within(view.t_previous(), view.t(), speed, [&](double t) { see(t, speed(t)); });
 }
 
 void FlywheelFalls::report(const Model& model, const FlywheelFalls* seen, double energy_scale, FigureReporter& report) {

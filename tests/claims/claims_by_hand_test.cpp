@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "drivetrain/friction/belt.h"
+#include "studies/answers/link_recorder.h"
 #include "studies/answers/run_claims.h"
 #include "tests/support/scenes.h"
 
@@ -159,6 +161,51 @@ TEST(Sticking, IsNotSaidOfAShaftThatOscillates) {
   EXPECT_TRUE(sticks(1, 1));
   EXPECT_TRUE(sticks(-1, -1));
   EXPECT_FALSE(sticks(1, -1));
+}
+
+// The driven side swings by A/(J ω) (1 − cos ω t) above a lead of 2 rad/s: fastest in mid step, half a period after the start.
+TEST(LargestSlip, LiesWithinASwing) {
+  constexpr double pi = std::numbers::pi, lead = 2, swing = 6 / (0.5 * 2 * pi * 2);
+  const Result r = test::run(R"(
+    line = ["driver", "freewheel", "driven"]
+    driver = { kind = "flywheel", inertia = "2 kg*m2" }
+    freewheel = { kind = "one-way clutch" }
+    driven = { kind = "flywheel", inertia = "0.5 kg*m2" }
+    push = { kind = "torque source", on = "driven", amplitude = "6 N*m", frequency = "2 Hz" }
+    run = { start = { driver = { speed = "10 rad/s" }, driven = { speed = "12 rad/s" } }, until = "0.41 s" }
+  )");
+  const Claim* claim = find(r.claims, Predicate::freewheel_overruns, "freewheel");
+  ASSERT_TRUE(claim);
+  EXPECT_NEAR(*claim->evidence.value, lead + 2 * swing, 1e-7);
+  EXPECT_LE(std::abs(*claim->evidence.value - lead - 2 * swing), *claim->evidence.error);
+}
+
+TEST(LargestSlip, IsThatAtTheBeginOfAnEngagement) {
+  const Result r = test::run(R"(
+    line = ["wheel", "clutch", "mill"]
+    wheel = { kind = "flywheel", inertia = "2 kg*m2" }
+    clutch = { kind = "clutch", torque = "20 N*m" }
+    mill = { kind = "flywheel", inertia = "1 kg*m2" }
+    run = { start = { wheel = { speed = "100 rad/s" }, mill = { speed = "0 rad/s" } }, until = "5 s" }
+  )");
+  const Claim* claim = find(r.claims, Predicate::clutch_slips_engaging, "clutch");
+  ASSERT_TRUE(claim);
+  EXPECT_NEAR(*claim->evidence.value, 100, 1e-12);
+}
+
+// ω = ω₀ e^(−c t/J) passes 1e-3 of the usual speed in mid step.
+TEST(LastTurning, IsLocatedOnTheSolution) {
+  const auto model = compile(test::scene_from(R"(
+    line = ["wheel"]
+    wheel = { kind = "flywheel", inertia = "2 kg*m2" }
+    drag = { kind = "load", on = "wheel", damping = "6 N*m*s/rad" }
+    run = { start = { speed = "50 rad/s" } }
+  )"),
+                             {});
+  Equations equations(model, false);
+  LinkRecorder link(*model, 5);
+  ASSERT_TRUE(integrate(equations, {.tolerance = 1e-10, .until = 5, .progress = {}}, {&link}).complete);
+  EXPECT_NEAR(link.turned_at(), 2.0 / 6 * std::log(50 / (1e-3 * model->speed_scale)), 1e-8);
 }
 
 }  // namespace
