@@ -13,8 +13,10 @@ const long double whole_turn = 2 * std::acos(-1.0L);
 constexpr int steps_of_turn = 360;
 constexpr long double least_step = 1e-13L;  // [rad]: how well the place of a lock is found
 constexpr long double least_way = 1e-3L;    // [rad]
-constexpr long double least_margin =
-    1e-6L;  // sin² of a transmission angle: below it a millionth of a length decides the branch
+// sin² of a transmission angle; of a group closed by Newton's method (least pivot/its greatest over the turn)². A relative
+// change δ of a length changes rates by about δ/margin: below this a few millionths of a length decide how the links continue,
+// and the rounding of lengths costs ten digits.
+constexpr long double least_margin = 1e-6L;
 
 std::string in_degrees_of(long double phi) {
   const double degrees = static_cast<double>(phi * 360 / whole_turn);
@@ -154,12 +156,13 @@ std::string Linkage::undetermined(const AssurGroup& group) const {
 void Linkage::refuse_change_point(int group, long double phi) {
   const AssurGroup& of = structure_.groups[static_cast<std::size_t>(group)];
   refuse("points",
-         fmt::format("at φ = {} {}, or so nearly that a millionth of a length decides how the links continue: a change "
-                     "point. {}; the kinds four-bar, slider-crank and inverted slider-crank know how theirs "
-                     "are passed",
-                     in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
-                     of.superfluous > 0 ? "Put a bearing of parallel cranks out of the line of the others"
-                                        : "Change a length clearly"));
+         fmt::format(
+             "at φ = {} {}, or so nearly that a few millionths of a length decide how the links continue: a change "
+             "point. {}; the kinds four-bar, slider-crank and inverted slider-crank know how theirs "
+             "are passed",
+             in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
+             of.superfluous > 0 ? "Put a bearing of parallel cranks out of the line of the others"
+                                : "Change a length clearly"));
 }
 
 void Linkage::refuse_stop(const Closed& stopped, long double phi) {

@@ -355,6 +355,49 @@ TEST(Linkage, AChangePointBehindAnotherGroupIsSaid) {
       << data.linkage->faults()[0].text;
 }
 
+// a + d = b + c − e: beyond e = 0 the crank turns, below it rocks; what lies within a few millionths of it is refused.
+TEST(Linkage, AChangePointIsRefusedWhereMillionthsOfALengthDecide) {
+  const auto four_bar = [](double rocker) {
+    const double a = 0.06, b = 0.2, d = 0.22, x = a * std::cos(1.0), y = a * std::sin(1.0);
+    const double dx = (d - x) / std::hypot(d - x, y), dy = -y / std::hypot(d - x, y), s = std::hypot(d - x, y);
+    const double along = (s * s + b * b - rocker * rocker) / (2 * s), beside = std::sqrt(b * b - along * along);
+    SketchOf of;
+    of.point('O', 0, 0).point('A', x, y).point('D', d, 0).frame("OD");
+    of.point('B', x + along * dx - beside * dy, y + along * dy + beside * dx);
+    of.link("crank", "OA", 1, 0.01).link("coupler", "AB", 1, 0.01).link("rocker", "DB", 1, 0.01).rocks("rocker");
+    return of.data();
+  };
+  const LinkageData turns = four_bar(0.08 + 4e-8), rocks = four_bar(0.08 - 1e-6);
+  ASSERT_TRUE(turns.linkage->faults().empty()) << turns.linkage->faults()[0].text;
+  ASSERT_TRUE(rocks.linkage->faults().empty()) << rocks.linkage->faults()[0].text;
+  EXPECT_FALSE(turns.linkage->arc());
+  EXPECT_TRUE(rocks.linkage->arc());
+  for (const double e : {2e-8, 0.0, -1e-7}) {
+    const LinkageData undecided = four_bar(0.08 + e);
+    ASSERT_EQ(undecided.linkage->faults().size(), 1u) << e;
+    EXPECT_NE(undecided.linkage->faults()[0].text.find("a few millionths of a length decide"), std::string::npos);
+  }
+}
+
+// Of three cranks the least pivot goes with h, and what coordinates in double are off by is left over h² in the rates.
+TEST(Linkage, ThreeCranksNearlyInLineLoseDigitsByTheSquareOfTheirPivot) {
+  for (const double h : {2e-2, 2e-3, 5e-4}) {
+    SketchOf of;
+    const double x = 0.1 * std::cos(2.1), y = 0.1 * std::sin(2.1);
+    of.point('O', 0, 0).point('A', x, y).point('C', 0.4, 0).point('B', 0.4 + x, y);
+    of.point('E', 0.2, h).point('D', 0.2 + x, h + y).frame("OCE");
+    of.link("crank", "OA", 1, 0.01).link("coupler", "ABD", 3, 0.05).link("rocker", "CB", 1, 0.01);
+    of.link("third", "ED", 1, 0.01).rocks("rocker");
+    const LinkageData data = of.data();
+    ASSERT_TRUE(data.linkage->faults().empty()) << h << data.linkage->faults()[0].text;
+    for (int i = 0; i < 720; ++i) {
+      const LinkPoses poses = data.linkage->poses(0.0087266463L * i);
+      EXPECT_NEAR(double(poses[2].turn.rate().value()), 1, 2e-17 / (h * h) + 1e-14) << h;
+    }
+  }
+  EXPECT_NE(fault_of_three_cranks(2.1, 1e-5).find("a few millionths of a length decide"), std::string::npos);
+}
+
 TEST(Linkage, ARedundantRodOfAnotherLengthIsRefused) {
   const LinkageData data = locomotive(0.003).data();
   ASSERT_EQ(data.linkage->faults().size(), 1u);
