@@ -165,7 +165,7 @@ class TrainReport {
   }
   const Value* range() const {
     const Part* modes = part_of("modes");
-    return modes ? stated(*modes, "operating_range") : nullptr;
+    return modes ? reported(*modes, "operating_range") : nullptr;
   }
 
   std::vector<std::string> open_list() const {
@@ -209,7 +209,7 @@ class TrainReport {
         lines.push_back({part.question == "modes" ? "in frequency" : "in time", part.output.subtitle});
     std::vector<std::string> names;
     if (const Part* modes = part_of("modes"))
-      if (const Value* cases = stated(*modes, "cases"))
+      if (const Value* cases = reported(*modes, "cases"))
         for (const Value& one : *cases->as<List>()) names.push_back(word_in(&one, "name"));
     if (!names.empty()) lines.push_back({"cases", fmt::format("{}", fmt::join(names, "; "))});
     Rows table = words_table("Scope", {"", ""}, lines);
