@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "engine/numerics/index.h"
+#include "engine/run/run.h"
 
 namespace kurbel {
 namespace {
@@ -159,7 +161,9 @@ class ContactJudge {
   void brakes() {
     for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
       const Network::ShaftElement& element = m_.network.elements[e];
-      if (!is_kind(element.component, "brake") || !equations_.modes().active[e]) continue;
+      if (!is_kind(element.component, "brake")) continue;
+      if (m_.scene.sequence.repeat) released_while_it_turns(element);
+      if (!equations_.modes().active[e]) continue;
       const auto put = std::find_if(outcome_.events.rbegin(), outcome_.events.rend(), [&](const Event& event) {
         return event.kind == EventKind::command && event.component == element.component;
       });
@@ -187,6 +191,26 @@ class ContactJudge {
                               .error = error_of_speeds(element.component),
                               .unit = "rad/s"}));
     }
+  }
+  // A sequence that repeats takes it off again whenever it was put on, and its shaft has never come to rest.
+  void released_while_it_turns(const Network::ShaftElement& brake) {
+    const std::string shaft = m_.node_label(m_.shafts[at(m_.shaft_of_node[at(brake.node)])].reference);
+    int released = 0;
+    double first = 0;
+    bool on = false;
+    for (const Event& event : outcome_.events) {
+      if (event.component == shaft && (event.kind == EventKind::rest || event.kind == EventKind::motion)) return;
+      if (event.component != brake.component || event.kind != EventKind::command) continue;
+      const bool now = event.value.value_or(0) > 0;
+      if (std::exchange(on, now) && !now && ++released == 1) first = event.t;
+    }
+    if (released < 2) return;
+    add(claims_,
+        claimed(Predicate::brake_has_not_stopped,
+                fmt::format("\"{}\" is taken off {} while its shaft still turns, first at {:.4g} s, and has never "
+                            "stopped it",
+                            brake.component, so_often(released), first),
+                brake.component, {.at = first, .value = released, .limit = 0}));
   }
   void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque,
                      const std::string& slips) {
@@ -232,15 +256,38 @@ Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Res
 
 namespace {
 
+// Something else than rounding moves the shaft until then; it is held by then; or nobody can tell.
+bool is_moved_before(double time, std::size_t angle, const std::shared_ptr<const Model>& model) try {
+  constexpr double moved = 1e-7;  // [rad]
+  Equations equations(model, false);
+  const double begin = equations.angle_with_turns(angle, equations.start(0));
+  const RunOutcome outcome = integrate(equations,
+                                       {.tolerance = 1e-9,
+                                        .method = "auto",
+                                        .until = std::min(time, model->scene.run.until),
+                                        .budget = 10,
+                                        .progress = {}},
+                                       {});
+  return !outcome.complete || equations.at_standstill(at(model->angles[angle].shaft)) ||
+         std::abs(equations.angle_with_turns(angle, outcome.state) - begin) > moved;
+} catch (const std::exception&) {
+  return true;
+}
+
 // dω/dt = λ² δφ beside a start at rest without acceleration.
-void add_unstable_starts(const Model& m, Equations& equations, Claims& claims) {
+void add_unstable_starts(const std::shared_ptr<const Model>& model, Equations& equations, Claims& claims) {
+  const Model& m = *model;
   constexpr double aside = 1e-4;     // [rad]
   constexpr double rounding = 1e-9;  // of the accelerations beside it
+  constexpr double matters = 1e-9;   // a deviation [rad]
   const std::vector<double> y = equations.start(0);
   std::vector<double> beside(y.size()), rate(y.size());
   for (std::size_t shaft = 0; shaft < m.free_shafts; ++shaft) {
     const std::size_t speed = equations.speed_index(static_cast<int>(shaft));
-    const auto joined = [shaft](const ElasticJoint& e) { return at(e.shaft_a) == shaft || at(e.shaft_b) == shaft; };
+    const auto joined = [&](const ElasticJoint& e) {
+      const bool apart = e.slips && equations.modes().slip[at(&e - m.elastic.data())] != 0;
+      return !apart && (at(e.shaft_a) == shaft || at(e.shaft_b) == shaft);
+    };
     if (y[speed] != 0 || equations.modes().direction[shaft] == 0 ||
         std::any_of(m.elastic.begin(), m.elastic.end(), joined))
       continue;
@@ -256,13 +303,15 @@ void add_unstable_starts(const Model& m, Equations& equations, Claims& claims) {
     const double growth = std::sqrt((ahead - behind) / (2 * aside));
     const auto tracked =
         std::find_if(m.angles.begin(), m.angles.end(), [shaft](const TrackedAngle& a) { return at(a.shaft) == shaft; });
+    const double decides = std::log(matters / (rounding * aside)) / growth;
+    if (is_moved_before(decides, at(tracked - m.angles.begin()), model)) continue;
     const std::string& name = m.network.nodes[at(tracked->node)].component;
     add(claims,
         claimed(Predicate::start_unstable,
                 fmt::format("\"{}\" starts in an unstable equilibrium: rounding decides when it leaves it, and to "
                             "which side; a deviation grows tenfold in {:.2g} s. Start it at another angle",
                             name, std::log(10) / growth),
-                name, {.at = 0, .value = growth, .limit = 0, .unit = "1/s"}));
+                name, {.at = decides, .value = growth, .limit = 0, .unit = "1/s"}));
   }
 }
 
@@ -276,7 +325,7 @@ Claims start_claims(const std::shared_ptr<const Model>& model) {
   for (const auto& [component, start] : m.scene.run.start.components)
     if (start.speed) given.insert(m.shaft_of_node[at(m.network.ports.at(component).in)]);
   Equations first(model, false);
-  add_unstable_starts(m, first, claims);
+  add_unstable_starts(model, first, claims);
   if (given.empty()) return claims;
   const std::vector<double> y = first.start(0);
   const Snapshot& s = first.snapshot(0, y);

@@ -410,7 +410,6 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
     if (f.what == quantities::max_speed || f.what == quantities::min_speed)
       fastest = std::max(fastest, std::abs(f.value));
   if (!halts) halts = judge.never_starts(fastest);
-  if (result.begins_at == 0) claims = start_claims(equations.shared_model());
   if (halts) {
     add(claims, std::move(halts));
   } else {

@@ -73,8 +73,8 @@ constexpr std::array kinds = {
     ClaimKind{
         brake_has_not_stopped, runs, warning, above,
         "a brake that was put on slips at the end, and would stop its shaft in less than the time of the run; the "
-        "sequence is done",
-        "at: it was put on; value: speed of its shaft [rad/s]",
+        "sequence is done; or a sequence that repeats takes it off each time before its shaft has come to rest",
+        "at: it was put on, or first taken off; value: speed of its shaft [rad/s], or how often it was taken off",
         "\"brake\" has not stopped it by the end: 30 rpm are left after 0.5 s, and 0.4 s more are needed at this rate",
         "run, compare"},
     ClaimKind{steady_motion_unstable, runs, warning, above, "a multiplier of the steady motion is greater than 1",
@@ -86,15 +86,16 @@ constexpr std::array kinds = {
         "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
         "value: the difference of speed [rad/s]",
         "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a shock", "run, compare, steady"},
-    ClaimKind{start_unstable, runs, warning, above,
-              "a shaft without an elastic joint starts at rest, nothing holds it, its acceleration is rounding, and "
-              "1e-4 rad to "
-              "either side it is accelerated away",
-              "value: rate at which a deviation grows, λ of e^(λt) [1/s]; limit: 0",
-              "\"press\" starts in an unstable equilibrium: rounding decides when it leaves it, and to which side; a "
-              "deviation "
-              "grows tenfold in 0.07 s. Start it at another angle",
-              "run, compare, steady"},
+    ClaimKind{
+        start_unstable, runs, warning, above,
+        "a shaft that no spring and no closed clutch joins to others starts at rest, nothing holds it, its "
+        "acceleration is rounding, and 1e-4 rad to either side it is accelerated away; nothing else moves it before "
+        "that time. From then on no figure of a run has a known error",
+        "at: rounding has grown to 1e-9 rad; value: rate at which a deviation grows, λ of e^(λt) [1/s]; limit: 0",
+        "\"press\" starts in an unstable equilibrium: rounding decides when it leaves it, and to which side; a "
+        "deviation "
+        "grows tenfold in 0.07 s. Start it at another angle",
+        "run, compare, steady"},
     ClaimKind{
         runs_steadily, runs, note, anything,
         "what the mid speed of the cycle still has to go to its limit, by the last three cycles or more without a "

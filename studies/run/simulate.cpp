@@ -31,11 +31,9 @@
 namespace kurbel {
 namespace {
 
-constexpr double timed_for = 0.1;  // all timings of a run together [s]
-// Number of energy checks in a run; each evaluates the mechanism's bodies, which takes some 20 µs.
-constexpr int energy_checks = 60;
-// Smaller tolerances exceed double precision.
-constexpr double least_tolerance = 2e-15;
+constexpr double timed_for = 0.1;          // all timings of a run together [s]
+constexpr int energy_checks = 60;          // in a run; each evaluates the mechanism's bodies, which takes some 20 µs
+constexpr double least_tolerance = 2e-15;  // smaller ones exceed double precision
 // Shortest last step of the sequence: errors decrease at least with the square root of the tolerance, so that the
 // coarser run's are twice the finer's, and their difference still covers the finer's.
 constexpr double least_step = 4;
@@ -391,8 +389,12 @@ class Simulation {
     run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
-    result_.claims =
-        motion_claims(equations_, run.outcome, result_, *run.slips, *run.link, options_.watch, settings_.budget);
+    if (!checkpoint_ && run.outcome.complete) result_.claims = start_claims(model_);
+    drop_errors_after_unstable_start(result_);  // before they report which claims are sure
+    for (Claim& claim :
+         motion_claims(equations_, run.outcome, result_, *run.slips, *run.link, options_.watch, settings_.budget))
+      result_.claims.push_back(std::move(claim));
+    drop_errors_after_unstable_start(result_);
     report_outside_data(*run.ranges, result_);
     note_regularised(run.outcome.regularised);
     for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects})

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/period.h"
 #include "engine/orbit/follow_period.h"
 #include "engine/run/recorders.h"
+#include "engine/run/turns.h"
 #include "engine/scene/units.h"
 #include "mechanisms/link_forces/link_forces.h"
 
@@ -168,9 +170,17 @@ void DataRangeRecorder::begin(double t, std::span<const double> y, Equations& eq
 // Ends of tables are ends of steps: the first step beyond an end begins there.
 void DataRangeRecorder::step(StepView& view) {
   if (watched_.empty()) return;
+  const double begin = view.t_previous(), end = view.t();
   const Modes* const modes = &view.equations().modes();
-  see(view.t_previous(), view.snapshot(0.5 * (view.t_previous() + view.t())), modes);
-  see(view.t_previous(), view.snapshot(view.t()), modes);
+  const auto look = [&](double t) { see(begin, view.snapshot(t), modes); };
+  look(0.5 * (begin + end)), look(end);
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const DataRange& range = watched_[i].range;
+    if (since_[i] == never || !watched_[i].value || range.over == DataRange::Over::time) continue;
+    const auto value = [&](double t) { return watched_[i].value(view.snapshot(t)); };
+    const double x = value(0.5 * (begin + end));
+    if (is_left_below(range, x) || is_left_above(range, x)) for_each_turn_within(begin, end, value, look);
+  }
 }
 
 std::optional<double> DataRangeRecorder::since() const {
@@ -221,18 +231,35 @@ void drop_errors(std::vector<Figure>& figures, double since) {
     if (!figure.exact && !(figure.at && *figure.at < since)) figure.error.reset(), figure.at_error.reset();
 }
 
-void report_outside_data(const DataRangeRecorder& ranges, Result& result) {
-  for (std::string& sentence : ranges.sentences())
-    add(result.claims, claimed(Predicate::outside_data, std::move(sentence)));
-  const std::optional<double> since = ranges.since();
-  if (!since) return;
-  drop_errors(result.figures, *since);
+void drop_errors(Result& result, double since) {
+  drop_errors(result.figures, since);
   for (auto& [name, state] : result.final_state) {
     state.angle.error.reset(), state.speed.error.reset();
     if (state.angle_out) state.angle_out->error.reset(), state.speed_out->error.reset();
   }
   for (std::size_t i = 0; i < std::min(result.event_errors.size(), result.events.size()); ++i)
-    if (result.events[i].t > *since) result.event_errors[i].reset();
+    if (result.events[i].t > since) result.event_errors[i].reset();
+  for (Claim& claim : result.claims)
+    if (!(claim.evidence.at && *claim.evidence.at < since)) claim.evidence.error.reset();
+}
+
+// Runs that share the rounding of the start agree, and tell nothing.
+void drop_errors_after_unstable_start(Result& result) {
+  double since = result.until;
+  for (const Claim& c : result.claims)
+    if (c.predicate == Predicate::start_unstable) since = std::min(since, *c.evidence.at);
+  if (since == result.until) return;
+  drop_errors(result, since);
+  if (!std::exchange(result.errors_measured, false)) return;
+  result.accuracy_confirmed = false;
+  result.notes.push_back(fmt::format(
+      "from {:.3g} s on the motion depends on the rounding of its unstable start: no error is known", since));
+}
+
+void report_outside_data(const DataRangeRecorder& ranges, Result& result) {
+  for (std::string& sentence : ranges.sentences())
+    add(result.claims, claimed(Predicate::outside_data, std::move(sentence)));
+  if (const std::optional<double> since = ranges.since()) drop_errors(result, *since);
 }
 
 std::vector<std::string> outside_data(const ReturnMap& map, const SteadyPoint& point) {

@@ -50,8 +50,13 @@ class DataRangeRecorder final : public Observer {
   std::vector<double> since_, least_, greatest_;  // of each: ∞ and its own ends if it was never left
 };
 
-// Removes the errors of figures from that time on, and of figures without a time.
+// Removes the errors of figures from that time on, and of figures without a time; of a run also those of its final state,
+// events and claims.
 void drop_errors(std::vector<Figure>& figures, double since);
+void drop_errors(Result& result, double since);
+
+// Where rounding decides a run's motion, by its claims of the start: no error is known from then on.
+void drop_errors_after_unstable_start(Result& result);
 
 // Reports it among a run's results; dependent figures lose their errors.
 void report_outside_data(const DataRangeRecorder& ranges, Result& result);

@@ -488,5 +488,27 @@ TEST(Remedies, OfAllVerdictsAreTried) {
   EXPECT_EQ(count, 2);
 }
 
+// Of 0.1 kg·m² at more than 20 rad/s 4 N·m take off 12 rad/s in the 0.3 s that the brake is on; 40 N·m stop it in half the time.
+TEST(Brakes, ThatASequenceTakesOffTooEarlyAreNamed) {
+  for (const double torque : {4.0, 40.0}) {
+    const Result r = test::run(fmt::format(R"(
+      line = ["motor", "clutch", "brake", "mill"]
+      motor = {{ kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "0.5 kg*m2" }}
+      clutch = {{ kind = "clutch", torque = "50 N*m" }}
+      brake = {{ kind = "brake", torque = "{} N*m" }}
+      mill = {{ kind = "flywheel", inertia = "0.1 kg*m2" }}
+      sequence = {{ repeat = true, steps = [{{ after = "0.01 s", set = "brake", to = 0 }}, {{ after = "0.5 s", set = "clutch", to = 0 }}, {{ after = "0 s", set = "brake", to = 1 }}, {{ after = "0.3 s", set = "brake", to = 0 }}, {{ after = "0.01 s", set = "clutch", to = 1 }}] }}
+      run = {{ until = "3 s", start = {{ speed = "20 rad/s" }} }}
+    )",
+                                           torque),
+                               false);
+    const Claim* claim = find(r.claims, Predicate::brake_has_not_stopped, "brake");
+    EXPECT_EQ(claim != nullptr, torque == 4);
+    if (!claim) continue;
+    EXPECT_NEAR(*claim->evidence.at, 0.81, 1e-9) << claim->text;
+    EXPECT_EQ(claim->text.find("\"brake\" is taken off 3 times while its shaft still turns"), 0u) << claim->text;
+  }
+}
+
 }  // namespace
 }  // namespace kurbel::motion_claims_test

@@ -50,7 +50,8 @@ class Judge:
     def all(self):
         if not self.motion or not self.truth["complete"] or self.truth["prescribed"]:
             return []
-        if "refused" not in self.answer.get("run", {"refused": 1}) and self.run.summary.get("complete"):
+        # A run that says itself that its figures may be anything claims nothing (scripts/oracle counts these).
+        if "refused" not in self.answer.get("run", {"refused": 1}) and self.run.summary.get("complete") and not self.run.may_be_anything:
             for rule in (self.steadiness, self.boundaries, self.rest, self.starting, self.stalling, self.turning_back, self.running_away,
                          self.round, self.final_speed, self.contacts, self.brakes, self.limits, self.reserves, self.peaks, self.motors,
                          self.typed):
@@ -229,7 +230,7 @@ class Judge:
 
     def final_speed(self):
         said = self.run.value(f"final_speed.{self.truth['link']}")
-        if said is not None and not self.run.says("not_confirmed") and abs(said - self.motion["speed_at_end"]) > 0.02 * max(self.usual, self.motion["fastest"]):
+        if said is not None and abs(said - self.motion["speed_at_end"]) > 0.02 * max(self.usual, self.motion["fastest"]):
             self.contradiction("final speed is another", f"said {said:.5g}, sampled {self.motion['speed_at_end']:.5g} rad/s")
 
     # --- run: contacts, limits ---
@@ -276,8 +277,10 @@ class Judge:
                 continue
             said = r.says("brake too weak", name) or r.says("brake not done", name)
             turns = c["at_end"] == "slips" and abs(c["slip_at_end"]) > TURNS * c["usual_speed"]
-            if said and not turns:
+            if said and not turns and c["holds"] > 0:
                 self.contradiction("does not stop it, but has", f"\"{name}\" {c['at_end']} at the end")
+            if self.truth["repeats"] and c["times_slipping"] > 1 and c["holds"] == 0 and c["open"] > 0 and not r.mentions(name):
+                self.omission("brake never stops its shaft", f"\"{name}\" slips {c['times_slipping']} times and never holds; said: {r.sentences[0]}")
             # A brake that has stopped the machine before may take as long again.
             as_before = max(CLEARLY * m["until"], c["stopped_within"])
             if turns and not said and c["command_at_end"] > 0 and m["until"] - c["slips_since"] > as_before and not r.mentions(name):

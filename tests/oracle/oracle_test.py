@@ -29,14 +29,14 @@ def contact(kind="clutch", **changes):
 
 
 def answer(conclusion='"press" runs steadily at 30 rad/s from 1 s on.', truth=None, contacts=(), limits=(), periods=None, figures=None, ratings=(),
-           later=None, steady=None, held=(), motors=(), sequence=0, text="", claims=(), torques=None, driven_part=None):
+           later=None, steady=None, held=(), motors=(), sequence=0, repeats=False, text="", claims=(), torques=None, driven_part=None):
     m = motion(**(truth or {}))
     figures = {"mean_speed.press": 30.0, "final_speed.press": m["speed_at_end"], **(figures or {})}
     periods = {"run_up_end": 1.0, "run_down_begin": None, "standstill": None, "steady": True, **(periods or {})}
     later = {**m, "until": 40.0, "rests_since": 40.0 if m["end"] != "rests" else m["rests_since"], "complete": True, "fastest_shaft": 1.0, "drift_of_motors": 0.0,
              "mean_speed_of_last_tenth": m["speed_at_end"], "mean_speed_before": m["speed_at_end"], **(later or {})}
     return {"scene": "x.toml",
-            "truth": {"complete": True, "prescribed": False, "fastest_shaft": 1.0, "two_periods": False, "link": "press", "sequence": sequence, "repeats": False, "motion": m, "later": later,
+            "truth": {"complete": True, "prescribed": False, "fastest_shaft": 1.0, "two_periods": False, "link": "press", "sequence": sequence, "repeats": repeats, "motion": m, "later": later,
                       "contacts": list(contacts), "motors": list(motors), "limits": list(limits), "held": list(held),
                       "torques": torques or {}, **({"driven_part": driven_part} if driven_part else {})},
             "run": {"complete": True, "conclusion": conclusion, "periods": periods, "model": {"effects": "none"}, "ratings": list(ratings), "text": text,
@@ -106,6 +106,7 @@ FALSE = {
         '"press" runs steadily at 30 rad/s from 1 s on. All 4 ratings hold. "clutch" lets go 10 times although it is closed.',
         contacts=[contact(lets_go=10, deepest=0.5)]),
     "does not stop it, but has": answer('"clutch" does not stop it: it slips at 3 rad/s.', contacts=[contact("brake")]),
+    "brake never stops its shaft": answer(repeats=True, sequence=2, contacts=[contact("brake", holds=0.0, open=5.0, times_slipping=4, at_end="open")]),
     "brake is on and the machine turns": answer(contacts=[contact("brake", at_end="slips", slip_at_end=30.0, slips_since=2.0)]),
     "limit exceeded, and not judged": answer(limits=[HOT]),
     "limit holds, but is exceeded": answer(limits=[HOT], ratings=[{**TELLS, "verdict": "holds", "value": 9.0}]),
@@ -176,6 +177,8 @@ TRUE = {
         {**MOTOR, "speed": 0.0, "stands": True}], claims=[("vibrates", "press"), ("held_by", "motor")]),
     "brakes at the end, for less time than before": answer(contacts=[
         contact("brake", at_end="slips", slip_at_end=30.0, slips_since=8.0, stopped_within=2.5)], sequence=3),
+    "says that it is not confirmed": answer('NOT confirmed: accuracy 1.0e-06 requested, errors could not be measured.', REST, claims=[
+        ("not_confirmed", ""), ("runs_steadily", "press")], steady=NOTHING),
     "rests": answer('"press" is at rest after 10 s.', REST, periods={"standstill": 5.0}, steady=NOTHING),
     "held": answer('"press" is at rest after 10 s: "brake" holds the 8.8 N·m that act.', REST, held=HELD, steady=NOTHING),
     "does not start": answer('"press" does not start: its loads hold the 5 N·m that drive it.', {**NEVER, "does_not_start": True, "pushed_at_end": True},

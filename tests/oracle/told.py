@@ -62,6 +62,12 @@ class Told:
     def bad_motion(self):
         return [name for name in BAD_MOTION if name in self.claims]
 
+    @property
+    def may_be_anything(self):
+        """By its own words not confirmed, and by errors that are unknown or as large as the figures."""
+        measured = (self.summary.get("accuracy") or {}).get("measured")
+        return self.says("not_confirmed") and (measured is None or measured > 0.1)
+
     def mentions(self, component, *words):
         """A sentence of the conclusion names the component with one of these words."""
         return any(f'"{component}"' in s and (not words or any(w in s for w in words)) for s in self.sentences)

@@ -297,24 +297,50 @@ TEST(MotionClaims, AStartWhoseShaftsDisagreeIsWarnedOf) {
   EXPECT_FALSE(find(run("speed = \"1455 rpm\"").claims, Predicate::start_shafts_disagree));
 }
 
-// A pendulum upside down, m g r = 1.5 kg·0.2 m·9.81 m/s², I = 0.06 kg·m² at the crank alone: λ² = m g r/I.
+// A pendulum upside down, m g r = 1.5 kg·0.2 m·9.81 m/s², I = 0.06 kg·m² at the crank alone: λ² = m g r/I. Rounding, 1e-13 rad
+// at most, is 1e-9 rad after ln 1e4/λ = 1.3 s.
 TEST(StartClaims, UnstableEquilibriumIsSaid) {
-  const auto run = [](const char* more) {
+  const auto run = [](const char* until, const char* more, const char* line = "", const char* others = "") {
     return test::run(fmt::format(R"(
-      line = ["crank"]
+      line = [{} "crank"]
       crank = {{ kind = "slider-crank", radius = "0.2 m", rod = "0.6 m", crank_mass = "1.5 kg", crank_com = "0.2 m", crank_inertia = "0.06 kg*m2", slider_mass = "0 kg", gravity = "9.81 m/s2", stroke_angle = "90 deg" }}
-      run = {{ until = "0.1 s"{} }}
+      {}
+      run = {{ until = "{}"{} }}
     )",
-                                 more),
-                     false);
+                                 line, others, until, more));
   };
-  const Result up = run(", start = { angle = \"0 deg\" }");
-  const Claim* claim = find(up.claims, Predicate::start_unstable, "crank");
-  ASSERT_TRUE(claim) << said(up);
-  EXPECT_NEAR(*claim->evidence.value, std::sqrt(1.5 * 0.2 * 9.81 / 0.06), 1e-6);
-  EXPECT_FALSE(find(run(", start = { angle = \"0.1 deg\" }").claims, Predicate::start_unstable));
-  EXPECT_FALSE(find(run(", start = { angle = \"180 deg\" }").claims, Predicate::start_unstable));
-  EXPECT_FALSE(find(run(", start = { angle = \"0 deg\", speed = \"1 rad/s\" }").claims, Predicate::start_unstable));
+  const double growth = std::sqrt(1.5 * 0.2 * 9.81 / 0.06), decides = std::log(1e4) / growth;
+  const char* const up = ", start = { angle = \"0 deg\" }";
+  const auto is_said = [&](const Result& r) {
+    const Claim* claim = find(r.claims, Predicate::start_unstable, "crank");
+    if (!claim) return false;
+    EXPECT_NEAR(*claim->evidence.value, growth, 1e-6);
+    EXPECT_NEAR(*claim->evidence.at, decides, 1e-6);
+    return true;
+  };
+  const auto error_at_end = [](const Result& r) { return r.find("final_speed.crank")->error; };
+  const Result soon = run("0.1 s", up);  // long before rounding matters
+  EXPECT_TRUE(is_said(soon));
+  EXPECT_TRUE(error_at_end(soon) && soon.accuracy_confirmed);
+  const Result late = run("6 s", up);
+  EXPECT_TRUE(is_said(late)) << said(late);
+  EXPECT_FALSE(error_at_end(late) || late.accuracy_confirmed || late.errors_measured);
+  EXPECT_TRUE(find(late.claims, Predicate::moves) == nullptr || !find(late.claims, Predicate::moves)->evidence.error);
+  EXPECT_TRUE(has(said(late), "NOT confirmed")) << said(late);
+  for (const Figure& f : late.figures)
+    EXPECT_EQ(f.error.has_value(), f.exact || (f.at && *f.at < decides)) << f.name;
+  // Behind an open clutch, too; not where a torque moves it before, or it begins elsewhere.
+  EXPECT_TRUE(is_said(run("0.1 s", up, "\"wheel\", \"clutch\",", R"(
+      wheel = { kind = "flywheel", inertia = "1 kg*m2" }
+      clutch = { kind = "clutch", torque = "50 N*m" }
+      sequence = { steps = [{ at = "0 s", set = "clutch", to = 0 }] })")));
+  const Result pushed =
+      run("6 s", up, "", "push = { kind = \"torque source\", on = \"crank\", torque = \"1 N*m\", start = \"0.1 s\" }");
+  EXPECT_FALSE(is_said(pushed));
+  EXPECT_TRUE(error_at_end(pushed) && pushed.accuracy_confirmed);
+  EXPECT_FALSE(is_said(run("0.1 s", ", start = { angle = \"0.1 deg\" }")));
+  EXPECT_FALSE(is_said(run("0.1 s", ", start = { angle = \"180 deg\" }")));
+  EXPECT_FALSE(is_said(run("0.1 s", ", start = { angle = \"0 deg\", speed = \"1 rad/s\" }")));
 }
 
 // --- the three periods ---

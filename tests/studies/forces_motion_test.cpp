@@ -24,8 +24,8 @@ constexpr double same_physics = 1e-10;  // of the largest torque: what tables of
 // Reactions and crank torque of the steady motion are those of a long settled run, within their errors: friction of bearings,
 // losses of gears, currents, elastic shafts, slipping brakes, and a rod that bends.
 TEST(ForcesOfTheSteadyMotion, AreThoseOfALongSettledRun) {
-  for (const char* name : {"exact_bearing", "dc_with_current", "slender_rod_small", "swings/drag_and_bearing",
-                           "swings/worm_losses_shaft", "swings/two_axis_motor_shaft"}) {
+  for (const char* name : {"exact_bearing", "dc_with_current", "slender_rod_small", "vibrations/drag_and_bearing",
+                           "vibrations/worm_losses_shaft", "vibrations/two_axis_motor_shaft"}) {
     const agreement::Row row =
         agreement::compare_forces(test::scene_file(fmt::format("tests/agreement/{}.toml", name)));
     ASSERT_FALSE(row.figures.empty()) << name << ": " << row.orbit;

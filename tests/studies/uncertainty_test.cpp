@@ -143,7 +143,7 @@ TEST(Uncertainty, WrongTolerancesAreReportedInTheirPlace) {
       {"{ value = \"1.5 kg*m2\", tolerance = \"3 kg\" }", "is a mass"},
       {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", distribution = \"normall\" }", "did you mean \"normal\""},
       {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", from = \"1 kg*m2\" }", "either tolerance, or from and to"},
-      {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", widht = 3 }", "no key"},
+      {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", widht = 3 }", "unknown key \"widht\""},
       {"{ value = \"1.5 kg*m2\", tolerance = \"3 %\", k = 2 }", "normal"},
       {"{ value = \"1.5 kg\", tolerance = \"3 %\" }", "inertia"},
       {"{ value = \"1.5 kg*m2\", from = \"2 kg*m2\", to = \"3 kg*m2\" }", "between"}};
