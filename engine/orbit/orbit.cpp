@@ -11,6 +11,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/link_speeds.h"
+#include "engine/orbit/recurrence.h"
 #include "engine/orbit/settling.h"
 #include "engine/return_map/family.h"
 #include "engine/run/speed_history.h"
@@ -233,27 +234,13 @@ class Search {
 
   // Continues to the middle of the widest gap between the events of the last period: a period must not begin with an event.
   bool go_where_least_happens(double last, double period) {
-    std::vector<double> times;
-    for (const Event& e : events_)
-      if (e.t > last - (1 - 1e-6) * period && e.t <= last) times.push_back(e.t);
-    if (times.empty()) return true;
-    std::sort(times.begin(), times.end());
-    times.push_back(times.front() + period);
-    std::size_t widest = 0;
-    for (std::size_t i = 0; i + 1 < times.size(); ++i)
-      if (times[i + 1] - times[i] > times[widest + 1] - times[widest]) widest = i;
-    const double quiet = 0.5 * (times[widest] + times[widest + 1]);
-    const RunOptions run = on_until(quiet + period * std::ceil((state_.t - quiet) / period + 1e-6));
+    const std::optional<double> quiet = middle_of_widest_gap(events_, last, period);
+    if (!quiet) return true;
+    const RunOptions run = on_until(*quiet + period * std::ceil((state_.t - *quiet) / period + 1e-6));
     equations_.bind(state_.modes);
     const RunOutcome outcome = integrate(equations_, run, {});
     if (outcome.complete) state_ = {outcome.t, outcome.state, equations_.modes()};
     return outcome.complete;
-  }
-
-  std::size_t commands_in_a_cycle() const {
-    std::size_t count = 0;
-    for (const SequenceStep& step : m_.scene.sequence.steps) count += step.set.size();
-    return std::max<std::size_t>(1, count);
   }
 
   // The same event recurs after the same time with the same state, with up to a number of its kind between. For a sequence
@@ -262,18 +249,7 @@ class Search {
     if (events_.size() < 4 || events_seen_ == looked_at_) return false;
     looked_at_ = events_seen_;
     const bool sequence = m_.scene.sequence.repeat;
-    std::vector<double> times;  // of the last event of its kind, latest first
-    if (sequence) {
-      const std::size_t round = commands_in_a_cycle();
-      std::size_t commands = 0;
-      for (auto e = events_.rbegin(); e != events_.rend(); ++e)
-        if (e->kind == EventKind::command && commands++ % round == 0) times.push_back(e->t);
-    } else {
-      const Event& last = events_.back();
-      for (auto e = events_.rbegin(); e != events_.rend(); ++e)
-        if (e->component == last.component && e->what == last.what) times.push_back(e->t);
-    }
-    return comes_again(times,
+    return comes_again(times_of_last_kind(events_, m_),
                        sequence ? "the operating sequence repeats" : "self-excited vibration, no law sets this period");
   }
 

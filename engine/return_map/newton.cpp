@@ -73,8 +73,10 @@ class Newton {
     }
     out_.residual = norm_;
     if (norm_ <= residual_floor * enough_) return finish();
-    out_.why = fmt::format("Newton's iteration does not settle (residual {:.1e} of the rated values after {} cycles)",
-                           norm_, out_.rounds);
+    out_.why = fmt::format(
+        "the search failed, which does not say that there is none: Newton's iteration does not settle (residual {:.1e} "
+        "of the rated values after {} cycles)",
+        norm_, out_.rounds);
   }
 
   // Large steps lead to other states: changes are limited to half of the largest value.

@@ -6,7 +6,7 @@
 
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
-#include "engine/run/turns.h"
+#include "engine/numerics/turns.h"
 
 namespace kurbel {
 namespace {

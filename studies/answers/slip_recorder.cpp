@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
-#include "engine/run/turns.h"
+#include "engine/numerics/turns.h"
 
 namespace kurbel {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
-#include "engine/run/turns.h"
+#include "engine/numerics/turns.h"
 
 namespace kurbel {
 namespace {

@@ -11,9 +11,9 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/period.h"
+#include "engine/numerics/turns.h"
 #include "engine/orbit/follow_period.h"
 #include "engine/run/recorders.h"
-#include "engine/run/turns.h"
 #include "engine/scene/units.h"
 #include "mechanisms/link_forces/link_forces.h"
 

@@ -60,7 +60,7 @@ TEST(Claim, IsNotMadeWhereItsEvidenceIsBelowItsError) {
 
 TEST(Claim, NamesAreStableAndEachHasItsDefinition) {
   EXPECT_STREQ(name_of(Predicate::clutch_slips_closed), "clutch_slips_closed");
-  EXPECT_STREQ(name_of(Predicate::figures_reported), "figures_told");
+  EXPECT_STREQ(name_of(Predicate::figures_reported), "figures_reported");
   std::set<std::string> names;
   for (const ClaimKind& kind : claim_kinds()) {
     EXPECT_TRUE(names.insert(name_of(kind.predicate)).second);

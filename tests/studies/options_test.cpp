@@ -1,7 +1,9 @@
 // options_test.cpp — every option of every question accepts its own example; a quantity without one is refused when it is
 // registered.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <stdexcept>
 
 #include "studies/question/question.h"
@@ -27,7 +29,7 @@ TEST(Options, AQuantityWithoutAnExampleIsRefusedAtRegistration) {
                std::logic_error);
   const Wanted read =
       OptionsOf<Wanted>()
-          .add({.name = "speed", .doc = "speed", .example = "30 1/min", .what = "a speed"}, &Wanted::speed)
+          .add({.name = "speed", .doc = "speed", .example = "30 rpm", .what = "a speed"}, &Wanted::speed)
           .read({{"speed", "1 rad/s"}}, "test", {});
   EXPECT_EQ(read.speed, 1);
 }
@@ -43,10 +45,17 @@ TEST(Options, OfEveryQuestionAcceptTheirExamples) {
     for (const DeclaredOption& option : question.options) {
       if (option.form == OptionForm::flag) continue;
       const std::string& example = option.text.example;
-      std::string text = example.empty() ? "1" : example;
+      // The k-th of several is k times the example: a range begins below its end.
+      const auto of_several = [&](int k) {
+        if (example.empty()) return std::string("1");
+        std::size_t digits = 0;
+        const double value = std::isdigit(static_cast<unsigned char>(example[0])) ? std::stod(example, &digits) : 0;
+        return digits > 0 ? fmt::format("{}{}", k * value, example.substr(digits)) : example;
+      };
+      std::string text = of_several(1);
       GivenOptions given = required;
       if (option.form == OptionForm::several && !option.text.each_time)
-        for (int k = 1; k < option.text.count; ++k) text += "," + (example.empty() ? std::string("1") : example);
+        for (int k = 1; k < option.text.count; ++k) text += "," + of_several(k + 1);
       given.emplace_back(option.text.name, text);
       if (option.text.each_time)
         for (int k = 1; k < option.text.count; ++k) given.push_back(given.back());

@@ -1,0 +1,19 @@
+// recurrence.h — events that recur: the times of one kind, and where between those of a period least happens.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/events/event.h"
+#include "engine/model/model.h"
+
+namespace kurbel {
+
+// Times [s], latest first, of all events of the last one's kind; of a sequence that repeats, those of the last command of each
+// cycle.
+std::vector<double> times_of_last_kind(const std::vector<Event>& events, const Model& m);
+
+// Middle [s] of the widest gap between the events of the period that ends at `last`; none: no event is in it.
+std::optional<double> middle_of_widest_gap(const std::vector<Event>& events, double last, double period);
+
+}  // namespace kurbel
