@@ -89,7 +89,7 @@ struct RunOptions {
 
 struct RunStatistics {
   StepperStatistics stepper;
-  std::int64_t events = 0;
+  std::int64_t events = 0, knots = 0;  // knots: points between the pieces of a law, passed without an event
   double smallest_step = 0;            // of those not shortened by an event, edge or end [s]; 0: none
   double cpu_seconds = 0;
   std::string method;                // methods used
