@@ -62,11 +62,20 @@ Equations::PoolGuard Equations::pool_guard(std::size_t guard) const {
 std::string Equations::guard_owner(std::size_t guard) const {
   if (guard >= sequence_guard_) return "sequence";
   if (guard >= contact_guards_) return contacts_.owner(guard - contact_guards_);
+  return label(pool_guard(guard)).component;
+}
+
+bool Equations::is_knot(std::size_t guard) const {
+  if (guard >= contact_guards_) return false;
   const PoolGuard of = pool_guard(guard);
+  return !model().pools[of.pool]->reacts() && label(of).what.empty();
+}
+
+GuardLabel Equations::label(const PoolGuard& guard) const {
   Instant modes_alone;
   modes_alone.mode = modes().piece.data();
   modes_alone.direction = modes().direction.data();
-  return model().pools[of.pool]->label(of.local, modes_alone).component;
+  return model().pools[guard.pool]->label(guard.local, modes_alone);
 }
 
 std::string Equations::regularise(const std::vector<std::size_t>& guards) {

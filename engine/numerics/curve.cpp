@@ -278,15 +278,16 @@ Curve::Curve(const std::vector<double>& given_x, const std::vector<double>& give
 
 Curve::Curve(std::vector<double> knots, std::vector<FormulaProgram> programs, double period)
     : form_(Form::formula), period_(period) {
+  const std::vector<FormulaProgram> given = std::exchange(programs, {});
   const double whole = knots.back() - knots.front();
-  for (std::size_t i = programs.size(); i-- > 0;) {
+  for (std::size_t i = 0; i < given.size(); ++i) {
     const auto cells = static_cast<int>(std::max(64.0, 2048 * (knots[i + 1] - knots[i]) / whole));
-    const std::vector<double> more = narrow_parts(programs[i], knots[i], knots[i + 1], cells);
-    const auto behind = static_cast<std::ptrdiff_t>(i) + 1;
-    knots.insert(knots.begin() + behind, more.begin(), more.end());
-    programs.insert(programs.begin() + behind, more.size(), FormulaProgram(programs[i]));
+    const std::vector<double> more = narrow_parts(given[i], knots[i], knots[i + 1], cells);
+    x_.push_back(knots[i]);
+    x_.insert(x_.end(), more.begin(), more.end());
+    programs.insert(programs.end(), 1 + more.size(), given[i]);
   }
-  x_ = std::move(knots);
+  x_.push_back(knots.back());
   const auto at = [&](std::size_t piece, double x, double& value, double& slope) {
     const Dual<1> y = programs[piece](Dual<1>::input(x, 0));
     value = y.value, slope = y.d[0];

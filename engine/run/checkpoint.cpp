@@ -15,13 +15,14 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, on_si
                                    next_step, armed_time, armed_angle, last_step_time, cycle_began)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory::Recent, time, fired)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory, implicit, last_event, last_jam, events_here, jams_here, shortened,
-                                   last_step, recent, held_needed, explicit_step)
+                                   last_step, recent, held_needed, held, explicit_step, implicit_steps, implicit_since,
+                                   window_begin)
 
 namespace {
 
 using Json = nlohmann::json;
 
-const char* const kind = "kurbel checkpoint 5";
+const char* const kind = "kurbel checkpoint 6";
 
 std::vector<std::string> names_of(const Equations& equations) {
   std::vector<std::string> names;
@@ -47,7 +48,9 @@ void check(const Checkpoint& c, const Equations& equations) {
   const bool valid = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
                      all_finite(m.capacity) && all_finite(m.on_since) && all_finite(m.turns) &&
                      std::all_of(c.observers.begin(), c.observers.end(), all_finite) && c.loop.held_needed > 0 &&
-                     c.loop.explicit_step >= 0 && m.next_step <= equations.model().scene.sequence.steps.size();
+                     c.loop.held >= 0 && c.loop.implicit_steps >= 0 && std::isfinite(c.loop.implicit_since) &&
+                     std::isfinite(c.loop.window_begin) && c.loop.explicit_step >= 0 &&
+                     m.next_step <= equations.model().scene.sequence.steps.size();
   const auto pieces = [](const std::vector<int>& list) {
     constexpr int most = 100'000'000;  // of a table's rows; a starter's pause keeps its begin as a negative number
     return std::all_of(list.begin(), list.end(), [](int v) { return v <= most; });

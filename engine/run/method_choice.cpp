@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -19,8 +18,9 @@ namespace {
 // by explicit steps, and what follows its decay passes in long implicit ones. Counted in steps, not in seconds, so that a
 // run is reproducible bit for bit.
 constexpr double implicit_step_cost = 3;
-// Implicit steps whose mean length counts. A visit that does not pay for them doubles the wait before the next.
-constexpr int window = 8, most_held_needed = 1 << 20;
+// Implicit steps whose mean length counts. A visit that does not pay for them doubles the wait before the next, one that
+// failed makes it sixteen times as long.
+constexpr int window = 8, most_held_needed = 1 << 20, longer_after_failure = 16;
 
 // Number of turns from which the work equation is faster in spite of its search for edges.
 constexpr double turns_to_pay = 3;
@@ -100,24 +100,25 @@ std::optional<Method> MethodChoice::after(const Stepper& stepper, Method now) {
   if (!automatic() || (m.elastic.empty() && m.internal_states.empty()) || now == Method::work_equation) return {};
   const double t = stepper.t(), h = t - stepper.t_previous(), left = options_.until - t;
   double& explicit_step = memory_.explicit_step;
+  int& implicit_steps = memory_.implicit_steps;
   if (now == explicit_) {
-    const bool held = stepper.held_by_stability();
-    held_ = std::max(0, held_ + (held ? 1 : -1));
-    if (held && held_ == 1) explicit_step = h;
-    if (held) explicit_step += (h - explicit_step) / window;
-    if (held_ < memory_.held_needed || left < 5.0 * memory_.held_needed * h) return {};
-    implicit_steps_ = held_ = 0;
+    const bool is_held = stepper.held_by_stability();
+    memory_.held = std::max(0, memory_.held + (is_held ? 1 : -1));
+    if (is_held && memory_.held == 1) explicit_step = h;
+    if (is_held) explicit_step += (h - explicit_step) / window;
+    if (memory_.held < memory_.held_needed || left < 5.0 * memory_.held_needed * h) return {};
+    implicit_steps = memory_.held = 0;
     return change(
         implicit_, t,
         fmt::format("stability held explicit steps at {:.3g} s; implicit ones are free of that", explicit_step));
   }
-  if (implicit_steps_ == 0) implicit_since_ = window_begin_ = stepper.t_previous();  // here or in a run that goes on
-  if (++implicit_steps_ % window != 0) return {};
-  const double mean = (t - std::exchange(window_begin_, t)) / window;
-  if (implicit_steps_ == window || mean >= implicit_step_cost * explicit_step) return {};  // the first ones grow
-  const double worth = (t - implicit_since_) / (implicit_step_cost * explicit_step);
+  if (implicit_steps == 0) memory_.implicit_since = memory_.window_begin = stepper.t_previous();
+  if (++implicit_steps % window != 0) return {};
+  const double mean = (t - std::exchange(memory_.window_begin, t)) / window;
+  if (implicit_steps == window || mean >= implicit_step_cost * explicit_step) return {};  // the first ones grow
+  const double worth = (t - memory_.implicit_since) / (implicit_step_cost * explicit_step);
   memory_.held_needed =
-      worth > implicit_steps_ + window ? LoopMemory{}.held_needed : 2 * std::min(memory_.held_needed, most_held_needed);
+      worth > implicit_steps + window ? LoopMemory{}.held_needed : 2 * std::min(memory_.held_needed, most_held_needed);
   return change(explicit_, t,
                 fmt::format("implicit steps of {:.3g} s do not pay for themselves against explicit ones of {:.3g} s",
                             mean, explicit_step));
@@ -125,7 +126,7 @@ std::optional<Method> MethodChoice::after(const Stepper& stepper, Method now) {
 
 std::optional<Method> MethodChoice::after_failure(double t, Method now, const std::string& why) {
   if (!is_implicit(now)) return {};
-  memory_.held_needed = std::numeric_limits<int>::max();
+  memory_.held_needed = longer_after_failure * std::min(memory_.held_needed, most_held_needed);
   return change(explicit_, t, fmt::format("implicit steps failed: {}", why));
 }
 

@@ -27,7 +27,7 @@ class MethodChoice {
 
   // After a step: another method, if it is faster.
   std::optional<Method> after(const Stepper& stepper, Method now);
-  // After a failure of implicit steps: explicit ones, permanently; empty if implicit ones are requested.
+  // After a failure of implicit steps: explicit ones, for a while; empty if implicit ones are requested.
   std::optional<Method> after_failure(double t, Method now, const std::string& why);
 
  private:
@@ -45,8 +45,6 @@ class MethodChoice {
   Method first_ = Method::dormand_prince_853, now_ = Method::dormand_prince_853;
   std::string reason_;
   int changes_ = 0;
-  int held_ = 0, implicit_steps_ = 0;
-  double implicit_since_ = 0, window_begin_ = 0;  // [s]
 };
 
 // Methods of SUNDIALS.

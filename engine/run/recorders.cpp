@@ -137,22 +137,26 @@ void ExtremeRecorder::step(StepView& view) {
 
 // What round-off leaves of a change tells nothing.
 void ExtremeRecorder::learn_steepness(std::size_t i) {
-  constexpr double reported = 1e-9;
+  constexpr double above_rounding = 1e-9;
   const double change = std::abs(last_.value[i] - first_.value[i]);
-  if (change > reported * std::abs(last_.value[i]))
-    steepness_[i] = std::max(steepness_[i], change / std::abs(last_.argument[i] - first_.argument[i]));
+  double& steepness = found_[i].steepness;
+  if (change > above_rounding * std::abs(last_.value[i]))
+    steepness = std::max(steepness, change / std::abs(last_.argument[i] - first_.argument[i]));
 }
 
 // A cubic through both ends with these slopes exceeds them by at most 4/27 h (|slope| + |slope|), half a sine wave between
 // two zeros by 1/(2π) of h (|slope| + |slope|); the limit used is some seven times as large. A law
 // rises by its argument's; twice as steeply as it did between samples, for one that is steeper between them. A value
-// without slopes has the mean ones of this step and of the one before: infinite where it begins anew.
+// without slopes has the mean ones of this step and of the one before: infinite where it begins anew. Those of a wave that
+// all steps meet at the same phase are none: it may exceed the ends by a quarter more than it did when it was looked at.
 bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
   const double h = last_.t - first_.t, first = first_.slope[i], last = last_.slope[i];
   double reach = h * (std::abs(first) + std::abs(last));
   if (wanted_[i].argument)
-    reach = steepness_[i] > 0 ? 2 * steepness_[i] * reach : HUGE_VAL;
-  else if (wanted_[i].slope && runs_straight(first, last, (last_.value[i] - first_.value[i]) / h))
+    reach = found_[i].steepness > 0 ? 2 * found_[i].steepness * reach : HUGE_VAL;
+  else if (!wanted_[i].slope)
+    reach = std::max(reach, 1.25 * found_[i].hidden);
+  else if (runs_straight(first, last, (last_.value[i] - first_.value[i]) / h))
     return false;
   return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
 }
@@ -163,8 +167,10 @@ void ExtremeRecorder::search(StepView& view, std::size_t i) {
   const double a = first_.value[i], m = middle_.value[i], b = last_.value[i];
   const double bend = a - 2 * m + b, tilt = b - a;
   // The parabola through the three samples reaches at most this far beyond the middle one.
-  const double reach = std::abs(bend) + std::abs(tilt);
-  if (std::max({merit(i, a), merit(i, m), merit(i, b)}) + reach <= merit(i, found_[i].value)) return;
+  const double reach = std::abs(bend) + std::abs(tilt), at_ends = std::max(merit(i, a), merit(i, b));
+  double& hidden = found_[i].hidden;
+  hidden = std::max(0.5 * hidden, merit(i, m) - at_ends);
+  if (std::max(at_ends, merit(i, m)) + reach <= merit(i, found_[i].value)) return;
   const auto rate = [&](double t) {
     if (wanted_[i].rate) return wanted_[i].rate(view.snapshot(t));
     const double delta = 1e-3 * h;
@@ -174,8 +180,11 @@ void ExtremeRecorder::search(StepView& view, std::size_t i) {
   const double r0 = wanted_[i].rate ? first_.rate[i] : rate(first_.t);
   const double rm = wanted_[i].rate ? middle_.rate[i] : rate(middle_.t);
   const double r1 = wanted_[i].rate ? last_.rate[i] : rate(last_.t);
-  for_each_turn(rate, {first_.t, r0}, {middle_.t, rm}, {last_.t, r1},
-                [&](double t) { consider(i, t, wanted_[i].value(view.snapshot(t))); });
+  for_each_turn(rate, {first_.t, r0}, {middle_.t, rm}, {last_.t, r1}, [&](double t) {
+    const double value = wanted_[i].value(view.snapshot(t));
+    hidden = std::max(hidden, merit(i, value) - at_ends);
+    consider(i, t, value);
+  });
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

@@ -73,11 +73,12 @@ class ExtremeRecorder final : public Observer {
     bool any = false;
     double merit_then = 0;  // at that time; slightly larger later values belong to the same peak
     std::vector<double> row = {};
-    double row_time = 0;  // time of `row`, if there is one
-    void remember(Tape& tape) { tape(value, time, any, merit_then, row, row_time); }
+    double row_time = 0;   // time of `row`, if there is one
+    double steepness = 0;  // of a law of an argument, the greatest between two samples; 0: not known yet
+    double hidden = 0;     // of a value without slopes: by how much it exceeded both ends of a step within it
+    void remember(Tape& tape) { tape(value, time, any, merit_then, row, row_time, steepness, hidden); }
   };
-  explicit ExtremeRecorder(std::vector<ExtremeOf> wanted)
-      : wanted_(std::move(wanted)), found_(wanted_.size()), steepness_(wanted_.size(), 0.0) {}
+  explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override { tape(found_); }
@@ -103,7 +104,6 @@ class ExtremeRecorder final : public Observer {
   std::vector<ExtremeOf> wanted_;
   std::vector<Channel> channels_;
   std::vector<Found> found_;
-  std::vector<double> steepness_;  // of laws of an argument, the greatest between two samples; 0: not known yet
   Sample first_, middle_, last_;
 };
 

@@ -256,7 +256,9 @@ class Loop {
     memory_.events_here =
         time - memory_.last_event <= 1e-13 * std::max(1.0, std::abs(time)) ? memory_.events_here + 1 : 0;
     memory_.last_event = time;
-    ++out_.statistics.events;
+    const bool at_knots =
+        std::all_of(fired.begin(), fired.end(), [&](std::size_t guard) { return equations_.is_knot(guard); });
+    ++(at_knots ? out_.statistics.knots : out_.statistics.events);
     // A motion that ends at its begin may be missed by a coarse step: it is repeated with a shorter one.
     if (at_begin && memory_.events_here >= 2)
       memory_.shortened = std::max(0.1 * memory_.last_step, 1e-12 * std::max(1.0, std::abs(time)));

@@ -31,7 +31,11 @@ struct LoopMemory {
   double shortened = 0, last_step = 0;    // [s]
   std::deque<Recent> recent;              // events, to detect chattering
   int held_needed = 20;                   // explicit steps limited by stability before implicit ones are tried
+  int held = 0;                           // of them so far
   double explicit_step = 0;               // length at which stability held them [s]
+  int implicit_steps = 0;                 // since implicit ones are tried, …
+  double implicit_since = 0;              // … from there on, the last few of them …
+  double window_begin = 0;                // … from there on [s]
   bool operator==(const LoopMemory&) const = default;
 };
 
@@ -85,8 +89,8 @@ struct RunOptions {
 
 struct RunStatistics {
   StepperStatistics stepper;
-  std::int64_t events = 0;
-  double smallest_step = 0;  // of those not shortened by an event, edge or end [s]; 0: none
+  std::int64_t events = 0, knots = 0;  // knots: points between the pieces of a law, passed without an event
+  double smallest_step = 0;            // of those not shortened by an event, edge or end [s]; 0: none
   double cpu_seconds = 0;
   std::string method;                // methods used
   std::string reason;                // reason of the choice

@@ -152,7 +152,9 @@ std::vector<LimitedSteps> StepLimits::ranked(Equations& equations, double t, std
     }
   }
   for (std::size_t g = 0; g < by_guard_.size(); ++g)
-    if (by_guard_[g] > 0) add(g < equations.guard_count() ? equations.guard_owner(g) : "", "events", "", by_guard_[g]);
+    if (by_guard_[g] > 0)
+      add(g < equations.guard_count() ? equations.guard_owner(g) : "", equations.is_knot(g) ? "knots" : "events", "",
+          by_guard_[g]);
   add("", "growth after starts", "", growth_);
   add("", "edges in time", "", by_bound_[static_cast<std::size_t>(Bound::edge)]);
   add("", "quarter turns", "", by_bound_[static_cast<std::size_t>(Bound::turn)]);
@@ -175,9 +177,9 @@ std::string reported(const std::vector<LimitedSteps>& limits) {
     const LimitedSteps& l = limits[k];
     if (l.share < 0.005 && k > 0) break;
     text += fmt::format("{}{}{:.0f} %", text.empty() ? "" : ", ",
-                        l.element.empty()  ? l.by + " "
-                        : l.by == "events" ? fmt::format("events of \"{}\" ", l.element)
-                                           : fmt::format("\"{}\" ", l.element),
+                        l.element.empty()                     ? l.by + " "
+                        : l.by == "events" || l.by == "knots" ? fmt::format("{} of \"{}\" ", l.by, l.element)
+                                                              : fmt::format("\"{}\" ", l.element),
                         100 * l.share);
     if (!l.states.empty())
       text += fmt::format(" ({}{}{})", l.by == "stability" ? "stability; " : "", l.states[0],

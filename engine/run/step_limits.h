@@ -15,7 +15,7 @@ class Equations;
 // Steps limited by one element for one reason.
 struct LimitedSteps {
   std::string element;                   // empty: no element of the machine
-  std::string by;                        // "accuracy", "stability", "events", "edges", "turns", …
+  std::string by;                        // "accuracy", "stability", "events", "knots", "edges", "turns", …
   std::vector<std::string> states = {};  // "twist of c3", most often first; for accuracy and stability
   std::int64_t steps = 0;
   double share = 0;  // of all steps

@@ -116,7 +116,7 @@ TEST(ProgressiveCoupling, FreeVibrationHasThePeriodOfItsArcs) {
   const Result r = run(on_frame(s.coupling(), inertia, 0, settings));
   EXPECT_NEAR(figure(r, "final_angle.disc"), 0, 1e-9);
   EXPECT_NEAR(figure(r, "final_speed.disc"), speed, 1e-9);
-  EXPECT_EQ(r.statistics.events, 12);  // two knots, twice each way, three times
+  EXPECT_EQ(r.statistics.knots, 12);  // two knots, twice each way, three times
 }
 
 TEST(ProgressiveCoupling, StraightTableIsTheLinearCoupling) {
@@ -130,7 +130,7 @@ TEST(ProgressiveCoupling, StraightTableIsTheLinearCoupling) {
       run(on_frame("kind = \"coupling\"\nstiffness = \"500 N*m/rad\"\ndamping_ratio = 0.05", 2, 7, settings));
   EXPECT_NEAR(figure(by_table, "final_angle.disc"), figure(linear, "final_angle.disc"), 1e-10);
   EXPECT_NEAR(figure(by_table, "peak_torque.c"), figure(linear, "peak_torque.c"), 1e-8);
-  EXPECT_EQ(by_table.statistics.events, linear.statistics.events);  // no points where nothing changes
+  EXPECT_EQ(by_table.statistics.knots, linear.statistics.knots);  // no points where nothing changes
 }
 
 TEST(ProgressiveCoupling, JacobianEqualsDifferencesOnEveryPiece) {

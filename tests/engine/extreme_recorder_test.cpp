@@ -139,5 +139,21 @@ TEST(ExtremeRecorder, FindsThePeakOfALawOfAVibratingSpeed) {
   }
 }
 
+// A growing wave of the fourth order, met by all steps at one phase as by steps of a quarter turn each: its last peak counts.
+TEST(ExtremeRecorder, FindsTheLastPeakOfAGrowingWaveMetAtOnePhase) {
+  for (const double phase : {0.3, 0.5, 2.0}) {
+    const auto value = [&](double t) { return (1 + 0.01 * t) * std::sin(4 * t + phase); };
+    const Watched w = watch({.name = {quantities::other, "", "wave"},
+                             .unit = "1",
+                             .functional = Functional::greatest,
+                             .value = [&](const Snapshot& s) { return value(s.now.t); },
+                             .rate = {}},
+                            0, pi / 2, 40);
+    const double last = 20 * pi - std::fmod(phase + 1.5 * pi, 2 * pi) / 4;  // of sin(4 t + phase) = 1
+    EXPECT_NEAR(w.found.value, value(last), 1e-5) << phase;
+    EXPECT_NEAR(w.found.time, last, 1e-3) << phase;
+  }
+}
+
 }  // namespace
 }  // namespace kurbel::extreme_recorder_test

@@ -101,6 +101,20 @@ TEST(StepLimits, OfEventsAndEdgesAreReported) {
   EXPECT_GT(r.statistics.limits[0].share, 0.6);
 }
 
+// A pulse of 1° a turn: its formula has knots that steps end on, and nothing happens there.
+TEST(StepLimits, OfKnotsOfAFormulaAreNoEvents) {
+  const Result r = test::run(
+      "line = [\"disc\"]\ndisc = { kind = \"flywheel\", inertia = \"10 kg*m2\" }\npush = { on = \"disc\", kind = "
+      "\"torque source\", table = { over = \"angle\", formula = \"10 [N*m]*exp(-((angle - 2 [rad])/0.01 [rad])^2)\", "
+      "period = \"360 deg\" } }\nrun = { start = { speed = \"20 rad/s\" }, until = \"2 s\", method = \"dop853\" }\n",
+      false);
+  EXPECT_TRUE(r.events.empty());
+  EXPECT_EQ(r.statistics.events, 0);
+  EXPECT_GT(r.statistics.knots, 12);  // six turns
+  EXPECT_EQ(r.statistics.limits[0].by, "knots");
+  EXPECT_NE(told(r.statistics.limits).find("knots of \"push\""), std::string::npos) << told(r.statistics.limits);
+}
+
 // --- words for a run that breaks off ---
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
