@@ -77,9 +77,9 @@ enum class Predicate {
   effect_matters,
   effects_suffice,
   // requested figures
-  figures_reported
+  figures_told
 };
-inline constexpr Predicate last_predicate = Predicate::figures_reported;
+inline constexpr Predicate last_predicate = Predicate::figures_told;
 
 // "clutch_slips_closed": stable, for programs.
 const char* name_of(Predicate predicate);

@@ -233,7 +233,7 @@ constexpr std::array kinds = {
     ClaimKind{effects_suffice, depends, note, below,
               "no figure of the machine with fewer effects is farther off the full model's than the tolerance",
               "value: greatest deviation; limit: tolerance", "elasticity is enough", "advise"},
-    ClaimKind{figures_reported, figures, note, anything, "the requested figures were found", "none",
+    ClaimKind{figures_told, figures, note, anything, "the requested figures were found", "none",
               "The torque in \"main_coupling\" reaches 6.784 kN·m at 0.845 s", "every command"},
 };
 

@@ -37,7 +37,7 @@ int significant_digits(std::string_view number);
 // Of the machine as it is bad news first; behind it what is said of its variants, then figures. Bad news by question, then
 // by severity, then by how far it is beyond its limit, at most two of a question; then the others by question, each as it
 // was given. With full stops, and rounded as headlines are.
-//     figures_reported "δ is 0.1043819", limit_exceeded "\"clutch\" gets too hot"
+//     figures_told "δ is 0.1043819", limit_exceeded "\"clutch\" gets too hot"
 //         → "\"clutch\" gets too hot.", "δ is 0.1044."
 std::vector<std::string> concluded(Claims claims);
 

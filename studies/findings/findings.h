@@ -129,7 +129,7 @@ struct Findings {
   }
   // The result of a study, in a sentence.
   void conclude(bool whole, std::string sentence) {
-    claim(whole ? Predicate::figures_reported : Predicate::incomplete, std::move(sentence));
+    claim(whole ? Predicate::figures_told : Predicate::incomplete, std::move(sentence));
   }
 
   void key(std::string name, const Estimate& value, std::string means, std::string note = {}, int digits = 0) {

@@ -160,7 +160,7 @@ std::optional<Claim> stress_claim(const ShaftStresses& s) {
   std::optional<Claim> claim =
       claimed(use > 1  ? Predicate::limit_exceeded
               : judged ? Predicate::limit_held
-                       : Predicate::figures_reported,
+                       : Predicate::figures_told,
               std::move(text), most->shaft,
               judged ? Evidence{.value = most->stress, .limit = most->stress / use, .unit = "Pa"} : Evidence{});
   if (claim) claim->load_case = most->misfires.empty() ? load_case::speed_range : "misfire of " + most->misfires;

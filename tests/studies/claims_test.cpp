@@ -55,12 +55,12 @@ TEST(Claim, IsNotMadeWhereItsEvidenceIsBelowItsError) {
   };
   EXPECT_TRUE(held(97, 2));
   EXPECT_FALSE(held(97, 4));
-  EXPECT_FALSE(claimed(Predicate::figures_reported, ""));
+  EXPECT_FALSE(claimed(Predicate::figures_told, ""));
 }
 
 TEST(Claim, NamesAreStableAndEachHasItsDefinition) {
   EXPECT_STREQ(name_of(Predicate::clutch_slips_closed), "clutch_slips_closed");
-  EXPECT_STREQ(name_of(Predicate::figures_reported), "figures_reported");
+  EXPECT_STREQ(name_of(Predicate::figures_told), "figures_told");
   std::set<std::string> names;
   for (const ClaimKind& kind : claim_kinds()) {
     EXPECT_TRUE(names.insert(name_of(kind.predicate)).second);

@@ -100,7 +100,7 @@ TEST(Conclusion, BadNewsComesFirstThenTheQuestionsInTheirOrder) {
   const auto say = [&](Predicate what, const std::string& words, double share = 0) {
     add(claims, claimed(what, words, {}, share > 0 ? Evidence{.value = share, .limit = 1} : Evidence{}));
   };
-  say(Predicate::figures_reported, "figures");
+  say(Predicate::figures_told, "figures");
   say(Predicate::effect_matters, "friction would change it");
   say(Predicate::limit_exceeded, "the clutch gets too hot", 1.2);
   say(Predicate::limit_exceeded, "the shaft is overloaded", 1.9);
@@ -149,7 +149,7 @@ TEST(Conclusion, IsShortenedBySentencesAndKeepsItsAnswer) {
        {std::pair{Predicate::limit_exceeded, "excess, "}, std::pair{Predicate::runs_steadily, "it runs, "},
         std::pair{Predicate::effect_matters, "friction, "}})
     add(f.claims, claimed(what, begin + filler, {}, {.value = 2, .limit = 1}));
-  add(f.claims, claimed(Predicate::figures_reported, "the answer, " + filler));
+  add(f.claims, claimed(Predicate::figures_told, "the answer, " + filler));
   const std::string text = headline_text(f);
   EXPECT_LE(std::count(text.begin(), text.end(), '\n') + 1, static_cast<long>(Brief::most_of_conclusion)) << text;
   EXPECT_TRUE(text.starts_with("Excess, ")) << text;
@@ -169,7 +169,7 @@ TEST(Conclusion, IsShortenedBySentencesAndKeepsItsAnswer) {
   Findings one;
   std::string many = "it";
   for (int i = 0; i < 200; ++i) many += " goes on";
-  add(one.claims, claimed(Predicate::figures_reported, many));
+  add(one.claims, claimed(Predicate::figures_told, many));
   EXPECT_TRUE(headline_text(one).ends_with(" … (report)")) << headline_text(one);
   EXPECT_EQ(headline_text(one).find(".."), std::string::npos);
 }

@@ -9,7 +9,7 @@
 #include "studies/question/question.h"
 #include "tests/support/scenes.h"
 
-namespace kurbel {
+namespace kurbel::options_test {
 namespace {
 
 struct Wanted {
@@ -73,4 +73,4 @@ TEST(Options, OfEveryQuestionAcceptTheirExamples) {
 }
 
 }  // namespace
-}  // namespace kurbel
+}  // namespace kurbel::options_test
