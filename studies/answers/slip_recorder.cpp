@@ -54,9 +54,8 @@ void SlipRecorder::step(StepView& view) {
     joint.state = state;
     if (!spell || state == State::open) continue;
     const ElasticJoint& e = m.elastic[joint.elastic];
-    const Snapshot& s = view.snapshot(view.t());
-    spell->fastest =
-        std::max(spell->fastest, std::abs(e.gain_a * s.now.speed[e.shaft_a] - e.gain_b * s.now.speed[e.shaft_b]));
+    const double* speed = view.equations().instant(view.t(), view.y()).speed;
+    spell->fastest = std::max(spell->fastest, std::abs(e.gain_a * speed[e.shaft_a] - e.gain_b * speed[e.shaft_b]));
   }
 }
 
