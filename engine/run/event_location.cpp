@@ -149,7 +149,6 @@ std::vector<std::size_t> EventLocation::locate() {
     for (std::size_t k = 0; k < below.size(); ++k)
       if (root[k] <= first + at_once) fired.push_back(below[k].guard);
     if (!try_to_land_on(first, fired.front())) return {};
-    find_guards(stepper_->t(), stepper_->y(), guard_);
     // What is at its root now counts as fired; another guard may have fired before it.
     for (std::size_t k = 0; k < below.size(); ++k)
       if (root[k] > first + at_once && std::abs(guard_[below[k].guard]) <= at_root) fired.push_back(below[k].guard);
