@@ -74,7 +74,7 @@ Flow::Flow(std::shared_ptr<const Model> model, bool audit)
 }
 
 void Flow::bind(const Modes& modes) {
-  modes_ = modes;
+  changing_modes() = modes;
   ties_.make_rows();
 }
 
@@ -154,10 +154,22 @@ Instant Flow::instant(double t, std::span<const double> y) {
 
 void Flow::look(double t, std::span<const double> y) { look_at(t, y, snapshot_.now); }
 
+void Flow::keep(double t, std::span<const double> y) {
+  kept_t_ = t;
+  kept_y_.assign(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(states_));
+  kept_ = true;
+}
+
+void Flow::evaluate(double t, std::span<const double> y) {
+  if (kept_ && t == kept_t_ && std::equal(kept_y_.begin(), kept_y_.end(), y.begin())) return look(t, y);
+  evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+}
+
 // Stages: clear, elements, accelerations, torques in merged joints where somebody asks.
 void Flow::evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
                     double* internal_rate) {
   const Model& m = *model_;
+  kept_ = false;
   std::fill(torque_.begin(), torque_.end(), 0.0);
   for (const int s : variable_) inertia_[at(s)] = constant_inertia_[at(s)];
   if (work_rate) std::fill(work_rate, work_rate + m.accounts.size(), 0.0);
@@ -217,6 +229,10 @@ void Flow::flow(double t, std::span<const double> y, std::span<double> ydot) {
     return lose();
   }
   if (!plain_) ties_.refuse_broken(t);
+  if (reactions_.any()) {
+    std::copy(alpha, alpha + m.free_shafts, alpha_.begin());
+    keep(t, y);
+  }
   for (std::size_t i = 0; i < m.angles.size(); ++i) ydot[i] = m.angles[i].gain * snapshot_.now.speed[m.angles[i].shaft];
   if (audit()) {
     std::copy(alpha, alpha + m.free_shafts, alpha_.begin());
@@ -371,6 +387,7 @@ std::string Flow::state_name(std::size_t state) const {
 const Snapshot& Flow::snapshot(double t, std::span<const double> y) {
   const Model& m = *model_;
   evaluate(t, y, twist_rate_.data(), alpha_.data(), work_rate_.data());
+  keep(t, y);
   ties_.refuse_broken(t);
   for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s) alpha_[s] = prescribed_acceleration(m, modes_, s, t);
   find_joint_torques();
@@ -390,7 +407,7 @@ const Snapshot& Flow::snapshot(double t, std::span<const double> y) {
 }
 
 double Flow::kinetic_energy(double t, std::span<const double> y) {
-  evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr);
+  evaluate(t, y);
   double sum = 0;
   for (std::size_t s = 0; s < model_->shafts.size(); ++s)
     sum += 0.5 * inertia_[s] * snapshot_.now.speed[s] * snapshot_.now.speed[s];

@@ -95,7 +95,10 @@ class Flow : public OdeSystem {
 
   // --- for the classes that find modes: contacts, start, switching ---
   // The modes for changes in place; the rows are unchanged until ties().make_rows().
-  Modes& changing_modes() { return modes_; }
+  Modes& changing_modes() {
+    kept_ = false;
+    return modes_;
+  }
   Ties& ties() { return ties_; }
   const Ties& ties() const { return ties_; }
   // The state as input of the elements; valid until the next call.
@@ -103,7 +106,8 @@ class Flow : public OdeSystem {
   // The instant of the last look() or evaluate().
   const Instant& now() const { return snapshot_.now; }
   void look(double t, std::span<const double> y);
-  void evaluate(double t, std::span<const double> y) { evaluate(t, y, twist_rate_.data(), alpha_.data(), nullptr); }
+  // What the last snapshot(), or flow() with reactions, found is kept, and found here again at the same state.
+  void evaluate(double t, std::span<const double> y);
   // Results of the last evaluate(): accelerations of all shafts, including prescribed ones; inertias; torques on the shafts
   // without the torques of ties; torques and inertias of the elements.
   const std::vector<double>& accelerations();
@@ -131,6 +135,7 @@ class Flow : public OdeSystem {
   void look_at(double t, std::span<const double> y, Instant& now);
   void evaluate(double t, std::span<const double> y, double* twist_rate, double* alpha, double* work_rate,
                 double* internal_rate = nullptr);
+  void keep(double t, std::span<const double> y);
   void settle_reactions(double t, double* alpha);
   void let_follow(double t, const double* alpha, double* internal_rate);
   void find_joint_torques();  // from alpha_, of all shafts
@@ -158,6 +163,9 @@ class Flow : public OdeSystem {
   std::vector<JointTorques::Held> held_shafts_;
   Snapshot snapshot_{};
   std::optional<Jam> jam_;
+  bool kept_ = false;  // the working arrays are those of this state
+  double kept_t_ = 0;
+  std::vector<double> kept_y_;
   SparsityPattern pattern_;  // that of the model, with the empty diagonal of the quadratures appended
 };
 

@@ -1,4 +1,4 @@
-// roots.cpp — the Illinois method, kept within its bracket.
+// roots.cpp — regula falsi by Anderson and Björck (BIT 13, 1973), kept within its bracket.
 #include "engine/numerics/roots.h"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ double find_root(const std::function<double(double)>& f, double a, double fa, do
     if (c == a || c == b || std::abs(b - a) <= 4e-16 * std::max(std::abs(a), std::abs(b))) return b;
     const double fc = f(c);
     if ((fc > 0) == (fb > 0)) {
-      fa *= 0.5;  // Illinois: keeps the far end from standing still
+      const double part = 1 - fc / fb;
+      fa *= part > 0 ? part : 0.5;  // keeps the far end from standing still
     } else {
       a = b;
       fa = fb;

@@ -8,7 +8,7 @@
 
 namespace kurbel {
 
-// Root of f in [a, b] with f(a), f(b) of opposite signs (Illinois method), to a few ulps or |f| ≤ enough.
+// Root of f in [a, b] with f(a), f(b) of opposite signs (Anderson–Björck), to a few ulps or |f| ≤ enough.
 double find_root(const std::function<double(double)>& f, double a, double fa, double b, double fb, double enough = 0);
 
 // Bisects a bracket so many times, or to the last bit: `below` is true for points below the result.

@@ -68,26 +68,31 @@ void EventLocation::find_guard_slopes(double t, std::span<const double> y, std::
   for (std::size_t i = 0; i < guard_.size(); ++i) slopes[i] = (slopes[i] - g[i]) / delta;
 }
 
+EventLocation::Cubic EventLocation::cubic_of(std::size_t guard) const {
+  const double h = stepper_->t() - stepper_->t_previous(), rise = guard_[guard] - guard_before_[guard];
+  const double down = h * guard_slope_before_[guard], up = h * guard_slope_[guard];
+  return {guard_before_[guard], down, 3 * rise - 2 * down - up, down + up - 2 * rise};
+}
+
 // Guards that are positive at both ends of the step but negative in between: if the cubic through values and slopes
-// approaches zero, the dense output is evaluated.
-void EventLocation::add_dips(std::vector<Below>& below) {
-  if (!may_dip_ || stepper_->ends_on_edges()) return;
+// approaches zero, the dense output is evaluated. False: the slopes are not known.
+bool EventLocation::add_dips(std::vector<Below>& below) {
+  if (!may_dip_ || stepper_->ends_on_edges()) return false;
   const double t0 = stepper_->t_previous(), h = stepper_->t() - t0;
-  if (!(h > 1e-9 * std::abs(t0))) return;
+  if (!(h > 1e-9 * std::abs(t0))) return false;
   if (!slopes_known_)
     find_guard_slopes(t0, stepper_->y_previous(), stepper_->ydot_previous(), guard_before_, 1e-5 * h,
                       guard_slope_before_);
   find_guard_slopes(stepper_->t(), stepper_->y(), stepper_->ydot(), guard_, -1e-5 * h, guard_slope_);
   slopes_known_ = true;
   for (std::size_t i = 0; i < guard_.size(); ++i) {
-    const double g0 = guard_before_[i], g1 = guard_[i], down = h * guard_slope_before_[i], up = h * guard_slope_[i];
-    if (!(g0 > at_root && g1 > at_root && down < 0 && up > 0)) continue;
-    // g0 + down x + (3 (g1 − g0) − 2 down − up) x² + (down + up − 2 (g1 − g0)) x³
-    const double b = 3 * (g1 - g0) - 2 * down - up, c = down + up - 2 * (g1 - g0);
-    const double root = std::sqrt(std::max(0.0, b * b - 3 * c * down));
-    double x = -down / (b + root);  // of its minimum
+    const double g0 = guard_before_[i], g1 = guard_[i];
+    if (!(g0 > at_root && g1 > at_root && guard_slope_before_[i] < 0 && guard_slope_[i] > 0)) continue;
+    const Cubic cubic = cubic_of(i);
+    const double root = std::sqrt(std::max(0.0, cubic.b * cubic.b - 3 * cubic.c * cubic.slope));
+    double x = -cubic.slope / (cubic.b + root);  // of its minimum
     if (!(x > 0 && x < 1)) continue;
-    const double lowest = g0 + x * (down + x * (b + x * c));
+    const double lowest = cubic.at(x);
     if (lowest > 0.2 * (std::max(g0, g1) - lowest)) continue;  // far off, even for a step that the cubic is poor at
     double value = guard_at(t0 + x * h, i);
     // Towards the true minimum by parabolas.
@@ -103,6 +108,7 @@ void EventLocation::add_dips(std::vector<Below>& below) {
     }
     if (value < fired_below) below.push_back({i, t0 + x * h, value});
   }
+  return true;
 }
 
 // Goes back to the first guard that fired within the step; returns all that fire there, none if the step was smooth.
@@ -112,7 +118,7 @@ std::vector<std::size_t> EventLocation::locate() {
     std::vector<Below> below;
     for (std::size_t i = 0; i < guard_.size(); ++i)
       if (guard_[i] < fired_below) below.push_back({i, stepper_->t(), guard_[i]});
-    add_dips(below);
+    const bool sloped = add_dips(below);
     if (below.empty()) return fired;
     const double t0 = stepper_->t_previous(), t1 = stepper_->t();
     // A guard that starts at its root either rises first, and its next root is searched from there; or the mode was wrong
@@ -143,13 +149,20 @@ std::vector<std::size_t> EventLocation::locate() {
         end = behind, value_at_end = guard_at(end, i);
         if (value_at_end > 0) continue;
       }
+      if (sloped && from[k] == t0 && end == t1) {  // near to where its cubic has it
+        const Cubic cubic = cubic_of(i);
+        const double near =
+            t0 + find_root([&](double x) { return cubic.at(x); }, 0, value[k], 1, value_at_end) * (t1 - t0);
+        const double there = guard_at(near, i);
+        if (there > 0) from[k] = near, value[k] = there;
+        if (there <= 0) end = near, value_at_end = there;
+      }
       root[k] = find_root([&](double t) { return guard_at(t, i); }, from[k], value[k], end, value_at_end, 1e-14);
       first = std::min(first, root[k]);
     }
     for (std::size_t k = 0; k < below.size(); ++k)
       if (root[k] <= first + at_once) fired.push_back(below[k].guard);
     if (!try_to_land_on(first, fired.front())) return {};
-    find_guards(stepper_->t(), stepper_->y(), guard_);
     // What is at its root now counts as fired; another guard may have fired before it.
     for (std::size_t k = 0; k < below.size(); ++k)
       if (root[k] > first + at_once && std::abs(guard_[below[k].guard]) <= at_root) fired.push_back(below[k].guard);

@@ -43,7 +43,12 @@ class EventLocation {
   double guard_at(double t, std::size_t which);
   void find_guard_slopes(double t, std::span<const double> y, std::span<const double> ydot, std::span<const double> g,
                          double delta, std::vector<double>& slopes);
-  void add_dips(std::vector<Below>& below);
+  struct Cubic {  // a guard over the step, by its values and slopes at both ends; 0 ≤ x ≤ 1
+    double value, slope, b, c;
+    double at(double x) const { return value + x * (slope + x * (b + x * c)); }
+  };
+  Cubic cubic_of(std::size_t guard) const;
+  bool add_dips(std::vector<Below>& below);
   std::vector<std::size_t> locate();
   std::vector<std::size_t> fired_at_edge();
   bool try_to_land_on(double t, std::size_t guard);

@@ -10,6 +10,7 @@ namespace {
 
 // Peaks that differ by less are repetitions of the same peak: the time of the first one counts.
 constexpr double same_peak = 1e-9;
+constexpr double beside = 1e-3;  // of a step: rates by differences
 
 // Both slopes within a factor of two of the mean one: nothing turns between. A parabola turns where one is below zero, a
 // cubic where one is above three times the mean.
@@ -126,6 +127,7 @@ void ExtremeRecorder::step(StepView& view) {
   }
   if (any) {
     sample(view.snapshot(0.5 * (t0 + t1)), 0.5 * (t0 + t1), middle_);
+    for (std::vector<double>& values : beside_) values.clear();
     for (std::size_t i = 0; i < wanted_.size(); ++i)
       if (may_be_beaten(i)) search(view, i);
   }
@@ -161,6 +163,15 @@ bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
   return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
 }
 
+void ExtremeRecorder::look_beside(StepView& view) {
+  const double delta = beside * (last_.t - first_.t);
+  const double time[] = {first_.t + delta, middle_.t - delta, middle_.t + delta, last_.t - delta};
+  for (std::size_t k = 0; k < beside_.size(); ++k) {
+    const Snapshot& snapshot = view.snapshot(time[k]);
+    for (const ExtremeOf& wanted : wanted_) beside_[k].push_back(wanted.rate ? 0 : wanted.value(snapshot));
+  }
+}
+
 // Searches an extreme within the step, only if it could exceed the known one.
 void ExtremeRecorder::search(StepView& view, std::size_t i) {
   const double h = last_.t - first_.t;
@@ -173,13 +184,14 @@ void ExtremeRecorder::search(StepView& view, std::size_t i) {
   if (std::max(at_ends, merit(i, m)) + reach <= merit(i, found_[i].value)) return;
   const auto rate = [&](double t) {
     if (wanted_[i].rate) return wanted_[i].rate(view.snapshot(t));
-    const double delta = 1e-3 * h;
-    const double after = wanted_[i].value(view.snapshot(std::min(t + delta, last_.t)));
-    return after - wanted_[i].value(view.snapshot(std::max(t - delta, first_.t)));
+    const double after = wanted_[i].value(view.snapshot(std::min(t + beside * h, last_.t)));
+    return after - wanted_[i].value(view.snapshot(std::max(t - beside * h, first_.t)));
   };
-  const double r0 = wanted_[i].rate ? first_.rate[i] : rate(first_.t);
-  const double rm = wanted_[i].rate ? middle_.rate[i] : rate(middle_.t);
-  const double r1 = wanted_[i].rate ? last_.rate[i] : rate(last_.t);
+  double r0 = first_.rate[i], rm = middle_.rate[i], r1 = last_.rate[i];
+  if (!wanted_[i].rate) {
+    if (beside_[0].empty()) look_beside(view);
+    r0 = beside_[0][i] - a, rm = beside_[2][i] - beside_[1][i], r1 = b - beside_[3][i];
+  }
   for_each_turn(rate, {first_.t, r0}, {middle_.t, rm}, {last_.t, r1}, [&](double t) {
     const double value = wanted_[i].value(view.snapshot(t));
     hidden = std::max(hidden, merit(i, value) - at_ends);
@@ -281,8 +293,8 @@ void CycleRecorder::step(StepView& view) {
   const int shaft = m.shaft_of_node[at(m.reduction_node)];
   const double gain = m.angles[tracked].gain;
   double from = view.t_previous();
-  // The speed's slope is that of the steps' dense output, whose extremes are sought: the equations' acceleration there is
-  // another one by the tolerance. Only a speed that is given is asked of the equations.
+  // The speed's slope is that of the steps' dense output, whose extremes are sought: at its ends what the stepper knows,
+  // between them by differences. Only a speed that is given is asked of the equations.
   const bool free = at(shaft) < m.free_shafts;
   const std::size_t state = free ? equations.speed_index(shaft) : 0;
   const auto speed = [&](double time) {
@@ -290,6 +302,8 @@ void CycleRecorder::step(StepView& view) {
   };
   const auto alpha = [&](double time) {
     if (!free) return gain * view.snapshot(time).alpha[shaft];
+    if (time == view.t_previous()) return gain * view.ydot_previous()[state];
+    if (time == view.t()) return gain * view.ydot()[state];
     const double delta = 1e-3 * (view.t() - view.t_previous());
     const double before = std::max(time - delta, view.t_previous()), after = std::min(time + delta, view.t());
     return (speed(after) - speed(before)) / (after - before);

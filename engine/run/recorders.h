@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -98,6 +99,7 @@ class ExtremeRecorder final : public Observer {
   void sample(const Snapshot& snapshot, double t, Sample& out) const;
   void learn_steepness(std::size_t i);
   bool may_be_beaten(std::size_t i) const;
+  void look_beside(StepView& view);
   void search(StepView& view, std::size_t i);
   void take_row(Found& found, const Snapshot& snapshot) const;
 
@@ -105,6 +107,8 @@ class ExtremeRecorder final : public Observer {
   std::vector<Channel> channels_;
   std::vector<Found> found_;
   Sample first_, middle_, last_;
+  // Beside them, behind the first, on both sides of the middle, before the last: values alone, for rates by differences.
+  std::array<std::vector<double>, 4> beside_;
 };
 
 // One cycle of the reduction link.

@@ -107,6 +107,8 @@ class StepView {
   double t() const { return stepper_->t(); }
   std::span<const double> y() const { return stepper_->y(); }
   std::span<const double> y_previous() const { return stepper_->y_previous(); }
+  std::span<const double> ydot() const { return stepper_->ydot(); }
+  std::span<const double> ydot_previous() const { return stepper_->ydot_previous(); }
   // The state at a time within the step; valid until the next call.
   std::span<const double> at(double time);
   double at(double time, std::size_t state);

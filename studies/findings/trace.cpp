@@ -52,6 +52,7 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model), sources_(mode
        {"kinetic_energy", "stored_energy", "work.driving", "work.useful", "work.harmful", "work.weight"})
     traces_->over_time.push_back({name, "J", {}, {}});
   now_.resize(traces_->over_time.size());
+  for (Trace& trace : traces_->over_time) trace.x.reserve(full), trace.y.reserve(full);
 }
 
 const Trace* Traces::find(const std::string& name) const {
@@ -143,8 +144,10 @@ std::optional<double> TraceRecorder::border_between(double from, double angle_fr
 void TraceRecorder::step(StepView& view) {
   const double t0 = view.t_previous(), t1 = view.t();
   Equations& equations = view.equations();
-  look(t0, view.at(t0), equations);
-  put(t0, equations, true);
+  if (view.begins_anew()) {
+    look(t0, view.y_previous(), equations);
+    put(t0, equations, true);
+  }
   double before = t0;
   for (int i = 1; i <= samples_per_step; ++i) {
     const double t = i == samples_per_step ? t1 : t0 + (t1 - t0) * i / samples_per_step, angle_before = angle_;
