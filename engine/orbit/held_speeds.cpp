@@ -44,7 +44,9 @@ class HeldSearch {
     }
     ReturnMap map(held_.machine(x.tail(x.size() - n_)), options_);
     map.follow(like_);
+    if (effort_ > 0) map.limit_effort(effort_);
     last = map.image(x.head(n_), with_derivative, {held_.record(map.model())});
+    effort_ = map.effort();
     out_.cost += map.cost();
     if (last.end != ReturnMap::End::returned) {
       Deadline::check();  // which may also have ended the period
@@ -98,6 +100,7 @@ class HeldSearch {
 
   const HeldSpeeds& held_;
   const ReturnMap& like_;
+  std::int64_t effort_ = 0;  // of a trial, at most, as the first completed one has it
   ReturnMapOptions options_;
   Index n_;  // of z
   HeldMotion& out_;

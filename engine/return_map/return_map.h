@@ -87,6 +87,9 @@ class ReturnMap {
   // Of a period with derivative, in periods.
   double derivative_cost() const { return (variational_ ? 1.0 : 2.0) * static_cast<double>(size()) + 1; }
   double time_limit() const { return time_limit_; }
+  // Most evaluations of the equations in a period, learnt from the first completed one; 0: none was.
+  std::int64_t effort() const { return most_flow_calls_; }
+  void limit_effort(std::int64_t evaluations) { most_flow_calls_ = evaluations; }
   const ReturnMapOptions& options() const { return options_; }
   // The scaled direction of z along the motion, in which the phase of a machine with its own period is arbitrary. Zero for
   // other machines, and if commands or laws over time define the begin of a period.

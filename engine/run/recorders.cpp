@@ -9,7 +9,7 @@ namespace kurbel {
 namespace {
 
 // Peaks that differ by less are repetitions of the same peak: the time of the first one counts.
-constexpr double same_peak = 1e-9;
+constexpr double same_peak = 1e-9, rounding = 1e-13;
 constexpr double beside = 1e-3;  // of a step: rates by differences
 
 // Both slopes within a factor of two of the mean one: nothing turns between. A parabola turns where one is below zero, a
@@ -60,8 +60,10 @@ double ExtremeRecorder::merit(std::size_t i, double value) const {
 void ExtremeRecorder::consider(std::size_t i, double t, double value) {
   Found& found = found_[i];
   const double merit_now = merit(i, value);
+  found.size = std::max(found.size, std::abs(value));
   if (found.any && merit_now <= merit(i, found.value)) return;
-  if (found.any && found.time < first_.t && merit_now <= found.merit_then + same_peak * std::abs(value)) {
+  if (found.any && found.time < first_.t &&
+      merit_now <= found.merit_then + same_peak * std::abs(value) + rounding * found.size) {
     // Of either sign where magnitudes count: the sign is that of the time.
     found.value = wanted_[i].functional == Functional::peak ? std::copysign(value, found.value) : value;
     return;

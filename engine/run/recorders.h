@@ -73,11 +73,12 @@ class ExtremeRecorder final : public Observer {
     double value = 0, time = 0;
     bool any = false;
     double merit_then = 0;  // at that time; slightly larger later values belong to the same peak
+    double size = 0;        // greatest magnitude so far: what is rounding of it makes no other peak
     std::vector<double> row = {};
     double row_time = 0;   // time of `row`, if there is one
     double steepness = 0;  // of a law of an argument, the greatest between two samples; 0: not known yet
     double hidden = 0;     // of a value without slopes: by how much it exceeded both ends of a step within it
-    void remember(Tape& tape) { tape(value, time, any, merit_then, row, row_time, steepness, hidden); }
+    void remember(Tape& tape) { tape(value, time, any, merit_then, size, row, row_time, steepness, hidden); }
   };
   explicit ExtremeRecorder(std::vector<ExtremeOf> wanted) : wanted_(std::move(wanted)), found_(wanted_.size()) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;

@@ -90,7 +90,7 @@ constexpr std::array kinds = {
         start_unstable, runs, warning, above,
         "a shaft that no spring and no closed clutch joins to others starts at rest, nothing holds it, its "
         "acceleration is rounding, and 1e-4 rad to either side it is accelerated away; nothing else moves it before "
-        "that time. From then on no figure of a run has a known error",
+        "that time. No figure of a run that lasts longer has a known error",
         "at: rounding has grown to 1e-9 rad; value: rate at which a deviation grows, λ of e^(λt) [1/s]; limit: 0",
         "\"press\" starts in an unstable equilibrium: rounding decides when it leaves it, and to which side; a "
         "deviation "

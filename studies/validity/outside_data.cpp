@@ -243,17 +243,17 @@ void drop_errors(Result& result, double since) {
     if (!(claim.evidence.at && *claim.evidence.at < since)) claim.evidence.error.reset();
 }
 
-// Runs that share the rounding of the start agree, and tell nothing.
+// Runs that share the rounding of the start agree, and tell nothing. An extreme that came before may be passed later.
 void drop_errors_after_unstable_start(Result& result) {
   double since = result.until;
   for (const Claim& c : result.claims)
     if (c.predicate == Predicate::start_unstable) since = std::min(since, *c.evidence.at);
   if (since == result.until) return;
-  drop_errors(result, since);
+  drop_errors(result, -HUGE_VAL);
   if (!std::exchange(result.errors_measured, false)) return;
   result.accuracy_confirmed = false;
   result.notes.push_back(fmt::format(
-      "from {:.3g} s on the motion depends on the rounding of its unstable start: no error is known", since));
+      "from {:.3g} s on the motion depends on the rounding of its unstable start: no figure has a known error", since));
 }
 
 void report_outside_data(const DataRangeRecorder& ranges, Result& result) {

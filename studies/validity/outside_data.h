@@ -55,7 +55,7 @@ class DataRangeRecorder final : public Observer {
 void drop_errors(std::vector<Figure>& figures, double since);
 void drop_errors(Result& result, double since);
 
-// Where rounding decides a run's motion, by its claims of the start: no error is known from then on.
+// Where rounding decides a run's motion, by its claims of the start: no error is known.
 void drop_errors_after_unstable_start(Result& result);
 
 // Reports it among a run's results; dependent figures lose their errors.
