@@ -46,7 +46,7 @@ class HeldSearch {
     map.follow(like_);
     if (effort_ > 0) map.limit_effort(effort_);
     last = map.image(x.head(n_), with_derivative, {held_.record(map.model())});
-    effort_ = map.effort();
+    if (last.end == ReturnMap::End::returned) effort_ = map.effort();
     out_.cost += map.cost();
     if (last.end != ReturnMap::End::returned) {
       Deadline::check();  // which may also have ended the period
@@ -100,7 +100,7 @@ class HeldSearch {
 
   const HeldSpeeds& held_;
   const ReturnMap& like_;
-  std::int64_t effort_ = 0;  // of a trial, at most, as the first completed one has it
+  std::int64_t effort_ = 0;  // evaluations in a trial at most, by those that returned; 0: none has
   ReturnMapOptions options_;
   Index n_;  // of z
   HeldMotion& out_;

@@ -19,7 +19,7 @@ constexpr std::size_t most_unknowns = 400;   // the derivative is full
 constexpr double overlap = 0.02;             // of a period, added to the first run
 constexpr double slowest = 20;               // limit of a period's duration over that at the guessed speed
 constexpr double difference_step = 2e-5;     // of unknowns of order one
-constexpr std::int64_t dearest = 300;        // limit of a period's evaluations over those of the first one
+constexpr std::int64_t dearest = 300;        // limit of a period's evaluations over those of the cheapest one
 constexpr std::int64_t least_effort = 1000;  // evaluations; fewer are not representative of a period
 constexpr double safely = 20;                // times a tolerance: error of a period
 constexpr double loose_directions = 100;     // times the tolerance of the motion: that of variational equations
@@ -123,9 +123,10 @@ void ReturnMap::follow(const ReturnMap& other) {
   most_flow_calls_ = other.most_flow_calls_;
 }
 
-// A trial far from any motion may take unlimited steps. The first completed period defines the limit.
+// A trial far from any motion may take unlimited steps. The cheapest completed period defines the limit.
 void ReturnMap::learn_effort(const RunOutcome& outcome) {
-  if (most_flow_calls_ == 0) most_flow_calls_ = dearest * std::max(least_effort, outcome.statistics.stepper.flow_calls);
+  const std::int64_t most = dearest * std::max(least_effort, outcome.statistics.stepper.flow_calls);
+  most_flow_calls_ = most_flow_calls_ == 0 ? most : std::min(most_flow_calls_, most);
 }
 
 std::function<double(double, std::span<const double>)> ReturnMap::period_end(Equations& equations,

@@ -87,7 +87,7 @@ class ReturnMap {
   // Of a period with derivative, in periods.
   double derivative_cost() const { return (variational_ ? 1.0 : 2.0) * static_cast<double>(size()) + 1; }
   double time_limit() const { return time_limit_; }
-  // Most evaluations of the equations in a period, learnt from the first completed one; 0: none was.
+  // Most evaluations of the equations in a period, learnt from the cheapest completed one; 0: none was.
   std::int64_t effort() const { return most_flow_calls_; }
   void limit_effort(std::int64_t evaluations) { most_flow_calls_ = evaluations; }
   const ReturnMapOptions& options() const { return options_; }
@@ -117,7 +117,7 @@ class ReturnMap {
   bool variational_ = true;  // derivatives by variational equations, else by differences
   std::optional<PoincareSection> section_;
   double section_angle_ = 0, sense_ = 1, time_limit_ = 0, cost_ = 0;
-  std::int64_t most_flow_calls_ = 0;  // limit for a period: many times the calls of the first completed one; 0: unknown
+  std::int64_t most_flow_calls_ = 0;  // limit for a period: many times the calls of the cheapest completed one; 0: unknown
 };
 
 // A fixed point of the map.
