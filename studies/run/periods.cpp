@@ -9,7 +9,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double least_reported = 1e-8;  // of a speed: nearer to its limit nobody asks
+constexpr double least_reported = 1e-6;  // of a speed: nearer to its limit nobody asks
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
 constexpr double nowhere = 1e3;  // times the speed: a limit so far away is rounding
 constexpr std::size_t parts_without_cycle = 16, least_means = 3;

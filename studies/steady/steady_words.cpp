@@ -203,8 +203,8 @@ std::string stability_text(const std::vector<std::complex<double>>& multipliers,
     return fmt::format("unstable: a deviation doubles in {:.3g} cycles{}", period * std::log(2.0) / std::log(size),
                        swinging);
   if (size < 1e-3)
-    return fmt::format("stable: {} less than {:.0e} of any deviation",
-                       period == 1 ? "a cycle leaves" : fmt::format("{} cycles leave", period), std::max(size, 1e-12));
+    return fmt::format("stable: {} less than 0.1 % of any deviation",
+                       period == 1 ? "a cycle leaves" : fmt::format("{} cycles leave", period));
   const double cycles = period * std::log(2.0) / -std::log(size);
   if (halving) *halving = cycles;
   return fmt::format("stable: the slowest deviation halves in {:.3g} cycles{}", cycles, swinging);
