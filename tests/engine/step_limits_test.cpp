@@ -112,7 +112,8 @@ TEST(StepLimits, OfKnotsOfAFormulaAreNoEvents) {
   EXPECT_EQ(r.statistics.events, 0);
   EXPECT_GT(r.statistics.knots, 12);  // six turns
   EXPECT_EQ(r.statistics.limits[0].by, "knots");
-  EXPECT_NE(reported(r.statistics.limits).find("knots of \"push\""), std::string::npos) << reported(r.statistics.limits);
+  EXPECT_NE(reported(r.statistics.limits).find("knots of \"push\""), std::string::npos)
+      << reported(r.statistics.limits);
 }
 
 // --- words for a run that breaks off ---

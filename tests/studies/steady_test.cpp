@@ -157,7 +157,7 @@ TEST(Steady, StabilityIsReportedInCyclesOfHalving) {
   EXPECT_TRUE(has(stability_text({{2, 0}}, nullptr, 1e-9), "unstable: a deviation doubles in 1 cycles"));
   EXPECT_TRUE(has(stability_text({{0.25, 0}}, &halving, 1e-9, 2), "stable: the slowest deviation halves in 1 cycles"));
   EXPECT_NEAR(*halving, 1, 1e-12);
-  EXPECT_TRUE(has(stability_text({{1e-6, 0}}, nullptr, 1e-9, 2), "stable: 2 cycles leave less than 1e-06"));
+  EXPECT_TRUE(has(stability_text({{1e-6, 0}}, nullptr, 1e-9, 2), "stable: 2 cycles leave less than 0.1 %"));
   EXPECT_TRUE(has(stability_text({{1, 0}, {0.2, 0}}, nullptr, 1e-9), "neutral"));
   EXPECT_TRUE(has(stability_text({{0.3, 0.4}, {0.3, -0.4}}, nullptr, 1e-9), "oscillating"));
 }
