@@ -119,7 +119,7 @@ TEST(BeyondTables, ADriveThatEndsAtItsNoLoadSpeedBrakesBeyond) {
           scene_from(fmt::format(R"(
 line = ["motor", "drum"]
 motor = {{ kind = "motor", inertia = "1 kg*m2", torque = {{ over = "speed", unit = ["rad/s", "N*m"], points = [[{}, {}], [{}, {}]] }} }}
-drum = {{ kind = "load", torque = "{} N*m", inertia = "1 kg*m2" }}
+drum = {{ kind = "load", torque = "{} N*m", acts = "always", inertia = "1 kg*m2" }}
 run = {{ until = "200 s", start = {{ speed = "{} rad/s" }} }}
 )",
                                  sense > 0 ? 0 : -no_load, sense > 0 ? k * no_load : 0, sense > 0 ? no_load : 0,

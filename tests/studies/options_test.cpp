@@ -1,5 +1,6 @@
 // options_test.cpp — every option of every question accepts its own example; a quantity without one is refused when it is
 // registered.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -27,7 +28,7 @@ TEST(Options, AQuantityWithoutAnExampleIsRefusedAtRegistration) {
                std::logic_error);
   const Wanted read =
       OptionsOf<Wanted>()
-          .add({.name = "speed", .doc = "speed", .example = "30 1/min", .what = "a speed"}, &Wanted::speed)
+          .add({.name = "speed", .doc = "speed", .example = "60 rpm", .what = "a speed"}, &Wanted::speed)
           .read({{"speed", "1 rad/s"}}, "test", {});
   EXPECT_EQ(read.speed, 1);
 }
@@ -43,13 +44,20 @@ TEST(Options, OfEveryQuestionAcceptTheirExamples) {
     for (const DeclaredOption& option : question.options) {
       if (option.form == OptionForm::flag) continue;
       const std::string& example = option.text.example;
-      std::string text = example.empty() ? "1" : example;
+      // Several values ascend, as two ends of a range do.
+      const auto value = [&](int k) {
+        if (example.empty()) return std::string("1");
+        std::size_t unit = 0;
+        const double number = std::stod(example, &unit);
+        return fmt::format("{:g}{}", k * number, example.substr(unit));
+      };
+      std::string text = value(1);
       GivenOptions given = required;
       if (option.form == OptionForm::several && !option.text.each_time)
-        for (int k = 1; k < option.text.count; ++k) text += "," + (example.empty() ? std::string("1") : example);
+        for (int k = 2; k <= option.text.count; ++k) text += "," + value(k);
       given.emplace_back(option.text.name, text);
       if (option.text.each_time)
-        for (int k = 1; k < option.text.count; ++k) given.push_back(given.back());
+        for (int k = 2; k <= option.text.count; ++k) given.push_back(given.back());
       examples += !example.empty();
       try {
         question.check(given, scene);
