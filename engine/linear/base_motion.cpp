@@ -168,6 +168,12 @@ void BaseMotion::find_coordinates() {
   twists_ = (ends * coordinates_.motion).pruned(1.0, 1e-14);
 }
 
+bool BaseMotion::pass_pieces(const std::vector<double>& before) {
+  const std::vector<int> pieces = equations_.modes().piece;
+  follow_pieces(equations_, begin_time_, before, begin_);
+  return equations_.modes().piece != pieces;
+}
+
 bool BaseMotion::has_spring(std::size_t joint) const {
   return m_.network.joints[kurbel::at(m_.elastic[joint].joint)].element->is.has_spring();
 }

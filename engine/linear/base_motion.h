@@ -94,6 +94,8 @@ class BaseMotion {
   void find_coordinates();
   void balance();
   bool turn_flanks();
+  // The pieces of laws that hold where the balance has led from the state before: true if one has changed.
+  bool pass_pieces(const std::vector<double>& before);
   double angle_rate(std::size_t tracked) const;
 
   std::shared_ptr<const Model> shared_;

@@ -316,10 +316,11 @@ class BaseMotion::Balance {
 
 // Without a steady motion it is found here which flanks of gears with losses carry.
 void BaseMotion::balance() {
-  constexpr int most_turns_of_flanks = 4;
-  for (int i = 0; i < most_turns_of_flanks; ++i) {
+  constexpr int most_changes = 4;
+  for (int i = 0; i < most_changes; ++i) {
+    const std::vector<double> before = begin_;
     Balance(*this).find();
-    if (point_.orbit || !turn_flanks()) return;
+    if (!(point_.orbit ? pass_pieces(before) : turn_flanks())) return;
   }
 }
 

@@ -280,6 +280,23 @@ TEST(ForcedResponse, LongSimulationSettlesToIt) {
   }
 }
 
+// M = (ω₀ − ω)/d between the limits of a governor with droop, at the limits beyond; τ = b ω + (M − b ω) J₂/(J₁ + J₂).
+TEST(ForcedResponse, MeanTorqueOfAGovernorKeepsToItsLimits) {
+  const Scene scene = test::scene_from(R"(
+line = ["engine", "k", "pump"]
+engine = { kind = "governor", speed = "100 rad/s", proportional_gain = "20 N*m*s/rad", integral_gain = "60 N*m/rad", droop = "0.01 rad/s/N/m", max_torque = "150 N*m", min_torque = "-40 N*m", initial_torque = "90 N*m", inertia = "2 kg*m2" }
+k = { kind = "coupling", stiffness = "5 kN*m/rad", damping = "5 N*m*s/rad" }
+pump = { kind = "load", damping = "1 N*m*s/rad", inertia = "3 kg*m2" }
+effects = { elasticity = true }
+run = { start = { speed = "99 rad/s" }, until = "10 s", accuracy = 1e-8 }
+)");
+  for (const double omega : {60.0, 95.0, 98.0, 98.4, 98.6, 99.0, 100.2, 100.5, 102.0, 120.0}) {
+    const double torque = std::clamp((100 - omega) / 0.01, -40.0, 150.0);
+    const SpeedResponse response = find_modes(scene, scene.effects, {.speed = omega}).here;
+    EXPECT_NEAR(response.joints[0].mean, omega + (torque - omega) * 3 / 5, 1e-6 * omega) << omega;
+  }
+}
+
 // The press blanks once a turn, and its speed sags by a tenth at its nominal force, by a thirtieth at a third of it: the
 // linear drive at the mean operating point comes the nearer to the steady cycle that the simulation settles to.
 TEST(ForcedResponse, OfThePressIsNearItsSimulatedSteadyCycle) {
