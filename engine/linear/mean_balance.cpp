@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 constexpr int most_steps = 25, most_halvings = 6;
-constexpr double balanced_within = 1e-11;    // of torque scale, of own states' scales over the time of a radian
+constexpr double balanced_within = 1e-11;    // of torque scale, of the scales of internal states over the time of a radian
 constexpr double near_enough_to_end = 1e-7;  // where Newton's steps cannot come nearer
 constexpr Index dense_below = 200;           // unknowns
 
@@ -53,7 +53,7 @@ MeanDerivatives BaseMotion::mean_derivatives() {
       if (row >= speeds) sum[k] += share * values[k] * (row < own ? inertia[row - speeds] : 1);
     }
   }
-  Triplets by_angle[2], by_twist[2], by_speed[2], by_internal[2];  // of torques, of own states' rates
+  Triplets by_angle[2], by_twist[2], by_speed[2], by_internal[2];  // of torques, of rates of internal states
   for (std::size_t c = 0; c < m_.state_count(); ++c)
     for (auto k = kurbel::at(pattern.column_start[c]); k < kurbel::at(pattern.column_start[c + 1]); ++k) {
       const auto row = static_cast<std::size_t>(pattern.row[k]);
@@ -314,7 +314,7 @@ class BaseMotion::Balance {
   std::vector<char> is_held_;  // per own state
 };
 
-// Without a steady motion it is found here which flanks of gears with losses carry.
+// Without a steady motion it is found here which flanks of gears with losses carry; with one, which pieces of laws hold.
 void BaseMotion::balance() {
   constexpr int most_changes = 4;
   for (int i = 0; i < most_changes; ++i) {

@@ -163,7 +163,7 @@ TEST(Sticking, IsNotSaidOfAShaftThatOscillates) {
   EXPECT_FALSE(sticks(1, -1));
 }
 
-// The driven side swings by A/(J ω) (1 − cos ω t) above a lead of 2 rad/s: fastest in mid step, half a period after the start.
+// The speed of the driven side oscillates by A/(J ω) (1 − cos ω t) above a lead of 2 rad/s: fastest in mid step, half a period after the start.
 TEST(LargestSlip, LiesWithinASwing) {
   constexpr double pi = std::numbers::pi, lead = 2, swing = 6 / (0.5 * 2 * pi * 2);
   const Result r = test::run(R"(
