@@ -1,4 +1,4 @@
-// forced_vibration.h — how a machine vibrates in its steady motion: the torque of every elastic joint over one period, by orders.
+// forced_vibration.h — how a machine vibrates in its steady motion: the torque of every elastic joint over a period, by orders.
 //
 //     τ(t) = τ₀ + Σ_h Re c_h e^{2πi h t/T}         c_h by the trapezium rule, T the period of the settled run
 // In a machine whose link turns by Φ in T, h is the order 2πh/Φ of the link's turn.
