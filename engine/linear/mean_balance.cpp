@@ -16,8 +16,7 @@ using Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 constexpr int most_steps = 25, most_halvings = 6;
-constexpr double balanced_within =
-    1e-11;  // of torque scale, of the scales of internal states over the time of a radian
+constexpr double balanced_within = 1e-11;    // of torque scale, of internal states' scales over the time of a radian
 constexpr double near_enough_to_end = 1e-7;  // where Newton's steps cannot come nearer
 constexpr Index dense_below = 200;           // unknowns
 
