@@ -17,9 +17,11 @@ namespace kurbel {
 namespace {
 
 // From one speed to another the laws of speed go on to the pieces that hold there: what has not changed its sign keeps
-// its piece, such as a coupling whose twist is the same.
+// its piece, such as a coupling whose twist is the same; so does what stands at the end of its piece, as a belt that
+// slips and whose states balance where it would grip.
 void follow_pieces(Equations& equations, double t, const std::vector<double>& from, const std::vector<double>& to) {
   constexpr int most_pieces = 1000;
+  constexpr double beyond = 1e-6;  // of a guard: balances are not found more closely
   const auto whole = [&](std::vector<double> y) { return y.resize(equations.size(), 0.0), y; };
   const std::vector<double> there = whole(from), here = whole(to);
   std::vector<int>& piece = equations.changing_modes().piece;
@@ -31,7 +33,7 @@ void follow_pieces(Equations& equations, double t, const std::vector<double>& fr
     for (int i = 0; i < most_pieces; ++i) {
       pool->guards(equations.instant(t, here), now.data());
       std::size_t passed = 0;
-      while (passed < count && !(before[passed] > 0 && now[passed] < 0)) ++passed;
+      while (passed < count && !(before[passed] > 0 && now[passed] < -beyond)) ++passed;
       if (passed == count) break;
       pool->fire(equations.instant(t, here), static_cast<int>(passed), piece.data());
     }
