@@ -62,8 +62,8 @@ void ExtremeRecorder::consider(std::size_t i, double t, double value) {
   const double merit_now = merit(i, value);
   found.size = std::max(found.size, std::abs(value));
   if (found.any && merit_now <= merit(i, found.value)) return;
-  if (found.any && found.time < first_.t &&
-      merit_now <= found.merit_then + same_peak * std::abs(value) + rounding * found.size) {
+  const double same = rounding * found.size + (found.time < first_.t ? same_peak * std::abs(value) : 0);
+  if (found.any && found.time <= first_.t && merit_now <= found.merit_then + same) {
     // Of either sign where magnitudes count: the sign is that of the time.
     found.value = wanted_[i].functional == Functional::peak ? std::copysign(value, found.value) : value;
     return;

@@ -155,5 +155,32 @@ TEST(ExtremeRecorder, FindsTheLastPeakOfAGrowingWaveMetAtOnePhase) {
   }
 }
 
+// 100 N·m that fall to nothing within a second: what is left is rounding, and the least value is of the time at which it
+// was reached first, however rounding goes on.
+TEST(ExtremeRecorder, OfExtremesThatDifferByRoundingTheFirstCounts) {
+  for (const double falls : {0.0, -1e-15, -1e-14}) {  // of later values from step to step [N·m]
+    const auto value = [&](const Snapshot& s) { return s.now.t < 1 ? 100 * (1 - s.now.t) : falls * (s.now.t - 1); };
+    const Watched w = watch({.name = {quantities::other, "", "torque"},
+                             .unit = "N*m",
+                             .functional = Functional::least,
+                             .value = value,
+                             .rate = {},
+                             .slope = [](const Snapshot& s) { return s.now.t < 1 ? 100.0 : 0.0; }},
+                            0, 0.25, 40);
+    EXPECT_DOUBLE_EQ(w.found.time, 1) << falls;
+    EXPECT_NEAR(w.found.value, 0, 1e-12);
+  }
+  // What differs by more than rounding is another extreme.
+  const Watched apart =
+      watch({.name = {quantities::other, "", "torque"},
+             .unit = "N*m",
+             .functional = Functional::least,
+             .value = [](const Snapshot& s) { return s.now.t < 1 ? 1 - s.now.t : 1e-6 * (1 - s.now.t); },
+             .rate = {},
+             .slope = [](const Snapshot& s) { return s.now.t < 1 ? 1.0 : 1e-6; }},
+            0, 0.25, 40);
+  EXPECT_DOUBLE_EQ(apart.found.time, 10);
+}
+
 }  // namespace
 }  // namespace kurbel::extreme_recorder_test
