@@ -247,8 +247,7 @@ int present(StudyOutput output, const StudyOptions& options) {
             "\n");
       return exit_done;
     }
-    complain(fmt::format("kurbel: not confirmed: {}. Loosen --accuracy, or take --no-error if no error is wanted\n",
-                         output.unconfirmed));
+    complain(fmt::format("kurbel: not confirmed: {}\n", output.unconfirmed));
     return exit_not_confirmed;
   }
   complain(fmt::format("kurbel: {}\n", output.complete ? "interrupted" : output.diagnosis));

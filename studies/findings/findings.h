@@ -100,7 +100,7 @@ struct Findings {
   Claims claims = {};           // the conclusion is made from them
   bool complete = true;
   std::string diagnosis = {};    // of a run that failed
-  std::string unconfirmed = {};  // why the requested accuracy is not confirmed; empty: it is, or it was not requested
+  std::string unconfirmed = {};  // why the requested accuracy is not confirmed and what to try; empty: it is, or it was not requested
   Opening opening = Opening::conclusion;
   bool reports_diagnosis = true;  // to programs, if incomplete
   bool reports_complete = true;   // to programs; false for studies that are always complete

@@ -37,4 +37,12 @@ std::string Result::accuracy_in_words() const {
       errors_measured ? fmt::format("{:.1e} measured", measured_accuracy) : "errors could not be measured");
 }
 
+std::string Result::unconfirmed_in_words() const {
+  if (!unconfirmed()) return {};
+  const bool unstable = std::any_of(claims.begin(), claims.end(),
+                                    [](const Claim& c) { return c.predicate == Predicate::start_unstable; });
+  return accuracy_in_words() + (unstable ? ". No accuracy helps where rounding decides: start it at another angle"
+                                         : ". Loosen --accuracy, or take --no-error if no error is wanted");
+}
+
 }  // namespace kurbel

@@ -156,8 +156,10 @@ struct Result {
   const Figure* find(const QuantityKind& what, const std::string& of) const;
   // Complete, but without the requested accuracy: its figures have the errors that were measured, if any.
   bool unconfirmed() const { return complete && confirmation_asked && !accuracy_confirmed; }
-  // "accuracy 1e-06 was asked for, 3.1e-05 measured"
+  // "accuracy 1e-06 requested, 3.1e-05 measured"
   std::string accuracy_in_words() const;
+  // That, and what to try; empty: it is confirmed.
+  std::string unconfirmed_in_words() const;
 };
 
 }  // namespace kurbel

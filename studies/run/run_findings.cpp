@@ -147,7 +147,7 @@ Record model_record(const Result& r) {
 void judge_completion(Findings& f, const Comparison& c) {
   for (const Result* r : {&c.a, &c.b}) {
     if (r->trajectory) f.tables.push_back({"trajectory." + r->label, [r] { return trajectory_data(*r); }});
-    if (r->unconfirmed()) f.unconfirmed = fmt::format("{} model: {}", r->label, r->accuracy_in_words());
+    if (r->unconfirmed()) f.unconfirmed = fmt::format("{} model: {}", r->label, r->unconfirmed_in_words());
     if (r->complete) continue;
     f.complete = false;
     if (f.diagnosis.empty()) f.diagnosis = r->diagnosis;
@@ -238,7 +238,7 @@ Findings findings_of(const Result& r, const Result* rigid) {
       .speed_unit = speed_unit_of(r).name,
       .complete = r.complete,
       .diagnosis = r.diagnosis,
-      .unconfirmed = r.unconfirmed() ? r.accuracy_in_words() : "",
+      .unconfirmed = r.unconfirmed_in_words(),
       .opening = Findings::Opening::title_and_conclusion,
       .footer = report_footer()};
   f.claims = run_claims(r);

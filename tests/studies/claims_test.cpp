@@ -327,6 +327,7 @@ TEST(StartClaims, UnstableEquilibriumIsSaid) {
   EXPECT_FALSE(error_at_end(late) || late.accuracy_confirmed || late.errors_measured);
   EXPECT_TRUE(find(late.claims, Predicate::moves) == nullptr || !find(late.claims, Predicate::moves)->evidence.error);
   EXPECT_TRUE(has(said(late), "NOT confirmed")) << said(late);
+  EXPECT_TRUE(has(late.unconfirmed_in_words(), "another angle")) << late.unconfirmed_in_words();
   for (const Figure& f : late.figures) EXPECT_EQ(f.error.has_value(), f.exact) << f.name;
   // Behind an open clutch, too; not where a torque moves it before, or it begins elsewhere.
   EXPECT_TRUE(is_said(
