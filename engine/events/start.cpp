@@ -158,11 +158,14 @@ void Start::settle_modes(double t, std::span<double> y, bool equilibrium) {
   first_states(t, y);
   if (equilibrium) balance_twists(y, t);
   first_states(t, y);
-  if (equilibrium && flow_.has_followers()) {
+  const auto balance_followers = [&] {
+    if (!equilibrium || !flow_.has_followers()) return;
     flow_.evaluate(t, y);
     flow_.balance_followers(y.data() + flow_.internal_begin());
-  }
+  };
+  balance_followers();
   contacts_.settle(t, y, changes, nullptr);
+  balance_followers();  // by the accelerations of what is held now
   refuse_impossible_slip(t, y);
   first_pieces(t, y);
   OpenSides(flow_).settle(t, y);
