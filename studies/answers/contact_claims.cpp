@@ -274,7 +274,31 @@ bool is_moved_before(double time, std::size_t angle, const std::shared_ptr<const
   return true;
 }
 
-// dω/dt = λ² δφ beside a start at rest without acceleration.
+// Shafts that springs, belts or closed clutches join, with the ratios at which they turn together without a twist.
+using JoinedShafts = std::vector<std::pair<std::size_t, double>>;
+
+std::vector<JoinedShafts> joined_shafts(const Model& m, const std::vector<int>& slip) {
+  std::vector<std::vector<std::pair<std::size_t, double>>> beside(m.shafts.size());  // shaft, and its ratio to this one
+  for (std::size_t j = 0; j < m.elastic.size(); ++j) {
+    const ElasticJoint& e = m.elastic[j];
+    if (e.springless || (e.slips && slip[j] != 0)) continue;
+    beside[at(e.shaft_a)].emplace_back(at(e.shaft_b), e.gain_a / e.gain_b);
+    beside[at(e.shaft_b)].emplace_back(at(e.shaft_a), e.gain_b / e.gain_a);
+  }
+  std::vector<JoinedShafts> groups;
+  std::vector<char> seen(m.shafts.size());
+  for (std::size_t first = 0; first < m.shafts.size(); ++first) {
+    if (std::exchange(seen[first], 1)) continue;
+    JoinedShafts group{{first, 1}};
+    for (std::size_t k = 0; k < group.size(); ++k)
+      for (const auto& [other, ratio] : beside[group[k].first])
+        if (!std::exchange(seen[other], 1)) group.emplace_back(other, group[k].second * ratio);
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+// dω/dt = λ² δφ beside a start at rest without acceleration; of joined shafts as if they were rigid.
 void add_unstable_starts(const std::shared_ptr<const Model>& model, Equations& equations, Claims& claims) {
   const Model& m = *model;
   constexpr double aside = 1e-4;     // [rad]
@@ -282,27 +306,38 @@ void add_unstable_starts(const std::shared_ptr<const Model>& model, Equations& e
   constexpr double matters = 1e-9;   // a deviation [rad]
   const std::vector<double> y = equations.start(0);
   std::vector<double> beside(y.size()), rate(y.size());
-  for (std::size_t shaft = 0; shaft < m.free_shafts; ++shaft) {
-    const std::size_t speed = equations.speed_index(static_cast<int>(shaft));
-    const auto joined = [&](const ElasticJoint& e) {
-      const bool apart = e.slips && equations.modes().slip[at(&e - m.elastic.data())] != 0;
-      return !apart && (at(e.shaft_a) == shaft || at(e.shaft_b) == shaft);
+  for (const JoinedShafts& group : joined_shafts(m, equations.modes().slip)) {
+    const auto rests = [&](const auto& joined) {
+      const std::size_t shaft = joined.first;
+      return shaft < m.free_shafts && y[equations.speed_index(static_cast<int>(shaft))] == 0 &&
+             equations.modes().direction[shaft] != 0;
     };
-    if (y[speed] != 0 || equations.modes().direction[shaft] == 0 ||
-        std::any_of(m.elastic.begin(), m.elastic.end(), joined))
-      continue;
+    if (!std::all_of(group.begin(), group.end(), rests)) continue;
+    std::vector<double> ratio(m.shafts.size());
+    for (const auto& [shaft, turns] : group) ratio[shaft] = turns;
     const auto acceleration = [&](double by) {
       beside = y;
       for (std::size_t i = 0; i < m.angles.size(); ++i)
-        if (at(m.angles[i].shaft) == shaft) beside[i] += m.angles[i].gain * by;
+        beside[i] += m.angles[i].gain * ratio[at(m.angles[i].shaft)] * by;
       equations.flow(0, beside, rate);
-      return rate[speed];
+      const std::span<const double> inertia = equations.effective_inertia();
+      double torque = 0, sum = 0;
+      for (const auto& [shaft, turns] : group) {
+        torque += turns * inertia[shaft] * rate[equations.speed_index(static_cast<int>(shaft))];
+        sum += turns * turns * inertia[shaft];
+      }
+      return torque / sum;
     };
     const double ahead = acceleration(aside), behind = acceleration(-aside), here = acceleration(0);
     if (!(ahead > 0 && behind < 0 && std::abs(here) <= rounding * std::min(ahead, -behind))) continue;
-    const double growth = std::sqrt((ahead - behind) / (2 * aside));
+    // Of the shaft whose inertia varies, if there is one.
+    const auto rank = [&](const TrackedAngle& angle) {
+      return ratio[at(angle.shaft)] == 0 ? 0 : 1 + m.shafts[at(angle.shaft)].variable;
+    };
     const auto tracked =
-        std::find_if(m.angles.begin(), m.angles.end(), [shaft](const TrackedAngle& a) { return at(a.shaft) == shaft; });
+        std::max_element(m.angles.begin(), m.angles.end(),
+                         [&](const TrackedAngle& a, const TrackedAngle& b) { return rank(a) < rank(b); });
+    const double growth = std::sqrt((ahead - behind) / (2 * aside));
     const double decides = std::log(matters / (rounding * aside)) / growth;
     if (is_moved_before(decides, at(tracked - m.angles.begin()), model)) continue;
     const std::string& name = m.network.nodes[at(tracked->node)].component;

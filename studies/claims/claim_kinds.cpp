@@ -88,10 +88,11 @@ constexpr std::array kinds = {
         "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a shock", "run, compare, steady"},
     ClaimKind{
         start_unstable, runs, warning, above,
-        "a shaft that no spring and no closed clutch joins to others starts at rest, nothing holds it, its "
+        "a shaft, with those that springs, belts and closed clutches join to it, starts at rest, nothing holds it, its "
         "acceleration is rounding, and 1e-4 rad to either side it is accelerated away; nothing else moves it before "
         "that time. No figure of a run that lasts longer has a known error",
-        "at: rounding has grown to 1e-9 rad; value: rate at which a deviation grows, λ of e^(λt) [1/s]; limit: 0",
+        "at: rounding has grown to 1e-9 rad; value: rate at which a deviation grows, λ of e^(λt), of joined shafts as "
+        "if they were rigid [1/s]; limit: 0",
         "\"press\" starts in an unstable equilibrium: rounding decides when it leaves it, and to which side; a "
         "deviation "
         "grows tenfold in 0.07 s. Start it at another angle",

@@ -57,7 +57,6 @@ class Simulation {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
                     model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
                     model_->effects.describe(), settings_.until));
-    if (!checkpoint_) note_balanced_start();
     if (!options_.chosen_because.empty()) result_.notes.push_back(options_.chosen_because);
     tolerance_ = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
     fine_ = one_run(tolerance_);
@@ -343,22 +342,29 @@ class Simulation {
     return *equations_elsewhere_;
   }
 
-  // At rest without torque on any shaft and without later changes: a dead centre under load, or balance.
-  void note_balanced_start() {
+  // At rest without torque on any shaft, without later changes, and never moved: a dead centre under load, or balance.
+  // One that rounding left is said by a claim (`start_unstable`).
+  void note_balanced_start(const RunOutcome& outcome) {
+    constexpr double moved = 1e-6;  // [rad], [rad/s]
     const Model& m = *model_;
-    const std::vector<double> y = equations_.start(0);
-    const Snapshot& s = equations_.snapshot(0, y);
+    for (std::size_t k = 0; k < m.free_shafts; ++k)
+      if (std::abs(outcome.state[equations_.speed_index(static_cast<int>(k))]) > moved) return;
+    Equations equations(model_, false);  // those of the run stand at its end
+    const std::vector<double> y = equations.start(0);
+    for (std::size_t i = 0; i < m.angles.size(); ++i)
+      if (std::abs(equations_.angle_with_turns(i, outcome.state) - equations.angle_with_turns(i, y)) > moved) return;
+    const Snapshot& s = equations.snapshot(0, y);
     bool any_mechanism = false;
     for (std::size_t k = 0; k < m.free_shafts; ++k) {
       const Shaft& shaft = m.shafts[k];
-      if (s.now.speed[k] != 0 || std::abs(s.sums.torque[k]) > 1e-9 * shaft.torque_scale || equations_.at_standstill(k))
+      if (s.now.speed[k] != 0 || std::abs(s.sums.torque[k]) > 1e-9 * shaft.torque_scale || equations.at_standstill(k))
         return;
       any_mechanism = any_mechanism || shaft.variable;
     }
-    if (!any_mechanism || m.free_shafts < m.shafts.size() || equations_.next_edge(0) < settings_.until) return;
+    if (!any_mechanism || m.free_shafts < m.shafts.size() || equations.next_edge(0) < settings_.until) return;
     result_.notes.push_back(fmt::format(
-        "the machine starts at rest where no torque moves it ({:.4g}° of \"{}\"): a dead centre or a balance. Rounding "
-        "decides when and which way it leaves, if ever; start it a little off, or with a speed",
+        "the machine starts at rest where no torque moves it, and stays there ({:.4g}° of \"{}\"): a dead centre or a "
+        "balance. Start it a little off, or with a speed",
         s.node_angle[m.reduction_node] * 180 / std::numbers::pi, m.network.nodes[at(m.reduction_node)].component));
   }
 
@@ -388,6 +394,7 @@ class Simulation {
     result_.final_state = final_state(m, run.last_state);
     run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
+    if (!checkpoint_) note_balanced_start(run.outcome);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     if (!checkpoint_ && run.outcome.complete) result_.claims = start_claims(model_);
     drop_errors_after_unstable_start(result_);  // before they report which claims are sure

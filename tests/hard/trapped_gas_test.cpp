@@ -73,7 +73,8 @@ TEST(DeadCentre, StartAtRestWithoutTorqueIsSaidInWords) {
   const auto said = [&] {
     const Result r = simulate(scene, Effects{}, "rigid", SimulateOptions{});
     return std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& note) {
-      return note.find("starts at rest where no torque moves it (180° of \"engine\")") != std::string::npos;
+      return note.find("starts at rest where no torque moves it, and stays there (180° of \"engine\")") !=
+             std::string::npos;
     });
   };
   EXPECT_TRUE(said());

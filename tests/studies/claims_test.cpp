@@ -339,6 +339,15 @@ TEST(StartClaims, UnstableEquilibriumIsSaid) {
       run("6 s", up, "", "push = { kind = \"torque source\", on = \"crank\", torque = \"1 N*m\", start = \"0.1 s\" }");
   EXPECT_FALSE(is_said(pushed));
   EXPECT_TRUE(error_at_end(pushed) && pushed.accuracy_confirmed);
+  // Shafts that a spring joins leave it together: λ² = m g r/(I + i² J) behind a gear of i = 3 at the wheel.
+  const Result joined = run("0.1 s", up, "\"wheel\", \"shaft\", \"gear\",", R"(
+      wheel = { kind = "flywheel", inertia = "0.05 kg*m2" }
+      shaft = { kind = "coupling", stiffness = "1e5 N*m/rad", damping_ratio = 0.05 }
+      gear = { kind = "gearbox", stages = [{ teeth = [20, 60] }] }
+      effects = { elasticity = true })");
+  const Claim* together = find(joined.claims, Predicate::start_unstable, "crank");
+  ASSERT_TRUE(together) << said(joined);
+  EXPECT_NEAR(*together->evidence.value, std::sqrt(1.5 * 0.2 * 9.81 / (0.06 + 9 * 0.05)), 1e-6);
   EXPECT_FALSE(is_said(run("0.1 s", ", start = { angle = \"0.1 deg\" }")));
   EXPECT_FALSE(is_said(run("0.1 s", ", start = { angle = \"180 deg\" }")));
   EXPECT_FALSE(is_said(run("0.1 s", ", start = { angle = \"0 deg\", speed = \"1 rad/s\" }")));
