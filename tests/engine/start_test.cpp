@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "engine/events/equations.h"
 #include "engine/numerics/index.h"
+#include "engine/run/run.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::start_test {
@@ -130,6 +132,41 @@ TEST(Start, GivenSpeedsOfMembersKeepTheRelation) {
     const int s = model->shaft_of_node[at(model->network.ports.at("gear").in)];
     EXPECT_EQ(now.now.speed[s], sun);
   }
+}
+
+// A start knows nothing of an earlier start, nor of a run that ended elsewhere: states and modes are the same to the bit.
+TEST(Start, IsTheSameWheneverItIsMade) {
+  std::size_t scenes = 0;
+  for (const char* folder : {"scenes", "tests/agreement", "tests/agreement/vibrations"})
+    for (const auto& file : std::filesystem::directory_iterator(test::source_path(folder))) {
+      if (file.path().extension() != ".toml") continue;
+      SCOPED_TRACE(file.path().filename());
+      Scene scene = read_scene(file.path(), all_kinds());
+      for (const bool balanced : {false, true}) {
+        scene.run.start.equilibrium = balanced;
+        try {
+          Equations equations(compile(scene, scene.effects), false);
+          std::vector<double> y;
+          const auto made_anew = [&](const char* after) {
+            const std::vector<double> again = equations.start(0);
+            Equations fresh(equations.shared_model(), false);
+            y = fresh.start(0);
+            EXPECT_EQ(y, again) << after;
+            // Shares of redundant contacts are weighed by the torques of the evaluation before.
+            Modes modes = equations.modes();
+            modes.capacity = fresh.modes().capacity;
+            EXPECT_TRUE(fresh.modes() == modes) << after;
+          };
+          equations.start(0);
+          made_anew("a start");
+          integrate(equations, {.tolerance = 1e-5, .method = "auto", .until = 0.02, .budget = 2, .progress = {}}, {});
+          made_anew("a run");
+          ++scenes;
+        } catch (const std::exception&) {  // no start in equilibrium, or one that needs a file
+        }
+      }
+    }
+  EXPECT_GT(scenes, 150);
 }
 
 }  // namespace
