@@ -92,7 +92,7 @@ std::string text_of_file(const std::string& path) {
 
 // Why a file is not a logo; empty: it is one.
 std::string svg_fault(const std::string& path) {
-  if (path.empty()) return "";  // told of every option
+  if (path.empty()) return "";  // stated for every option
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return fmt::format("{} cannot be read ({}); give an SVG file", in_quotes(path), error.message());

@@ -135,7 +135,7 @@ Fields<ShaftKeys> shaft_fields() {
       .check(check_shaft);
 }
 
-// k = G J_p/L, J = ρ J_p L. By its dimensions it is continuous; else, and where its segments are told, it is cut into
+// k = G J_p/L, J = ρ J_p L. By its dimensions it is continuous; else, and where its segments are given, it is cut into
 // equal springs with the inertia between and at the ends.
 void build_shaft(const Section& s, const Reading<ShaftKeys>& shaft, Network& net) {
   if (!shaft.valid()) return;

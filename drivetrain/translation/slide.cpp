@@ -21,7 +21,7 @@ ShaftForm under(const SlideFriction&, const Effects& effects) { return effects.g
 
 namespace {
 
-// Whose motion and forces are told.
+// Whose motion and forces are reported.
 struct Slide {
   std::string name;
   int node = 0;
@@ -70,7 +70,7 @@ class SlideChannels final : public ElementPool {
     int shaft;
     double gain;
     std::vector<int> forces;  // shaft elements
-    int travelled = -1;       // own state that counts it; −1: the angle does
+    int travelled = -1;       // internal state that counts it; −1: the angle does
   };
   std::vector<Entry> entries_;
 };

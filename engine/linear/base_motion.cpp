@@ -111,7 +111,7 @@ void BaseMotion::choose_positions() {
   }
 }
 
-// The steady motion's; else everything turns as geared, clutches locked, and own states as they begin.
+// The steady motion's; else everything turns as geared, clutches locked, and internal states as at the start.
 void BaseMotion::take_modes() {
   const double speed = point_.speed;
   if (point_.orbit) {

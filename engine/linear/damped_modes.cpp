@@ -144,7 +144,7 @@ std::vector<DampedMode> dense_damped(const LinearDrive& drive) {
 }
 
 // Newton on Q(λ) x = 0, x = [q, z]: inverse iteration with the derivative, Q w = Q′ x. Where Q is symmetric λ is then the
-// root of the quadratic form, else it moves by what w tells.
+// root of the quadratic form, else by what w gives.
 class DampedNewton {
  public:
   using Complex = std::complex<double>;

@@ -1,4 +1,4 @@
-// linearise.cpp — M, C, K and the elements' own states from averages along the base motion.
+// linearise.cpp — M, C, K and the elements' internal states from averages along the base motion.
 #include "engine/linear/linearise.h"
 
 #include <fmt/format.h>

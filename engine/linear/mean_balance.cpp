@@ -1,4 +1,4 @@
-// mean_balance.cpp — averages along the base motion: derivatives, and twists and own states with which the means balance.
+// mean_balance.cpp — averages along the base motion: derivatives, and twists and internal states with which the means balance.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -95,7 +95,7 @@ VectorXd BaseMotion::mean_joint_torques() {
   return sum / static_cast<double>(positions_.size());
 }
 
-// Unknowns: twists of springs, accelerations of what turns freely as a whole, own states.
+// Unknowns: twists of springs, accelerations of what turns freely as a whole, internal states.
 class BaseMotion::Balance {
  public:
   explicit Balance(BaseMotion& base)
@@ -311,7 +311,7 @@ class BaseMotion::Balance {
   Eigen::MatrixXd free_;   // motions without twist
   Eigen::MatrixXd loops_;  // per row: the twists of springs that add up to what a loop has locked in
   VectorXd free_alpha_;
-  std::vector<char> is_held_;  // per own state
+  std::vector<char> is_held_;  // per internal state
 };
 
 // Without a steady motion it is found here which flanks of gears with losses carry; with one, which pieces of laws hold.

@@ -1,4 +1,4 @@
-// elimination.cpp — pivots by weights, zeros told by what was cancelled.
+// elimination.cpp — pivots by weights, zeros recognised by what was cancelled.
 #include "engine/matrices/elimination.h"
 
 #include <algorithm>

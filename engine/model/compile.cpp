@@ -35,7 +35,7 @@ std::shared_ptr<const Model> compile_network(Network network, const Scene& scene
   m.network = std::move(network);
   m.scene = scene;
   m.effects = effects;
-  // The network as drawn, told for one link.
+  // The network as drawn, with a reduction link.
   check_shafts(c);
   choose_reduction_link(c);
   find_node_ratios(c);

@@ -78,7 +78,7 @@ class HeldSearch {
     Orbit& orbit = out_.orbit = {};
     const NewtonOutcome& newton = out_.newton;
     orbit.cost = out_.cost;
-    orbit.point.rounds = newton.rounds;
+    orbit.point.periods = newton.evaluations;
     orbit.point.derivatives = newton.derivatives;
     orbit.point.residual = newton.residual;
     orbit.words = out_.last.end != ReturnMap::End::returned ? out_.last.why : newton.why;

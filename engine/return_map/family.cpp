@@ -70,7 +70,7 @@ std::string trial_ended(const NewtonOutcome& search, const std::string& why) {
   return fmt::format(
       "the search failed, which does not say that there is none: of {} trial{} of Newton's method the last did not "
       "complete a cycle ({}){}",
-      search.rounds, search.rounds == 1 ? "" : "s", why,
+      search.evaluations, search.evaluations == 1 ? "" : "s", why,
       search.residual > 0 ? fmt::format("; the one before left {:.1e} of the rated values", search.residual) : "");
 }
 

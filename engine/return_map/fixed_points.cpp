@@ -48,7 +48,7 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
     image = map.image(guess, false);
     out.end = image.end;
     out.why = image.why;
-    out.rounds = 1;
+    out.periods = 1;
     out.cost = 1;
     if (image.end == ReturnMap::End::returned) out.take(guess, image);
     return out;
@@ -71,7 +71,7 @@ SteadyPoint find_steady(ReturnMap& map, const Eigen::VectorXd& guess, double eno
   system.magnitude = std::max(system.magnitude, map.section().magnitude());
   system.run_on = true;
   const NewtonOutcome newton = solve_in_family(system, guess, enough, [&] { return image.uncertain; });
-  out.rounds = newton.rounds;
+  out.periods = newton.evaluations;
   out.derivatives = newton.derivatives;
   out.residual = newton.residual;
   out.cost = map.cost() - cost_before;
@@ -116,21 +116,21 @@ SteadyPoint find_by_periods(ReturnMap& map, const Eigen::VectorXd& guess, double
   out.z = guess;
   std::vector<double> changes;
   Eigen::VectorXd change = Eigen::VectorXd::Zero(guess.size());
-  ReturnMap::Image round;
+  ReturnMap::Image image;
   for (int i = 0; i < periods_examined; ++i) {
-    round = map.image(out.z, false);
-    ++out.rounds;
+    image = map.image(out.z, false);
+    ++out.periods;
     out.cost = map.cost() - cost_before;
-    out.end = round.end;
-    out.why = round.why;
-    if (round.end != ReturnMap::End::returned) return out;
+    out.end = image.end;
+    out.why = image.why;
+    if (image.end != ReturnMap::End::returned) return out;
     const Eigen::VectorXd along = map.along_the_motion(out.z);
-    change = round.z - out.z;
+    change = image.z - out.z;
     if (along.squaredNorm() > 0) change -= along * along.dot(change) / along.squaredNorm();
     out.residual = change.size() > 0 ? change.cwiseAbs().maxCoeff() : 0;
-    out.time = round.time, out.turned = round.turned;
-    out.z = round.z;
-    if (out.first.size() == 0) out.first = round.z;
+    out.time = image.time, out.turned = image.turned;
+    out.z = image.z;
+    if (out.first.size() == 0) out.first = image.z;
     changes.push_back(out.residual);
     const bool begins_loose = i == 0;  // with the errors of the run that led here
     if ((out.residual > enough && !begins_loose) || out.residual <= floor_of_change) break;
@@ -143,7 +143,7 @@ SteadyPoint find_by_periods(ReturnMap& map, const Eigen::VectorXd& guess, double
   for (std::size_t i = 0; i + 1 < changes.size(); ++i) shrinking = std::max(shrinking, changes[i + 1] / changes[i]);
   shrinking = std::max(out.residual <= floor_of_change ? 0.5 : 0, std::min(shrinking, slowest_shrinking));
   out.to_come = change * shrinking / (1 - shrinking);
-  out.find(round);
+  out.find(image);
   return out;
 }
 

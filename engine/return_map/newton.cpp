@@ -30,7 +30,7 @@ class Newton {
   enum class Progress { made, floor, ended };
 
   bool evaluate(const Eigen::VectorXd& x, bool with_derivative) {
-    ++out_.rounds;
+    ++out_.evaluations;
     if (with_derivative) ++out_.derivatives;
     last_ = x;
     last_with_derivative_ = with_derivative;
@@ -65,8 +65,8 @@ class Newton {
   }
 
   void iterate() {
-    while ((norm_ > enough_ || correction(residual_).cwiseAbs().maxCoeff() > enough_) && out_.rounds < most_periods &&
-           out_.derivatives < most_derivatives) {
+    while ((norm_ > enough_ || correction(residual_).cwiseAbs().maxCoeff() > enough_) &&
+           out_.evaluations < most_periods && out_.derivatives < most_derivatives) {
       const Progress progress = advance(-correction(residual_));
       if (progress == Progress::ended) return;
       if (progress == Progress::floor) break;
@@ -76,7 +76,7 @@ class Newton {
     out_.why = fmt::format(
         "the search failed, which does not say that there is none: Newton's iteration does not settle (residual {:.1e} "
         "of the rated values after {} cycles)",
-        norm_, out_.rounds);
+        norm_, out_.evaluations);
   }
 
   // Large steps lead to other states: changes are limited to half of the largest value.
@@ -108,7 +108,7 @@ class Newton {
         }
       }
       if (system_.stopped && system_.stopped()) return Progress::ended;
-      if (out_.rounds >= most_periods) break;
+      if (out_.evaluations >= most_periods) break;
       if (!fresh || norm_from <= residual_floor * enough_) break;
     }
     x_ = from;

@@ -21,7 +21,7 @@ struct NewtonOutcome {
   std::string why;
   Eigen::VectorXd x;  // the last evaluation was at x with derivative
   double residual = 0;
-  int rounds = 0, derivatives = 0;
+  int evaluations = 0, derivatives = 0;
 };
 // Damped Newton method; derivatives are reused as long as they are good enough.
 NewtonOutcome solve(const NewtonSystem& system, const Eigen::VectorXd& guess, double enough);

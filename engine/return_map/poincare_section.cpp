@@ -1,4 +1,4 @@
-// poincare_section.cpp — the coordinates of a section: independent angles and twists, speeds, own states.
+// poincare_section.cpp — the coordinates of a section: independent angles and twists, speeds, internal states.
 #include "engine/return_map/poincare_section.h"
 
 #include <fmt/format.h>
@@ -197,7 +197,7 @@ class PoincareSection::Maker {
     }
   }
 
-  // The elastic joint that brings each own state; −1: a shaft element. In the order in which they were placed.
+  // The elastic joint that brings each internal state; −1: a shaft element. In the order in which they were placed.
   std::vector<int> joints_of_internal_states() const {
     std::vector<int> joint;
     for (std::size_t k = 0; k < m_.elastic.size(); ++k)
@@ -207,7 +207,7 @@ class PoincareSection::Maker {
     return joint;
   }
 
-  // Twist and own state together move nothing: then the twist is read relative to the state.
+  // Twist and internal state together move nothing: then the twist is read relative to the state.
   bool drifts_along(int elastic, std::size_t state) {
     const std::size_t twist = equations_.twist_index(elastic);
     const double t = section_.state_.t, step = m_.elastic[at(elastic)].twist_scale;

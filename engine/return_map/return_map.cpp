@@ -131,10 +131,10 @@ void ReturnMap::learn_effort(const RunOutcome& outcome) {
 
 std::function<double(double, std::span<const double>)> ReturnMap::period_end(Equations& equations,
                                                                              std::span<const double> y,
-                                                                             double rounds) const {
+                                                                             double periods) const {
   const std::size_t link = at(shared_->reduction_angle);
   if (periodicity_.by_time) return {};
-  const double target = equations.angle_with_turns(link, y) + sense_ * periodicity_.angle * options_.cycles * rounds;
+  const double target = equations.angle_with_turns(link, y) + sense_ * periodicity_.angle * options_.cycles * periods;
   return [&equations, link, target, sense = sense_](double, std::span<const double> state) {
     return std::min(1.0, sense * (target - equations.angle_with_turns(link, state)));
   };

@@ -78,9 +78,9 @@ class ReturnMap {
     return section_->place(equations, z);
   }
   double start_time() const { return section_->state().t; }
-  // End of a period for other integrations of the machine: falls through zero after `rounds` periods.
+  // End of a period for other integrations of the machine: falls through zero after `periods` periods.
   std::function<double(double, std::span<const double>)> period_end(Equations& equations, std::span<const double> y,
-                                                                    double rounds = 1) const;
+                                                                    double periods = 1) const;
   // Effort so far, in cycles: a period counts as its cycles; with derivative (size() + 1) times as much by variational
   // equations, 2 size() + 1 times by differences.
   double cost() const { return cost_; }
@@ -132,11 +132,11 @@ struct SteadyPoint {
   double multiplier_error = 0;                    // of the largest, by the error of the derivative
   // Estimated remaining change of z by integration, or where round-off ends Newton's method. Empty: less than asked for.
   Eigen::VectorXd to_come;
-  double time = 0;                  // of one period [s]
-  double turned = 0;                // rotation of the link in it [rad]
-  double residual = 0;              // largest of |P(z) − z|, scaled
-  int rounds = 0, derivatives = 0;  // periods of the map, and those with derivative
-  double cost = 0;                  // [cycles]
+  double time = 0;                   // of one period [s]
+  double turned = 0;                 // rotation of the link in it [rad]
+  double residual = 0;               // largest of |P(z) − z|, scaled
+  int periods = 0, derivatives = 0;  // periods of the map, and those with derivative
+  double cost = 0;                   // [cycles]
   bool grazed = false;
   bool vibrates() const { return std::abs(turned) <= 1e-8; }  // the link has zero mean speed
   double largest() const { return multipliers.empty() ? 0 : std::abs(multipliers.front()); }

@@ -16,7 +16,7 @@ namespace {
 using Cause = Breakdown::Kind;
 
 constexpr std::size_t events_reported = 3, parameters_reported = 3;
-const std::string edges = "edges in time", turns = "quarter turns";  // as step_limits tells them
+const std::string edges = "edges in time", turns = "quarter turns";  // as step_limits names them
 
 // "twist of c3" and "c3", as far as they are known; or what ends the steps from outside: "edges in time".
 struct Culprit {

@@ -246,7 +246,7 @@ std::vector<std::size_t> fall_at_once(Equations& equations, double t, std::span<
     stepper->step(std::min(t + longest, equations.next_edge(t)));
     const std::vector<std::size_t> fired = location.find();
     return location.take_at_begin() ? fired : std::vector<std::size_t>();
-  } catch (const std::runtime_error&) {  // there is no motion from here that could be told
+  } catch (const std::runtime_error&) {  // no motion can be computed from here
     equations.forget_jam();
     return {};
   }

@@ -139,7 +139,7 @@ void ExtremeRecorder::step(StepView& view) {
       take_row(found, view.snapshot(found.time));
 }
 
-// What round-off leaves of a change tells nothing.
+// A change of the size of round-off has no meaning.
 void ExtremeRecorder::learn_steepness(std::size_t i) {
   constexpr double above_rounding = 1e-9;
   const double change = std::abs(last_.value[i] - first_.value[i]);

@@ -1,4 +1,4 @@
-// keys.cpp — keys of every type, how domains and lists of names are told, and how a section's values are found.
+// keys.cpp — keys of every type, how domains and lists of names are written, and how a section's values are found.
 #include "engine/scene/keys.h"
 
 #include <fmt/format.h>

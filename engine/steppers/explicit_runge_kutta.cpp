@@ -95,7 +95,7 @@ struct ErrorNorm {
   std::size_t state;  // where it is
 };
 
-// max |e_i| w_i. x − x is 0 for a number and NaN for anything else, so `poison` tells without a branch whether a value
+// max |e_i| w_i. x − x is 0 for a number and NaN for anything else, so `poison` shows without a branch whether a value
 // was lost; a maximum alone would overlook NaN. Values out of control (w = 0) poison too: 0·∞ is NaN.
 template <std::size_t terms>
 ErrorNorm largest_error(std::size_t size, const Gathered<terms>& error, const double* w) {
@@ -336,7 +336,7 @@ void ExplicitRungeKutta::watch_stability(double h) {
 }
 
 // Hairer–Nørsett–Wanner II.4 with the scales as measure of size: the slope moves no state by more than 1 % of its
-// scale, and the second derivative, told by a small Euler step, keeps the error of the method within the tolerance.
+// scale, and the second derivative, estimated by a small Euler step, keeps the error of the method within the tolerance.
 double ExplicitRungeKutta::first_step(double longest) {
   if (!std::isfinite(longest)) longest = 1;
   const double* f = slope_[table_.stages];

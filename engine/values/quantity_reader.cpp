@@ -1,4 +1,4 @@
-// quantity_reader.cpp — what is wrong with a number, told with what it should be.
+// quantity_reader.cpp — what is wrong with a number, and what is allowed.
 #include "engine/values/quantity_reader.h"
 #include "engine/scene/text.h"
 

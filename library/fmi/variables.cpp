@@ -100,7 +100,7 @@ class Reach {
   }
   bool stored(std::size_t row, std::size_t column) const { return stored_[row * states_ + column] != 0; }
 
-  // A torque on the shaft: its acceleration, those that constraints mix it with, own states that follow them.
+  // A torque on the shaft: its acceleration, those that constraints mix it with, internal states that follow them.
   void torque_on(int shaft, std::vector<char>& rows) const {
     if (at(shaft) >= m_.free_shafts) return;
     const std::size_t own = flow_.speed_index(shaft);

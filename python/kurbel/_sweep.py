@@ -115,7 +115,7 @@ def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None,
     settings = _kurbel.settings_of(vary, design, seed)
     # Data files are found from wherever a row is computed.
     text, file = base.text, os.path.abspath(base.file)
-    _kurbel.Machine.from_text(text, base.file, settings[0])  # what is wrong is told before anything is computed
+    _kurbel.Machine.from_text(text, base.file, settings[0])  # faults are reported before anything is computed
     return Sweep(vary, rows, _computed(executor, [(text, file, s, figures, of, choices) for s in settings]))
 
 

@@ -10,7 +10,7 @@
 
 namespace kurbel {
 
-inline constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene tells of such a one
+inline constexpr double far_away = 1.5;  // times the usual speed: nothing in the scene gives such a speed
 
 // Faults of the motion, what holds the link, what slips (contact_claims); for an incomplete run only that it
 // stalls. `equations`: in the modes at the run's end; `result` contains its periods, figures, and the errors of its

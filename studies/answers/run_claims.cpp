@@ -58,7 +58,7 @@ class RunWords {
   bool all_but_rests(const Figure& last) const {
     return r_.model && std::abs(last.value) < 0.01 * r_.model->speed_scale;
   }
-  // Nothing in the scene tells of such a speed, and the cycles are too few to tell whether it goes on.
+  // Nothing in the scene gives such a speed, and the cycles are too few to decide whether it goes on.
   std::string beyond(double speed) const {
     const double times = r_.model ? std::abs(speed) / r_.model->speed_scale : 0;
     return times > far_away ? fmt::format(", {:.3g} times the speed of its data", times) : "";
@@ -86,7 +86,7 @@ class RunWords {
     evidence.at = p_.run_up_end;
     return claimed(Predicate::runs_steadily, std::move(text), link(), std::move(evidence));
   }
-  // "vibrating, at up to 5 rpm": where it passes through rest, the speed of that moment tells nothing.
+  // "vibrating, at up to 5 rpm": where it passes through rest, the speed of that moment has no meaning.
   std::string swing() const {
     for (const Claim& c : r_.claims)
       if (const std::size_t at = c.text.find(", at up to"); c.predicate == Predicate::vibrates && at < c.text.size())

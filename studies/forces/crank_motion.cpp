@@ -39,7 +39,7 @@ ActingLoads some_of(ActingLoads acting) {
   return std::find(acting.begin(), acting.end(), false) == acting.end() ? ActingLoads() : std::move(acting);
 }
 
-// What holds at the end of the sequence: a load acts where neither its mechanism nor itself was told off last.
+// What holds at the end of the sequence: a load acts where neither its mechanism nor itself was switched off last.
 ActingLoads left_by(const Sequence& sequence, const std::string& component, const std::vector<SliderLoad>& loads) {
   if (sequence.repeat) return {};
   ActingLoads left(loads.size(), true);
@@ -258,7 +258,7 @@ Peak measured_peak_of(const std::vector<double>& phi, const std::vector<double>&
                       const std::function<double(double)>& value, double scale) {
   Peak peak = peak_of(phi, values, value);
   std::vector<double> wide_phi, wide;
-  // Samples at a load's edge stand for one side of it: no other one tells of a peak there.
+  // Samples at a load's edge stand for one side of it: no other sample shows a peak there.
   const auto at_edge = [&](std::size_t i) {
     return (i > 0 && phi[i] - phi[i - 1] < 2.5 * beside) || (i + 1 < phi.size() && phi[i + 1] - phi[i] < 2.5 * beside);
   };

@@ -266,7 +266,7 @@ std::optional<double> operating_speed_of(const MachineMotion& machine) try {
   RigidMachine rigid(compile(m.scene, classical_effects(m.scene)));
   if (!rigid.uses_speed() || !rigid.periodic()) return {};
   return operating_speed(rigid).speed * machine.rated_speed() / m.speed_scale;
-} catch (const std::invalid_argument&) {  // nothing balances, or no rigid machine tells torques
+} catch (const std::invalid_argument&) {  // nothing balances, or no rigid machine gives torques
   return {};
 }
 

@@ -411,7 +411,7 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   if (std::isfinite(to_come)) motion.others.push_back({sped_up(along, std::copysign(to_come, closure)), 1});
   if (before) {
     // Changes that do not decrease continue with their growth, from the middle of the last two cycles to that of the next two.
-    constexpr double most_grown = 100;  // from next to no change at all nothing can be told
+    constexpr double most_grown = 100;  // next to no change allows no judgement
     const double grew = std::abs(closure / closure_of(*before));
     const double times = closure == 0             ? 1
                          : std::isfinite(to_come) ? std::max(1.0, to_come / std::abs(closure))
@@ -440,7 +440,8 @@ double still_to_come(const std::vector<double>& course, double noise) {
   const double now = course[last] - course[last - quarter];
   const double before = course[last - quarter] - course[last - 2 * quarter];
   if (std::abs(now) <= noise) return 0;
-  constexpr double no_nearer = 0.999;  // of the quarter before: shrinking so slowly is not told from a straight run
+  constexpr double no_nearer =
+      0.999;  // of the quarter before: shrinking so slowly cannot be distinguished from a straight run
   if (!(std::abs(now) < no_nearer * std::abs(before))) return HUGE_VAL;
   const double ratio = now / before;
   return std::abs(now) * (ratio > 0 ? ratio / (1 - ratio) : 1);

@@ -18,7 +18,7 @@ namespace {
 constexpr double rounding = 1e-9;          // a margin that is met but for this is kept
 constexpr std::size_t samples = 8192;      // of all tolerances together
 constexpr double moves = 1e-12;            // of a natural frequency: less is rounding
-constexpr double of_weight = 0.02;         // share of a mode's damping that is told
+constexpr double of_weight = 0.02;         // share of a mode's damping that is reported
 constexpr std::size_t parts_reported = 3;  // of it, by name
 constexpr double outside_interval = 0.025;
 

@@ -16,7 +16,7 @@ namespace kurbel::modes {
 namespace {
 
 constexpr std::size_t critical_shown = 16, rays_shown = 10, modes_named = 12;
-constexpr double mostly = 0.9;         // of a mode's energy in own states: what moves is beside the point
+constexpr double mostly = 0.9;         // of a mode's energy in internal states: the mechanical shape does not matter
 constexpr double least_circle = 1e-3;  // of the severest critical speed's share
 constexpr double least_ray = 0.02;     // of the strongest order's torque
 

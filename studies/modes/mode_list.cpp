@@ -19,7 +19,7 @@ namespace kurbel {
 namespace {
 
 constexpr int frozen_angles = 24;
-constexpr double hardly_moves = 0.999;    // share of a mode in own states
+constexpr double hardly_moves = 0.999;    // share of a mode in internal states
 constexpr double like_enough = 0.3;       // of two shapes: less is another motion
 constexpr double carried = 0.1;           // of the frequency: an element that is off by more carries no such mode
 constexpr Eigen::Index most_frozen = 60;  // coordinates

@@ -50,7 +50,7 @@ double polished(const std::vector<Complex>& x, double begin, double step) {
 
 }  // namespace
 
-// (K + iω C − ω² M) [q; z] = right, over coordinates and own states together.
+// (K + iω C − ω² M) [q; z] = right, over coordinates and internal states together.
 struct FrequencyResponse::Solver : QuadraticPencil {
   Eigen::MatrixXcd dense_stiffness, dense_damping, dense_mass;
   ComplexSparseLu lu;

@@ -22,7 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double map_tolerance = 1e-11, enough = 1e-10;     // residual of the map, over the rated values
-constexpr double most_derivatives = 25;                     // rounds with derivative that a search may take
+constexpr double most_derivatives = 25;                     // periods with derivative that a search may take
 constexpr double first_part = 0.25, least_part = 1.0 / 32;  // of the way between two speeds
 constexpr std::size_t samples = 4096;                       // of a round
 
@@ -354,7 +354,7 @@ class CycleSearch {
   // Per motion: unit of a [rad/s²]; speed to be held, its scale [rad/s]; the shaft that has it, as a state.
   std::vector<double> unit_, speed_, scale_;
   std::vector<std::size_t> held_;
-  bool by_link_ = false;  // all turns as one, and a round is one of the link: its time tells the mean speed
+  bool by_link_ = false;  // all turns as one, and a cycle is a turn of the link: its time gives the mean speed
   std::unique_ptr<ReturnMap> map_;
   HeldMotion motion_;  // of the last search
   HeldCycle out_;

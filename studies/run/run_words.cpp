@@ -107,7 +107,7 @@ std::string figures_in_words(const Result& r) {
     more(fmt::format("the speed of \"{}\" changes by {} of its mid value in the last cycle, which is not steady",
                      cycle->of, reported(*cycle)));
   for (const Figure& f : r.figures)
-    if (f.words() == "thermal_use" && f.value <= 1)  // more is told before
+    if (f.words() == "thermal_use" && f.value <= 1)  // a greater one is reported before
       more(fmt::format(
           "the thermal load of \"{}\" is {:.0f} % (RMS over rated torque{})", f.of, 100 * f.value,
           r.model && !r.model->commands.empty() && f.at

@@ -9,7 +9,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double reported_from = 0.01;  // of the sum: an order below it is not told
+constexpr double reported_from = 0.01;  // of the sum: an order below it is not reported
 constexpr double barred_below = 0.8;    // λ
 constexpr double last_ratio = 1.05;     // λ
 constexpr double nothing = 1e-9;        // of a stress in Pa

@@ -45,7 +45,7 @@ void add_links(SheetTable& t, const Motions& motions) {
   }
 }
 
-// Speeds that are the output's or do not change are told already.
+// Speeds that are the output's or do not change are stated already.
 bool is_reported(const std::vector<double>& speeds, const Motions& motions) {
   bool even = true, of_output = true;
   for (std::size_t k = 0; k < speeds.size(); ++k) {

@@ -190,7 +190,7 @@ class Study {
         fmt::format("{}: {} unknowns; {} after a run of {} cycles and {} of Newton's, {} with derivative; cost {:.1f} "
                     "cycles (target {:.0f}); residual {:.1e}; {:.3g} ms",
                     cycle.label, cycle.unknowns, cycle.found ? "found" : "not found: " + cycle.why, cycle.run_cycles,
-                    cycle.point.rounds, cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual,
+                    cycle.point.periods, cycle.point.derivatives, cycle.cost, cycle.cost_limit, cycle.point.residual,
                     1e3 * cycle.cpu_seconds));
     if (!cycle.found) {
       cycle.why = diagnose(cycle);

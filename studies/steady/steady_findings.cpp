@@ -130,7 +130,7 @@ Record cycle_record(const SteadyCycle& c) {
                                    {"unit", c.held_quantity->unit}});
   report("statistics", Record{{"unknowns", c.unknowns},
                               {"section", c.section},
-                              {"iterations", c.point.rounds},
+                              {"iterations", c.point.periods},
                               {"derivatives", c.point.derivatives},
                               {"cost_in_cycles", c.cost},
                               {"cost_allowed", c.cost_limit},

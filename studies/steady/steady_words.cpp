@@ -96,7 +96,7 @@ std::vector<std::string> words_of(const SteadyCycle& c) {
       c.unknowns, c.unknowns == 1 ? "" : "s", std::abs(c.section) < 1e-9 ? 0 : c.section * in_degrees,
       c.run_cycles > 0 ? fmt::format("a run of {} cycle{} from its start, ", c.run_cycles, c.run_cycles == 1 ? "" : "s")
                        : "",
-      c.point.rounds, c.point.rounds == 1 ? "" : "s", c.point.derivatives, c.cost, c.cost_limit,
+      c.point.periods, c.point.periods == 1 ? "" : "s", c.point.derivatives, c.cost, c.cost_limit,
       c.cost > c.cost_limit && 2 * c.run_cycles > c.cost ? "; mostly the run-up" : "", duration_text(c.cpu_seconds),
       c.point.residual, c.work_residual));
   if (c.point.grazed)

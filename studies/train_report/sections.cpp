@@ -149,7 +149,7 @@ Claims claims_of(const std::vector<Part>& parts) {
   Claims all;
   for (const Part& part : parts) {
     if (!part.assessed()) continue;
-    // Limits that another part has judged alike are told once.
+    // Limits that another part has judged alike are reported once.
     const bool alike = std::all_of(part.output.claims.begin(), part.output.claims.end(), [&](const Claim& claim) {
       return claim.predicate != Predicate::limit_held ||
              std::any_of(all.begin(), all.end(), [&](const Claim& reported) {

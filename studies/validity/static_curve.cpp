@@ -108,10 +108,10 @@ std::vector<std::string> static_curve_notes(const Model& model, const Trajectory
 
 std::vector<std::string> static_curve_notes(const ReturnMap& map, const SteadyPoint& point) {
   if (static_motors(map.model()).empty()) return {};
-  constexpr double rounds = 2.05;  // a swing a round turns three times within them
+  constexpr double periods = 2.05;  // an oscillation of one period reverses three times within them
   Equations equations(map.shared_model(), true);
   TraceRecorder recorder(map.model());
-  follow_period(map, point, equations, {.tolerance = 1e-9, .periods = rounds}, {&recorder});
+  follow_period(map, point, equations, {.tolerance = 1e-9, .periods = periods}, {&recorder});
   const auto traces = recorder.traces();
   return static_curve_notes(map.model(), [&](const std::string& motor) {
     const Trace *speed = traces->find("speed." + motor), *torque = traces->find("torque." + motor);

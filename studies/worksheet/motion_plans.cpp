@@ -73,7 +73,7 @@ class Points {
             w_ * w_ * Vector(p.x.curvature(), p.y.curvature()) + e_ * Vector(p.x.slope(), p.y.slope())};
   }
 
-  // Where a link's motion is told from: its fixed bearing, else its first joint.
+  // The point from which a link's motion is drawn: its fixed bearing, else its first joint.
   const PointOfLink& base(std::size_t i) const {
     const auto fixed =
         std::find_if(of_link_[i].begin(), of_link_[i].end(), [](const PointOfLink& p) { return p.fixed; });
