@@ -111,9 +111,10 @@ std::string signs_of(const Forces& f) {
 }
 
 std::string checks_of(const ForceCycle& c) {
-  std::string text =
-      fmt::format("power balance closes to {:.1e} of the largest power at every position", c.power_residual);
-  if (!c.reactions.empty()) text += fmt::format(", the links' equilibrium to {:.1e}", c.equation_residual);
+  if (c.reactions.empty()) return "the balancing torque is that of the powers, so that these balance";
+  std::string text = fmt::format(
+      "power balance closes to {:.1e} of the largest power at every position, the links' equilibrium to {:.1e}",
+      c.power_residual, c.equation_residual);
   if (c.friction_residual > 0) text += fmt::format("; friction laws hold to {:.1e}", c.friction_residual);
   if (c.both_edges > 0)
     text +=
