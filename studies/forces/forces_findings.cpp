@@ -192,8 +192,7 @@ Rows position_table(const Forces& f, const ForceCycle& c) {
   table.only_for_people("φ [°]", [](P p) { return degrees(p.forces.state.phi); }, {.digits = 5})
       .only_for_people("ω [rad/s]", [](P p) { return p.forces.state.omega; })
       .only_for_people("M [N·m]", [&, or_nothing](P p) { return or_nothing(p.forces.torque, c.torque.value); });
-  const NamedPeak* const most = heaviest(c);
-  const double largest = most ? most->peak.value : c.shaking_force.value;
+  const double largest = c.reactions.empty() ? c.shaking_force.value : heaviest(c)->peak.value;
   for (std::size_t k = 0; k < c.rows.front().forces.joints.size(); ++k) {
     const JointForces& j = c.rows.front().forces.joints[k];
     table.only_for_people(fmt::format("{} [N]", j.name),
