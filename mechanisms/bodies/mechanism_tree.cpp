@@ -212,7 +212,7 @@ class LinkageSystem {
     if (l_.changes)
       m_->follow = [tree = tree_](double phi) {
         const PlanarLinkage l = tree->of().linkage(phi);
-        return PlanarSystem::Followed{tree->coordinates(l, true), l.sine};
+        return PlanarSystem::Followed{tree->coordinates(l, true), l.sine, l.turns_over};
       };
     if (l_.stands_still) m_->stands_at = double(l_.output[0]);
     for (int body = 0; body < l_.body_count; ++body) {

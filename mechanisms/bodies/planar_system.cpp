@@ -180,7 +180,9 @@ void PlanarSystem::check_branch(double phi, const Reduction& reduced, double sig
 }
 
 double PlanarSystem::sign_at(double phi) const {
-  return follow && follow(phi).sine < 0 ? -determinant_sign_ : determinant_sign_;
+  if (!follow) return determinant_sign_;
+  const Followed to = follow(phi);
+  return to.turns_over && to.sine < 0 ? -determinant_sign_ : determinant_sign_;
 }
 
 void PlanarSystem::check_branch(State state) const {

@@ -35,12 +35,13 @@ struct PlanarSystem {
   // Coordinates after the crank's, near the right branch: the start of Newton's method.
   std::function<std::vector<double>(double phi)> start;
   // For mechanisms with change points, else empty: the coordinates after the crank's on the branch of the motion, and a
-  // sine that changes its sign with the closure determinant. Newton's method starts from them; near a change point, where
+  // sine that changes its sign there, with or without the closure determinant. Newton's method starts from them; near a change point, where
   // the closures do not determine the branch, they and their derivatives are used directly, and only the closure error
   // is checked.
   struct Followed {
     std::vector<Taylor> coordinates;
     long double sine;
+    bool turns_over;
   };
   std::function<Followed(double phi)> follow;
   // Position of an output that never moves on this branch; avoids a motion by rounding errors.

@@ -33,6 +33,8 @@ PlanarLinkage linkage_in(const LinkPoses& poses, const LinkageData& data) {
     l.join({linkage.joint_name(k), number(j.a), number(j.b), poses[j.carrier](j.at), j.slides,
             j.slides ? Direction{along.x, along.y} : Direction{}, j.carrier == j.a});
   }
+  if (const auto sine = linkage.change_sine(poses))
+    l.changes = true, l.sine = sine->value(), l.turns_over = linkage.change_turns_over();
   l.load_at = poses[s.output.link](linkage.spot_of(linkage.output_point()));
   const Direction output = towards(s.output.link);
   const Taylor rate = output.rate();

@@ -5,6 +5,7 @@
 // RPR, PRP, RPP (R: pin, P: slide). A set with 3 n < 2 p has redundant joints; it moves only for special lengths.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,14 @@ struct LinkageJoint {
   int other(int body) const { return a == body ? b : a; }
 };
 
+// Motion of a group in parallel with two known links (parallel_group.h).
+struct ParallelMotion {
+  int base = LinkageSketch::frame, leader = 0;
+  std::vector<bool> rod;                // of each link: keeps the base's rotation, not the leader's
+  std::vector<SketchSpot> offset;       // of each link
+  SketchSpot along_rods, along_cranks;  // unit vectors; parallel in a change point
+};
+
 struct AssurGroup {
   enum class Form { rrr, rrp, rpr, prp, rpp, newton };
   Form form = Form::newton;
@@ -48,7 +57,10 @@ struct AssurGroup {
   int order = 2;            // number of joints to the links before it
   int superfluous = 0;      // 2 p − 3 n: number of redundant closure equations, if the linkage can move
 
+  std::optional<ParallelMotion> parallel;  // if its change points are passed by it
+
   bool is_dyad() const { return form != Form::newton; }
+  bool by_newton() const { return !is_dyad() && !parallel; }
 };
 
 struct LinkageStructure {

@@ -9,6 +9,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "mechanisms/linkage/parallel_group.h"
+
 namespace kurbel {
 namespace {
 
@@ -108,6 +110,12 @@ Linkage::Closed Linkage::close(long double phi, const Shifts& start) const {
   std::size_t by_newton = 0;
   for (std::size_t k = 0; k < structure_.groups.size(); ++k) {
     const AssurGroup& group = structure_.groups[k];
+    if (group.parallel) {
+      move_in_parallel(group, out.poses);
+      const long double sine = sine_of(*group.parallel, out.poses).value();
+      out.margin.push_back(sine * sine);
+      continue;
+    }
     if (group.is_dyad()) {
       out.margin.push_back(close_dyad(group, structure_.joints, out.poses));
     } else {
@@ -138,6 +146,21 @@ Linkage::Shifts Linkage::start_near(long double phi) const {
   if (next == nodes_.end()) return predicted(nodes_.back(), phi);
   if (next == nodes_.begin() || next->phi - phi < phi - std::prev(next)->phi) return predicted(*next, phi);
   return predicted(*std::prev(next), phi);
+}
+
+std::optional<Taylor> Linkage::change_sine(const LinkPoses& poses) const {
+  for (const AssurGroup& group : structure_.groups)
+    if (group.parallel) return sine_of(*group.parallel, poses);
+  return {};
+}
+
+bool Linkage::change_turns_over() const {
+  int single = 0;
+  for (const AssurGroup& group : structure_.groups) {
+    if (group.superfluous > 0) return false;
+    single += group.parallel ? 1 : 0;
+  }
+  return single % 2 == 1;
 }
 
 LinkPoses Linkage::poses(long double phi) const {

@@ -38,6 +38,10 @@ class Linkage {
   // Poses of all links. Throws std::runtime_error with the group and φ if the linkage cannot be closed there.
   LinkPoses poses(long double phi) const;
 
+  // Of a linkage that passes change points, a sine with simple zeros there; else empty.
+  std::optional<Taylor> change_sine(const LinkPoses& poses) const;
+  bool change_turns_over() const;  // whether the determinant of its closures changes its sign with it
+
   SketchSpot spot_of(int point) const;      // a point of the sketch in the mechanism's axes [m]
   SketchSpot centre_of(int link) const;     // centre of mass [m]
   SketchSpot direction_of(int link) const;  // unit vector from its first to its second point; +x if it has one point
@@ -75,6 +79,7 @@ class Linkage {
   Shifts predicted(const Node& from, long double phi) const;
   Shifts start_near(long double phi) const;
   bool start_at_sketch(Node& node);
+  void find_parallel_groups(const LinkPoses& drawn, Node& node);
   struct Way {
     std::vector<Node> nodes;
     std::optional<Closed> stopped;  // the position that could not be closed

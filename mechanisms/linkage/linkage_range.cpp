@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mechanisms/linkage/linkage.h"
+#include "mechanisms/linkage/parallel_group.h"
 
 namespace kurbel {
 namespace {
@@ -28,7 +29,7 @@ std::string in_degrees_of(long double phi) {
 bool Linkage::start_at_sketch(Node& node) {
   node = {drawn_at_, {}};
   for (const AssurGroup& group : structure_.groups)
-    if (!group.is_dyad()) node.shifts.emplace_back(group.links.size());
+    if (group.by_newton()) node.shifts.emplace_back(group.links.size());
   const Closed closed = close(drawn_at_, node.shifts);
   std::optional<std::size_t> dead;
   for (std::size_t k = 0; k < closed.margin.size() && !dead; ++k)
@@ -42,7 +43,27 @@ bool Linkage::start_at_sketch(Node& node) {
     return false;
   }
   node.shifts = closed.shifts;
+  find_parallel_groups(closed.poses, node);
   return true;
+}
+
+// All of them change together: change points in other positions than the first group's are refused.
+void Linkage::find_parallel_groups(const LinkPoses& drawn, Node& node) {
+  constexpr long double alike = 1e-9L;
+  std::optional<Taylor> first;
+  auto shifts = node.shifts.begin();
+  for (AssurGroup& group : structure_.groups) {
+    const bool by_newton = group.by_newton();
+    if (auto motion = parallel_motion(group, sketch_, structure_, drawn, size_)) {
+      const Taylor sine = sine_of(*motion, drawn);
+      if (!first) first = sine;
+      const long double sense = sine.value() * first->value() < 0 ? -1 : 1;
+      bool same = true;
+      for (int k = 0; k <= Taylor::order; ++k) same = same && std::fabs(sense * sine.c[k] - first->c[k]) < alike;
+      if (same) group.parallel = std::move(motion);
+    }
+    if (by_newton) shifts = group.parallel ? node.shifts.erase(shifts) : std::next(shifts);
+  }
 }
 
 // Steps are halved until what Newton's method corrects is little, so that no other branch is taken.
@@ -158,11 +179,11 @@ void Linkage::refuse_change_point(int group, long double phi) {
   refuse("points",
          fmt::format(
              "at φ = {} {}, or so nearly that a few millionths of a length decide how the links continue: a change "
-             "point. {}; the kinds four-bar, slider-crank and inverted slider-crank know how theirs "
-             "are passed",
+             "point. {}; of its own a parallelogram passes them, and the kinds four-bar, "
+             "slider-crank and inverted slider-crank pass theirs",
              in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
-             of.superfluous > 0 ? "Put a bearing of parallel cranks out of the line of the others"
-                                : "Change a length clearly"));
+             of.superfluous > 0 ? "Put all bearings of parallel cranks in one line, or one of them clearly out of it"
+                                : "Change a length clearly, or draw a parallelogram"));
 }
 
 void Linkage::refuse_stop(const Closed& stopped, long double phi) {
@@ -218,7 +239,7 @@ void Linkage::find_margins() {
       if (&at[g][k] != &*least && !(dips && at[g][k] < small * scale)) continue;
       const LeastMargin found = least_near(g, k);
       if (structure_.groups[g].is_dyad() && found.margin < least_[g].margin) least_[g] = found;
-      if (at_an_end(found.phi) || found.margin > least_margin * scale) continue;
+      if (structure_.groups[g].parallel || at_an_end(found.phi) || found.margin > least_margin * scale) continue;
       return refuse_change_point(static_cast<int>(g), found.phi);
     }
   }
@@ -249,7 +270,7 @@ std::vector<std::string> Linkage::transmission_in_words() const {
   for (std::size_t g = 0; g < least_.size(); ++g) {
     const AssurGroup& group = structure_.groups[g];
     if (group.form != AssurGroup::Form::rrr && group.form != AssurGroup::Form::rrp) continue;
-    const long double sine = std::sqrt(std::clamp(least_[g].margin, 0.0L, 1.0L));
+    const long double margin = std::min(least_[g].margin, 1.0L), sine = margin > 1e-24L ? std::sqrt(margin) : 0;
     words.push_back(fmt::format("transmission angle of {} ({}) at least {:.4g}°, at φ = {}", name_of(group),
                                 links_of(group, sketch_), static_cast<double>(std::asin(sine) * 360 / whole_turn),
                                 in_degrees_of(std::remainder(least_[g].phi, whole_turn))));

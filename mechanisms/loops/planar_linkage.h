@@ -39,7 +39,7 @@ struct PlanarLinkage {
   long double output[3] = {0, 0, 0};  // position and its derivatives by φ: [m] or [rad]
   bool stands_still = false;          // the output never moves: its motion is set to zero instead of rounding errors
   // With change points: zero there and of constant sign between them; reactions are proportional to the inverse.
-  bool changes = false;
+  bool changes = false, turns_over = true;  // turns_over: the determinant of the closures changes its sign with it
   long double sine = 1;
 
   void add(const Body& body) { bodies.push_back(body), ++body_count; }

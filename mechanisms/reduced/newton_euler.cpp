@@ -254,8 +254,10 @@ LinkageForces motion_in(const PlanarLinkage& l, const LinkageState& state) {
   return f;
 }
 
-LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
-  if (2 * l.joint_count + 1 != 3 * l.body_count) throw std::logic_error("newton_euler: not one degree of freedom");
+namespace {
+
+void add_reactions(const PlanarLinkage& l, LinkageForces& f) {
+  const LinkageState& state = f.state;
   const Equations equations(l, state.applied);
   const Columns unit = equations.solve();
   const Real w = state.omega;
@@ -264,7 +266,6 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
   if (!x.allFinite())
     throw std::runtime_error(
         fmt::format("no finite reactions at phi = {:.17g} rad: the crank cannot move the mechanism there", state.phi));
-  LinkageForces f = motion_in(l, state);
   for (int k = 0; k < l.joint_count; ++k) {
     const PlanarLinkage::Joint& j = l.joints[k];
     JointForces out;
@@ -284,6 +285,17 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
     f.joints.push_back(std::move(out));
   }
   f.torque = rounded(x(3 * l.body_count - 1) * equations.length());
+  f.residual = equations.residual(x, mixture);
+}
+
+}  // namespace
+
+LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
+  const int superfluous = 2 * l.joint_count + 1 - 3 * l.body_count;
+  if (superfluous < 0) throw std::logic_error("newton_euler: not one degree of freedom");
+  LinkageForces f = motion_in(l, state);
+  if (superfluous == 0) add_reactions(l, f);
+  const Real w = state.omega;
   const Real elevation = l.elevation, up_x = std::sin(elevation), up_y = std::cos(elevation);
   for (int i = 0; i < l.body_count; ++i) {
     const PlanarLinkage::Body& b = l.bodies[i];
@@ -297,7 +309,7 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
     const Real vx = b.com.x.slope() - turning * (a.at.y - com.y), vy = b.com.y.slope() + turning * (a.at.x - com.x);
     f.load_power += rounded(w * (a.force.x * vx + a.force.y * vy + a.moment * turning));
   }
-  f.residual = equations.residual(x, mixture);
+  if (superfluous > 0) f.torque = (f.kinetic_rate - f.weight_power - f.load_power) / state.omega;
   return f;
 }
 

@@ -86,7 +86,7 @@ struct LinkageForces {
   LinkageState state;
   double output = 0, output_velocity = 0, output_acceleration = 0;  // [m] or [rad]
   std::vector<LinkForces> links;                                    // the crank first, the output last
-  std::vector<JointForces> joints;
+  std::vector<JointForces> joints;                                  // empty: their reactions are undetermined
   double torque = 0;          // of the shaft on the crank, positive counter-clockwise [N·m]
   Force2 shaking_force;       // of all inertia forces, on the frame [N]
   double shaking_moment = 0;  // of all inertia forces and couples about the crank's axis, on the frame [N·m]
@@ -100,6 +100,7 @@ struct LinkageForces {
   double friction_loss(std::string_view joint) const;  // of the joints with this name [W]
 };
 
+// Of a linkage with redundant closures no joints, as their reactions are undetermined, and the torque by the powers (ω ≠ 0).
 // Throws std::runtime_error with the numbers if the equations are singular: in a position in which the crank cannot move
 // the mechanism.
 LinkageForces forces_in(const PlanarLinkage& linkage, const LinkageState& state);

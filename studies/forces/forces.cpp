@@ -128,7 +128,7 @@ class Study {
     out_.joints = *asked.network.data.find<MechanismJoints>(asked.name);
     out_.friction = effects_.joint_friction && asked.mechanism().joints;
     if (const std::string why = data_.undetermined(); !why.empty())
-      throw std::invalid_argument(fmt::format("{}: {}; ask run, steady or reduce", asked.name, why));
+      out_.notes.push_back(fmt::format("{}: {}; the balancing torque is that of the powers", asked.name, why));
     for (const std::string& line : mechanism_words(machine_.model()))
       if (line.starts_with(asked.name + ": ")) out_.about.push_back(line);
     statics_.emplace(data_, out_.joints, out_.friction, !effects_.gravity);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "engine/reading/mirrored.h"
 #include "engine/values/dense_tables.h"
@@ -13,6 +14,23 @@
 
 namespace kurbel {
 
+namespace {
+
+// Of a mechanism that passes change points: how it goes on there; else empty.
+std::string branch_words(const Mechanism& mechanism) {
+  std::vector<std::string> at;
+  for (const double phi : mechanism.reduced->cycle().change_points())
+    at.push_back(fmt::format("{:.4g}°", phi * 180 / std::numbers::pi));
+  if (at.empty()) return {};
+  return fmt::format(
+      "{}: at the change point{} φ = {} its links can go on in two ways; assumed is the smooth one. Joints alone do "
+      "not "
+      "force it: inertia does, or links at another angle beside it, as a second rod on cranks 90° apart",
+      mechanism.name, at.size() > 1 ? "s" : "", fmt::join(at, ", "));
+}
+
+}  // namespace
+
 std::vector<std::string> substitutes(const Model& model) {
   std::vector<std::string> notes;
   if (std::string words = words_of_dense_tables(model.scene); !words.empty()) notes.push_back(std::move(words));
@@ -21,6 +39,8 @@ std::vector<std::string> substitutes(const Model& model) {
     if (const Mechanism* mechanism = element ? &element->mechanism() : link_force_of(e)) {
       for (const SliderLoad& load : mechanism->loads)
         if (load.mirrored) notes.push_back(words_of_mirrored(load.name, "motored"));
+      if (std::string words = element ? branch_words(*mechanism) : ""; !words.empty())
+        notes.push_back(std::move(words));
       continue;
     }
     const std::vector<InternalState>& own = e.element->internal_states;

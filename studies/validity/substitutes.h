@@ -1,5 +1,5 @@
 // substitutes.h — notes on a model: substitutes for data that a scene does not give, or not in this form (diagrams of misfiring
-// cylinders, flux lag of motors with unknown circuit, dense tables with fewer pieces); effects without influence.
+// cylinders, flux lag of motors with unknown circuit, dense tables with fewer pieces, the branch beyond a change point); effects without influence.
 #pragma once
 
 #include <string>
