@@ -28,8 +28,12 @@ inline bool keeps_gaining(const std::array<double, 3>& mean) {
 // command, or overrun. `result` contains the errors of its final state.
 Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips);
 
-// Springs between shafts of which only one has a start speed in the scene, while that of the other differs by more
+// Starts in an unstable equilibrium; springs between shafts of which only one has a start speed in the scene, while that of the other differs by more
 // than a tenth of the usual speed.
 Claims start_claims(const std::shared_ptr<const Model>& model);
+
+// Of a machine that started at rest without torque on any shaft and without later changes, and never moved: a dead centre
+// under load, or a balance. Empty: it did. What rounding moved is said by a claim (`start_unstable`).
+std::string words_of_balance(const Equations& at_end, const RunOutcome& outcome);
 
 }  // namespace kurbel

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -342,32 +341,6 @@ class Simulation {
     return *equations_elsewhere_;
   }
 
-  // At rest without torque on any shaft, without later changes, and never moved: a dead centre under load, or balance.
-  // One that rounding left is said by a claim (`start_unstable`).
-  void note_balanced_start(const RunOutcome& outcome) {
-    constexpr double moved = 1e-6;  // [rad], [rad/s]
-    const Model& m = *model_;
-    for (std::size_t k = 0; k < m.free_shafts; ++k)
-      if (std::abs(outcome.state[equations_.speed_index(static_cast<int>(k))]) > moved) return;
-    Equations equations(model_, false);  // those of the run stand at its end
-    const std::vector<double> y = equations.start(0);
-    for (std::size_t i = 0; i < m.angles.size(); ++i)
-      if (std::abs(equations_.angle_with_turns(i, outcome.state) - equations.angle_with_turns(i, y)) > moved) return;
-    const Snapshot& s = equations.snapshot(0, y);
-    bool any_mechanism = false;
-    for (std::size_t k = 0; k < m.free_shafts; ++k) {
-      const Shaft& shaft = m.shafts[k];
-      if (s.now.speed[k] != 0 || std::abs(s.sums.torque[k]) > 1e-9 * shaft.torque_scale || equations.at_standstill(k))
-        return;
-      any_mechanism = any_mechanism || shaft.variable;
-    }
-    if (!any_mechanism || m.free_shafts < m.shafts.size() || equations.next_edge(0) < settings_.until) return;
-    result_.notes.push_back(fmt::format(
-        "the machine starts at rest where no torque moves it, and stays there ({:.4g}° of \"{}\"): a dead centre or a "
-        "balance. Start it a little off, or with a speed",
-        s.node_angle[m.reduction_node] * 180 / std::numbers::pi, m.network.nodes[at(m.reduction_node)].component));
-  }
-
   void fill(OneRun& run, double tolerance) {
     const Model& m = *model_;
     result_.title = m.scene.heading();
@@ -394,7 +367,8 @@ class Simulation {
     result_.final_state = final_state(m, run.last_state);
     run.outcome.checkpoint.observers.clear();  // whoever goes on is judged on its own
     if (options_.keep_state && run.outcome.complete) result_.checkpoint = text_of(run.outcome.checkpoint, equations_);
-    if (!checkpoint_) note_balanced_start(run.outcome);
+    if (const std::string words = checkpoint_ ? "" : words_of_balance(equations_, run.outcome); !words.empty())
+      result_.notes.push_back(words);
     for (const std::string& what : run.outcome.held) result_.notes.push_back(what);
     if (!checkpoint_ && run.outcome.complete) result_.claims = start_claims(model_);
     drop_errors_after_unstable_start(result_);  // before they report which claims are sure
