@@ -483,7 +483,7 @@
   }
   // Long names break behind their dots and underscores; a number and its % stay on one line.
   function write(text, place, breaks) {
-    const names = breaks && (!/\s/.test(text) || /\S{20}/.test(text));
+    const names = breaks && (!/\s/.test(text) || /\S{26}/.test(text));
     text.replace(/(\d) %/g, '$1\u00a0%').split(/(?<=[._])/).forEach((piece, k) => { if (k && names) make('wbr', '', null, place); place.append(piece); });
   }
   function addTable(table, card) {
