@@ -10,10 +10,13 @@
 #include "engine/scene/units.h"
 #include "studies/advise/deviation.h"
 #include "studies/dictionary/dictionary.h"
+#include "studies/findings/figure_text.h"
 #include "studies/validity/substitutes.h"
 
 namespace kurbel {
 namespace {
+
+std::string in_percent(double deviation, double error) { return with_error({100 * deviation, 100 * error}, "%", 2); }
 
 constexpr std::ptrdiff_t tried_completely = 5;  // units: 2⁵ sets are run one and all
 constexpr double held_out_step = 0.2;           // loads and speeds ± 20 %
@@ -223,8 +226,8 @@ class Adviser {
     a_.time_spread = std::abs(a - b) / std::max({a, b, 1e-9});
     const Deviation d = judge(a_.full, again, options_.figures);
     if (!d.within || !again.complete)
-      a_.warnings.push_back(fmt::format("run again, the set advised deviates by {:.2g} ± {:.1g} % (in {})",
-                                        100 * d.deviation, 100 * d.error, d.figure));
+      a_.warnings.push_back(
+          fmt::format("run again, the set advised deviates by {} (in {})", in_percent(d.deviation, d.error), d.figure));
     if (!chosen.not_judged.empty())
       a_.warnings.push_back(
           fmt::format("too uncertain to be judged at {:.3g} %: {}; a smaller run.accuracy judges them",
@@ -243,9 +246,9 @@ class Adviser {
       if (!left.failed.empty())
         a_.warnings.push_back(what + ", could not be judged in their place: " + left.failed);
       else
-        a_.warnings.push_back(fmt::format("{}, is in no set: in their place it changes {} by {:.2g} ± {:.1g} %, {}",
-                                          what, d.figure.empty() ? "no figure" : d.figure, 100 * d.deviation,
-                                          100 * d.error, d.within ? "within the tolerance" : "beyond the tolerance"));
+        a_.warnings.push_back(fmt::format("{}, is in no set: in their place it changes {} by {}, {}", what,
+                                          d.figure.empty() ? "no figure" : d.figure, in_percent(d.deviation, d.error),
+                                          d.within ? "within the tolerance" : "beyond the tolerance"));
     }
   }
 
@@ -278,10 +281,11 @@ class Adviser {
     for (const HeldOut& h : a_.held_out)
       if (!h.within)
         a_.warnings.push_back(
-            h.refused.empty()
-                ? fmt::format("with {} the deviation is {:.2g} ± {:.1g} % (in {}): the advice does not hold there",
-                              h.what, 100 * h.deviation, 100 * h.error, h.figure)
-                : fmt::format("with {} a model did not run: {}", h.what, h.refused));
+            !h.refused.empty() ? fmt::format("with {} a model did not run: {}", h.what, h.refused)
+            : !h.not_judged.empty()
+                ? fmt::format("with {} the advice is not judged in full: {}", h.what, listed(h.not_judged, "and"))
+                : fmt::format("with {} the deviation is {} (in {}): the advice does not hold there", h.what,
+                              in_percent(h.deviation, h.error), h.figure));
   }
 
   void conclude() {
@@ -294,14 +298,14 @@ class Adviser {
       return;
     }
     a_.conclusion = fmt::format(
-        "Within {:.3g} %: {}. It deviates by {:.2g} ± {:.1g} % at most ({}) and takes {:.2f} of the time of the "
-        "full model; {} sets were run{}.",
+        "Within {:.3g} %: {}. It deviates by {} at most ({}) and takes {:.0f} % of the time of the full model; {} sets "
+        "were run{}.",
         100 * options_.within,
         chosen.words == "none"
             ? "no effect is needed, the rigid machine suffices"
             : chosen.words + (std::count(chosen.on.begin(), chosen.on.end(), true) > 1 ? " are enough" : " is enough"),
-        100 * chosen.deviation, 100 * chosen.error, chosen.figure.empty() ? "no figure differs" : chosen.figure,
-        chosen.cpu_seconds / std::max(full.cpu_seconds, 1e-9), a_.tried.size(),
+        in_percent(chosen.deviation, chosen.error), chosen.figure.empty() ? "no figure differs" : chosen.figure,
+        100 * chosen.cpu_seconds / std::max(full.cpu_seconds, 1e-9), a_.tried.size(),
         a_.warnings.empty() ? "" : "; mind the warnings");
   }
 

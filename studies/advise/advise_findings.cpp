@@ -11,8 +11,12 @@ namespace {
 
 constexpr double least_shown = 1e-6;  // percent
 
-std::string percent(double relative) {
-  return std::isfinite(relative) ? fmt::format("{:.3g} %", 100 * relative) : "lost";
+template <class Deviating>
+FigureText in_percent(const Deviating& d) {
+  if (!d.refused.empty()) return {"—", "—"};
+  if (!std::isfinite(d.deviation)) return {"lost", "—"};
+  const FigureText text = figure_text({100 * d.deviation, 100 * d.error}, 3);
+  return {text.value + " %", text.error + " %"};
 }
 
 std::string or_dash(const std::string& figure) { return figure.empty() ? "—" : figure; }
@@ -47,9 +51,8 @@ Rows tried_table(const Advice& a) {
   return table_of("", "Every set that was run", std::move(order))
       .always()
       .only_for_people("effects on", &TriedSet::words)
-      .only_for_people("deviation", [](const TriedSet* t) { return t->refused.empty() ? percent(t->deviation) : "—"; })
-      .only_for_people("numerical error",
-                       [](const TriedSet* t) { return t->refused.empty() ? "± " + percent(t->error) : "—"; })
+      .only_for_people("deviation", [](const TriedSet* t) { return in_percent(*t).value; })
+      .only_for_people("numerical error", [](const TriedSet* t) { return in_percent(*t).error; })
       .only_for_people("in", [](const TriedSet* t) { return or_dash(t->figure); })
       .only_for_people("time [ms]", &TriedSet::cpu_seconds, {.factor = 1e3, .digits = 3})
       .only_for_people("states", [](const TriedSet* t) { return t->size.states; })
@@ -64,9 +67,8 @@ Rows held_out_table(const Advice& a) {
       .column("what", "check", &HeldOut::what)
       .only_for_programs("deviation", &HeldOut::deviation)
       .only_for_programs("error", &HeldOut::error)
-      .only_for_people("deviation", [](const HeldOut& h) { return h.refused.empty() ? percent(h.deviation) : "—"; })
-      .only_for_people("numerical error",
-                       [](const HeldOut& h) { return h.refused.empty() ? "± " + percent(h.error) : "—"; })
+      .only_for_people("deviation", [](const HeldOut& h) { return in_percent(h).value; })
+      .only_for_people("numerical error", [](const HeldOut& h) { return in_percent(h).error; })
       .column("figure", "in", &HeldOut::figure, or_dash)
       .only_for_programs("within", &HeldOut::within)
       .only_for_people("within", [](const HeldOut& h) {

@@ -85,10 +85,11 @@ class Screening {
     if (twist && torque) {
       const auto [share, amplitude] = activity_and_amplitude(*twist, *torque);
       const bool about_zero = !std::isfinite(amplitude);
-      screens.push_back({"activity", share,
-                         fmt::format("∫|τ dθ| is {:.2g} of {}: {}", share, base_.name,
-                                     share > within_ ? "it takes part in the motion" : "little goes through it"),
-                         share > within_});
+      screens.push_back(
+          {"activity", share,
+           fmt::format("∫|τ dθ| is {:.2g} % of {}: {}", 100 * share, base_.name,
+                       share > within_ ? "it takes part in the motion" : "little energy passes through it"),
+           share > within_});
       screens.push_back(
           {"swing", amplitude,
            about_zero ? std::string("its torque alternates about zero")
@@ -139,10 +140,10 @@ class Screening {
     for (const FrequencySource& source : e.by_frequency) consider(source.omega, 0);
     if (!std::isfinite(nearest)) return {};
     const double hertz = 1 / (2 * std::numbers::pi);
-    const std::string what = order > 0 ? fmt::format("order {:g} at {:.3g} Hz", order, exciting * hertz)
+    const std::string what = order > 0 ? fmt::format("order {:g} ({:.3g} Hz)", order, exciting * hertz)
                                        : fmt::format("the excitation of {:.3g} Hz", exciting * hertz);
     return Screen{"orders against modes", nearest,
-                  fmt::format("{} comes nearest to its modes, {:.2g} of {:.3g} Hz away: {}", what, nearest,
+                  fmt::format("{} is the nearest to a mode: {:.2g} % from {:.3g} Hz, {}", what, 100 * nearest,
                               frequency * hertz, nearest < near_a_mode ? "it is excited" : "far from resonance"),
                   nearest < near_a_mode};
   }
@@ -169,9 +170,9 @@ class Screening {
     const double mean = std::abs(modes_->here.joints[joint].mean), share = std::abs(amplitude - still) / (mean + still);
     return Screen{
         "quasi-static amplification", ratio,
-        fmt::format("the forced amplitude at the operating point is {:.3g} × the quasi-static one, {:.2g} of its "
-                    "torque: {}",
-                    ratio, share, share > within_ ? "elasticity changes it" : "it twists quasi-statically"),
+        fmt::format("the forced amplitude at the operating point is {:.3g} × the quasi-static one, a difference of "
+                    "{:.2g} % of its torque: {}",
+                    ratio, 100 * share, share > within_ ? "elasticity changes it" : "it twists quasi-statically"),
         share > within_};
   }
 
@@ -193,13 +194,14 @@ class Screening {
       count += own;
     }
     return {"torque reversals", static_cast<double>(count),
-            count ? fmt::format("the torque changes its sign {} times (in {}): flanks part", count, where)
-                  : std::string("no torque changes its sign: flanks stay in touch once closed"),
+            count ? fmt::format("the torque changes its sign {} times (in {}): flanks separate", count, where)
+                  : std::string("no torque changes its sign: flanks stay in contact once closed"),
             count > 0};
   }
   Screen losses() const {
     const double share = std::abs(work_of(full_, "harmful")) / base_.energy;
-    return {"share of losses", share, fmt::format("harmful work is {:.2g} of {}", share, base_.name), share > within_};
+    return {"share of losses", share, fmt::format("harmful work is {:.2g} % of {}", 100 * share, base_.name),
+            share > within_};
   }
 
   Screen impacts() const {
@@ -207,8 +209,8 @@ class Screening {
     for (const Figure& f : full_.figures)
       if (f.what == quantities::impacts) count += f.value;
     return {"impacts", count,
-            count > 0 ? fmt::format("the joints are hit {:.0f} times after flight", count)
-                      : std::string("no joint is hit after flight: they stay in touch"),
+            count > 0 ? fmt::format("contact is regained {:.0f} times after separation", count)
+                      : std::string("no joint loses contact"),
             count > 0};
   }
   // The rod under its own inertia, mainly of orders 1 and 2.
@@ -226,9 +228,8 @@ class Screening {
       const double more = ratio > 2 ? 1 / (1 - 4 / (ratio * ratio)) - 1 : HUGE_VAL;
       screens.push_back(
           {"rod frequency", ratio,
-           fmt::format("the rod of {} bends at {:.3g} × the crank's speed: twice a turn it {}", e.component, ratio,
-                       std::isfinite(more) ? fmt::format("amplifies by {:.2g}", more)
-                                           : "goes with the crank and against it, at or beyond resonance"),
+           fmt::format("the rod of {} bends at {:.3g} × the crank's speed: at order 2 it {}", e.component, ratio,
+                       std::isfinite(more) ? fmt::format("amplifies by {:.2g}", more) : "is at or beyond resonance"),
            more > within_});
     }
     return screens;

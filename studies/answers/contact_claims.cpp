@@ -104,7 +104,7 @@ class ContactJudge {
     const bool limiter = joint.kind == "torque limiter";
     if (!slipping_.count(name))
       spell(limiter ? Predicate::limiter_slips : Predicate::clutch_slips_closed, joint, joint.let_go,
-            fmt::format("\"{}\" lets go {}{}, first at {:.4g} s: the torque reaches the {:.4g} N·m that it holds", name,
+            fmt::format("\"{}\" slips {}{}, first at {:.4g} s: the torque reaches the {:.4g} N·m that it holds", name,
                         so_often(joint.let_go.times), limiter ? "" : " although it is closed", joint.let_go.first,
                         m_.network.joints[at(e.joint)].element->capacity),
             false);

@@ -17,8 +17,8 @@ constexpr std::array kinds = {
               "the computation ended before its end: budget, interrupt, a motion that cannot go on", "none",
               "INCOMPLETE: the budget of 300 s of processor time is spent", "every command"},
     ClaimKind{stalls, runs, fault, above,
-              "the link moved, rests at the end and is held, itself or behind springs, and something drives it; no "
-              "brake that is on holds it",
+              "the link moved, is at rest at the end and held there, directly or through springs, and something drives "
+              "it; no engaged brake holds it",
               "at: of its rest; value: the torque that drives, on the link [N·m]",
               "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
               "holds them to the end",
@@ -28,59 +28,57 @@ constexpr std::array kinds = {
               "value: the torque that drives, on the link [N·m]",
               "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
     ClaimKind{brake_does_not_stop, runs, fault, above,
-              "a brake that was put on slips at the end, and at the deceleration there it never stops its shaft within "
-              "the time of the run",
+              "a brake that was put on slips at the end, and at that deceleration would not stop its shaft within the "
+              "time of the run",
               "at: it was put on; value: speed of its shaft [rad/s]",
               "\"brake\" does not stop it: it slips at 120 rpm after 2.5 s; its 40 N·m are too weak for what drives",
               "run, compare"},
-    ClaimKind{turns_back, runs, fault, below,
-              "the link turned back for good, by more than half a turn from its foremost place, against what drives it "
-              "forwards or with nothing that drives; of a sequence with nothing that drives alone; not of what came "
-              "forwards again by half of that",
-              "value: speed at the end [rad/s]; limit: 0",
-              "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
-              "drive it forwards",
-              "run, compare"},
+    ClaimKind{
+        turns_back, runs, fault, below,
+        "the link ends more than half a turn behind its foremost position and has not come forwards again by half of "
+        "that; a torque drives it forwards, or nothing drives it (with a sequence: only if nothing drives it)",
+        "value: speed at the end [rad/s]; limit: 0",
+        "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
+        "drive it forwards",
+        "run, compare"},
     ClaimKind{hangs_below_breakdown, runs, fault, below,
               "in steady motion an induction motor at the mains drives below its breakdown speed",
               "value: its mean speed; limit: its breakdown speed [rad/s]",
               "\"motor\" does not come up to speed: it stays at 320 rpm, below the 1280 rpm of its breakdown torque; "
               "its loads take all its torque there",
               "run, compare"},
-    ClaimKind{
-        runs_away, runs, fault, above,
-        "the speed is beyond 1.5 times the usual one, still grows by no less from cycle to cycle, and at no "
-        "higher speed (up to a hundred times) do loads and drag hold what drives; a trial that goes on to eight "
-        "times the time sees it gain by no less from each doubling to the next, or ends before: by the budget, by ten "
-        "times the run's evaluations in one doubling, or by a fault; of fewer than three cycles by a whole trial "
-        "alone, "
-        "where it comes to 1.3 times the speed",
-        "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
-        "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
-        "changes by +6.5 % per sixteenth of the time, and this change does not decrease",
-        "run, compare"},
-    ClaimKind{
-        does_not_get_round, runs, fault, above,
-        "no whole cycle, at the end a fifth of the largest speed at most, and something drives; no brake that was "
-        "put on meanwhile holds it",
-        "value: the torque that drives, on the link [N·m]",
-        "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
-        "run, compare"},
+    ClaimKind{runs_away, runs, fault, above,
+              "the speed exceeds 1.5 times the usual one, its growth from cycle to cycle does not decrease, and at no "
+              "higher speed (up to a hundred times) do loads and drag balance the drive. A trial of up to eight times "
+              "the time confirms it: the gain does not decrease from one doubling of the time to the next, or the "
+              "trial ends earlier, by the budget, by ten times the run's evaluations in one doubling, or by a fault. "
+              "With fewer than three cycles only a complete trial counts, which must reach 1.3 times the speed",
+              "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
+              "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
+              "changes by +6.5 % per sixteenth of the time, and this change does not decrease",
+              "run, compare"},
+    ClaimKind{does_not_get_round, runs, fault, above,
+              "the link completes no cycle, its speed at the end is at most a fifth of the largest one, and something "
+              "drives it; no brake that was put on meanwhile holds it",
+              "value: the torque that drives, on the link [N·m]",
+              "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
+              "run, compare"},
     ClaimKind{slips_to_the_end, runs, warning, above,
               "a closed clutch, limiter or belt slips at the end under torque, or a brake that is on from the start",
               "value: the speed of slip [rad/s]",
               "\"clutch\" slips to the end, by 22.4 rad/s under the 12 N·m that it can transmit", "run, compare"},
     ClaimKind{
         brake_has_not_stopped, runs, warning, above,
-        "a brake that was put on slips at the end, and would stop its shaft in less than the time of the run; the "
-        "sequence is done; or a sequence that repeats takes it off each time before its shaft has come to rest",
-        "at: it was put on, or first taken off; value: speed of its shaft [rad/s], or how often it was taken off",
+        "a brake that was put on still slips when the sequence and the run have ended, and would stop its shaft in "
+        "less than the time of the run; or a repeating sequence releases it each time before its shaft is at rest",
+        "at: it was put on, or first released; value: speed of its shaft [rad/s], or how often it was released",
         "\"brake\" has not stopped it by the end: 30 rpm are left after 0.5 s, and 0.4 s more are needed at this rate",
         "run, compare"},
     ClaimKind{steady_motion_unstable, runs, warning, above, "a multiplier of the steady motion is greater than 1",
               "value: the largest multiplier; limit: 1",
               "In the elastic model the steady motion does not last: it is unstable: a deviation doubles in 4.2 cycles",
               "steady"},
+<<<<<<< HEAD
     ClaimKind{
         start_shafts_disagree, runs, warning, above,
         "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
@@ -103,13 +101,33 @@ constexpr std::array kinds = {
         "command, is at most 0.1 % of it, and the link does not stand within the cycle",
         "at: end of the run-up; value: mean speed [rad/s]", "\"press\" runs steadily at 59.77 rpm from 0.9627 s on",
         "run, compare, steady"},
+=======
+    ClaimKind{start_shafts_disagree, runs, warning, above,
+              "shafts that no clutch separates start at different speeds, which the scene does not give",
+              "value: the difference of speed [rad/s]",
+              "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a shock",
+              "run, compare, steady"},
+    ClaimKind{start_unstable, runs, warning, above,
+              "a shaft starts at rest in an unstable equilibrium: no spring and no closed clutch joins it to others, "
+              "nothing holds it, its acceleration is of the size of rounding, it is accelerated away 1e-4 rad to "
+              "either side, and nothing else moves it earlier. No figure of a run that lasts longer has a known error",
+              "at: rounding has grown to 1e-9 rad; value: rate at which a deviation grows, λ of e^(λt) [1/s]; limit: 0",
+              "\"press\" starts in an unstable equilibrium: rounding decides when it leaves it, and to which side; a "
+              "deviation "
+              "grows tenfold in 0.07 s. Start it at another angle",
+              "run, compare, steady"},
+    ClaimKind{runs_steadily, runs, note, anything,
+              "the mid speed of the cycle is within 0.1 % of its limit, extrapolated from at least three cycles "
+              "without a command, and the link does not stand within the cycle",
+              "at: end of the run-up; value: mean speed [rad/s]",
+              "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
+>>>>>>> c58c8fd1a94c5d66d9f056ecc7634fb87a576728
     ClaimKind{
         vibrates, runs, note, anything,
-        "the motion repeats, and the link does not turn on average; in a run the link turns to and fro in "
-        "its last quarter, and gains less than a quarter of its way there, or in its last whole oscillation; it decays "
-        "or grows where the amplitude of "
-        "the last two reversals differs by more than a tenth from that of the first two; of a link that is "
-        "slower than 1 % of its usual speed at the end and vibrates, beside the conclusion",
+        "the motion repeats, and the link does not turn on average; in a run: during its last quarter, or its last "
+        "whole oscillation, the link turns to and fro and advances by less than a quarter of its path. It decays or "
+        "grows if the amplitude of the last two reversals differs by more than a tenth from that of the first two. For "
+        "a link that is slower than 1 % of its usual speed at the end the claim stands beside the conclusion",
         "value: frequency [Hz]",
         "Vibration about a place, elastic: frequency 13 Hz, amplitude 0.0153 rad of \"disc\", stable",
         "run, compare, steady"},
@@ -122,26 +140,26 @@ constexpr std::array kinds = {
     ClaimKind{does_not_move, runs, note, anything, "the link never moved, and nothing drives it", "none",
               "\"drum\" does not move", "run, compare, steady"},
     ClaimKind{at_rest, runs, note, anything,
-              "the link moved, and stands at the end: its speed stays below 0.1 % of the usual one for good, or dry "
-              "friction holds it soon after that (time of rest: that hold, where friction is the greater part of what "
-              "brakes at 0.1 %, and no vibration reverses there)",
+              "the link has moved, and stands at the end: its speed stays below 0.1 % of the usual one, or dry "
+              "friction holds it soon after that (this hold is the time of rest if friction is the greater part of the "
+              "braking torque at 0.1 % and no vibration reverses there)",
               "at: of its rest; value: speed at the end [rad/s]", "\"pendulum\" is at rest after 6 s",
               "run, compare, steady"},
-    ClaimKind{not_steady_yet, runs, note, anything, "the mid speed still has more than 0.1 % to go",
-              "at: end of the run; value: what remains of the mid speed [rad/s]",
+    ClaimKind{not_steady_yet, runs, note, anything, "the mid speed is more than 0.1 % away from its limit",
+              "at: end of the run; value: remaining change of the mid speed [rad/s]",
               "\"motor\" has not reached a steady motion by 8 s: the mean speed is only within 0.852 % of its limit",
               "run, compare"},
     ClaimKind{moves, runs, note, anything,
-              "the run is too short for any other claim; beyond 1.5 times the usual speed that is said",
+              "the run is too short for any other claim; a speed beyond 1.5 times the usual one is stated",
               "at: end of the run; value: speed at the end [rad/s]", "\"crank\" is at 149.7 rad/s after 0.1 s",
               "run, compare"},
-    ClaimKind{starts, runs, note, anything, "the link stands at the start and moves later on, driven",
+    ClaimKind{starts, runs, note, anything, "the link stands at the start, and is driven and moves later",
               "at: end of the run-up, where there is one", "\"motor\" starts from rest", "run, compare"},
     ClaimKind{held_by, runs, note, anything,
-              "the link is held at the end by a brake that is on or by what is not driven, and never moved or was "
-              "brought to rest by it; while the link moves, a motor that gives a tenth of its rated torque is held by "
-              "a brake on its own shaft, or, where the link vibrates or creeps below 1 % of its usual speed, by what "
-              "stands or by loads that balance it",
+              "at the end an engaged brake, or a part that is not driven, holds the link, which has never moved or was "
+              "brought to rest by it. While the link moves: a motor that gives at least a tenth of its rated torque is "
+              "held by a brake on its own shaft, or, if the link vibrates or creeps below 1 % of its usual speed, by "
+              "parts at rest or by loads that balance it",
               "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
     ClaimKind{sticks_and_slips, runs, note, above,
               "while the link turns, another shaft comes to rest and moves on in the same sense, three times at least",
@@ -156,67 +174,66 @@ constexpr std::array kinds = {
     ClaimKind{outside_data, sure, warning, anything, "the motion takes values from beyond the ends of a table", "none",
               "The torque of \"motor\" is taken from outside its table, which ends at 1796 rpm",
               "all that compute a motion"},
-    ClaimKind{limit_exceeded, bears, fault, above,
-              "a limit of the scene is exceeded by more than the error of what it is held against",
-              "value, limit: as the requirement has them",
+    ClaimKind{limit_exceeded, bears, fault, above, "a value exceeds a limit of the scene by more than its error",
+              "value, limit: as in the requirement",
               "1 of 3 ratings EXCEEDED, worst \"belts\", reserve against slip (run): 120 % of the limit, 194.3 N·m of "
               "161.9 N·m",
               "run, compare, steady, modes"},
     ClaimKind{motor_overloaded, bears, fault, above,
-              "RMS torque or current of a steady cycle is above the rated one, of a motor that states no duty",
+              "RMS torque or current of a steady cycle exceeds the rated one, for a motor without a stated duty",
               "value: RMS over rated; limit: 1",
               "\"motor\" gets too hot: the RMS torque of its steady motion is 112 % of the rated one",
               "run, compare, steady"},
     ClaimKind{demand_missed, bears, fault, above, "the sized machine has a δ greater than the demanded one",
               "value: δ reached; limit: δ demanded",
-              "419 kg·m², by the work equation, are too little for δ = 0.05: simulated, δ is 0.0561 at the crank",
-              "size"},
+              "The work equation gives 419 kg·m², too small for δ = 0.05: simulated, δ is 0.0561 at the crank", "size"},
     ClaimKind{geometry_faulty, bears, fault, anything, "a pair of gears cannot be made, or cannot run", "none",
               "the teeth of wheel 2 are pointed", "gears"},
     ClaimKind{clutch_slips_closed, bears, warning, above, "a closed clutch that had locked slips again",
               "at: first; value: largest speed of slip [rad/s]",
-              "\"clutch\" lets go 10 times although it is closed, first at 0.41 s: the torque reaches the 37.5 N·m "
+              "\"clutch\" slips 10 times although it is closed, first at 0.41 s: the torque reaches the 37.5 N·m "
               "that it holds",
               "run, compare"},
     ClaimKind{limiter_slips, bears, warning, above, "a torque limiter that had locked slips",
               "at: first; value: largest speed of slip [rad/s]",
-              "\"limiter\" lets go once, first at 0.41 s: the torque reaches the 37.5 N·m that it holds",
-              "run, compare"},
+              "\"limiter\" slips once, first at 0.41 s: the torque reaches the 37.5 N·m that it holds", "run, compare"},
     ClaimKind{belt_slips, bears, warning, anything, "a belt slips and grips again", "at: first; value: how often",
               "\"belts\" slips once, first at 0.01642 s, for 2.467 s in all, and grips again", "run, compare"},
-    ClaimKind{geometry_doubtful, bears, warning, anything, "a pair of gears runs, and not as gears should", "none",
+    ClaimKind{geometry_doubtful, bears, warning, anything, "a pair of gears can run, but with a defect", "none",
               "wheel 1 is undercut", "gears"},
     ClaimKind{
         margin_missed, bears, warning, below,
-        "at an operating speed of the scene a natural frequency lies nearer to an excitation than the margin wanted",
-        "value: the least margin; limit: the margin wanted",
+        "at an operating speed of the scene the distance of a natural frequency from an excitation is less than the "
+        "required margin",
+        "value: the least margin; limit: the required margin",
         "2 pairs of a natural frequency and an excitation lie within ± 10 % at 1340 … 1640 rpm: mode 1 at 24.1 Hz and "
         "1× motor, and more",
         "modes"},
-    ClaimKind{limit_undecided, bears, note, anything, "the limit lies within the error of what is held against it",
-              "value, limit, error: as the requirement has them",
+    ClaimKind{limit_undecided, bears, note, anything, "the limit lies within the error of the value",
+              "value, limit, error: as in the requirement",
               "1 of 3 limits undecided, \"coupling\", vibratory torque (steady): 100 % of the limit",
               "run, compare, steady, modes"},
     ClaimKind{limit_held, bears, note, below, "the value with its error is at most the limit",
-              "value, limit: as the requirement has them",
+              "value, limit: as in the requirement",
               "All 5 ratings assessed hold, the nearest \"clutch\", heat of an engagement (run): 69 % of the limit",
               "run, compare, steady, modes"},
-    ClaimKind{not_assessed, bears, note, anything,
-              "a limit that the scene states is of a load case that this command does not compute, or that the run "
-              "does not reach",
-              "limit: as the requirement has it", "\"coupling\", vibratory torque (steady): not assessed",
-              "run, compare, steady, modes"},
+    ClaimKind{
+        not_assessed, bears, note, anything,
+        "the scene states a limit for a load case that this command does not compute, or that the run does not reach",
+        "limit: as in the requirement", "\"coupling\", vibratory torque (steady): not assessed",
+        "run, compare, steady, modes"},
     ClaimKind{
         margin_kept, bears, note, above,
-        "at the operating speeds of the scene every natural frequency keeps the margin wanted from every excitation",
-        "value: the least margin; limit: the margin wanted",
+        "at the operating speeds of the scene every natural frequency keeps the required margin from every excitation",
+        "value: the least margin; limit: the required margin",
         "Every natural frequency keeps ± 10 % from all 4 excitations at 1340 … 1640 rpm; the nearest are mode 1 at "
         "24.1 Hz and 1× motor",
         "modes"},
-    ClaimKind{share_holds, bears, note, anything, "machines with values drawn hold a limit, or do not",
-              "value: share that holds it; error: half of its interval of 95 %",
+    ClaimKind{share_holds, bears, note, anything, "share of the machines drawn that meet a limit",
+              "value: the share; error: half of its 95 % interval",
               "delta.press <= 0.1 holds in 93.2 … 97.1 % of such machines", "sweep, uncertainty"},
-    ClaimKind{speeds_barred, bears, note, anything, "within the range of speeds a joint is beyond a limit or a rule",
+    ClaimKind{speeds_barred, bears, note, anything,
+              "at speeds of the examined range a joint exceeds a limit, or a rule bars them",
               "value, limit: where it is exceeded most [N·m]", "2 barred ranges, worst 310 … 355 rpm (main_coupling)",
               "modes"},
     ClaimKind{clutch_slips_engaging, bears, note, above, "a clutch slips from its closing to its locking",
@@ -228,12 +245,13 @@ constexpr std::array kinds = {
               "at: first; value: largest speed of slip [rad/s]",
               "\"freewheel\" lets its driven side run ahead, first at 1.2 s", "run, compare"},
     ClaimKind{effect_matters, depends, note, anything,
-              "an effect that is off, or elasticity, moves a key figure by 2 % or more", "none",
+              "an effect that is off, or elasticity, changes a key figure by 2 % or more", "none",
               "Joint friction, which is off, would change speed fluctuation δ, press from 0.1179 to 0.1886 (+60 %)",
               "run, compare"},
-    ClaimKind{effects_suffice, depends, note, below,
-              "no figure of the machine with fewer effects is farther off the full model's than the tolerance",
-              "value: greatest deviation; limit: tolerance", "elasticity is enough", "advise"},
+    ClaimKind{
+        effects_suffice, depends, note, below,
+        "no figure of the machine with fewer effects deviates from that of the full model by more than the tolerance",
+        "value: greatest deviation; limit: tolerance", "elasticity is enough", "advise"},
     ClaimKind{figures_told, figures, note, anything, "the requested figures were found", "none",
               "The torque in \"main_coupling\" reaches 6.784 kN·m at 0.845 s", "every command"},
 };

@@ -10,11 +10,13 @@
 #include <map>
 #include <tuple>
 
+#include "studies/claims/rounding.h"
+
 namespace kurbel {
 namespace {
 
 constexpr std::string_view plus_minus = " ± ";
-constexpr double least_error = 1e-3;  // of its number, that a headline tells
+constexpr double least_error = 1e-3;  // of its number, that a headline reports
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_of_word(char c) { return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -50,6 +52,17 @@ double value_of(std::string_view number) { return std::strtod(std::string(number
 
 std::string rounded(std::string_view number) {
   return significant_digits(number) > headline_digits ? headline_number(value_of(number)) : std::string(number);
+}
+
+// With its error, both to the same place; an error below a thousandth of its number is omitted.
+std::string rounded(std::string_view number, double error) {
+  const double value = value_of(number);
+  if (error == 0 || error < least_error * value) return rounded(number);
+  const bool has_point = number.find('.') != std::string_view::npos;
+  const int given = std::max(1, significant_digits(number));
+  const Estimate estimate{value, error};
+  const FigureText text = figure_text(estimate, has_point ? std::min(given, headline_digits) : headline_digits);
+  return error_is_visible(estimate, text) ? text.value + " " + text.error : text.value;
 }
 
 // The number with its point moved by `places` to the left: "35471600" by 6 is "35.4716". Digits are unchanged;
@@ -212,16 +225,12 @@ std::string headline(std::string_view text) {
       continue;
     }
     const std::string_view digits = text.substr(i, number);
-    said += rounded(digits);
     i += number;
-    if (!text.substr(i).starts_with(plus_minus)) continue;
-    const std::string_view error = text.substr(i + plus_minus.size());
-    const std::size_t length = number_at(error);
-    if (length == 0) continue;
-    const double size = value_of(error.substr(0, length));
-    if (size >= least_error * std::abs(value_of(digits)) && size > 0)
-      said += std::string(plus_minus) + rounded(error.substr(0, length));
-    i += plus_minus.size() + length;
+    std::string_view error = text.substr(i);
+    error = error.starts_with(plus_minus) ? error.substr(plus_minus.size()) : std::string_view();
+    error = error.substr(0, number_at(error));
+    said += error.empty() ? rounded(digits) : rounded(digits, value_of(error));
+    if (!error.empty()) i += plus_minus.size() + error.size();
   }
   return readable(said);
 }

@@ -28,6 +28,7 @@ Names names_of(const MachineDifference& d) {
 }
 
 std::string percent(double relative) {
+  if (relative < -1) return "changes sign";
   return std::abs(relative) >= 10 ? fmt::format("× {:.3g}", 1 + relative) : fmt::format("{:+.3g} %", 100 * relative);
 }
 
@@ -42,7 +43,7 @@ std::vector<const FigureDifference*> by_size(const MachineDifference& d) {
 }
 
 std::string keys_in_words(const MachineDifference& d) {
-  if (d.changes.empty()) return "their scenes say the same";
+  if (d.changes.empty()) return "their scenes are the same";
   const SceneChange& first = d.changes.front();
   const std::string shown = fmt::format("{} ({} → {})", first.path, first.a.value_or("—"), first.b.value_or("—"));
   if (d.changes.size() == 1) return "one key differs, " + shown;
@@ -56,15 +57,18 @@ std::string conclusion(const MachineDifference& d) {
   const auto list = by_size(d);
   const auto count = std::count_if(d.figures.begin(), d.figures.end(), [](const auto& f) { return f.differs(); });
   if (count == 0)
-    return fmt::format("Both machines do the same: {} figures agree within their errors; {}", d.figures.size(),
+    return fmt::format("The machines do not differ: {} figures agree within their errors; {}", d.figures.size(),
                        keys_in_words(d));
+  const auto common = std::count_if(d.figures.begin(), d.figures.end(), [](const auto& f) { return f.a && f.b; });
+  const auto of_one = static_cast<std::ptrdiff_t>(d.figures.size()) - common;
   std::string text;
   for (std::size_t i = 0; i < list.size() && i < 3; ++i)
     text += fmt::format("{}{} {} → {} ({})", i ? ", " : "", list[i]->name,
                         short_text(list[i]->a->value, list[i]->unit, d.speed_unit()),
                         short_text(list[i]->b->value, list[i]->unit, d.speed_unit()), percent(*list[i]->relative()));
-  return fmt::format("\"{}\" against \"{}\": {}{}{} of {} figures differ by more than their errors; {}", names.b,
-                     names.a, text, text.empty() ? "" : "; ", count, d.figures.size(), keys_in_words(d));
+  return fmt::format("\"{}\" against \"{}\": {}{}{} of {} figures differ by more than their errors{}; {}", names.b,
+                     names.a, text, text.empty() ? "" : "; ", count - of_one, common,
+                     of_one ? fmt::format(", {} more belong to one machine only", of_one) : "", keys_in_words(d));
 }
 
 // In the unit for people.
@@ -93,11 +97,15 @@ Rows figure_table(const MachineDifference& d) {
       .only_for_people("difference",
                        [&d](F f) {
                          if (!f.change()) return std::string(f.a ? "only the first has it" : "only the second has it");
-                         return read_as(read_in(d, f, *f.change()).value, {.digits = 4});
+                         return figure_text(read_in(d, f, *f.change()), 4).value;
                        })
-      .only_for_people("relative", [](F f) { return f.relative() ? percent(*f.relative()) : std::string("—"); })
-      .column("differs", "more than the errors", &FigureDifference::differs,
-              [](bool differs) { return std::string(differs ? "yes" : "no"); });
+      .only_for_people("relative", [](F f) { return !f.relative() ? "—"
+                                                    : f.differs() ? percent(*f.relative())
+                                                                  : "0"; })
+      .only_for_programs("differs", &FigureDifference::differs)
+      .only_for_people("more than the errors", [](F f) { return !f.change()   ? "—"
+                                                                : f.differs() ? "yes"
+                                                                              : "no"; });
 }
 
 Rows change_table(const MachineDifference& d) {

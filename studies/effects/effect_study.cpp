@@ -32,8 +32,8 @@ std::string beyond(const EffectStudy& s) {
     else if (l.changes.empty() || !l.changes.front().reported())
       text += "; in their place it changes no figure compared by more than the runs' errors";
     else
-      text += fmt::format("; in their place it changes {} by {:.2g} ± {:.1g} %", l.changes.front().figure,
-                          100 * l.changes.front().relative, 100 * l.changes.front().error);
+      text += fmt::format("; in their place it changes {} by {}", l.changes.front().figure,
+                          with_error({100 * l.changes.front().relative, 100 * l.changes.front().error}, "%", 2));
     text += ".";
   }
   return text;
@@ -53,9 +53,8 @@ std::string conclusion_of(const EffectStudy& s) {
   }
   const FigureChange& most = strongest->changes.front();
   if (!most.reported()) return "No effect changes any figure compared by more than the runs' errors." + beyond(s);
-  const std::string off = most.from_nothing
-                              ? std::string("within its error")
-                              : fmt::format("{:.3g} ± {:.1g} % off", 100 * most.relative, 100 * most.error);
+  const std::string off = most.from_nothing ? std::string("within its error")
+                                            : with_error({100 * most.relative, 100 * most.error}, "%", 3) + " off";
   // The two values are omitted if four digits do not distinguish them.
   text = most.relative < 1e-2
              ? fmt::format("The strongest effect is {}: without it {} is {}", strongest->effect.words, most.figure, off)

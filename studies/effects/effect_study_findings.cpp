@@ -10,16 +10,20 @@ namespace {
 
 constexpr std::size_t most_figures = 8;  // columns of the matrix of changes
 constexpr double least_shown = 1e-6;     // percent; smaller changes lie on the axis
+constexpr int digits_of_percent = 3;
+
+FigureText in_percent(const FigureChange& change) {
+  return figure_text({100 * change.relative, 100 * change.error}, digits_of_percent);
+}
 
 std::string percent(const FigureChange& change) {
   if (100 * std::abs(change.relative) < least_shown) return "0";
-  return change.from_nothing && change.relative > 1 ? std::string("from zero")
-                                                    : fmt::format("{:.3g} %", 100 * change.relative);
+  return change.from_nothing && change.relative > 1 ? std::string("from zero") : in_percent(change).value + " %";
 }
 
 // The error separately: the uncertainty of the change from the runs.
 std::string error_of(const FigureChange& change) {
-  return change.from_nothing && change.relative > 1 ? std::string("—") : fmt::format("± {:.1g} %", 100 * change.error);
+  return change.from_nothing && change.relative > 1 ? std::string("—") : in_percent(change).error + " %";
 }
 
 std::string words_of(const OmittedEffect& l) {

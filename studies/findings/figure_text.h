@@ -1,11 +1,4 @@
-// figure_text.h — a figure and its numerical error in readable form, the same in terminal, report and README.
-//
-//   6257.169983 ± 5.3e-5   →  "6257.17"  "± 0.00006"
-//   0.104382 ± 0.0112      →  "0.104"    "± 0.012"
-//
-// The error is rounded up to one significant digit, to two if the first is a 1. The value ends at the same digit, and
-// its rounding counts as error, so that a value below a third of it is 0; or it ends before, after six digits (nine in long
-// forms), and the error is that of the computation alone. Unknown error: six digits. An error of 0 means exact by construction.
+// figure_text.h — a figure in readable form, the same in terminal, report and README; rounded by studies/claims/rounding.h.
 #pragma once
 
 #include <string>
@@ -14,17 +7,9 @@
 
 #include "engine/base/estimate.h"
 #include "engine/scene/speed_unit.h"
+#include "studies/claims/rounding.h"
 
 namespace kurbel {
-
-inline constexpr int digits_in_tables = 6, digits_in_long_forms = 9;
-
-struct FigureText {
-  std::string value;  // "6257.17"; "—" if it is not finite
-  std::string error;  // "± 0.00006"; "± 0": exact; empty: not known
-};
-
-FigureText figure_text(const Estimate& estimate, int most_digits = digits_in_tables);
 
 // A figure on a tile: rounded as in a headline; `known` shows its further digits, if any.
 struct TileText {
@@ -34,7 +19,7 @@ TileText tile_text(const Estimate& estimate, int digits = 0);  // digits: 0: by 
 
 // "6082.2 ± 0.6 N·m"; "6257.17 N·m" if the error is less than half a unit of the last digit, or unknown; if it
 // exceeds the value, the upper bound: "less than 15 s".
-std::string with_error(const Estimate& estimate, std::string_view unit);
+std::string with_error(const Estimate& estimate, std::string_view unit, int most_digits = digits_in_tables);
 
 // For sentences: four digits in a readable unit: 19092.63 N·m → "19.09 kN·m"; a speed in its unit.
 std::string short_text(double value, const std::string& si_unit, const SpeedUnit& speed = {});

@@ -143,12 +143,14 @@ class RowsOf : public Rows {
   // For people: `get` returns FigureText or FigureCells for a row and a number of digits; one column of values, one
   // of errors.
   template <class Get>
-  RowsOf& value_and_error(std::string its_heading, const Get& get) {
+  RowsOf& value_and_error(std::string its_heading, const Get& get, std::string of_error = "numerical error") {
     const auto value = [&](const T& row, int digits) { return std::invoke(get, row, digits).value; };
     only_for_people(std::move(its_heading), [&](const T& row) { return value(row, digits_in_tables); });
     for (const T& row : rows_) columns.back().long_texts.push_back(value(row, digits_in_long_forms));
-    return only_for_people("numerical error",
-                           [&](const T& row) { return std::invoke(get, row, digits_in_tables).error; });
+    return only_for_people(std::move(of_error), [&](const T& row) {
+      const std::string error = std::invoke(get, row, digits_in_tables).error;
+      return error.empty() ? std::string("—") : error;
+    });
   }
 
   // Writes the last column into a file as well, under its key. `digits`: significant ones of numbers.

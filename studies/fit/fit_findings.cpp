@@ -32,8 +32,10 @@ Rows value_table(const FitStudy& s) {
   using F = FittedUnknown;
   return table_of("unknowns", "Fitted values", s.unknowns)
       .column("name", "unknown", [](const F& f) { return f.unknown.name; })
-      .column("value", "value", [](const F& f) { return f.value; }, {.digits = 6})
-      .column("error", "standard error", [](const F& f) { return f.error; }, {.digits = 2})
+      .only_for_programs("value", [](const F& f) { return f.value; })
+      .only_for_programs("error", [](const F& f) { return f.error; })
+      .value_and_error(
+          "value", [](const F& f, int digits) { return figure_text(f, digits); }, "standard error")
       .column("low", "95 % from", [](const F& f) { return f.low; }, {.digits = 5})
       .column("high", "to", [](const F& f) { return f.high; }, {.digits = 5})
       .column(
@@ -93,16 +95,31 @@ Rows order_table(const FitStudy& s, const char* key, const char* title, const st
       .column("channel", "channel", &R::channel)
       .column("order", "order", &R::order)
       .column("measured", "measured", [part](const R& r) { return part(r.measured, r); }, {.digits = 4})
-      .column("shown", predicted ? "predicted" : "fitted", [part](const R& r) { return part(r.shown, r); },
-              {.digits = 4});
-  if (predicted) table.column("amplitude_error", "±", speed(&R::amplitude_error), {.digits = 2});
+      .only_for_programs("shown", [part](const R& r) { return part(r.shown, r); });
+  if (predicted) table.only_for_programs("amplitude_error", speed(&R::amplitude_error));
+  // With its error, if it has one.
+  const auto with_its_error = [&](std::string heading, auto value, auto error) {
+    if (!predicted)
+      table.only_for_people(heading, value, ReadAs{.digits = 4});
+    else
+      table.value_and_error(
+          heading,
+          [=](const R& r, int) {
+            return figure_text({value(r), error(r)}, 4);
+          },
+          "±");
+  };
+  with_its_error(
+      predicted ? "predicted" : "fitted", [part](const R& r) { return *part(r.shown, r); }, speed(&R::amplitude_error));
   table
       .column("measured_phase", "phase [deg]",
               [](const R& r) { return r.measured ? std::optional(r.measured->phase) : std::nullopt; },
               {.factor = degrees, .digits = 4})
-      .column("shown_phase", predicted ? "predicted [deg]" : "fitted [deg]", [](const R& r) { return r.shown.phase; },
-              {.factor = degrees, .digits = 4});
-  if (predicted) table.column("phase_error", "±", &R::phase_error, {.factor = degrees, .digits = 2});
+      .only_for_programs("shown_phase", [](const R& r) { return r.shown.phase; });
+  if (predicted) table.only_for_programs("phase_error", &R::phase_error);
+  with_its_error(
+      predicted ? "predicted [deg]" : "fitted [deg]", [](const R& r) { return degrees * r.shown.phase; },
+      [](const R& r) { return r.phase_error ? std::optional(degrees * *r.phase_error) : std::nullopt; });
   table.column("left", "left", speed(&R::left), {.digits = 3});
   if (!predicted) table.column("scatter", "scatter of the mean", speed(&R::scatter), {.digits = 2});
   return table.column(
@@ -150,10 +167,14 @@ Rows prediction_table(const FitStudy& s) {
   using P = Prediction;
   return table_of("predictions", "Predictions", s.predictions)
       .column("prediction", "scene", &P::given)
-      .column("delta", "δ", [](const P& p) { return p.delta ? std::optional(p.delta->value) : std::nullopt; },
-              {.digits = 4})
-      .column("delta_error", "± (95 %)", [](const P& p) { return p.delta ? p.delta->error : std::nullopt; },
-              {.digits = 2})
+      .only_for_programs("delta", [](const P& p) { return p.delta ? std::optional(p.delta->value) : std::nullopt; })
+      .only_for_programs("delta_error", [](const P& p) { return p.delta ? p.delta->error : std::nullopt; })
+      .value_and_error(
+          "δ",
+          [](const P& p, int) {
+            return p.delta ? figure_text(*p.delta, 4) : FigureText{"—", ""};
+          },
+          "± (95 %)")
       .column("measured_delta", "measured", &P::measured_delta, {.digits = 4})
       .column("held", "held",
               [](const P& p) {

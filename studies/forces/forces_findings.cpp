@@ -61,12 +61,7 @@ const NamedPeak* heaviest(const ForceCycle& c) {
 }
 
 // With its error if that is visible.
-std::string efficiency_text(const ForceCycle& c) {
-  constexpr double shows = 5e-5;
-  const double value = c.efficiency->value, error = c.efficiency->error.value_or(0);
-  return error > shows ? fmt::format("{:.3g} ± {:.1g} %", 100 * value, 100 * error)
-                       : fmt::format("{:.4g} %", 100 * value);
-}
+std::string efficiency_text(const ForceCycle& c) { return with_error(100 * *c.efficiency, "%", headline_digits); }
 
 std::string conclusion_of(const Forces& f) {
   const ForceCycle& c = f.front();
@@ -331,8 +326,10 @@ void say_films(Findings& to, Chapter in, const Forces& f) {
              .always()
              .column("joint", "pin", &PinFilm::joint)
              .column("load", "load [N]", &PinFilm::load)
-             .column("sliding_speed", "sliding speed [m/s]", &PinFilm::speed)
-             .estimate("film", "film [m]", &PinFilm::film)
+             .column("sliding_speed", "sliding speed [m/s]", &PinFilm::speed,
+                     [](double v) { return read_as(std::abs(v) < 1e-9 ? 0.0 : v); })
+             .only_for_programs("film", &PinFilm::film)
+             .only_for_people("film [µm]", [](const PinFilm& p) { return with_error(1e6 * p.film, ""); })
              .estimate("film_parameter", "λ", &PinFilm::parameter)
              .column("boundary", "boundary λ < 1", &PinFilm::boundary, {.digits = 3})
              .column("mixed", "mixed λ < 3", &PinFilm::mixed, {.digits = 3})

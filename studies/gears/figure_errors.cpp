@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <stdexcept>
 
@@ -139,6 +141,16 @@ std::string error_text(double error) {
   const double rounded = std::ceil(error / unit * (1 - 1e-12)) * unit;
   return rounded >= 1e-3 && rounded < 1e6 ? fmt::format("{:.6g}", rounded)
                                           : fmt::format("{:.{}e}", rounded, begins_with_one ? 1 : 0);
+}
+
+std::string ended_at_error(std::string number, double error, double& rounding) {
+  char* end = nullptr;
+  const Estimate written{std::strtod(number.c_str(), &end), error};
+  if (*end != 0 || !std::isfinite(error)) return number;
+  const FigureText text = figure_text(written, std::max(1, significant_digits(number)));
+  if (!error_is_visible(written, text)) return number;
+  rounding = std::max(rounding, std::abs(std::strtod(text.value.c_str(), nullptr) - written.value));
+  return text.value;
 }
 
 double in_unit(const std::string& unit) {

@@ -58,6 +58,8 @@ double error_by_rounding(const T& here, const Moved<T>& moved, Get get, double t
 double largest_error(std::span<const double> errors);
 // As text, in its unit: rounded up to one digit, to two if the first is a 1, "2e-13", "1.2"; "0": exact; "—": not known.
 std::string error_text(double error);
+// A number as text, cut to the place where its error begins; `rounding` becomes the largest change by that.
+std::string ended_at_error(std::string number, double error, double& rounding);
 // Factor from SI to a unit used for gears: 1000 for "mm" and "mrad".
 double in_unit(const std::string& unit);
 
@@ -108,9 +110,13 @@ class MeasuredQuantities {
   template <class Of, class Read>
   MeasuredQuantities& add(const std::string& key, std::vector<std::string> line, std::string unit, const Of& get,
                           const Read& read, const ErrorOf& error) {
-    for (const T& thing : things_) line.push_back(read_as(std::invoke(get, thing), read));
     const std::vector<double> errors = report<Of>(key, get, error);
-    line.push_back(errors.empty() ? "0" : error_text(in_unit(unit) * largest_error(errors)));
+    const double largest = in_unit(unit) * largest_error(errors);
+    double rounding = 0;
+    for (const T& thing : things_) {
+      line.push_back(ended_at_error(read_as(std::invoke(get, thing), read), largest, rounding));
+    }
+    line.push_back(errors.empty() ? "0" : error_text(largest + rounding));
     line.push_back(std::move(unit));
     lines_.push_back(std::move(line));
     return *this;

@@ -35,7 +35,7 @@ std::string load_text(const Verdict& v) {
   const std::string value = read_as(unit.factor * load, {.digits = 5, .otherwise = "unbounded"});
   if (v.bound) return fmt::format("≤ {} {}", value, unit.unit);
   if (!(error > 1e-4 * std::max(std::abs(v.value), 1e-3 * v.limit))) return fmt::format("{} {}", value, unit.unit);
-  return fmt::format("{} ± {} {}", value, read_as(unit.factor * error / v.factor, {.digits = 2}), unit.unit);
+  return with_error({unit.factor * load, unit.factor * error / v.factor}, unit.unit, 5);
 }
 
 // A rule that bars all speeds gives no range to avoid; it is in the notes.

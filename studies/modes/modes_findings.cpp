@@ -43,8 +43,17 @@ std::string largest_shares(const std::vector<double>& share, const std::vector<s
   return text;
 }
 
+// Ends where the mode's error begins.
+std::string frequency_text(const Mode& m, double omega) {
+  return m.error > 0 ? figure_text({hertz(omega), hertz(m.error)}).value : read_as(hertz(omega));
+}
+std::string error_text(const Mode& m) {
+  const std::string error = figure_text({hertz(m.omega), hertz(m.error)}).error;
+  return error.empty() ? "—" : error;
+}
+
 std::string damped_text(const Mode& m) {
-  return m.lambda.imag() > 0 ? read_as(hertz(m.lambda.imag()), digits(6)) : "does not oscillate";
+  return m.lambda.imag() > 0 ? frequency_text(m, m.lambda.imag()) : "does not oscillate";
 }
 
 // For the periodic system: damped frequency and damping ratio.
@@ -52,7 +61,7 @@ std::string periodic_text(const Mode& m) {
   if (m.only_of_mean) return "does not oscillate";
   std::string text;
   for (const PeriodicMode& vibration : m.periodic)
-    text += fmt::format("{}{}, {}{}", text.empty() ? "" : " and ", read_as(hertz(vibration.exponent.imag()), digits(6)),
+    text += fmt::format("{}{}, {}{}", text.empty() ? "" : " and ", frequency_text(m, vibration.exponent.imag()),
                         read_as(vibration.ratio(), digits(4)),
                         vibration.branch_by_mean ? " (or multiples of 1/T off)" : "");
   return text.empty() ? "—" : text;
@@ -80,8 +89,8 @@ Rows mode_table(const ModesStudy& m) {
   table.column("number", "mode", &Mode::number)
       .column("name", "shape", [&](const Mode& mode) { return name_of(m, mode); })
       .only_for_programs("omega", &Mode::omega)
-      .column(
-          "frequency", "f [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(6))
+      .only_for_programs("frequency", [](const Mode& mode) { return hertz(mode.omega); })
+      .only_for_people("f [Hz]", [](const Mode& mode) { return frequency_text(mode, mode.omega); })
       .only_for_programs("damped",
                          [](const Mode& mode) {
                            return Record{{"real", mode.lambda.real()}, {"imaginary", mode.lambda.imag()}};
@@ -104,8 +113,8 @@ Rows mode_table(const ModesStudy& m) {
     table.only_for_people("energy of the damped mode", [&](const Mode& mode) { return energy_text(m, mode); });
   if (std::any_of(m.modes.begin(), m.modes.end(),
                   [](const Mode& mode) { return std::abs(mode.magnitude() - mode.omega) > 1e-6 * mode.omega; }))
-    table.only_for_people("|λ| [Hz]", [](const Mode& mode) { return read_as(hertz(mode.magnitude()), digits(6)); });
-  table.only_for_people("numerical error [Hz]", [](const Mode& mode) { return read_as(hertz(mode.error), digits(2)); });
+    table.only_for_people("|λ| [Hz]", [](const Mode& mode) { return frequency_text(mode, mode.magnitude()); });
+  table.only_for_people("numerical error [Hz]", error_text);
   if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.least < mode.greatest; }))
     table.only_for_people("held at angles [Hz]", [](const Mode& mode) {
       return fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
@@ -145,10 +154,8 @@ Rows internal_table(const ModesStudy& m) {
       .only_for_people("energy", [&](const Mode& mode) { return energy_text(m, mode); })
       .only_for_people("f damped [Hz]", damped_text)
       .only_for_people("ζ", &Mode::ratio, digits(4))
-      .only_for_people(
-          "|λ| [Hz]", [](const Mode& mode) { return hertz(mode.omega); }, digits(6))
-      .only_for_people(
-          "numerical error [Hz]", [](const Mode& mode) { return hertz(mode.error); }, digits(2));
+      .only_for_people("|λ| [Hz]", [](const Mode& mode) { return frequency_text(mode, mode.omega); })
+      .only_for_people("numerical error [Hz]", error_text);
 }
 
 Rows response_table(const ModesStudy& m) {

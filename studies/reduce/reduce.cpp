@@ -93,7 +93,7 @@ class Reducer : MachineOnBasis {
     r_.sense = along_->cycle().sense;
     r_.to_ratio = along_->mean_ratio();
     r_.speed = r_.sense * along_->cycle().mid_speed();
-    r_.speed_source = "along the steady cycle that the scene's own start leads to: its mid speed";
+    r_.speed_source = "the mid speed of the steady cycle that the scene's start leads to";
   }
   // The rigid machine still gives inertia, and torques at a given speed.
   void without_a_cycle(const std::string& why) {
@@ -337,10 +337,10 @@ class Reducer : MachineOnBasis {
   // Along a cycle: the motion is included; at constant speed: the difference to the steady cycle.
   void add_note_on_basis() {
     if (along_) {
-      r_.notes.push_back(
-          fmt::format("torques and reduced inertia are those along the steady cycle with the scene's effects, for {} "
-                      "{} not of one angle and its speed; I_r = 2T/ω², I_drive = I_r − I_em",
-                      fmt::join(beyond_, ", "), beyond_.size() == 1 ? "is" : "are"));
+      r_.notes.push_back(fmt::format(
+          "torques and reduced inertia are those along the steady cycle with the scene's effects: they are "
+          "not functions of one angle and its speed alone, because of {}; I_r = 2T/ω², I_drive = I_r − I_em",
+          fmt::join(beyond_, ", ")));
       if (r_.sense < 0)
         r_.notes.push_back(
             fmt::format("\"{}\" turns backwards: torques count along its motion, M_d > 0 drives it on", r_.link));
@@ -368,7 +368,7 @@ class Reducer : MachineOnBasis {
           and_effects(), r_.speed_unit.text(c.mid_speed(), 4), in_place_of(c.cycle.drive.mean(), r_.mean_drive.value),
           in_place_of(c.cycle.load.mean(), r_.mean_load.value),
           off < 1e-6 ? "is I_r" : fmt::format("differs from I_r by {:.2g} % at most", 100 * off)));
-    } catch (const std::invalid_argument&) {  // no steady cycle of which the link's angle tells
+    } catch (const std::invalid_argument&) {  // no steady cycle over the link's angle
     }
   }
   // "17.51 N·m instead of 16.2 N·m"; empty if four digits are equal.

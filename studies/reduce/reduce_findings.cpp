@@ -83,7 +83,12 @@ Rows positions_table(const MachineReduction& r) {
 }
 
 // −180° < phase ≤ 180°, to a millionth of a degree.
-std::string phase_text(double phase) {
+std::string phase_text(const Harmonic& h) {
+  if (const std::optional<double>& error = h.amplitude.error; error && h.amplitude.value > 0) {
+    const Estimate degrees{in_degrees * h.phase, in_degrees * *error / h.amplitude.value};
+    if (const FigureText text = figure_text(degrees, 5); error_is_visible(degrees, text)) return text.value;
+  }
+  const double phase = h.phase;
   const double rounded_phase = std::round(phase * in_degrees * 1e6) / 1e6;
   return number(rounded_phase <= -180 ? rounded_phase + 360 : rounded_phase, 5);
 }
@@ -95,15 +100,12 @@ Rows harmonics_table(const MachineReduction& r) {
   table.only_for_people("order", [&](std::size_t n) { return first[n].order; }, {.digits = 4});
   for (const Spectrum& s : r.spectra) {
     const auto amplitude = [&s](std::size_t n) {
-      return is_dust(s.harmonics[n], s) ? 0.0 : s.harmonics[n].amplitude.value;
+      return is_dust(s.harmonics[n], s) ? Estimate{0, s.harmonics[n].amplitude.error} : s.harmonics[n].amplitude;
     };
-    table.only_for_people(fmt::format("{} [{}]", s.name, pretty_unit(s.unit)), amplitude);
-    table.only_for_people("numerical error", [&s](std::size_t n) {
-      const std::optional<double>& error = s.harmonics[n].amplitude.error;
-      return error ? fmt::format("± {:.1g}", *error) : std::string();
-    });
+    table.value_and_error(fmt::format("{} [{}]", s.name, pretty_unit(s.unit)),
+                          [&](std::size_t n, int digits) { return figure_text(amplitude(n), digits); });
     table.only_for_people("phase [°]", [&, amplitude](std::size_t n) {
-      return n == 0 || amplitude(n) == 0 ? "—" : phase_text(s.harmonics[n].phase);
+      return n == 0 || amplitude(n).value == 0 ? "—" : phase_text(s.harmonics[n]);
     });
   }
   return table;
@@ -319,14 +321,17 @@ Findings findings_of(const MachineReduction& r) {
   f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);
   f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
   f.conclude(true, conclusion_of(r));
-  if (r.speed_source != "no torque depends on it")
-    f.conclude(true, fmt::format("Torques are those at {} of \"{}\" ({})", r.speed_unit.text(r.speed, 4), r.link,
-                                 r.speed_source));
+  const bool any_speed = r.speed_source == "no torque depends on it";
+  if (!any_speed)
+    f.conclude(true, fmt::format("Torques are those {} {} of \"{}\" ({})",
+                                 r.basis == CycleBasis::steady ? "along the motion at" : "at",
+                                 r.speed_unit.text(r.speed, 4), r.link, r.speed_source));
   for (const std::string& sentence : r.outside_data) f.claim(Predicate::outside_data, sentence);
   const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
                 spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
   report_all(f, r);
-  f.say(cycle, Sentences{.lines = {speed_text(r), errors_text(r)}, .page = false});
+  if (any_speed) f.say(cycle, Sentences{.lines = {speed_text(r)}, .page = false});
+  f.say(cycle, Sentences{.lines = {errors_text(r)}, .page = false});
   f.draw(cycle, [&r] { return motion_plots(r); });
   if (!r.paths.empty()) f.draw(cycle, [&r] { return path_plots(r); });
   f.say(cycle, positions_table(r));

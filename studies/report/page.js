@@ -136,7 +136,7 @@
       ...points, type: 'scatter', mode: 'markers', name: m.name, showlegend: false,
       marker: {
         color: points.x.map((_, i) => i ? low : high), cmin: low, cmax: high, opacity: 0, size: 8, showscale: true, colorscale: viridis.map((c, i) => [i / (viridis.length - 1), `rgb(${c})`]),
-        colorbar: {title: {text: m.unit ? `${m.name} [${m.unit}]` : m.name, side: 'right', font: {size: 12}}, thickness: 12, outlinewidth: 0, tickfont: {size: 11}, exponentformat: 'power', minexponent: 5},
+        colorbar: {title: {text: plain(broken(m.unit ? `${m.name} [${m.unit}]` : m.name, lengthOf(plot, 'y') / 6.8)), side: 'right', font: {size: 12}}, thickness: 12, outlinewidth: 0, tickfont: {size: 11}, exponentformat: 'power', minexponent: 5},
       },
       hovertemplate: `${plot.x.label} %{x:.4~g} ${plot.x.unit}<br>${plot.y.label} %{y:.4~g} ${plot.y.unit}<br>%{text}<extra></extra>`,
     };
@@ -481,9 +481,10 @@
     make('summary', '', title, details);
     return details;
   }
-  // Long names break behind their dots and underscores.
+  // Long names break behind their dots and underscores; a number and its % stay on one line.
   function write(text, place, breaks) {
-    text.split(/(?<=[._])/).forEach((piece, k) => { if (k && breaks && !/\s/.test(text)) make('wbr', '', null, place); place.append(piece); });
+    const names = breaks && (!/\s/.test(text) || /\S{26}/.test(text));
+    text.replace(/(\d) %/g, '$1\u00a0%').split(/(?<=[._])/).forEach((piece, k) => { if (k && names) make('wbr', '', null, place); place.append(piece); });
   }
   function addTable(table, card) {
     const scroll = make('div', 'scroll', null, fold(card, table.title, table.folded));
@@ -499,7 +500,7 @@
       const line = make('tr', r < printed ? '' : 'off-paper', null, body);
       row.forEach((text, i) => {
         const tone = table.tones ? table.tones[r][i] : '';
-        const cell = make('td', [kind(i), /^[-±+−]? ?\d[^ ]*( %)?$/.test(text) && 'number', text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
+        const cell = make('td', [kind(i), /^[-±+−]? ?\d[^ ]*( ± \d[^ ]*)?( %)?$/.test(text) && 'number', text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
         const place = i === 0 && table.means && table.means[r] ? meaningOf(table.means[r], cell) : cell;
         write(text, place, kind(i));
       });

@@ -36,16 +36,16 @@ std::string conclusion_of(const Sizing& s) {
         "{} flywheel is needed for δ = {:g}: without any, δ is smaller already; {}",
         s.estimate ? "By an estimate, the rigid machine without its losses, no" : "No", s.delta,
         exact.drive_inertia > 0
-            ? fmt::format("the drive could be lighter by {:.4g} kg·m² on {}", -exact.flywheel, s.flywheel)
+            ? fmt::format("the drive could be lighter by {:.4g} kg·m² on \"{}\"", -exact.flywheel, s.flywheel)
             : std::string("its torques would not make the speed fluctuate as much with any inertia"));
   std::string text = s.estimate ? fmt::format(
                                       "An estimate, by the rigid machine without its losses: a flywheel of about "
-                                      "{:.3g} kg·m² on {} for δ = {:g} {}",
+                                      "{:.3g} kg·m² on \"{}\" for δ = {:g} {}",
                                       exact.flywheel, s.flywheel, s.delta, basis_of(s))
-                                : fmt::format("A flywheel of {:.4g} kg·m² on {} keeps δ at {:g} {}", exact.flywheel,
+                                : fmt::format("A flywheel of {:.4g} kg·m² on \"{}\" keeps δ at {:g} {}", exact.flywheel,
                                               s.flywheel, s.delta, basis_of(s));
-  text +=
-      fmt::format(", at a mid speed of {} of {} ({})", s.speed_unit.text(s.mid_speed, 4), s.link, s.mid_speed_source);
+  text += fmt::format(", at a mid speed of {} of \"{}\" ({})", s.speed_unit.text(s.mid_speed, 4), s.link,
+                      s.mid_speed_source);
   if (s.stalls) text += "; with the torques as they are over the speed the machine stalls with it";
   if (s.soft) {
     const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
@@ -67,7 +67,7 @@ std::string words_of(const Sizing& s, const DeltaReached& r) {
 }
 
 std::string comparison_with_scene(const Sizing& s) {
-  if (s.flywheel_added) return fmt::format("The scene has no flywheel; it is put on the shaft of {}.", s.link);
+  if (s.flywheel_added) return fmt::format("The scene has no flywheel; it is put on the shaft of \"{}\".", s.link);
   const double needed = s.chosen().flywheel;
   const std::string now = std::isnan(s.delta_now) ? "the machine would stop within the cycle"
                                                   : fmt::format("δ = {:.4g} {}", s.delta_now, basis_of(s));
@@ -86,17 +86,26 @@ void say_titled(Findings& f, Chapter in, Rows rows) {
   f.say(in, Sentences{.lines = {""}, .page = false});
 }
 
+auto ended_at_error(double SizeMethod::*inertia) {
+  return [inertia](const SizeMethod& m) { return figure_text({m.*inertia, m.error}).value; };
+}
+
 Rows methods_table(const Sizing& s) {
   std::vector<SizeMethod> all = s.methods;
   if (s.soft) all.push_back(*s.soft);
   if (s.meeting && !(s.soft && s.soft->name == s.meeting->name)) all.push_back(*s.meeting);
   return table_of("methods", "Flywheel by each method", std::move(all))
       .column("method", "method", &SizeMethod::name)
-      .column("drive_inertia", "I_drive on link [kg·m²]", &SizeMethod::drive_inertia, {.digits = 6})
-      .column("flywheel", "flywheel [kg·m²]", &SizeMethod::flywheel, {.digits = 6})
-      .column("flywheel_error", "numerical error", &SizeMethod::error,
-              [](const std::optional<double>& e) { return e ? fmt::format("± {:.1g}", *e) : std::string(); })
-      .column("flywheel_by_parts", "by theory 3.1 [kg·m²]", &SizeMethod::flywheel_by_parts, {.digits = 6})
+      .only_for_programs("drive_inertia", &SizeMethod::drive_inertia)
+      .only_for_programs("flywheel", &SizeMethod::flywheel)
+      .only_for_programs("flywheel_error", &SizeMethod::error)
+      .only_for_programs("flywheel_by_parts", &SizeMethod::flywheel_by_parts)
+      .only_for_people("I_drive on link [kg·m²]", ended_at_error(&SizeMethod::drive_inertia))
+      .value_and_error("flywheel [kg·m²]",
+                       [](const SizeMethod& m, int digits) {
+                         return figure_text({m.flywheel, m.error}, digits);
+                       })
+      .only_for_people("by theory 3.1 [kg·m²]", ended_at_error(&SizeMethod::flywheel_by_parts))
       .only_for_people(
           "against exact [%]",
           [&](const SizeMethod& m) { return fmt::format("{:+.3f}", 100 * (m.drive_inertia / s.exact.inertia - 1)); })
@@ -216,7 +225,7 @@ Rows scales_table(const Sizing& s) {
 }
 
 Sentences basis_words(const Sizing& s) {
-  return {.lines = {fmt::format("demanded: δ = {:g} ({}), mid speed {} of {} ({})", s.delta, s.delta_source,
+  return {.lines = {fmt::format("δ = {:g} ({}), mid speed {} of {} ({})", s.delta, s.delta_source,
                                 s.speed_unit.text(s.mid_speed), s.link, s.mid_speed_source),
                     fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
                                 with_unit(s.diagram.work, "J"), with_unit(s.diagram.fluctuation(), "J"),
@@ -232,7 +241,7 @@ Sentences basis_words(const Sizing& s) {
 
 std::string punch_words(const PunchPress& p) {
   return fmt::format(
-      "punch-press form: {} per stroke, working for {:.4g} s of {:.4g} s; the flywheel gives {}, the motor needs {}",
+      "punch-press form: a stroke takes {} within {:.4g} s of {:.4g} s; the flywheel gives {}, the motor {}",
       with_unit(p.energy, "J"), p.working_time, p.cycle_time, with_unit(p.from_flywheel(), "J"),
       with_unit(p.power(), "W"));
 }
@@ -346,10 +355,11 @@ void add_answers(Findings& f, const Sizing& s) {
   if (s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta)
     f.claim(claimed(
         Predicate::demand_missed,
-        fmt::format("{}{:.6g} kg·m², by the work equation, are too little for δ = {:g}: simulated, δ is {:.4g} at the "
-                    "crank, {:.3g} times that",
-                    s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²: ", s.flywheel, s.meeting->flywheel) : "",
-                    exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),
+        fmt::format(
+            "{}the work equation gives {:.6g} kg·m², too small for δ = {:g}: simulated, δ is {:.4g} at the crank, "
+            "{:.3g} times that",
+            s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²; ", s.flywheel, s.meeting->flywheel) : "",
+            exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),
         s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
 }
 

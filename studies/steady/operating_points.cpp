@@ -216,7 +216,7 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
         estimate_from(outcome.t, integrate(equations, run, {}).t, (1e-12 + left_by_tables(m.scene)) * outcome.t);
   }
   if (result.reached || !result.why.empty()) return result;
-  result.why = fmt::format("from rest \"{}\" does not reach {} within {}: it turns at {} then", m.node_label(node),
+  result.why = fmt::format("from rest \"{}\" does not reach {} within {}; it then turns at {}", m.node_label(node),
                            speed_text(m.scene.speed_unit, target), with_unit(limit, "s", 4),
                            speed_text(m.scene.speed_unit, result.w.back() * m.node_ratio[at(node)]));
   return result;

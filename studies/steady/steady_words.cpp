@@ -165,7 +165,7 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
     words.push_back(headline(
         fmt::format("Margin: the drive's mean torque is at most {} (at {}), {}", with_unit(d.strongest.value, "N*m"),
                     std::abs(d.strongest_at) < 1e-4 * p->speed.value ? "standstill" : d.speed_unit.text(d.strongest_at),
-                    std::isfinite(d.margin(*p).value) ? with_error(d.margin(*p), "") + " times what it needs"
+                    std::isfinite(d.margin(*p).value) ? with_error(d.margin(*p), "") + " times what the load needs"
                                                       : "and it needs nothing")));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;

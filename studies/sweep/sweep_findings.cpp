@@ -145,11 +145,9 @@ Rows worst_table(const SweepStudyResult& s) {
   return table_of("worst", s.limits.empty() ? "Where each figure is greatest" : "The worst machines", worst_of(s))
       .column("figure", "figure", &Worst::figure)
       .only_for_programs("value", &Worst::value)
-      .only_for_people("value", [&s](const Worst& w) { return read_as(s.reported(w.value, w.unit)); })
       .only_for_programs("error", &Worst::error)
-      .only_for_people(
-          "numerical error",
-          [&s](const Worst& w) { return w.error ? read_as(s.reported(*w.error, w.unit), {.digits = 1}) : "—"; })
+      .value_and_error("value",
+                       [&s](const Worst& w, int digits) { return figure_cells(w, w.unit, s.speed_unit, digits); })
       .column("unit", "unit", &Worst::unit, [&s](const std::string& unit) { return s.reported(unit); })
       .column("row", "row", [](const Worst& w) { return w.row->row; })
       .column("line", "computed alone", [&s](const Worst& w) { return line_of(s.identity, *w.row); });
@@ -167,7 +165,7 @@ std::string conclusion_of(const SweepStudyResult& s) {
     if (c.decided() == 0 && c.undecided == 0)
       text += fmt::format("; {}: no variant has that figure", c.limit);
     else
-      text += fmt::format("; {}: {} of {} hold{}", c.limit, counted(c.holds), counted(c.decided()),
+      text += fmt::format("; {} holds in {} of {}{}", c.limit, counted(c.holds), counted(c.decided()),
                           c.undecided ? fmt::format(", {} undecided", counted(c.undecided)) : "");
   for (const FigureInfluence& f : s.influences) {
     if (f.ranked.empty()) continue;

@@ -48,8 +48,9 @@ Rows figure_table(const UncertaintyStudy& s) {
   const auto quantity = [&](const char* key, const char* heading, auto member, int digits) {
     add_quantity(s, table, key, heading, member, ReadAs{.digits = digits});
   };
-  quantity("value", "as given", &F::value, 6);
-  quantity("numerical", "numerical error", &F::error, 1);
+  table.only_for_programs("value", &F::value).only_for_programs("numerical", &F::error);
+  table.value_and_error("as given",
+                        [&s](const F& f, int digits) { return figure_cells(f, f.figure.unit, s.speed_unit, digits); });
   quantity("by_gradients", "deviation by gradients", &F::by_gradients, 3);
   quantity("noise_floor", "noise floor", &F::noise_floor, 1);
   quantity("by_samples", "by samples", &F::by_samples, 3);
@@ -108,11 +109,9 @@ Rows bias_table(const UncertaintyStudy& s) {
   table.text_in(2).column("figure", "figure", &BiasRow::figure).column("effect", "effect", [](const BiasRow& r) {
     return r.bias.effect;
   });
-  add_quantity(
-      s, table, "shift", "shift", [](const BiasRow& r) { return r.bias.value; },
-      [](double v) { return fmt::format("{:+.4g}", v); });
-  add_quantity(
-      s, table, "error", "numerical error", [](const BiasRow& r) { return r.bias.error; }, ReadAs{.digits = 1});
+  table.only_for_programs("shift", [](const BiasRow& r) { return r.bias.value; })
+      .only_for_programs("error", [](const BiasRow& r) { return r.bias.error; })
+      .value_and_error("shift", [&s](const BiasRow& r, int) { return figure_cells(r.bias, r.unit, s.speed_unit, 4); });
   return add_unit(s, table);
 }
 

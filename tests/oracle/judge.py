@@ -257,7 +257,7 @@ class Judge:
                     self.contradiction("slips to the end \"that it can transmit\" while it is partly open", f"\"{name}\" is told {c['command_at_end']:.3g}")
             if kind == "one-way clutch":
                 continue
-            slips = r.mentions(name, "slip", "lets go")
+            slips = r.mentions(name, "slip")
             if c["slips_to_the_end"] and c["torque_of_last"] > 1e-3 * self.motion["usual_torque"]:
                 severe.append(name)
                 if not slips:
@@ -356,7 +356,7 @@ class Judge:
         for c in self.truth["contacts"]:
             if c["kind"] == "clutch" and c["open"] > 0 and not r.says("open", c["component"]):
                 self.omission("clutch is open by command", f"\"{c['component']}\" {c['open']:.3g} s")
-            if c["kind"] == "clutch" and c["engages"] > 0 and not r.mentions(c["component"], "slip", "lets go"):
+            if c["kind"] == "clutch" and c["engages"] > 0 and not r.mentions(c["component"], "slip"):
                 self.omission("clutch slips while it engages", f"\"{c['component']}\" {c['engages']} times")
             if c["kind"] == "one-way clutch" and c["times_slipping"] > 0 and not r.says("overruns", c["component"]):
                 self.omission("freewheel overruns", f"\"{c['component']}\" {c['times_slipping']} times")

@@ -17,7 +17,7 @@ SENTENCES = {
     "slips to the end": r'"([^"]+)" slips to the end',
     "brake too weak": r'"([^"]+)" does not stop it',
     "brake not done": r'"([^"]+)" has not stopped it by the end',
-    "lets go": r'"([^"]+)" lets go (once|twice|\d+ times) although it is closed',
+    "lets go": r'"([^"]+)" slips (once|twice|\d+ times) although it is closed',
     "slips at times": r'"([^"]+)" slips (once|twice|\d+ times), first',
     "steady": r'"([^"]+)" runs steadily at ',
     "sequence done": r'"([^"]+)" goes through its operating sequence',
@@ -53,7 +53,7 @@ class Told:
             if found:
                 self.claims[name] = [f[0] if isinstance(f, tuple) else f for f in found]
         self.counts = {c: TIMES.get(n) or int(n.split()[0]) for c, n in
-                       re.findall(r'"([^"]+)" (?:lets go|slips) (once|twice|\d+ times)', self.conclusion)}
+                       re.findall(r'"([^"]+)" slips (once|twice|\d+ times)', self.conclusion)}
 
     def says(self, name, component=None):
         return name in self.claims and (component is None or component in self.claims[name])

@@ -24,6 +24,8 @@ TEST(Headline, RoundsToFourDigitsAndDropsErrorsThatNobodySees) {
   EXPECT_EQ(headline("reaches 724.8855 ± 1e-06 N·m"), "reaches 724.9 N·m");
   EXPECT_EQ(headline("19092.6311 N·m at 0.700159981 s"), "19.09 kN·m at 0.7002 s");
   EXPECT_EQ(headline("δ = 0.104 ± 0.012, 100000 steps, 1.0e-06"), "δ = 0.104 ± 0.012, 100000 steps, 1.0e-06");
+  EXPECT_EQ(headline("1.42103 ± 0.0017, 13.873 ± 1.31 %, 152.9 ± 4 N·m"), "1.421 ± 0.002, 13.9 ± 1.4 %, 153 ± 5 N·m");
+  EXPECT_EQ(headline("-1 ± 14 s, 0.23 ± 0.0004 %, 566882 ± 41000 N"), "0 ± 15 s, 0.23 %, 570 ± 50 kN");
   EXPECT_EQ(headline("3.14159265e-07 m"), "314.2 nm");
   EXPECT_EQ(headline("\"shaft_1000123\" and shaft_1000123, version 1.2.34567"),
             "\"shaft_1000123\" and shaft_1000123, version 1.2.34567");
