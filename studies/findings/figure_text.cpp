@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 
 #include "engine/scene/units.h"
 #include "studies/claims/headline.h"
+#include "studies/data/number_text.h"
 #include "studies/findings/report.h"
 
 namespace kurbel {
@@ -16,13 +19,36 @@ namespace {
 
 constexpr int digits_without_error = 6, digits_if_exact = 12;
 
-// Decimal exponent of the first significant digit, from its text: a logarithm may be off by one next to powers of ten.
+// As "{:.{}e}" writes it.
+struct Scientific {
+  Scientific(double x, int digits)
+      : end(std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, digits).ptr) {}
+  double number() const {
+    double value = 0;
+    std::from_chars(text.data(), end, value);
+    return value;
+  }
+  std::array<char, 40> text;
+  char* end;
+};
+
+// Decimal exponent of the first significant digit, from its text where the logarithm is next to a whole number.
 int exponent_of(double x) {
-  const std::string text = fmt::format("{:.16e}", std::abs(x));
-  return std::atoi(text.c_str() + text.find('e') + 1);
+  const double logarithm = std::log10(std::abs(x)), whole = std::floor(logarithm);
+  if (logarithm - whole > 1e-9 && logarithm - whole < 1 - 1e-9) return static_cast<int>(whole);
+  const Scientific written(std::abs(x), 16);
+  int exponent = 0;
+  const char* sign = std::find(written.text.data(), static_cast<const char*>(written.end), 'e') + 1;
+  std::from_chars(sign + (*sign == '+'), written.end, exponent);
+  return exponent;
 }
 
-double power_of_ten(int exponent) { return std::strtod(fmt::format("1e{}", exponent).c_str(), nullptr); }
+double power_of_ten(int exponent) {
+  constexpr int exact = 22;  // so is the quotient rounded
+  if (exponent >= 0 && exponent <= exact) return number_text_detail::ten_to[static_cast<std::size_t>(exponent)];
+  if (exponent < 0 && exponent >= -exact) return 1 / number_text_detail::ten_to[static_cast<std::size_t>(-exponent)];
+  return std::strtod(fmt::format("1e{}", exponent).c_str(), nullptr);
+}
 
 // The value with its last digit at 10^place, in fixed notation from 1e-4 to 1e9.
 std::string written(double value, int place) {
@@ -40,7 +66,7 @@ double rounded_to(double value, int place) {
     const double unit = power_of_ten(place);
     return std::abs(value) >= 0.5 * unit ? std::copysign(unit, value) : 0;
   }
-  return std::strtod(fmt::format("{:.{}e}", value, std::min(digits, 17)).c_str(), nullptr);
+  return Scientific(value, std::min(digits, 17)).number();
 }
 
 // Number of units 10^place in the error, rounded up; whole numbers are kept despite round-off.
@@ -68,6 +94,8 @@ bool shows(const Estimate& estimate, const FigureText& text) {
   if (exponent != std::string::npos) place += std::atoi(text.value.c_str() + exponent + 1);
   return *estimate.error > 0.5 * power_of_ten(place);
 }
+
+std::string cell_of(const FigureText& text) { return text.error.empty() ? "not measured" : text.error; }
 
 }  // namespace
 
@@ -135,12 +163,11 @@ FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, c
                          int most_digits) {
   const bool turns = si_unit == "rad/s";
   const Estimate shown = turns ? estimate / speed.size : estimate;
-  return {figure_text(shown, most_digits).value, error_cell(shown), pretty_unit(turns ? speed.name : si_unit)};
+  const FigureText text = figure_text(shown, most_digits);
+  return {text.value, most_digits == digits_in_tables ? cell_of(text) : error_cell(shown),
+          pretty_unit(turns ? speed.name : si_unit)};
 }
 
-std::string error_cell(const Estimate& estimate) {
-  const FigureText text = figure_text(estimate);
-  return text.error.empty() ? "not measured" : text.error;
-}
+std::string error_cell(const Estimate& estimate) { return cell_of(figure_text(estimate)); }
 
 }  // namespace kurbel
