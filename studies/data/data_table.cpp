@@ -19,7 +19,7 @@ void put_number(std::string& text, double value, const NumberFormat& format) {
     append_digits(text, value, format.digits);
   } else {
     char place[32];  // the longest has 24
-    text.append(place, fmt::format_to(place, FMT_COMPILE("{}"), value));
+    text.append(place, static_cast<std::size_t>(fmt::format_to(place, FMT_COMPILE("{}"), value) - place));
   }
 }
 
