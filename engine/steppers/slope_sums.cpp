@@ -22,47 +22,51 @@ template <std::size_t lanes>
   return *reinterpret_cast<typename Several<lanes>::Stored*>(place);
 }
 
-struct Weighted {
-  std::array<const double*, most_stages> slope;
-  std::array<double, most_stages> weight;
-  std::size_t terms;
-
-  Weighted(const Combination& combination, const Slopes& slopes, double h) : terms(combination.size()) {
-    for (std::size_t j = 0; j < terms; ++j) {
-      slope[j] = slopes[combination[j].stage];
-      weight[j] = h * combination[j].weight;
-    }
-  }
+struct Sum {
+  const Combination& combination;
+  const Slopes& slopes;
+  double h;
 };
 
-// Σ from the left, `end(i, sum)` for so many states; two of these at once, so that neither waits for the other's sum.
+// h Σ from the left, `end(i, sum)` for so many states, several of these at once, so that none waits for another's sum.
 template <std::size_t lanes, std::size_t count, class End>
-[[gnu::always_inline]] inline void sum_at(std::size_t i, const Weighted& of, const End& end) {
+[[gnu::always_inline]] inline void sum_at(std::size_t i, const Sum& of, const End& end) {
   typename Several<lanes>::Value sum[count];
-  for (std::size_t b = 0; b < count; ++b) sum[b] = of.weight[0] * at<lanes>(of.slope[0] + i + b * lanes);
-  for (std::size_t j = 1; j < of.terms; ++j)
-    for (std::size_t b = 0; b < count; ++b) sum[b] += of.weight[j] * at<lanes>(of.slope[j] + i + b * lanes);
+  const Term* term = of.combination.data();
+  const Term* const last = term + of.combination.size();
+  const auto add = [&](bool first) __attribute__((always_inline)) {
+    const double weight = of.h * term->weight;
+    const double* const slope = of.slopes[term->stage] + i;
+    for (std::size_t b = 0; b < count; ++b) {
+      const typename Several<lanes>::Value part = weight * at<lanes>(slope + b * lanes);
+      sum[b] = first ? part : sum[b] + part;
+    }
+  };
+  add(true);
+  while (++term != last) add(false);
   for (std::size_t b = 0; b < count; ++b) end(i + b * lanes, sum[b]);
 }
 template <std::size_t lanes, class End>
-[[gnu::always_inline]] inline void sum_all(std::size_t size, const Weighted& of, const End& end) {
+[[gnu::always_inline]] inline void sum_all(std::size_t size, const Sum& of, const End& end) {
   std::size_t i = 0;
-  for (; i + lanes < size; i += 2 * lanes) sum_at<lanes, 2>(i, of, end);
+  for (; i + 3 * lanes < size; i += 4 * lanes) sum_at<lanes, 4>(i, of, end);
+  if (i + 2 * lanes < size) return sum_at<lanes, 3>(i, of, end);
+  if (i + lanes < size) return sum_at<lanes, 2>(i, of, end);
   if (i < size) sum_at<lanes, 1>(i, of, end);
 }
 
 template <std::size_t lanes>
-[[gnu::always_inline]] inline void combine_by(std::size_t size, const double* base, const Weighted& of, double* out) {
+[[gnu::always_inline]] inline void combine_by(std::size_t size, const double* base, const Sum& of, double* out) {
   using Value = typename Several<lanes>::Value;
   sum_all<lanes>(size, of, [&](std::size_t i, const Value& sum) { at<lanes>(out + i) = at<lanes>(base + i) + sum; });
 }
 template <std::size_t lanes>
-[[gnu::always_inline]] inline void sum_up_by(std::size_t size, const Weighted& of, double h, double* out) {
+[[gnu::always_inline]] inline void sum_up_by(std::size_t size, const Sum& of, double h, double* out) {
   using Value = typename Several<lanes>::Value;
   sum_all<lanes>(size, of, [&](std::size_t i, const Value& sum) { at<lanes>(out + i) = (0.0 + sum) * h; });
 }
 template <std::size_t lanes>
-[[gnu::always_inline]] inline void correct_errors_by(std::size_t size, const Weighted& error, const Weighted& rough,
+[[gnu::always_inline]] inline void correct_errors_by(std::size_t size, const Sum& error, const Sum& rough,
                                                      const double* w, double* out) {
   using Value = typename Several<lanes>::Value;
   sum_all<lanes>(size, error, [&](std::size_t i, const Value& sum) { at<lanes>(out + i) = sum; });
@@ -87,14 +91,14 @@ template <std::size_t lanes>
   }
 }
 
-[[gnu::target("avx2")]] void combine_wide(std::size_t size, const double* base, const Weighted& of, double* out) {
+[[gnu::target("avx2")]] void combine_wide(std::size_t size, const double* base, const Sum& of, double* out) {
   combine_by<4>(size, base, of, out);
 }
-[[gnu::target("avx2")]] void sum_up_wide(std::size_t size, const Weighted& of, double h, double* out) {
+[[gnu::target("avx2")]] void sum_up_wide(std::size_t size, const Sum& of, double h, double* out) {
   sum_up_by<4>(size, of, h, out);
 }
-[[gnu::target("avx2")]] void correct_errors_wide(std::size_t size, const Weighted& error, const Weighted& rough,
-                                                 const double* w, double* out) {
+[[gnu::target("avx2")]] void correct_errors_wide(std::size_t size, const Sum& error, const Sum& rough, const double* w,
+                                                 double* out) {
   correct_errors_by<4>(size, error, rough, w, out);
 }
 [[gnu::target("avx2")]] void interpolate_wide(std::size_t size, const DenseStep& step, const DensePlace& place,
@@ -111,20 +115,20 @@ const bool is_wide = __builtin_cpu_supports("avx2");
 }  // namespace
 
 void combine(std::size_t size, const double* base, const Combination& c, const Slopes& slopes, double h, double* out) {
-  const Weighted of(c, slopes, h);
+  const Sum of{c, slopes, h};
   if (is_wide) return combine_wide(size, base, of, out);
   combine_by<2>(size, base, of, out);
 }
 
 void sum_up(std::size_t size, const Combination& c, const Slopes& slopes, double h, double* out) {
-  const Weighted of(c, slopes, 1);
+  const Sum of{c, slopes, 1};
   if (is_wide) return sum_up_wide(size, of, h, out);
   sum_up_by<2>(size, of, h, out);
 }
 
 void correct_errors(std::size_t size, const Combination& error, const Combination& rough, const Slopes& slopes,
                     double h, const double* w, double* out) {
-  const Weighted e(error, slopes, h), r(rough, slopes, h);
+  const Sum e{error, slopes, h}, r{rough, slopes, h};
   if (is_wide) return correct_errors_wide(size, e, r, w, out);
   correct_errors_by<2>(size, e, r, w, out);
 }
