@@ -112,7 +112,8 @@ void ExtremeRecorder::begin(double t, std::span<const double> y, Equations& equa
 
 void ExtremeRecorder::step(StepView& view) {
   const double t0 = view.t_previous(), t1 = view.t();
-  if (view.begins_anew() || last_.t != t0)
+  const bool anew = view.begins_anew() || last_.t != t0;
+  if (anew)
     sample(view.snapshot(t0), t0, first_);  // after an event the values may have jumped
   else
     std::swap(first_, last_);
@@ -122,7 +123,7 @@ void ExtremeRecorder::step(StepView& view) {
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     if (wanted_[i].argument) learn_steepness(i);
     if (!wanted_[i].slope) last_.slope[i] = (last_.value[i] - first_.value[i]) / (t1 - t0);
-    consider(i, t0, first_.value[i]);
+    if (anew) consider(i, t0, first_.value[i]);
     consider(i, t1, last_.value[i]);
     any = any || may_be_beaten(i);
     if (!channels_.empty() && found_[i].time == t1) take_row(found_[i], end);
@@ -317,7 +318,8 @@ void CycleRecorder::step(StepView& view) {
     if (t > from) {
       const double a0 = alpha(from), a1 = alpha(t), w0 = speed(from), w1 = speed(t);
       const double reach = (t - from) * (std::abs(a0) + std::abs(a1));
-      if (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) {
+      if (!runs_straight(a0, a1, (w1 - w0) / (t - from)) &&
+          (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_)) {
         const int parts = free ? 8 : 2;  // samples of one state are cheap
         double before = a0;
         for (int k = 1; k <= parts; ++k) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace kurbel {
 namespace {
@@ -130,6 +131,7 @@ void BandHistory::clear() {
 }
 
 std::optional<double> BandHistory::last_outside(double low, double high) const {
+  asked_.insert(asked_.end(), {low, high});
   std::optional<double> last;
   const auto below = std::partition_point(low_.begin(), low_.end(), [&](const Stretch& s) { return s.lowest < low; });
   if (below != low_.begin()) {
@@ -192,7 +194,56 @@ double SpeedRecorder::speed_at(StepView& view, double t) const {
   return gain_ * view.at(t, view.equations().speed_index(static_cast<int>(shaft_)));
 }
 
+// Of itself: levels of a run repeated at another tolerance differ by far less, steady motion is 1 % from its band's edges.
+constexpr double near_level = 1e-3;
+
+std::vector<double> SpeedRecorder::asked() const {
+  std::vector<double> levels = driven_.asked();
+  levels.insert(levels.end(), coasting_.asked().begin(), coasting_.asked().end());
+  return levels;
+}
+
+bool SpeedRecorder::answered() const {
+  const std::vector<double> levels = asked();
+  return !levels_ || std::all_of(levels.begin(), levels.end(), [&](double level) {
+    return std::any_of(levels_->begin(), levels_->end(),
+                       [&](double known) { return std::abs(level - known) <= near_level * std::abs(known); });
+  });
+}
+
+// The speed exceeds its ends within a step by at most 4/27 h (|α₀| + |α₁|) as a cubic; the limit used is some seven times
+// as large.
+bool SpeedRecorder::stays_away(StepView& view) const {
+  if (!levels_ || !free_) return false;
+  const std::size_t state = view.equations().speed_index(static_cast<int>(shaft_));
+  const auto [low, high] = std::minmax({gain_ * view.y_previous()[state], gain_ * view.y()[state]});
+  const double slopes = std::abs(view.ydot_previous()[state]) + std::abs(view.ydot()[state]);
+  const double reach = (view.t() - view.t_previous()) * std::abs(gain_) * slopes;
+  return std::none_of(levels_->begin(), levels_->end(), [&, low = low, high = high](double level) {
+    const double slack = reach + near_level * std::abs(level);
+    return low - slack <= level && level <= high + slack;
+  });
+}
+
+// Stands for all between, as no level lies there that is asked for.
+BandHistory::Stretch SpeedRecorder::ends_of(StepView& view) const {
+  BandHistory::Stretch s{.begin = view.t_previous(), .end = view.t()};
+  const double first = speed_at(view, s.begin), last = speed_at(view, s.end);
+  s.value.fill(first);
+  s.value.back() = last;
+  const bool rises = last > first;
+  std::tie(s.lowest, s.highest) = std::minmax(first, last);
+  s.lowest_at = rises ? s.begin : s.end;
+  s.highest_at = rises ? s.end : s.begin;
+  if (audited_) {
+    s.work.front() = works_in(view.equations(), view.y_previous());
+    s.work.back() = works_in(view.equations(), view.y());
+  }
+  return s;
+}
+
 BandHistory::Stretch SpeedRecorder::stretch_of(StepView& view) const {
+  if (stays_away(view)) return ends_of(view);
   BandHistory::Stretch s{.begin = view.t_previous(), .end = view.t()};
   for (std::size_t k = 0; k < BandHistory::points; ++k) s.value[k] = speed_at(view, s.time(k));
   s.find_extremes();

@@ -4,7 +4,8 @@
 // The last time below any level x is in a stretch whose minimum is not reached by later stretches: a stack with minima
 // increasing towards the end. The same for maxima. In steady motion stretches replace earlier ones, so that the memory
 // grows with run-up and drift, by a few stretches per cycle at most, not with the length of the run. Each stretch is the
-// dense output of the solver over one step, as the polynomial through nine Chebyshev points.
+// dense output of the solver over one step, as the polynomial through nine Chebyshev points. A run that repeats another one
+// knows about which levels it will be asked for: steps that stay away from them are kept by their ends.
 #pragma once
 
 #include <algorithm>
@@ -51,11 +52,13 @@ class BandHistory {
   // Time from which the curve stays within [low, high]; empty: it was never outside. If it jumps in, the time of the jump;
   // end() if it ends outside.
   std::optional<double> last_outside(double low, double high) const;
+  const std::vector<double>& asked() const { return asked_; }  // the levels of all calls of last_outside()
   // The stored stretch that contains this time, such as a result of last_outside(); null: none.
   const Stretch* stretch_at(double t) const;
 
  private:
   std::vector<Stretch> low_, high_;  // increasing minima, decreasing maxima
+  mutable std::vector<double> asked_;
 };
 
 // When the reduction link's speed was last above 1 %, 0.1 % and a billionth of its usual one [s].
@@ -98,7 +101,10 @@ inline const Event* rest_of(const EventLog& events, const LastSpeeds& last, cons
 // Observes the reduction link: its speed while something drives and after that, and its angle at equal intervals.
 class SpeedRecorder final : public Observer {
  public:
-  explicit SpeedRecorder(double until) : until_(until) {}
+  // A run that repeats the one of `before`, closely: empty where there is none.
+  explicit SpeedRecorder(double until, const SpeedRecorder* before = nullptr) : until_(until) {
+    if (before) levels_ = before->asked();
+  }
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override { tape(on_, driven_, coasting_, off_since_, works_off_, angles_); }
@@ -112,12 +118,17 @@ class SpeedRecorder final : public Observer {
   std::optional<Works> works_at(double t) const;
   // Angles including full turns [rad] at multiples of interval() from the start; only for machines without a cycle.
   const std::vector<double>& angles() const { return angles_; }
+  std::vector<double> asked() const;
+  // All levels asked for are near those that the run before was asked for; else this run is to be repeated without it.
+  bool answered() const;
   double interval() const { return until_ / grid; }
 
  private:
   static constexpr int grid = 512;
   bool is_driven(StepView& view) const;
   BandHistory::Stretch stretch_of(StepView& view) const;
+  bool stays_away(StepView& view) const;  // from the levels of the run before
+  BandHistory::Stretch ends_of(StepView& view) const;
   double speed_at(StepView& view, double t) const;
 
   double until_;
@@ -131,6 +142,7 @@ class SpeedRecorder final : public Observer {
   bool audited_ = false;
   Works works_off_{};  // up to off_since_
   std::vector<double> angles_;
+  std::optional<std::vector<double>> levels_;  // of the run before
 };
 
 }  // namespace kurbel

@@ -20,8 +20,6 @@ namespace {
 constexpr double safety = 0.85;
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 
-using Slopes = std::array<double*, most_stages>;
-
 // A combination made ready for the loop over the states: pointers to the slopes that take part, weights times h.
 // The number of terms is known to the compiler, so the inner sum is straight-line code and nothing is stored on the
 // way.
@@ -45,51 +43,6 @@ struct Gathered {
   }
 };
 
-template <std::size_t terms>
-void combine_terms(std::size_t size, const double* base, const Combination& combination, const Slopes& slopes, double h,
-                   double* __restrict out) {
-  const Gathered<terms> sum(combination, slopes, h);
-  for (std::size_t i = 0; i < size; ++i) out[i] = base[i] + sum[i];
-}
-
-using Combine = void (*)(std::size_t, const double*, const Combination&, const Slopes&, double, double*);
-template <std::size_t... fewer>
-constexpr std::array<Combine, sizeof...(fewer)> combine_table(std::index_sequence<fewer...>) {
-  return {&combine_terms<fewer + 1>...};
-}
-constexpr auto combine_of = combine_table(std::make_index_sequence<most_stages>());
-
-// out = base + h Σ combination
-void combine(std::size_t size, const double* base, const Combination& c, const Slopes& slopes, double h, double* out) {
-  combine_of[c.size() - 1](size, base, c, slopes, h, out);
-}
-
-// out = h Σ combination. Four terms at a time over all states, so that neighbours are computed together.
-void sum_up(std::size_t size, const Combination& combination, const Slopes& slopes, double h, double* __restrict out) {
-  std::fill(out, out + size, 0.0);
-  const auto term = [&](std::size_t k, std::size_t i) {
-    return combination[k].weight * slopes[combination[k].stage][i];
-  };
-  std::size_t k = 0;
-  for (; k + 4 <= combination.size(); k += 4)
-    for (std::size_t i = 0; i < size; ++i)
-      out[i] = out[i] + term(k, i) + term(k + 1, i) + term(k + 2, i) + term(k + 3, i);
-  for (; k < combination.size(); ++k)
-    for (std::size_t i = 0; i < size; ++i) out[i] += term(k, i);
-  for (std::size_t i = 0; i < size; ++i) out[i] *= h;
-}
-
-// Hermite's cubic through both ends of a step of length h, at the part x of it, and what bends it further.
-struct DensePlace {
-  double h, x, u;  // u = 1 − x
-
-  double weight(std::size_t d) const { return d % 2 == 0 ? x : u; }
-  double value(double y0, double y1, double f0, double f1, double tail) const {
-    const double rise = y1 - y0;
-    return y0 + x * (rise + u * (h * f0 - rise + x * (2 * rise - h * (f0 + f1) + u * tail)));
-  }
-};
-
 struct ErrorNorm {
   double value;
   std::size_t state;  // where it is
@@ -110,14 +63,8 @@ ErrorNorm largest_error(std::size_t size, const Gathered<terms>& error, const do
   return {largest + poison, worst};
 }
 
-// max e_i² / √(e_i² + 0.01 r_i²), state by state, so that a rough state cannot hide behind the smoothness of another.
-template <std::size_t terms, std::size_t rough_terms>
-ErrorNorm largest_corrected_error(std::size_t size, const Gathered<terms>& error, const Gathered<rough_terms>& rough,
-                                  const double* w, double* __restrict squared) {
-  for (std::size_t i = 0; i < size; ++i) {  // by itself, so that neighbours are computed together
-    const double e = error[i] * w[i], r = rough[i] * w[i];
-    squared[i] = e * e * (e * e) / (e * e + 0.01 * (r * r) + std::numeric_limits<double>::min());
-  }
+// Of e_i⁴ / (e_i² + 0.01 r_i²): max e_i² / √(e_i² + 0.01 r_i²).
+ErrorNorm largest_of(std::size_t size, const double* squared) {
   double largest = 0, poison = 0;
   std::size_t worst = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -148,6 +95,7 @@ ExplicitRungeKutta::ExplicitRungeKutta(const EmbeddedTable& table, OdeSystem& sy
     : table_(table), system_(system), size_(system.size()), tolerance_(control.tolerance) {
   assert(control.scale.size() == size_ && tolerance_ > 0);
   for (const double s : control.scale) weight_.push_back(s > 0 ? 1 / (tolerance_ * s) : 0);
+  weight_.resize(size_ + 4, 0.0);  // slope_sums.h
   stiff_from_ = table.stability_limit * part_reported_as_stiff(tolerance_);
   error_needs_end_slope_ = table.error.back().stage == table.stages;
 
@@ -284,9 +232,8 @@ double ExplicitRungeKutta::error_norm(double h) {
     return keep(largest_error(size_, Gathered<terms>(table_.error, slope_, h), weight_.data()));
   };
   if (!table_.rough_error.empty()) {
-    assert(table_.error.size() == 8 && table_.rough_error.size() == 8);
-    return keep(largest_corrected_error(size_, Gathered<8>(table_.error, slope_, h),
-                                        Gathered<8>(table_.rough_error, slope_, h), weight_.data(), dense_[0]));
+    correct_errors(size_, table_.error, table_.rough_error, slope_, h, weight_.data(), dense_[0]);
+    return keep(largest_of(size_, dense_[0]));
   }
   if (table_.error.size() == 4) return estimate.operator()<4>();
   if (table_.error.size() == 6) return estimate.operator()<6>();
@@ -380,6 +327,11 @@ void ExplicitRungeKutta::prepare_dense_output() {
     sum_up(size_, table_.dense[d], slope_, t_ - t_previous_, dense_[d]);
 }
 
+DensePlace ExplicitRungeKutta::place_of(double t) const {
+  const double h = t_ - t_previous_, x = (t - t_previous_) / h;
+  return {h, x, 1 - x};
+}
+
 // Of one state alone: what watches the speed of a link asks for no more in most steps.
 const std::array<double, 4>& ExplicitRungeKutta::dense_of(std::size_t state) {
   prepare_dense_stages();
@@ -397,29 +349,19 @@ void ExplicitRungeKutta::interpolate(double t, std::span<double> y) {
   if (t >= t_) return void(std::copy(y_, y_ + size_, y.begin()));
   if (t <= t_previous_) return void(std::copy(y_previous_, y_previous_ + size_, y.begin()));
   prepare_dense_output();
-
-  const double h = t_ - t_previous_, x = (t - t_previous_) / h;
-  const DensePlace place{h, x, 1 - x};
-  double* const __restrict out = y.data();  // holds the tails first
-  std::fill(out, out + size_, 0.0);
-  for (std::size_t d = table_.dense.size(); d-- > 0;) {
-    const double* const dense = dense_[d];
-    const double weight = place.weight(d);
-    for (std::size_t i = 0; i < size_; ++i) out[i] = dense[i] + weight * out[i];
-  }
-  const double *const y0 = y_previous_, *const y1 = y_, *const f0 = slope_[0], *const f1 = slope_[table_.stages];
-  for (std::size_t i = 0; i < size_; ++i) out[i] = place.value(y0[i], y1[i], f0[i], f1[i], out[i]);
+  const DenseStep step{y_previous_, y_, slope_[0], slope_[table_.stages], dense_, table_.dense.size()};
+  kurbel::interpolate(size_, step, place_of(t), y.data());
 }
 
 double ExplicitRungeKutta::interpolate(double t, std::size_t state) {
   if (t >= t_) return y_[state];
   if (t <= t_previous_) return y_previous_[state];
   const std::array<double, 4>& dense = dense_of(state);
-  const double h = t_ - t_previous_, x = (t - t_previous_) / h;
-  const DensePlace place{h, x, 1 - x};
-  double tail = 0;
-  for (std::size_t d = table_.dense.size(); d-- > 0;) tail = dense[d] + place.weight(d) * tail;
-  return place.value(y_previous_[state], y_[state], slope_[0][state], slope_[table_.stages][state], tail);
+  const DensePlace place = place_of(t);
+  double y = 0;
+  for (std::size_t d = table_.dense.size(); d-- > 0;) y = dense[d] + place.weight(d) * y;
+  place.end(y_previous_[state], y_[state], slope_[0][state], slope_[table_.stages][state], y);
+  return y;
 }
 
 // A step of no length at t_: what start() leaves behind.

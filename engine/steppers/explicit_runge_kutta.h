@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "engine/steppers/butcher_tables.h"
+#include "engine/steppers/slope_sums.h"
 #include "engine/steppers/stepper.h"
 
 namespace kurbel {
@@ -50,6 +50,7 @@ class ExplicitRungeKutta final : public Stepper {
   void prepare_dense_stages();
   void prepare_dense_output();
   const std::array<double, 4>& dense_of(std::size_t state);
+  DensePlace place_of(double t) const;
   void stand_still();
   [[noreturn]] void fail(double h, double error) const;
 
@@ -65,7 +66,7 @@ class ExplicitRungeKutta final : public Stepper {
   double* y_;
   double* y_previous_;
   double* stage_y_;  // argument of the last stage before the end slope
-  std::array<double*, most_stages> slope_{};
+  Slopes slope_{};
   std::array<double*, 4> dense_{};
   bool dense_stages_are_ready_ = false, dense_is_ready_ = false;
   std::size_t dense_state_ = 0;  // whose dense output alone stands in dense_of_; size_: none

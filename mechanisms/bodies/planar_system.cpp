@@ -29,7 +29,7 @@ class SampledBodies final : public MechanismBodies {
   }
 
   double kinetic_energy(double phi, double omega) override {
-    state_.updU() = omega * reduce_at(phi).q1;
+    state_.updU() = omega * reduce_at(phi, Upto::velocity).q1;
     planar_->system.realize(state_, SimTK::Stage::Velocity);
     return planar_->matter.calcKineticEnergy(state_);
   }
@@ -43,7 +43,9 @@ class SampledBodies final : public MechanismBodies {
   }
 
  private:
-  Reduction reduce_at(double phi) { return planar_->reduce_at(state_, planar_->within_a_cycle(phi)); }
+  Reduction reduce_at(double phi, Upto last = Upto::jerk) {
+    return planar_->reduce_at(state_, planar_->within_a_cycle(phi), last);
+  }
 
   ReducedSample sample_of(const Reduction& reduced, double phi) const {
     ReducedSample sample{};
@@ -138,15 +140,15 @@ State PlanarSystem::realize_topology() {
   return state;
 }
 
-Reduction PlanarSystem::reduce_at(State& state, double phi) const {
-  return follow ? reduce_through(state, phi) : reduce_at(state, phi, start(phi));
+Reduction PlanarSystem::reduce_at(State& state, double phi, Upto last) const {
+  return follow ? reduce_through(state, phi, last) : reduce_at(state, phi, start(phi), last);
 }
 
-Reduction PlanarSystem::reduce_at(State& state, double phi, const std::vector<double>& start_from) const {
+Reduction PlanarSystem::reduce_at(State& state, double phi, const std::vector<double>& start_from, Upto last) const {
   state.updQ()[0] = phi;
   for (std::size_t k = 0; k < start_from.size(); ++k) state.updQ()[int(k) + 1] = start_from[k];
   reduction->close(state);
-  Reduction reduced = reduction->reduce(state);
+  Reduction reduced = reduction->reduce(state, nullptr, last);
   check_branch(phi, reduced, sign_at(phi));
   return reduced;
 }
@@ -154,11 +156,11 @@ Reduction PlanarSystem::reduce_at(State& state, double phi, const std::vector<do
 // So near to a change point the closures' first derivatives leave d³q/dφ³ fewer than fourteen digits.
 constexpr double hardly_closed = 0.3;
 
-Reduction PlanarSystem::reduce_through(State& state, double phi) const {
+Reduction PlanarSystem::reduce_through(State& state, double phi, Upto last) const {
   const Followed to = follow(phi);
   std::vector<double> q;
   for (const Taylor& t : to.coordinates) q.push_back(double(t.value()));
-  if (std::fabs(to.sine) > hardly_closed) return reduce_at(state, phi, q);
+  if (std::fabs(to.sine) > hardly_closed) return reduce_at(state, phi, q, last);
   KnownDerivatives known{SimTK::Vector(int(q.size()) + 1, 0.0), SimTK::Vector(int(q.size()) + 1, 0.0),
                          SimTK::Vector(int(q.size()) + 1, 0.0)};
   known.q1[0] = 1;
@@ -168,7 +170,7 @@ Reduction PlanarSystem::reduce_through(State& state, double phi) const {
     state.updQ()[k] = q[std::size_t(k) - 1];
     known.q1[k] = double(t.c[1]), known.q2[k] = double(2 * t.c[2]), known.q3[k] = double(6 * t.c[3]);
   }
-  return reduction->reduce(state, &known);
+  return reduction->reduce(state, &known, last);
 }
 
 void PlanarSystem::check_branch(double phi, const Reduction& reduced, double sign) const {
@@ -188,7 +190,7 @@ double PlanarSystem::sign_at(double phi) const {
 void PlanarSystem::check_branch(State state) const {
   const double phi = state.getQ()[0];
   reduction->close(state);
-  check_branch(phi, reduction->reduce(state), sign_at(within_a_cycle(phi)));
+  check_branch(phi, reduction->reduce(state, nullptr, Upto::velocity), sign_at(within_a_cycle(phi)));
 }
 
 double PlanarSystem::within_a_cycle(double phi) const {

@@ -60,8 +60,9 @@ struct PlanarSystem {
   // Ends the construction (forces may be added before) and returns the default state.
   SimTK::State realize_topology();
   // Closes the loops at φ and reduces; throws std::runtime_error with the numbers if not on the right branch.
-  Reduction reduce_at(SimTK::State& state, double phi) const;
-  Reduction reduce_at(SimTK::State& state, double phi, const std::vector<double>& start_from) const;
+  Reduction reduce_at(SimTK::State& state, double phi, Upto last = Upto::jerk) const;
+  Reduction reduce_at(SimTK::State& state, double phi, const std::vector<double>& start_from,
+                      Upto last = Upto::jerk) const;
   double sign_at(double phi) const;  // of the determinant on the right branch
   // Throws std::runtime_error with the numbers if a state with nearly closed loops is on another branch.
   void check_branch(SimTK::State state) const;
@@ -89,7 +90,7 @@ struct PlanarSystem {
 
  private:
   double determinant_sign_ = 1;  // on the right branch; with change points: where the sine is > 0
-  Reduction reduce_through(SimTK::State& state, double phi) const;
+  Reduction reduce_through(SimTK::State& state, double phi, Upto last) const;
   void check_branch(double phi, const Reduction& reduced, double sign) const;
   std::size_t track(const SimTK::MobilizedBody& body, const SimTK::Vec3& station);
 };

@@ -238,7 +238,7 @@ Vector SimbodyReduction::kept(const Matrix& g, const Vector& bias, const Vector&
   return dependent_part;
 }
 
-Reduction SimbodyReduction::reduce(State& state, const KnownDerivatives* known) const {
+Reduction SimbodyReduction::reduce(State& state, const KnownDerivatives* known, Upto last) const {
   Reduction result;
 
   // Position: the loops are closed, and on which branch.
@@ -281,6 +281,7 @@ Reduction SimbodyReduction::reduce(State& state, const KnownDerivatives* known) 
   Vector momentum;
   matter_.multiplyByM(state, result.q1, momentum);
   result.inertia = ~result.q1 * momentum;
+  if (last == Upto::velocity) return result;
 
   // Acceleration at constant speed: G u̇ + b = 0; the inertia forces then do I_r′ = 2 uᵀ (M u̇ + c), theory 2.4.
   Vector bias, residual;

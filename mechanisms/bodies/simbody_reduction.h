@@ -41,6 +41,9 @@ struct KnownDerivatives {
   SimTK::Vector q1, q2, q3;
 };
 
+// The last derivatives of the coordinates that a reduction finds; what follows from later ones is left out.
+enum class Upto { velocity, jerk };
+
 // A planar vector in precision T.
 template <class T>
 struct Planar {
@@ -73,7 +76,7 @@ class SimbodyReduction {
   // The reduction at a closed state, whose speeds are set to the velocity ratios (dφ/dt = 1). Throws std::runtime_error
   // if the loops are open by Simbody. In a change point, where the closures do not determine the motion, its derivatives
   // are given by `known`; they only have to satisfy the closures.
-  Reduction reduce(SimTK::State& state, const KnownDerivatives* known = nullptr) const;
+  Reduction reduce(SimTK::State& state, const KnownDerivatives* known = nullptr, Upto last = Upto::jerk) const;
 
  private:
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;

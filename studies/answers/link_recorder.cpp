@@ -71,14 +71,19 @@ void LinkRecorder::step(StepView& view) {
     after = t, beyond_after = now;
   }
   if (view.t() < late_from_) return;
-  double reached = std::abs(speed);  // a swing may have its greatest speeds within steps
-  for_each_turn_within(view.t_previous(), view.t(), speed_at,
-                       [&](double t) { reached = std::max(reached, std::abs(link.gain * speed_at(t))); });
+  // A swing may have its greatest speeds within steps; a cubic exceeds its ends by at most 4/27 of this.
+  double reached = std::abs(speed);
+  const double beyond_ends = (view.t() - view.t_previous()) * std::abs(link.gain) *
+                             (std::abs(view.ydot_previous()[state]) + std::abs(view.ydot()[state]));
+  const bool swings_back = late_sense_ == -sense && turns;
+  if (std::max(reached, std::abs(link.gain * from)) + beyond_ends > (swings_back ? 0 : swing_fastest_))
+    for_each_turn_within(view.t_previous(), view.t(), speed_at,
+                         [&](double t) { reached = std::max(reached, std::abs(link.gain * speed_at(t))); });
   if (view.t_previous() < late_from_) late_begin_ = low_ = high_ = before;
   way_ += std::abs(angle_ - before), late_fastest_ = std::max(late_fastest_, std::abs(speed));
   low_ = std::min(low_, angle_), high_ = std::max(high_, angle_);
   if (reverses) low_ = std::min(low_, extreme_), high_ = std::max(high_, extreme_);
-  if (late_sense_ == -sense && turns) swing_before_ = std::exchange(swing_fastest_, 0);
+  if (swings_back) swing_before_ = std::exchange(swing_fastest_, 0);
   swing_fastest_ = std::max(swing_fastest_, reached);
   if (!turns) return;
   if (late_sense_ == -sense) {

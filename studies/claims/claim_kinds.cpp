@@ -78,40 +78,18 @@ constexpr std::array kinds = {
               "value: the largest multiplier; limit: 1",
               "In the elastic model the steady motion does not last: it is unstable: a deviation doubles in 4.2 cycles",
               "steady"},
-<<<<<<< HEAD
-    ClaimKind{
-        start_shafts_disagree, runs, warning, above,
-        "at the start shafts that a clutch does not part turn at speeds that differ, and the scene does not give them",
-        "value: the difference of speed [rad/s]",
-        "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a shock", "run, compare, steady"},
-    ClaimKind{
-        start_unstable, runs, warning, above,
-        "a shaft, with those that springs, belts and closed clutches join to it, starts at rest, nothing holds it, its "
-        "acceleration is rounding, and 1e-4 rad to either side it is accelerated away; nothing else moves it before "
-        "that time. No figure of a run that lasts longer has a known error",
-        "at: rounding has grown to 1e-9 rad; value: rate at which a deviation grows, λ of e^(λt), of joined shafts as "
-        "if they were rigid [1/s]; limit: 0",
-        "\"press\" starts in an unstable equilibrium: rounding decides when it leaves it, and to which side; a "
-        "deviation "
-        "grows tenfold in 0.07 s. Start it at another angle",
-        "run, compare, steady"},
-    ClaimKind{
-        runs_steadily, runs, note, anything,
-        "what the mid speed of the cycle still has to go to its limit, by the last three cycles or more without a "
-        "command, is at most 0.1 % of it, and the link does not stand within the cycle",
-        "at: end of the run-up; value: mean speed [rad/s]", "\"press\" runs steadily at 59.77 rpm from 0.9627 s on",
-        "run, compare, steady"},
-=======
     ClaimKind{start_shafts_disagree, runs, warning, above,
               "shafts that no clutch separates start at different speeds, which the scene does not give",
               "value: the difference of speed [rad/s]",
               "\"coupling\" joins shafts that start at 0 rpm and 1455 rpm: the start is a shock",
               "run, compare, steady"},
     ClaimKind{start_unstable, runs, warning, above,
-              "a shaft starts at rest in an unstable equilibrium: no spring and no closed clutch joins it to others, "
-              "nothing holds it, its acceleration is of the size of rounding, it is accelerated away 1e-4 rad to "
-              "either side, and nothing else moves it earlier. No figure of a run that lasts longer has a known error",
-              "at: rounding has grown to 1e-9 rad; value: rate at which a deviation grows, λ of e^(λt) [1/s]; limit: 0",
+              "a shaft, with those that springs, belts and closed clutches join to it, starts at rest in an unstable "
+              "equilibrium: nothing holds it, its acceleration is of the size of rounding, it is accelerated away "
+              "1e-4 rad to either side, and nothing else moves it earlier. No figure of a run that lasts longer has a "
+              "known error",
+              "at: rounding has grown to 1e-9 rad; value: rate at which a deviation grows, λ of e^(λt), of joined "
+              "shafts as if they were rigid [1/s]; limit: 0",
               "\"press\" starts in an unstable equilibrium: rounding decides when it leaves it, and to which side; a "
               "deviation "
               "grows tenfold in 0.07 s. Start it at another angle",
@@ -121,7 +99,6 @@ constexpr std::array kinds = {
               "without a command, and the link does not stand within the cycle",
               "at: end of the run-up; value: mean speed [rad/s]",
               "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},
->>>>>>> c58c8fd1a94c5d66d9f056ecc7634fb87a576728
     ClaimKind{
         vibrates, runs, note, anything,
         "the motion repeats, and the link does not turn on average; in a run: during its last quarter, or its last "

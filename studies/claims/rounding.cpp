@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 
@@ -14,13 +16,40 @@ namespace {
 
 constexpr int digits_without_error = 6, digits_if_exact = 12;
 
-// Decimal exponent of the first significant digit, from its text: a logarithm may be off by one next to powers of ten.
+// As "{:.{}e}" writes it.
+struct Scientific {
+  Scientific(double x, int digits)
+      : end(std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, digits).ptr) {}
+  double number() const {
+    double value = 0;
+    std::from_chars(text.data(), end, value);
+    return value;
+  }
+  std::array<char, 40> text;
+  char* end;
+};
+
+// Decimal exponent of the first significant digit, from its text where the logarithm is next to a whole number.
 int exponent_of(double x) {
-  const std::string text = fmt::format("{:.16e}", std::abs(x));
-  return std::atoi(text.c_str() + text.find('e') + 1);
+  const double logarithm = std::log10(std::abs(x)), whole = std::floor(logarithm);
+  if (logarithm - whole > 1e-9 && logarithm - whole < 1 - 1e-9) return static_cast<int>(whole);
+  const Scientific written(std::abs(x), 16);
+  int exponent = 0;
+  const char* sign = std::find(written.text.data(), static_cast<const char*>(written.end), 'e') + 1;
+  std::from_chars(sign + (*sign == '+'), written.end, exponent);
+  return exponent;
 }
 
-double power_of_ten(int exponent) { return std::strtod(fmt::format("1e{}", exponent).c_str(), nullptr); }
+double power_of_ten(int exponent) {
+  static constexpr auto exact = [] {  // their quotients are rounded right
+    std::array<double, 23> power{1};
+    for (std::size_t k = 1; k < power.size(); ++k) power[k] = 10 * power[k - 1];
+    return power;
+  }();
+  const auto size = static_cast<std::size_t>(std::abs(exponent));
+  if (size < exact.size()) return exponent >= 0 ? exact[size] : 1 / exact[size];
+  return std::strtod(fmt::format("1e{}", exponent).c_str(), nullptr);
+}
 
 // The value with its last digit at 10^place, in fixed notation from 1e-4 to 1e9.
 std::string written(double value, int place) {
@@ -38,7 +67,7 @@ double rounded_to(double value, int place) {
     const double unit = power_of_ten(place);
     return std::abs(value) >= 0.5 * unit ? std::copysign(unit, value) : 0;
   }
-  return std::strtod(fmt::format("{:.{}e}", value, std::min(digits, 17)).c_str(), nullptr);
+  return Scientific(value, std::min(digits, 17)).number();
 }
 
 // Number of units 10^place in the error, rounded up; whole numbers are kept despite round-off.

@@ -1,6 +1,7 @@
 // data_table.cpp — the text of tables and of their numbers.
 #include "studies/data/data_table.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -12,12 +13,14 @@ namespace kurbel {
 namespace {
 
 void put_number(std::string& text, double value, const NumberFormat& format) {
-  if (format.after_point)
+  if (format.after_point) {
     fmt::format_to(std::back_inserter(text), "{:.{}f}", value, format.digits);
-  else if (format.digits > 0)
+  } else if (format.digits > 0) {
     append_digits(text, value, format.digits);
-  else
-    fmt::format_to(std::back_inserter(text), "{}", value);
+  } else {
+    char place[32];  // the longest has 24
+    text.append(place, static_cast<std::size_t>(fmt::format_to(place, FMT_COMPILE("{}"), value) - place));
+  }
 }
 
 // Text with a comma, a quotation mark or a line end is quoted, inner quotation marks are doubled (RFC 4180).

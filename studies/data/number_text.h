@@ -5,7 +5,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 
 namespace kurbel {
@@ -21,7 +23,7 @@ inline constexpr std::array<double, 23> ten_to = {1e0,  1e1,  1e2,  1e3,  1e4,  
 inline char* put_plain(char* out, double value, int digits) {
   const double size = std::abs(value);
   if (!(size >= 1e-4 && size < 1e11) || digits < 1 || digits > 12) return nullptr;
-  int point = -3;  // of the digits, that of the first one before it
+  int point = size >= 1 ? 1 : -3;  // of the digits, that of the first one before it
   while (point < 11 &&
          size >= (point < 0 ? 1 / ten_to[static_cast<std::size_t>(-point)] : ten_to[static_cast<std::size_t>(point)]))
     ++point;
@@ -36,17 +38,23 @@ inline char* put_plain(char* out, double value, int digits) {
   const auto least = static_cast<std::uint64_t>(ten_to[static_cast<std::size_t>(digits - 1)]);
   if (point > digits || whole < least || whole >= 10 * least) return nullptr;
   if (value < 0) *out++ = '-';
-  std::array<char, 24> text;
-  char* const end = std::to_chars(text.data(), text.data() + text.size(), whole).ptr;
-  const char* last = end;  // behind the last one that is no zero, at least behind the point
-  while (last - text.data() > std::max(point, 1) && last[-1] == '0') --last;
-  const char* digit = text.data();
-  if (point <= 0) *out++ = '0';
-  for (int k = 0; k < point; ++k) *out++ = *digit++;
-  if (digit == last) return out;
+  std::array<char, 32> text{};
+  const char* const first = text.data();
+  const char* last = std::to_chars(text.data(), text.data() + text.size(), whole).ptr;
+  while (last - first > std::max(point, 1) && last[-1] == '0') --last;  // at least behind the point
+  const auto copy = [&](const char* from, std::ptrdiff_t count) {
+    std::memcpy(out, from, 16);  // more than count, at one go
+    out += count;
+  };
+  if (point <= 0) {
+    copy("0.00000000000000", 2 - point);
+    copy(first, last - first);
+    return out;
+  }
+  copy(first, point);
+  if (last - first == point) return out;
   *out++ = '.';
-  for (int k = point; k < 0; ++k) *out++ = '0';
-  while (digit != last) *out++ = *digit++;
+  copy(first + point, last - first - point);
   return out;
 }
 
@@ -57,7 +65,7 @@ inline void append_digits(std::string& text, double value, int digits) {
   char place[64];
   char* end = number_text_detail::put_plain(place, value, digits);
   if (!end) end = std::to_chars(place, place + sizeof place, value, std::chars_format::general, digits).ptr;
-  text.append(place, end);
+  text.append(place, static_cast<std::size_t>(end - place));
 }
 
 }  // namespace kurbel

@@ -46,16 +46,19 @@ std::string duration_text(double seconds) {
                         : fmt::format("{:.3g} s", seconds);
 }
 
+namespace {
+std::string cell_of(const FigureText& text) { return text.error.empty() ? "not measured" : text.error; }
+}  // namespace
+
 FigureCells figure_cells(const Estimate& estimate, const std::string& si_unit, const SpeedUnit& speed,
                          int most_digits) {
   const bool turns = si_unit == "rad/s";
   const Estimate shown = turns ? estimate / speed.size : estimate;
-  return {figure_text(shown, most_digits).value, error_cell(shown), pretty_unit(turns ? speed.name : si_unit)};
+  const FigureText text = figure_text(shown, most_digits);
+  return {text.value, most_digits == digits_in_tables ? cell_of(text) : error_cell(shown),
+          pretty_unit(turns ? speed.name : si_unit)};
 }
 
-std::string error_cell(const Estimate& estimate) {
-  const FigureText text = figure_text(estimate);
-  return text.error.empty() ? "not measured" : text.error;
-}
+std::string error_cell(const Estimate& estimate) { return cell_of(figure_text(estimate)); }
 
 }  // namespace kurbel

@@ -79,8 +79,8 @@ void TraceRecorder::look(double t, std::span<const double> y, Equations& equatio
 void TraceRecorder::put(double t, Equations& equations, bool only_jumps) {
   for (std::size_t i = 0; i < now_.size(); ++i) {
     Trace& trace = traces_->over_time[i];
-    const bool same = !trace.y.empty() && std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i]);
-    if (!only_jumps || !same) push(trace, t, now_[i]);
+    if (only_jumps && !trace.y.empty() && std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i])) continue;
+    push(trace, t, now_[i]);
   }
   if (model_->cycle > 0 && !only_jumps) follow_cycle(t, sources_.drive(equations.modes().active));
 }

@@ -258,7 +258,12 @@ class Simulation {
   std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
     return one_run(tolerance, elsewhere ? equations_elsewhere() : equations_, elsewhere);
   }
+  // Looks closely where the speed passes what the last run was asked for; everywhere, should other levels be asked for.
   std::unique_ptr<OneRun> one_run(double tolerance, Equations& equations, bool elsewhere = false) {
+    std::unique_ptr<OneRun> run = one_run(tolerance, equations, elsewhere, fine_ ? fine_->speed.get() : nullptr);
+    return run->speed->answered() ? std::move(run) : one_run(tolerance, equations, elsewhere, nullptr);
+  }
+  std::unique_ptr<OneRun> one_run(double tolerance, Equations& equations, bool elsewhere, const SpeedRecorder* before) {
     const Model& model = equations.model();
     auto run = std::make_unique<OneRun>();
     const int rows = elsewhere ? 0 : settings_.samples;  // a witness is asked for figures alone
@@ -274,8 +279,8 @@ class Simulation {
     run->falls = std::make_unique<FlywheelFalls>(model);
     run->currents = std::make_unique<MotorCurrents>(model);
     run->ranges = std::make_unique<DataRangeRecorder>(model);
-    run->speed = std::make_unique<SpeedRecorder>(settings_.until);
-    run->energy = std::make_unique<EnergyAudit>(settings_.until, energy_checks);
+    run->speed = std::make_unique<SpeedRecorder>(settings_.until, before);
+    run->energy = std::make_unique<EnergyAudit>(settings_.until, elsewhere ? 2 : energy_checks);
     RunOptions options{.tolerance = tolerance,
                        .method = elsewhere ? confirming_method() : settings_.method,
                        .until = settings_.until,
@@ -377,20 +382,12 @@ class Simulation {
       result_.claims.push_back(std::move(claim));
     drop_errors_after_unstable_start(result_);
     report_outside_data(*run.ranges, result_);
-    note_regularised(run.outcome.regularised);
+    for (std::string& note : regularised(run.outcome.regularised)) result_.notes.push_back(std::move(note));
     for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects})
       for (std::string& note : (*of)(m)) result_.notes.push_back(std::move(note));
     if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
       result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
-  }
-  void note_regularised(const std::vector<std::string>& list) {
-    for (const std::string& what : std::set<std::string>(list.begin(), list.end())) {
-      const auto times = std::count(list.begin(), list.end(), what);
-      result_.notes.push_back(
-          fmt::format("{}: the contact chatters{}, so it follows a law without events; see the events", what,
-                      times > 1 ? fmt::format(" {} times", times) : ""));
-    }
   }
   // Causes of short steps; empty if the equations cannot be evaluated at the end.
   std::vector<LimitedSteps> limits_of(const RunOutcome& outcome) {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
+#include <set>
 
 #include "engine/reading/mirrored.h"
 #include "engine/values/dense_tables.h"
@@ -72,6 +72,16 @@ std::vector<std::string> idle_effects(const Model& model) {
         fmt::format("variable inertia is off: \"{}\" is a crank of constant inertia then, without rod and joints, and "
                     "{} {} with it, although on",
                     e.component, fmt::join(idle, " and "), idle.size() > 1 ? "go" : "goes"));
+  }
+  return notes;
+}
+
+std::vector<std::string> regularised(const std::vector<std::string>& contacts) {
+  std::vector<std::string> notes;
+  for (const std::string& what : std::set<std::string>(contacts.begin(), contacts.end())) {
+    const auto times = std::count(contacts.begin(), contacts.end(), what);
+    notes.push_back(fmt::format("{}: the contact chatters{}, so it follows a law without events; see the events", what,
+                                times > 1 ? fmt::format(" {} times", times) : ""));
   }
   return notes;
 }

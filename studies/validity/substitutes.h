@@ -1,4 +1,4 @@
-// substitutes.h — notes on a model: substitutes for data that a scene does not give, or not in this form (diagrams of misfiring
+// substitutes.h — notes on a model and its run: substitutes for data that a scene does not give, or not in this form (diagrams of misfiring
 // cylinders, flux lag of motors with unknown circuit, dense tables with fewer pieces, the branch beyond a change point); effects without influence.
 #pragma once
 
@@ -11,6 +11,8 @@ namespace kurbel {
 
 // One sentence for each substitute.
 std::vector<std::string> substitutes(const Model& model);
+// One for each contact that chattered, by its name, and followed a law without events; a name may come again.
+std::vector<std::string> regularised(const std::vector<std::string>& contacts);
 
 // Effects that are on and have data but no influence, because another effect that they need is off: one sentence for
 // each component. Without variable inertia a mechanism is a crank of constant inertia without rod

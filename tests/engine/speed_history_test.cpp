@@ -7,6 +7,8 @@
 #include <functional>
 #include <random>
 
+#include "tests/support/scenes.h"
+
 namespace kurbel::speed_history_test {
 namespace {
 
@@ -84,6 +86,47 @@ TEST(BandHistory, WhatIsAppendedCountsAsIfItHadBeenAddedStepByStep) {
   first.append(second);
   for (const double level : {0.1, 0.3, 0.5, 0.7})
     EXPECT_NEAR(*first.last_outside(-level, level), *whole.last_outside(-level, level), 1e-9) << level;
+}
+
+struct Watched {
+  SpeedRecorder speed;
+  std::int64_t evaluations = 0;
+};
+
+Watched watched(const std::shared_ptr<const Model>& model, const SpeedRecorder* before) {
+  Watched w{SpeedRecorder(4, before)};
+  Equations equations(model, true);
+  RunOptions options;
+  options.tolerance = 1e-8;
+  options.until = 4;
+  const RunOutcome outcome = integrate(equations, options, {&w.speed});
+  EXPECT_TRUE(outcome.complete) << outcome.diagnosis;
+  w.evaluations = outcome.statistics.stepper.flow_calls;
+  return w;
+}
+
+// The run repeated looks between the ends of the few steps that pass what the first one was asked for, and finds the same
+// bits; what lies elsewhere it does not claim to know.
+TEST(SpeedRecorder, ARunRepeatedLooksCloselyWhereItWillBeAsked) {
+  const Scene scene = test::scene_file("scenes/crank_press.toml");
+  const auto model = compile(scene, scene.effects);
+  const Watched first = watched(model, nullptr);
+  const auto last_outside = [](const Watched& w, double low, double high) {
+    return w.speed.driven().last_outside(low, high);
+  };
+  const std::vector<std::pair<double, double>> bands = {{2, 9}, {5.9, 6.6}, {-3, 3}};
+  for (const auto& [low, high] : bands) last_outside(first, low, high);
+  const Watched again = watched(model, &first.speed);
+  for (const auto& [low, high] : bands) {
+    const std::optional<double> time = last_outside(first, low, high);
+    ASSERT_TRUE(time) << low;
+    EXPECT_EQ(last_outside(again, low, high), time) << low;
+    EXPECT_EQ(again.speed.works_at(*time), first.speed.works_at(*time)) << low;
+  }
+  EXPECT_TRUE(again.speed.answered());
+  EXPECT_LT(again.evaluations, 0.9 * static_cast<double>(first.evaluations));
+  last_outside(again, 4, 9);
+  EXPECT_FALSE(again.speed.answered());
 }
 
 }  // namespace
