@@ -176,14 +176,15 @@ std::string Linkage::undetermined(const AssurGroup& group) const {
 
 void Linkage::refuse_change_point(int group, long double phi) {
   const AssurGroup& of = structure_.groups[static_cast<std::size_t>(group)];
-  refuse("points",
-         fmt::format(
-             "at φ = {} {}, or so nearly that a few millionths of a length decide how the links continue: a change "
-             "point. {}; of its own a parallelogram passes them, and the kinds four-bar, "
-             "slider-crank and inverted slider-crank pass theirs",
-             in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
-             of.superfluous > 0 ? "Put all bearings of parallel cranks in one line, or one of them clearly out of it"
-                                : "Change a length clearly, or draw a parallelogram"));
+  refuse(
+      "points",
+      fmt::format(
+          "at φ = {} {}, or so nearly that a few millionths of a length decide how the links continue: a change "
+          "point. {}; passed are those of exact parallelograms, and of the kinds four-bar, slider-crank and inverted "
+          "slider-crank",
+          in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
+          of.superfluous > 0 ? "Put all bearings of parallel cranks in one line, or one of them clearly out of it"
+                             : "Change a length clearly"));
 }
 
 void Linkage::refuse_stop(const Closed& stopped, long double phi) {
