@@ -5,6 +5,7 @@
 // RPR, PRP, RPP (R: pin, P: slide). A set with 3 n < 2 p has redundant joints; it moves only for special lengths.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,10 +43,15 @@ struct LinkageJoint {
 
 // Motion of a group in parallel with two known links (parallel_group.h).
 struct ParallelMotion {
+  struct Link {
+    bool rod = false;  // keeps the base's rotation, not the leader's
+    SketchSpot offset;
+  };
   int base = LinkageSketch::frame, leader = 0;
-  std::vector<bool> rod;                // of each link: keeps the base's rotation, not the leader's
-  std::vector<SketchSpot> offset;       // of each link
-  SketchSpot along_rods, along_cranks;  // unit vectors; parallel in a change point
+  std::array<Link, LinkageSketch::most_links> links = {};  // in the group's order
+  // All rods lie along one line, all cranks along another (unit vectors): parallel in a change point.
+  bool changes = false;
+  SketchSpot along_rods = {}, along_cranks = {};
 };
 
 struct AssurGroup {
@@ -57,10 +63,10 @@ struct AssurGroup {
   int order = 2;            // number of joints to the links before it
   int superfluous = 0;      // 2 p − 3 n: number of redundant closure equations, if the linkage can move
 
-  std::optional<ParallelMotion> parallel;  // if its change points are passed by it
+  std::optional<ParallelMotion> parallel;  // the way it is closed, if it has one
 
   bool is_dyad() const { return form != Form::newton; }
-  bool by_newton() const { return !is_dyad() && !parallel; }
+  bool changes() const { return parallel && parallel->changes; }
 };
 
 struct LinkageStructure {

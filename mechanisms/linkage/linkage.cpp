@@ -50,6 +50,7 @@ Linkage::Linkage(LinkageSketch sketch) : sketch_(std::move(sketch)) {
     }
   explore();
   if (faults_.empty()) find_margins();
+  if (faults_.empty()) close_in_parallel();
 }
 
 // What must hold before anything is counted. The driving link turns about one bearing, and another link is the output.
@@ -107,19 +108,18 @@ bool Linkage::check_links() {
 Linkage::Closed Linkage::close(long double phi, const Shifts& start) const {
   Closed out(sketch_.links.size());
   out.poses.of(sketch_.driver).turn = Direction::of_variable(phi - drawn_at_);
-  std::size_t by_newton = 0;
   for (std::size_t k = 0; k < structure_.groups.size(); ++k) {
     const AssurGroup& group = structure_.groups[k];
+    if (!group.is_dyad()) out.shifts.push_back(start[out.shifts.size()]);
     if (group.parallel) {
       move_in_parallel(group, out.poses);
-      const long double sine = sine_of(*group.parallel, out.poses).value();
+      const long double sine = group.changes() ? sine_of(*group.parallel, out.poses).value() : 1;
       out.margin.push_back(sine * sine);
       continue;
     }
     if (group.is_dyad()) {
       out.margin.push_back(close_dyad(group, structure_.joints, out.poses));
     } else {
-      out.shifts.push_back(start[by_newton++]);
       out.how = close_by_newton(group, structure_.joints, size_, out.poses, out.shifts.back());
       out.margin.push_back(out.how.closed ? out.how.pivot * out.how.pivot : 0);
     }
@@ -150,7 +150,7 @@ Linkage::Shifts Linkage::start_near(long double phi) const {
 
 std::optional<Taylor> Linkage::change_sine(const LinkPoses& poses) const {
   for (const AssurGroup& group : structure_.groups)
-    if (group.parallel) return sine_of(*group.parallel, poses);
+    if (group.changes()) return sine_of(*group.parallel, poses);
   return {};
 }
 
@@ -158,7 +158,7 @@ bool Linkage::change_turns_over() const {
   int single = 0;
   for (const AssurGroup& group : structure_.groups) {
     if (group.superfluous > 0) return false;
-    single += group.parallel ? 1 : 0;
+    single += group.changes() ? 1 : 0;
   }
   return single % 2 == 1;
 }

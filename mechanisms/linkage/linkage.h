@@ -79,7 +79,8 @@ class Linkage {
   Shifts predicted(const Node& from, long double phi) const;
   Shifts start_near(long double phi) const;
   bool start_at_sketch(Node& node);
-  void find_parallel_groups(const LinkPoses& drawn, Node& node);
+  void find_change_points(const LinkPoses& drawn, Node& node);
+  void close_in_parallel();
   struct Way {
     std::vector<Node> nodes;
     std::optional<Closed> stopped;  // the position that could not be closed

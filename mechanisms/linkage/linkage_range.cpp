@@ -29,7 +29,7 @@ std::string in_degrees_of(long double phi) {
 bool Linkage::start_at_sketch(Node& node) {
   node = {drawn_at_, {}};
   for (const AssurGroup& group : structure_.groups)
-    if (group.by_newton()) node.shifts.emplace_back(group.links.size());
+    if (!group.is_dyad()) node.shifts.emplace_back(group.links.size());
   const Closed closed = close(drawn_at_, node.shifts);
   std::optional<std::size_t> dead;
   for (std::size_t k = 0; k < closed.margin.size() && !dead; ++k)
@@ -43,27 +43,35 @@ bool Linkage::start_at_sketch(Node& node) {
     return false;
   }
   node.shifts = closed.shifts;
-  find_parallel_groups(closed.poses, node);
+  find_change_points(closed.poses, node);
   return true;
 }
 
 // All of them change together: change points in other positions than the first group's are refused.
-void Linkage::find_parallel_groups(const LinkPoses& drawn, Node& node) {
+void Linkage::find_change_points(const LinkPoses& drawn, Node& node) {
   constexpr long double alike = 1e-9L;
   std::optional<Taylor> first;
-  auto shifts = node.shifts.begin();
+  std::size_t shifts = 0;  // of the group: there are none of a dyad
   for (AssurGroup& group : structure_.groups) {
-    const bool by_newton = group.by_newton();
-    if (auto motion = parallel_motion(group, sketch_, structure_, drawn, size_)) {
-      const Taylor sine = sine_of(*motion, drawn);
-      if (!first) first = sine;
-      const long double sense = sine.value() * first->value() < 0 ? -1 : 1;
-      bool same = true;
-      for (int k = 0; k <= Taylor::order; ++k) same = same && std::fabs(sense * sine.c[k] - first->c[k]) < alike;
-      if (same) group.parallel = std::move(motion);
-    }
-    if (by_newton) shifts = group.parallel ? node.shifts.erase(shifts) : std::next(shifts);
+    shifts += group.is_dyad() ? 0 : 1;
+    const auto motion = parallel_motion(group, sketch_, structure_, drawn, size_);
+    if (!motion || !motion->changes) continue;
+    const Taylor sine = sine_of(*motion, drawn);
+    if (!first) first = sine;
+    const long double sense = sine.value() * first->value() < 0 ? -1 : 1;
+    bool same = true;
+    for (int k = 0; k <= Taylor::order; ++k) same = same && std::fabs(sense * sine.c[k] - first->c[k]) < alike;
+    if (!same) continue;
+    group.parallel = motion;
+    if (!group.is_dyad()) node.shifts[shifts - 1].assign(group.links.size(), {});  // nothing to follow
   }
+}
+
+// Where Newton's method has found no change point, the closed form is exact and costs less.
+void Linkage::close_in_parallel() {
+  const LinkPoses drawn = poses(drawn_at_);
+  for (AssurGroup& group : structure_.groups)
+    if (!group.is_dyad() && !group.parallel) group.parallel = parallel_motion(group, sketch_, structure_, drawn, size_);
 }
 
 // Steps are halved until what Newton's method corrects is little, so that no other branch is taken.
@@ -176,14 +184,15 @@ std::string Linkage::undetermined(const AssurGroup& group) const {
 
 void Linkage::refuse_change_point(int group, long double phi) {
   const AssurGroup& of = structure_.groups[static_cast<std::size_t>(group)];
-  refuse("points",
-         fmt::format(
-             "at φ = {} {}, or so nearly that a few millionths of a length decide how the links continue: a change "
-             "point. {}; of its own a parallelogram passes them, and the kinds four-bar, "
-             "slider-crank and inverted slider-crank pass theirs",
-             in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
-             of.superfluous > 0 ? "Put all bearings of parallel cranks in one line, or one of them clearly out of it"
-                                : "Change a length clearly, or draw a parallelogram"));
+  refuse(
+      "points",
+      fmt::format(
+          "at φ = {} {}, or so nearly that a few millionths of a length decide how the links continue: a change "
+          "point. {}; passed are those of exact parallelograms, and of the kinds four-bar, slider-crank and inverted "
+          "slider-crank",
+          in_degrees_of(phi), of.is_dyad() ? dead_position_of(of, sketch_) : undetermined(of),
+          of.superfluous > 0 ? "Put all bearings of parallel cranks in one line, or one of them clearly out of it"
+                             : "Change a length clearly"));
 }
 
 void Linkage::refuse_stop(const Closed& stopped, long double phi) {
@@ -239,7 +248,7 @@ void Linkage::find_margins() {
       if (&at[g][k] != &*least && !(dips && at[g][k] < small * scale)) continue;
       const LeastMargin found = least_near(g, k);
       if (structure_.groups[g].is_dyad() && found.margin < least_[g].margin) least_[g] = found;
-      if (structure_.groups[g].parallel || at_an_end(found.phi) || found.margin > least_margin * scale) continue;
+      if (structure_.groups[g].changes() || at_an_end(found.phi) || found.margin > least_margin * scale) continue;
       return refuse_change_point(static_cast<int>(g), found.phi);
     }
   }

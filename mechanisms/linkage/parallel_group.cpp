@@ -2,6 +2,7 @@
 #include "mechanisms/linkage/parallel_group.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace kurbel {
@@ -28,8 +29,10 @@ class ParallelTrial {
       : g_(g), s_(s), all_(all), drawn_(drawn), same_(same) {}
 
   std::optional<ParallelMotion> by(int base, int leader, int bearing) {
-    motion_ = {base, leader, {}, {}, {}, {}};
-    if (!put_rotations() || !starts_at(bearing) || !put_offsets() || !is_in_line(bearing)) return {};
+    motion_ = {};
+    motion_.base = base, motion_.leader = leader;
+    if (!put_rotations() || !starts_at(bearing) || !put_offsets()) return {};
+    find_lines(bearing);
     return motion_;
   }
 
@@ -43,15 +46,17 @@ class ParallelTrial {
   bool put_rotations() {
     constexpr long double alike = 1e-6L;
     if (std::fabs(rate(motion_.base) - rate(motion_.leader)) < 1e3L * alike) return false;
-    for (const int link : g_.links) {
-      motion_.rod.push_back(std::fabs(rate(link) - rate(motion_.base)) < alike);
-      if (!motion_.rod.back() && std::fabs(rate(link) - rate(motion_.leader)) > alike) return false;
+    for (std::size_t i = 0; i < g_.links.size(); ++i) {
+      const long double own = rate(g_.links[i]);
+      bool& rod = motion_.links[i].rod;
+      rod = std::fabs(own - rate(motion_.base)) < alike;
+      if (!rod && std::fabs(own - rate(motion_.leader)) > alike) return false;
     }
     return true;
   }
   // The arm of a point: it stands at F(x) + (T_K − T_F) arm.
   bool starts_at(int bearing) {
-    arm_.assign(s_.points.size(), {});
+    arm_ = {};
     for (const int p : points_of(motion_.leader)) arm_[nth(p)] = spot(p) - spot(bearing);
     for (const int p : points_of(motion_.base)) arm_[nth(p)] = SketchSpot{};
     return std::all_of(g_.joints.begin(), g_.joints.end(), [&](int k) {
@@ -60,25 +65,23 @@ class ParallelTrial {
     });
   }
   bool put_offsets() {
-    std::vector<std::optional<SketchSpot>> offset(g_.links.size());
+    std::array<bool, LinkageSketch::most_links> put = {};
     for (bool more = true; more;) {
       more = false;
       for (std::size_t i = 0; i < g_.links.size(); ++i)
         for (const int p : points_of(g_.links[i])) {
-          const SketchSpot own = motion_.rod[i] ? SketchSpot{} : spot(p);
+          ParallelMotion::Link& link = motion_.links[i];
+          const SketchSpot own = link.rod ? SketchSpot{} : spot(p);
           std::optional<SketchSpot>& arm = arm_[nth(p)];
-          if (arm && !offset[i]) offset[i] = *arm - own, more = true;
-          if (!arm && offset[i]) arm = *offset[i] + own, more = true;
-          if (arm && offset[i] && length(*arm - own - *offset[i]) > same_) return false;
+          if (arm && !put[i]) link.offset = *arm - own, put[i] = more = true;
+          if (!arm && put[i]) arm = link.offset + own, more = true;
+          if (arm && put[i] && length(*arm - own - link.offset) > same_) return false;
         }
     }
-    for (const auto& o : offset) {
-      if (!o) return false;
-      motion_.offset.push_back(*o);
-    }
-    return true;
+    return std::all_of(put.begin(), put.begin() + static_cast<std::ptrdiff_t>(g_.links.size()),
+                       [](bool is) { return is; });
   }
-  bool is_in_line(int bearing) {
+  void find_lines(int bearing) {
     PinLine rods, cranks;
     const auto add = [&](int body, bool is_rod) {
       std::optional<int> first;
@@ -91,9 +94,9 @@ class ParallelTrial {
       for (const int k : g_.joints) through(all_.joints[nth(k)].point);
     };
     add(motion_.base, true), add(motion_.leader, false);
-    for (std::size_t i = 0; i < g_.links.size(); ++i) add(g_.links[i], motion_.rod[i]);
+    for (std::size_t i = 0; i < g_.links.size(); ++i) add(g_.links[i], motion_.links[i].rod);
     motion_.along_rods = rods.along, motion_.along_cranks = cranks.along;
-    return rods.straight && cranks.straight;
+    motion_.changes = rods.straight && cranks.straight;
   }
 
   const AssurGroup& g_;
@@ -102,7 +105,7 @@ class ParallelTrial {
   const LinkPoses& drawn_;
   long double same_;  // length within which places agree [m]
   ParallelMotion motion_;
-  std::vector<std::optional<SketchSpot>> arm_;
+  std::array<std::optional<SketchSpot>, LinkageSketch::most_points> arm_;
 };
 
 }  // namespace
@@ -127,8 +130,8 @@ void move_in_parallel(const AssurGroup& g, LinkPoses& poses) {
   const ParallelMotion& m = *g.parallel;
   const LinkPose base = poses[m.base], leader = poses[m.leader];
   for (std::size_t i = 0; i < g.links.size(); ++i) {
-    LinkPose& to = poses.of(g.links[i]) = m.rod[i] ? base : LinkPose{base.at, leader.turn};
-    to.at = to.at + (leader.turned(m.offset[i]) - base.turned(m.offset[i]));
+    const auto& [rod, offset] = m.links[i];
+    poses.of(g.links[i]) = {base.at + (leader.turned(offset) - base.turned(offset)), rod ? base.turn : leader.turn};
   }
 }
 

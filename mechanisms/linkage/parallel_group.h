@@ -16,8 +16,7 @@
 
 namespace kurbel {
 
-// The motion of a group whose pins lie on parallel lines, in the order of its links. Empty: it has no such motion, or does
-// not pass change points by it. `drawn`: the regularly closed position of the sketch; `size` [m]: of the linkage.
+// The motion of a group in parallel, in the order of its links; empty: it has none. `drawn`: the regularly closed position of the sketch; `size` [m]: of the linkage.
 std::optional<ParallelMotion> parallel_motion(const AssurGroup& group, const LinkageSketch& sketch,
                                               const LinkageStructure& structure, const LinkPoses& drawn,
                                               long double size);

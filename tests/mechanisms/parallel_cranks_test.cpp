@@ -140,7 +140,8 @@ TEST(ParallelCranks, BehindAnotherGroupTheyFollowTheirOwnLeader) {
 TEST(ParallelCranks, HaveTheReactionsOfTheNamedFourBar) {
   FourBarData named;
   named.crank = r, named.coupler = 0.3, named.rocker = r, named.ground = 0.3, named.gravity = 9.81;
-  named.crank_body = named.rocker_body = {crank_mass, r / 2, crank_inertia};
+  named.crank_body =
+      named.rocker_body = {crank_mass, r / 2, crank_inertia + crank_mass * r * r / 4};  // about the bearing
   named.coupler_body = {rod_mass, 0.15, 0.2};
   SketchOf of = wheels(2, 0, 1, true);
   of.s.gravity = 9.81;
@@ -177,7 +178,7 @@ TEST(ParallelCranks, WhatIsNotExactlyParallelIsRefused) {
     EXPECT_NE(dead.find("leaves its branch open"), std::string::npos) << dead;
   }
   SketchOf crossed;
-  crossed.point('O', 0, 0).point('A', 0, 0.1).point('B', 0.24, -0.18).point('C', 0.3, 0).frame("OC");
+  crossed.point('O', 0, 0).point('A', 0, 0.1).point('B', 0.24, -0.08).point('C', 0.3, 0).frame("OC");
   crossed.link("crank", "OA", 1, 1).link("coupler", "AB").link("rocker", "CB").rocks("rocker");
   EXPECT_NE(fault_of(crossed).find("coupler and rocker lie in one line"), std::string::npos) << fault_of(crossed);
   for (const double off : {1e-12, 1e-7}) {
