@@ -182,7 +182,12 @@ TEST(MechanismWords, OfEqualStrokesAndOfChangePoints) {
   expect_words(
       "kind = \"four-bar\"\ncrank = \"100 mm\"\ncoupler = \"300 mm\"\nrocker = \"100 mm\"\nground = \"300 mm\"\n"
       "rocker_inertia = \"0.05 kg*m2\"",
-      1, {"m: its output turns as often as its driving link"});
+      4,
+      {"m: its output turns as often as its driving link",
+       "m: linkage of class II: crank drives RRR (coupler, rocker); degrees of freedom 3·3 − 2·4 = 1",
+       "m: at the change points φ = 0°, 180° its links can go on in two ways; assumed is the smooth one. Joints alone "
+       "do "
+       "not force it: inertia does, or links at another angle beside it, as a second rod on cranks 90° apart"});
 }
 
 }  // namespace
