@@ -25,7 +25,7 @@ void list_parts(const Model& m, std::vector<std::string>& list) {
     if (!known) list.push_back(name + what);
   };
   for (const PlacedInternalState& own : m.internal_states)
-    add(own.component, fmt::format(", whose {} is an internal state", own.state.name));
+    add(own.component, fmt::format(", which has an internal state ({})", own.state.name));
   for (const ElasticJoint& e : m.elastic)
     if (e.slips || e.springless) add(m.network.joints[at(e.joint)].component, ", which may slip");
   for (const ShaftRelation& r : m.relations)

@@ -32,8 +32,9 @@ std::string conclusion_of(const MachineReduction& r) {
                     range = low == high ? low : low + " … " + high;
   if (r.basis == CycleBasis::steady)
     return fmt::format("Reduced to {}, the machine has {} kg·m² along its steady cycle", r.to, range);
-  return fmt::format("Reduced to {}, the machine has {} kg·m², of which {:.5g} kg·m² turn at constant ratio", r.to,
-                     range, r.constant_inertia);
+  const std::string constant = fmt::format("{:.5g}", r.constant_inertia);
+  return fmt::format("Reduced to {}, the machine has {} kg·m², {} at constant ratio", r.to, range,
+                     constant == range ? "all of it" : fmt::format("of which {} kg·m² turn", constant));
 }
 
 // --- tables ---

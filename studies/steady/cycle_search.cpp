@@ -293,8 +293,8 @@ class Search {
     out_.stability = !out_.uncertain                       ? stability_in_words()
                      : out_.kind == Orbit::Kind::vibrating ? "its stability is not assessed"
                      : out_.point.grazed
-                         ? "of uncertain stability, for an event is only just touched; the run comes here and stays"
-                         : "the run comes here and stays";
+                         ? "of uncertain stability, because an event is only just touched; the run converges to it"
+                         : "the run converges to it";
     out_.neutral = out_.point.neutral();
     Period fine = figures_of_period(*map_, out_.point, map_tolerance);
     if (!fine.failed.empty()) {

@@ -13,7 +13,7 @@ from pathlib import Path
 SHEET = Path(__file__).resolve().parent / "sheet.md"
 ROOT = SHEET.parent.parent.parent
 ENTRY = re.compile(r"(^## \d+\. `kurbel (.+)`\n\n(?:> before: .*\n>\n)?> )(.*)$", re.M)
-TIMES = re.compile(r"[\d.]+ × the time|[\d.]+ of the time")  # of this computer
+TIMES = re.compile(r"[\d.]+ × the time|[\d.]+( %)? of the time")  # of this computer
 
 
 def printed(program, command):

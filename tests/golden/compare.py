@@ -36,7 +36,7 @@ NUMBER = re.compile(r"[-+−]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?")
 TIMES = [(re.compile(r"[\d.e+-]+ (?:min|s|ms|µs) of processor time"), "T of processor time"),
          (re.compile(r"costs (?:about the same time|[\d.e+-]+ × the time)"), "costs T × the time"),
          (re.compile(r"; most time is due to [^,;]*, [\d.e+-]+ × the time without it"), ""),
-         (re.compile(r"takes [\d.]+ of the time"), "takes T of the time"),
+         (re.compile(r"takes [\d.]+( %)? of the time"), "takes T of the time"),
          (re.compile(r"(cycles' worth \([^)]*\)), [\d.e+-]+ (?:min|s|ms)"), r"\1, T"),
          (re.compile(r"kurbel \d+\.\d+\.\d+\S*"), "kurbel VERSION")]
 
