@@ -48,12 +48,12 @@ std::optional<Channel> channel_named(const Model& model, const std::string& name
   return {};
 }
 
-// Under other effects the machine may have it.
+// Under other effects the machine may have it: the twist of what is rigid; but no speed of what has two shafts.
 bool may_exist(const Model& model, const std::string& channel) {
-  const auto elastic = [&](const std::string& component) { return channel.ends_with("." + component); };
+  const auto owns = [&](const std::string& component) { return channel.ends_with("." + component); };
   const Definition* known = definition_of(channel);
   return known && known->verbs.find("run") != std::string_view::npos &&
-         std::ranges::any_of(model.network.components, elastic);
+         std::ranges::any_of(model.network.components, owns) && !channel_named(model, channel + ".in");
 }
 
 std::vector<AskedFigure> read(const Model& model, std::vector<std::string>& of_other_effects) {

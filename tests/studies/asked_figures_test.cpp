@@ -186,8 +186,9 @@ std::vector<Figure> listed(const std::string& text) {
 std::string refused(const std::string& figure) {
   try {
     listed(R"(
-      line = ["motor", "wheel"]
+      line = ["motor", "spring", "wheel"]
       motor = { kind = "torque source", torque = "2 N*m" }
+      spring = { kind = "coupling", stiffness = "800 N*m/rad" }
       wheel = { kind = "flywheel", inertia = "1.5 kg*m2" }
       sequence = { steps = [{ at = "0.2 s", set = "motor", to = 0 }] }
       figure = [)" +
@@ -201,9 +202,10 @@ std::string refused(const std::string& figure) {
 TEST(AskedFigures, AreRefusedAtTheirPlace) {
   const std::pair<const char*, const char*> wrong[] = {
       {R"({ functional = "mean", channel = "torque.moter" })",
-       "6:17: [[figure]]: channel = \"torque.moter\"; the machine has none of this name — did you mean "
+       "7:17: [[figure]]: channel = \"torque.moter\"; the machine has none of this name — did you mean "
        "\"torque.motor\"?"},
       {R"({ functional = "time above", channel = "torque.motor", level = "3 rad/s" })", "N*m"},
+      {R"({ functional = "mean", channel = "speed.spring" })", "did you mean \"speed.spring.in\"?"},
       {R"({ functional = "time above", channel = "torque.motor" })", "\"level\" is missing"},
       {R"({ functional = "mean", channel = "torque.motor", level = "3 N*m" })",
        "belongs to functional = \"time above\""},
