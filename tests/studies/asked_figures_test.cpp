@@ -87,59 +87,59 @@ TEST(AskedFigures, OfAChannelOfOtherEffectsAreNoted) {
       r.notes, [](const std::string& note) { return note.find("no channel \"twist.spring\"") != std::string::npos; }));
 }
 
-// A motor of 40 N·m at any speed whose command is a trapezoid: from 1 at 0.2 s to ¼ within 0.2 s, from 0.6 s to ¾ within
+// A brake of −40 N·m at any speed whose command is a trapezoid: from 1 at 0.2 s to ¼ within 0.2 s, from 0.6 s to ¾ within
 // 0.2 s, from 1 s to 0 within 0.1 s, up to 1.2 s.
 TEST(AskedFigures, OfStepsOfASequenceAreThoseOfATrapezoid) {
   const Result r = test::run(R"(
-    line = ["motor", "wheel"]
-    motor = { kind = "motor", torque = { over = "speed", unit = ["rad/s", "N*m"], points = [[0, 40], [1000, 40]] }, inertia = "1 kg*m2" }
-    wheel = { kind = "flywheel", inertia = "9 kg*m2" }
-    sequence = { steps = [{ at = "0.2 s", set = "motor", to = 0.25, over = "0.2 s" },
-                          { at = "0.6 s", set = "motor", to = 0.75, over = "0.2 s" },
-                          { at = "1 s", set = "motor", to = 0, over = "0.1 s" }] }
+    line = ["wheel"]
+    wheel = { kind = "flywheel", inertia = "10 kg*m2" }
+    brake = { kind = "brake", on = "wheel", torque = "40 N*m" }
+    sequence = { steps = [{ at = "0.2 s", set = "brake", to = 0.25, over = "0.2 s" },
+                          { at = "0.6 s", set = "brake", to = 0.75, over = "0.2 s" },
+                          { at = "1 s", set = "brake", to = 0, over = "0.1 s" }] }
     figure = [
-      { functional = "max", channel = "torque.motor", step = 1 }, { functional = "min", channel = "torque.motor", step = 1 },
-      { functional = "time above", level = "20 N*m", channel = "torque.motor", step = 1 },
-      { functional = "max", channel = "torque.motor", step = 2 }, { functional = "min", channel = "torque.motor", step = 2 },
-      { functional = "mean", channel = "torque.motor", step = 2 }, { functional = "rms", channel = "torque.motor", step = 2 },
-      { functional = "time above", level = "20 N*m", channel = "torque.motor", step = 2 },
-      { channel = "torque.motor", step = 3 }, { functional = "mean", channel = "torque.motor", step = 3 },
-      { functional = "max", channel = "speed.wheel", step = 1 },
+      { functional = "max", channel = "torque.brake", step = 1 }, { functional = "min", channel = "torque.brake", step = 1 },
+      { functional = "time above", level = "-20 N*m", channel = "torque.brake", step = 1 },
+      { functional = "max", channel = "torque.brake", step = 2 }, { functional = "min", channel = "torque.brake", step = 2 },
+      { functional = "mean", channel = "torque.brake", step = 2 }, { functional = "rms", channel = "torque.brake", step = 2 },
+      { functional = "time above", level = "-20 N*m", channel = "torque.brake", step = 2 },
+      { channel = "torque.brake", step = 3 }, { functional = "mean", channel = "torque.brake", step = 3 },
+      { functional = "min", channel = "speed.wheel", step = 1 },
     ]
-    run = { until = "1.2 s", start = "rest" }
+    run = { until = "1.2 s", start = { speed = "50 rad/s" } }
   )");
-  expect(r.figures, "step_max_torque.1.motor", 40, 1e-4);
-  expect(r.figures, "step_min_torque.1.motor", 10, 1e-4);
-  expect(r.figures, "step_time_above_torque.1.20.motor", 0.2 * (1 - 0.5) / (1 - 0.25));
-  expect(r.figures, "step_max_torque.2.motor", 30, 1e-4);
-  expect(r.figures, "step_min_torque.2.motor", 10, 1e-4);
-  expect(r.figures, "step_mean_torque.2.motor", 25, 1e-4);
-  expect(r.figures, "step_rms_torque.2.motor",
+  expect(r.figures, "step_min_torque.1.brake", -40, 1e-4);
+  expect(r.figures, "step_max_torque.1.brake", -10, 1e-4);
+  expect(r.figures, "step_time_above_torque.1.-20.brake", 0.2 * (0.5 - 0.25) / (1 - 0.25) + 0.2);
+  expect(r.figures, "step_min_torque.2.brake", -30, 1e-4);
+  expect(r.figures, "step_max_torque.2.brake", -10, 1e-4);
+  expect(r.figures, "step_mean_torque.2.brake", -25, 1e-4);
+  expect(r.figures, "step_rms_torque.2.brake",
          40 * std::sqrt((0.2 * (0.0625 + 0.1875 + 0.5625) / 3 + 0.2 * 0.5625) / 0.4), 1e-4);
-  expect(r.figures, "step_time_above_torque.2.20.motor", 0.3);
-  expect(r.figures, "step_peak_torque.3.motor", 30, 1e-4);
-  expect(r.figures, "step_mean_torque.3.motor", 30 * 0.05 / 0.2, 1e-4);
+  expect(r.figures, "step_time_above_torque.2.-20.brake", 0.1);
+  expect(r.figures, "step_peak_torque.3.brake", -30, 1e-4);
+  expect(r.figures, "step_mean_torque.3.brake", -30 * 0.05 / 0.2, 1e-4);
   // ∫ M dt/J up to 0.6 s: 0.2 s at 40, 0.2 s at 25 in the mean, 0.2 s at 10 N·m.
-  expect(r.figures, "step_max_speed.1.wheel", 0.2 * (40 + 25 + 10) / 10, 1e-5);
-  EXPECT_EQ(r.find("step_mean_torque.2.motor")->unit, "N*m");
+  expect(r.figures, "step_min_speed.1.wheel", 50 - 0.2 * (40 + 25 + 10) / 10, 1e-5);
+  EXPECT_EQ(r.find("step_mean_torque.2.brake")->unit, "N*m");
 }
 
-// Of several rounds the last that the step ended in: on within 0.1 s, off within 0.1 s after 0.2 s, every 0.5 s.
-TEST(AskedFigures, OfAStepOfARepeatedSequenceAreOfTheLastWholeRound) {
+// Of several repetitions the last whole one: on within 0.1 s, off within 0.1 s after 0.2 s, every 0.5 s.
+TEST(AskedFigures, OfAStepOfARepeatedSequenceAreOfTheLastWholeRepetition) {
   const Result r = test::run(R"(
-    line = ["motor", "wheel"]
-    motor = { kind = "motor", torque = { over = "speed", unit = ["rad/s", "N*m"], points = [[0, 40], [1000, 40]] }, inertia = "1 kg*m2" }
-    wheel = { kind = "flywheel", inertia = "9 kg*m2" }
-    sequence = { every = "0.5 s", steps = [{ at = "0 s", set = "motor", to = 1, over = "0.1 s" },
-                                           { after = "0.2 s", set = "motor", to = 0, over = "0.1 s" }] }
-    figure = [{ functional = "mean", channel = "torque.motor", step = 1 },
-              { functional = "mean", channel = "torque.motor", step = 2 },
-              { functional = "time above", level = "10 N*m", channel = "torque.motor", step = 1 }]
-    run = { until = "1.63 s", start = "rest" }
+    line = ["wheel"]
+    wheel = { kind = "flywheel", inertia = "10 kg*m2" }
+    brake = { kind = "brake", on = "wheel", torque = "40 N*m" }
+    sequence = { every = "0.5 s", steps = [{ at = "0 s", set = "brake", to = 1, over = "0.1 s" },
+                                           { after = "0.2 s", set = "brake", to = 0, over = "0.1 s" }] }
+    figure = [{ functional = "mean", channel = "torque.brake", step = 1 },
+              { functional = "mean", channel = "torque.brake", step = 2 },
+              { functional = "time above", level = "-10 N*m", channel = "torque.brake", step = 1 }]
+    run = { until = "1.63 s", start = { speed = "50 rad/s" } }
   )");
-  expect(r.figures, "step_mean_torque.1.motor", 40 * 0.15 / 0.2, 1e-4);
-  expect(r.figures, "step_mean_torque.2.motor", 40 * 0.05 / 0.3, 1e-4);
-  expect(r.figures, "step_time_above_torque.1.10.motor", 0.1 * 0.75 + 0.1);
+  expect(r.figures, "step_mean_torque.1.brake", -40 * 0.15 / 0.2, 1e-4);
+  expect(r.figures, "step_mean_torque.2.brake", -40 * 0.05 / 0.3, 1e-4);
+  expect(r.figures, "step_time_above_torque.1.-10.brake", 0.1 * 0.25);
 }
 
 const char* const cranked = R"(
