@@ -108,6 +108,7 @@ int print_keys(const std::string& kind, bool list_kinds) {
 int check(const std::string& file, bool allow_files, const std::vector<std::string>& set) {
   const Scene scene = read(file, allow_files, set);
   const auto model = compile(scene, scene.effects);
+  if (!scene.figures.empty()) figure_list(*model);  // refuses a channel that the machine does not have
   const auto coordinates = model->free_shafts + model->twist_count();
   say(fmt::format("{}: valid; {} component{}, {} coordinate{} with effects: {}\n", file, scene.components.size(),
                   scene.components.size() == 1 ? "" : "s", coordinates, coordinates == 1 ? "" : "s",

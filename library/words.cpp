@@ -30,11 +30,7 @@ std::string place_of(const Definition& d) {
 
 std::string sentences_on(const Definition& d, const std::string& asked) {
   std::string text = fmt::format("{} — {}\n", d.words == word_of_pages ? asked : d.form(), d.words);
-  for (const auto& [prefix, whole] : {std::pair{"cycle_peak_", "one steady cycle"}, std::pair{"peak_", "a whole run"}})
-    if (asked.starts_with(prefix) && !d.name.starts_with(prefix)) {
-      text += fmt::format("  {} is its greatest magnitude in {}, with its sign\n", asked, whole);
-      break;
-    }
+  if (const std::string says = said_of_channel(asked); !says.empty()) text += fmt::format("  {} is {}\n", asked, says);
   const auto line = [&](const char* what, const std::string& reported) {
     if (!reported.empty()) text += fmt::format("  {:<11}{}\n", what, reported);
   };

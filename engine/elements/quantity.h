@@ -15,21 +15,23 @@ namespace kurbel {
 
 // Functional of a channel.
 enum class Functional {
-  none,        // the channel itself, or a figure defined by its word
-  peak,        // its value of greatest magnitude, with its sign
-  greatest,    // its largest value
-  least,       // its smallest
-  mid,         // midpoint of these two
-  mean,        // over time
-  rms,         // root of the mean square over time
-  last,        // at the end
-  order,       // amplitude of the harmonic with this number of periods per turn of the reduction link
-  order_phase  // its phase
+  none,         // the channel itself, or a figure defined by its word
+  peak,         // its value of greatest magnitude, with its sign
+  greatest,     // its largest value
+  least,        // its smallest
+  mid,          // midpoint of these two
+  mean,         // over time
+  rms,          // root of the mean square over time
+  last,         // at the end
+  order,        // amplitude of the harmonic with this number of periods per turn of the reduction link
+  order_phase,  // its phase
+  above         // time during which it lies above a level
 };
 
 // Prefix of the name.
 inline const char* prefix_of(Functional functional) {
-  constexpr const char* prefixes[] = {"", "peak_", "max_", "min_", "mid_", "mean_", "rms_", "final_", "", ""};
+  constexpr const char* prefixes[] = {"",     "peak_",  "max_", "min_", "mid_",       "mean_",
+                                      "rms_", "final_", "",     "",     "time_above_"};
   return prefixes[static_cast<std::size_t>(functional)];
 }
 // Suffix of the quantity; it is followed by the order: "torque_order.0.5.main_coupling".
@@ -39,10 +41,11 @@ inline const char* suffix_of(Functional functional) {
 
 struct QuantityKind {
   enum class Window {
-    moment,       // a channel
-    run,          // from the start of a run to its end
-    cycle,        // the steady cycle, or the last whole cycle of a run before it runs down
-    steady_cycle  // the steady cycle, for quantities that also exist for a whole run
+    moment,        // a channel
+    run,           // from the start of a run to its end
+    cycle,         // the steady cycle, or the last whole cycle of a run before it runs down
+    steady_cycle,  // the steady cycle, for quantities that also exist for a whole run
+    step           // of the operating sequence: until the next one is carried out
   };
   std::string_view channel = {};  // "torque"; empty: an element's own, named in the text of the name
   Functional functional = Functional::none;
@@ -118,11 +121,17 @@ inline constexpr QuantityKind torque_order{"torque", order, cycle};
 inline constexpr QuantityKind torque_order_phase{"torque", order_phase, cycle};
 }  // namespace quantities
 
+// "cycle_peak_"; mean_speed is that of a cycle, so that the mean of a run says "run_mean_".
+inline std::string prefix_of(const QuantityKind& what) {
+  using enum QuantityKind::Window;
+  const bool run_alone = what.window == run && what.functional == Functional::mean;
+  const char* window = what.window == steady_cycle ? "cycle_" : what.window == step ? "step_" : run_alone ? "run_" : "";
+  return std::string(window) + prefix_of(what.functional);
+}
 // "cycle_peak_torque"; empty for an element's own quantity.
 inline std::string word(const QuantityKind& what) {
   if (what.channel.empty()) return {};
-  std::string text = what.window == QuantityKind::Window::steady_cycle ? "cycle_" : "";
-  return text.append(prefix_of(what.functional)).append(what.channel).append(suffix_of(what.functional));
+  return prefix_of(what).append(what.channel).append(suffix_of(what.functional));
 }
 
 inline bool is_one_of(const QuantityKind& what, std::initializer_list<QuantityKind> kinds) {

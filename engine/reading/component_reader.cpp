@@ -14,8 +14,8 @@ namespace {
 using Type = DocumentValue::Type;
 
 const std::vector<std::string>& reserved_names() {
-  static const std::vector<std::string> names = {"title",    "description", "line",      "branch",    "effects",
-                                                 "sequence", "run",         "operation", "constants", "case"};
+  static const std::vector<std::string> names = {"title", "description", "line",      "branch", "effects", "sequence",
+                                                 "run",   "operation",   "constants", "case",   "figure"};
   return names;
 }
 

@@ -96,6 +96,9 @@ Scene parse(DocumentValue document, const std::string& text, const std::string& 
   read_sequence_table(r);
   read_run(r);
   read_operation(r);
+#ifndef KURBEL_FMI_RUNTIME
+  read_figures(r);
+#endif
   if (!r.messages.empty()) try_components(r);
   r.messages.throw_if_any();
   place_by_output(r);

@@ -1,4 +1,4 @@
-// run_reader.cpp — [run], with its start and its output, and [operation].
+// run_reader.cpp — [run], with its start and its output, [operation], and [[figure]].
 #include <fmt/format.h>
 
 #include <charconv>
@@ -291,5 +291,38 @@ void read_operation(SceneReading& r) {
     r.refuse(section.where("speeds"), "[operation]: speeds: give one speed, or the slowest and the fastest");
   check_converter(r, section.at);
 }
+
+#ifndef KURBEL_FMI_RUNTIME  // an exported component gives its outputs alone
+void read_figures(SceneReading& r) {
+  static const Kind kind{.name = "figure", .keys = figure_keys()};
+  const DocumentEntry* entry = r.document.find("figure");
+  if (!entry) return;
+  if (entry->value.type != Type::list)
+    return r.refuse(entry->at, "a figure is written [[figure]], with channel = \"torque.main_coupling\"");
+  for (const DocumentValue& table : entry->value.items) {
+    if (table.type != Type::table) {
+      r.refuse(table.at, fmt::format("figure: {}; must be a table", table.describe()));
+      continue;
+    }
+    const Section section = read_section(table, kind, "", "[[figure]]", r.messages);
+    if (!section.valid) continue;
+    const bool level = section.given("level"), step = section.given("step");
+    FigureRequest asked{section.text("functional"),
+                        section.text("channel"),
+                        level ? section.text("level") : "",
+                        section.text("window"),
+                        step ? static_cast<int>(section.number("step")) : 0,
+                        table.at};
+    if (level != (asked.functional == "time above"))
+      r.refuse(table.at, level ? "[[figure]]: \"level\" belongs to functional = \"time above\""
+                               : "[[figure]]: \"level\" is missing: above what? e.g. level = \"40 kN*m\"");
+    if (step && section.given("window")) r.refuse(table.at, "[[figure]]: \"window\" and \"step\" both given; keep one");
+    if (step && static_cast<std::size_t>(asked.step) > r.scene.sequence.steps.size())
+      r.refuse(section.where("step"), fmt::format("[[figure]]: step = {}; the [sequence] has {} steps", asked.step,
+                                                  r.scene.sequence.steps.size()));
+    r.scene.figures.push_back(std::move(asked));
+  }
+}
+#endif
 
 }  // namespace kurbel

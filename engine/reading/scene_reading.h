@@ -49,6 +49,7 @@ void put_in_canonical_order(SceneReading& r);  // of lines and components, whate
 void read_effects(SceneReading& r);            // effects_reader.cpp
 void read_run(SceneReading& r);                // run_reader.cpp
 void read_operation(SceneReading& r);          // in the same file
+void read_figures(SceneReading& r);            // likewise: after the sequence
 void read_cases(SceneReading& r);              // cases.cpp: only for scenes without other faults
 void place_by_output(SceneReading& r);         // output_start.cpp: crank angle and speed from those of the output
 

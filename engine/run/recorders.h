@@ -139,6 +139,7 @@ class CycleRecorder final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override;
   const std::vector<CycleRecord>& cycles() const { return cycles_; }
+  double begin_of_current() const { return open_ ? begin_ : HUGE_VAL; }  // of the one under way; infinite: none [s]
 
  private:
   void see_speed(double omega);

@@ -1,4 +1,4 @@
-// scene.cpp — which methods integrate which model, and the keys of [run] and [operation].
+// scene.cpp — which methods integrate which model, and the keys of [run], [operation] and [[figure]].
 #include "engine/scene/scene.h"
 
 #include <fmt/format.h>
@@ -103,5 +103,37 @@ const std::vector<Key>& operation_keys() {
   };
   return keys;
 }
+
+#ifndef KURBEL_FMI_RUNTIME
+const std::vector<Key>& figure_keys() {
+  static const std::vector<Key> keys = {
+      {.name = "functional",
+       .type = KeyType::text,
+       .fallback = "\"peak\"",
+       .doc =
+           "peak: the value of greatest magnitude; mean and rms over time; time above: during which the channel lies "
+           "above the level",
+       .choices = {"peak", "max", "min", "mean", "rms", "time above"}},
+      {.name = "channel",
+       .type = KeyType::text,
+       .doc = "of trajectory.csv: \"torque.main_coupling\"",
+       .required = true},
+      {.name = "level", .type = KeyType::text, .doc = "of time above, with the channel's unit: \"40 kN*m\""},
+      {.name = "window",
+       .type = KeyType::text,
+       .fallback = "\"run\"",
+       .doc =
+           "run: from its start to its end; cycle: the steady cycle, in a run the last whole one before it runs down",
+       .choices = {"run", "cycle"}},
+      {.name = "step",
+       .type = KeyType::integer,
+       .domain = {.low = 1, .high = 1000},
+       .doc =
+           "in place of the window: the step of the sequence with this number, from 1, until the next one is carried "
+           "out; of several repetitions the last whole one"},
+  };
+  return keys;
+}
+#endif
 
 }  // namespace kurbel

@@ -60,6 +60,13 @@ struct Sequence {
   bool repeats_freely() const { return repeat && every == 0; }
 };
 
+// [[figure]]: a functional of a channel over a window, as its keys say (figure_keys).
+struct FigureRequest {
+  std::string functional, channel, level, window;
+  int step = 0;  // of the sequence, from 1, in place of the window; 0: none
+  Location at = {};
+};
+
 // [operation]: operating speeds of the machine, and excitations in addition to its own laws.
 struct Operation {
   // A harmonic of a frequency converter: output · its output frequency + mains · the mains', as "6 output - 6 mains".
@@ -96,6 +103,7 @@ struct Scene {
   Sequence sequence;
   RunSettings run;
   Operation operation;
+  std::vector<FigureRequest> figures;
   SpeedUnit speed_unit;  // of the first speed in the file
   int finer_shafts = 0;  // steps of refinement of continuous shafts; not a key of the scene
 
@@ -108,8 +116,9 @@ struct Scene {
 const std::vector<std::string>& methods_of(const std::string& model);
 void check_method(const std::string& method, const std::string& model);
 
-// Keys of [run] and of [operation], for the docs.
+// Keys of [run], of [operation] and of a [[figure]], for the docs.
 const std::vector<Key>& run_keys();
 const std::vector<Key>& operation_keys();
+const std::vector<Key>& figure_keys();
 
 }  // namespace kurbel

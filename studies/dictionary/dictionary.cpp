@@ -53,12 +53,37 @@ const Definition* find(std::string_view name) {
   return nullptr;
 }
 
-// The same, including the peaks of element-specific quantities.
-const Definition* find_with_peaks(std::string_view name) {
-  if (const Definition* found = find(name)) return found;
-  for (const std::string_view prefix : {"cycle_peak_", "peak_"})
-    if (name.starts_with(prefix)) return find(name.substr(prefix.size()));
-  return nullptr;
+// What a name says of a channel before it, functional ∘ window: "cycle_peak_", "step_mean_".
+struct Composed {
+  const Definition* channel = nullptr;
+  std::string says = {};  // "its greatest magnitude in one steady cycle, with its sign"
+};
+Composed composed(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> windows[] = {{"cycle_", "one steady cycle"},
+                                                                       {"step_", "one step of the operating sequence"},
+                                                                       {"run_", "a whole run"},
+                                                                       {"", "a whole run"}};
+  constexpr std::pair<std::string_view, std::string_view> functionals[] = {
+      {"peak_", "its greatest magnitude in {}, with its sign"},
+      {"max_", "its greatest value in {}"},
+      {"min_", "its least value in {}"},
+      {"mean_", "its mean over time in {}"},
+      {"rms_", "the root of its mean square over time in {}"},
+      {"", "the same in {}"}};
+  for (const auto& [window, where] : windows)
+    for (const auto& [functional, says] : functionals) {
+      const std::string prefix = fmt::format("{}{}", window, functional);
+      if (prefix.empty() || !name.starts_with(prefix)) continue;
+      if (const Definition* channel = find(name.substr(prefix.size())))
+        return {channel, fmt::format(fmt::runtime(says), where)};
+    }
+  return {};
+}
+
+// The same, including functionals of channels that have no words of their own.
+const Definition* find_composed(std::string_view name) {
+  const Definition* const found = find(name);
+  return found ? found : composed(name).channel;
 }
 
 // "I₀", "I_0"; "ω²" and "I_r(φ)" of a formula are ω and I_r.
@@ -161,15 +186,20 @@ const Definition* definition_of(const QuantityKind& what) {
 }
 
 const Definition* definition_of(std::string_view name) {
-  if (const Definition* whole = find_with_peaks(name)) return whole;
-  return find_with_peaks(name.substr(0, name.find('.')));
+  if (const Definition* whole = find_composed(name)) return whole;
+  return find_composed(name.substr(0, name.find('.')));
 }
 
 const Definition* definition_of(const Name& name) {
   if (const Definition* known = definition_of(name.what)) return known;
   std::string_view own = name.text;
   if (!name.of.empty() && own.size() > name.of.size()) own.remove_suffix(name.of.size() + 1);
-  return find_with_peaks(own);
+  return definition_of(own);
+}
+
+std::string said_of_channel(std::string_view name) {
+  const std::string_view what = name.substr(0, name.find('.'));
+  return find(name) || find(what) ? std::string{} : composed(what).says;
 }
 
 const Definition* meant_by(std::string_view asked) {

@@ -40,6 +40,10 @@ const Definition* definition_of(std::string_view name);
 // Of a typed name with known owner.
 const Definition* definition_of(const Name& name);
 
+// Of a figure that is a functional of a channel over a window, without words of its own, what its name says of the channel:
+// "its greatest magnitude in one steady cycle, with its sign"; empty for others.
+std::string said_of_channel(std::string_view name);
+
 // What a person may mean by it: its name as above, its words: "mean speed", a symbol: "R_12", "δ", or what a page calls it:
 // "peak torque, main_coupling".
 const Definition* meant_by(std::string_view asked);

@@ -108,6 +108,7 @@ class RunFigures {
     FlywheelFalls::report(model_, run_->falls.get(), energy_scale(), report_);
     report_reserves(model_, report_);
     add_slipped_angles();
+    if (run_->asked) run_->asked->report(last_ ? last_->end : 0, report_);
   }
   // In a separate order.
   void list() {
@@ -132,6 +133,8 @@ class RunFigures {
       for (Figure& f : of_limits)
         if (!report_.find(f.name)) report_.take(std::move(f));
     if (!model_.scene.sequence.steps.empty()) add_stopping();  // of a signal that makes the link stop
+    for (AskedFigure& asked : asked_figures(model_))
+      if (!report_.find(asked.figure.name)) report_.take(std::move(asked.figure));
   }
 
  private:

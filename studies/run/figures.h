@@ -12,6 +12,7 @@
 #include "studies/duty/flywheel_falls.h"
 #include "studies/duty/motor_currents.h"
 #include "studies/duty/work_periods.h"
+#include "studies/figures/asked_figures.h"
 #include "studies/findings/result.h"
 #include "studies/findings/trace.h"
 #include "studies/limits/heat_recorder.h"
@@ -38,6 +39,7 @@ struct OneRun {
   std::unique_ptr<MotorCurrents> currents;
   std::unique_ptr<DataRangeRecorder> ranges;  // of tables
   std::unique_ptr<TraceRecorder> traces;
+  std::unique_ptr<AskedRecorder> asked;  // null: nothing
   std::vector<Figure> figures;
   std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names
   Periods periods;

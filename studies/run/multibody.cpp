@@ -222,6 +222,8 @@ class MultibodySimulation {
     if (options_.traces) result_.traces = traces_of(*model_, crank_, fine_);
     result_.notes.push_back(
         "multibody run: load edges are stepped over, not located; reference accuracy is what the errors say");
+    if (!model_->scene.figures.empty())
+      result_.notes.push_back("multibody run: it gives no [[figure]] of the scene; model = \"reduced\" does");
   }
 
   std::shared_ptr<const Model> model_;

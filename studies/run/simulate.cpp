@@ -74,8 +74,7 @@ class Simulation {
   // The continued run is judged on its own: figures, works and peaks begin here.
   void take_checkpoint(const std::string& text) {
     checkpoint_ = checkpoint_from(text, equations_);
-    checkpoint_->integrals.clear();
-    checkpoint_->observers.clear();
+    checkpoint_->integrals.clear(), checkpoint_->observers.clear();
     result_.begins_at = checkpoint_->state.t;
     if (settings_.until <= checkpoint_->state.t)
       throw UnfitCheckpoint(fmt::format("is of {:.9g} s, and the run ends at {:.9g} s; let it run on with --until",
@@ -301,6 +300,8 @@ class Simulation {
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
+    if (!model.scene.figures.empty())
+      observers.push_back((run->asked = std::make_unique<AskedRecorder>(model, &run->cycles)).get());
     // Plots need only the first tolerance, and the timed runs remain without them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);
@@ -350,8 +351,7 @@ class Simulation {
     const Model& m = *model_;
     result_.title = m.scene.heading();
     result_.scene_file = m.scene.file;
-    result_.complete = run.outcome.complete;
-    result_.diagnosis = run.outcome.diagnosis;
+    result_.complete = run.outcome.complete, result_.diagnosis = run.outcome.diagnosis;
     result_.effects = m.effects.describe();
     result_.coordinates = m.free_shafts + m.twist_count() + further_coordinates(m);
     result_.states = m.state_count();
@@ -383,7 +383,7 @@ class Simulation {
     drop_errors_after_unstable_start(result_);
     report_outside_data(*run.ranges, result_);
     for (std::string& note : regularised(run.outcome.regularised)) result_.notes.push_back(std::move(note));
-    for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects})
+    for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects, &figures_of_other_effects})
       for (std::string& note : (*of)(m)) result_.notes.push_back(std::move(note));
     if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
       result_.notes.push_back(std::move(note));

@@ -143,13 +143,14 @@ std::vector<std::string> names_of_keys() {
   std::vector<std::string> names;
   for (const Kind* kind : kinds_with_nested())
     if (std::ranges::find(names, kind->name) == names.end()) names.push_back(kind->name);
-  names.insert(names.end(), {"run", "operation"});
+  names.insert(names.end(), {"run", "operation", "figure"});
   return names;
 }
 
 std::string keys_of(const std::string& name) {
   check_name(names_of_keys(), name, "no kind {}{}; allowed: {}");
   if (name == "run") return "[run]: what is simulated, and how well.\n\n" + aligned(run_keys());
+  if (name == "figure") return "[[figure]]: a functional of a channel over a window.\n\n" + aligned(figure_keys());
   if (name == "operation") return "[operation]: where the machine runs for long.\n\n" + aligned(operation_keys());
   std::string text;
   for (const Kind* kind : kinds_with_nested()) {
@@ -189,6 +190,7 @@ std::string meanings_of_key(const std::string& name) {
   for (const Kind* kind : kinds_with_nested()) take(kind->name, kind->keys);
   take("run", run_keys());
   take("operation", operation_keys());
+  take("figure", figure_keys());
   std::string text;
   for (const auto& [means, kinds] : meanings) text += fmt::format("{}  {:<11}{}\n", means, "key of", kinds);
   return text;
@@ -302,7 +304,8 @@ std::string keys_in_markdown() {
       "| `[operation]` | where the machine runs for long; separation margins of `kurbel modes` |\n"
       "| `[[case]]` | a named variant, as a damper out of order: `name = \"…\"`, `set = [\"damper.damping=0 "
       "N*m*s/rad\"]` as `--set` takes them; `kurbel modes` and `kurbel report` give each its own forced response and "
-      "margins |\n\n"
+      "margins |\n"
+      "| `[[figure]]` | a further figure of runs or of the steady cycle: a functional of a channel over a window |\n\n"
       "## `[effects]`\n\n"
       "| effect | what it adds | needs | states, events | matters | unless mentioned |\n|---|---|---|---|---|---|\n"
       "| `elasticity` | couplings and shafts twist | a stiffness | a twist and a speed each | where an excitation "
@@ -345,7 +348,12 @@ std::string keys_in_markdown() {
       "What excites, for the separation margins of `kurbel modes`, besides the scene's own laws: 1× and 2× of every "
       "shaft, meshing teeth, the mains, and `orders = [5]` in a component's table: blades or teeth, of the turn of its "
       "shaft (of one with two shafts, `.in`).\n\n"
-      "## Components\n\n";
+      "## `[[figure]]`\n\nNamed by its parts, `time_above_torque.40000.main_coupling`, `step_mean_speed.2.motor`, and "
+      "then "
+      "swept, compared and explained as every figure. Its error is measured by the other runs, and crossings of a "
+      "level "
+      "are located on the solution within the steps.\n\n" +
+      rows(figure_keys()) + "\n## Components\n\n";
   Printed printed;
   for (const Kind& kind : all_kinds()) text += chapter(kind, "###", printed);
   return text;

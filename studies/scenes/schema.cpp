@@ -307,7 +307,8 @@ std::string scene_schema() {
                    {"sequence", sequence_schema()},
                    {"run", run_schema()},
                    {"operation", operation_schema()},
-                   {"case", list_of(table_of({{"name", text()}, {"set", settings}}, {"name", "set"}))}}},
+                   {"case", list_of(table_of({{"name", text()}, {"set", settings}}, {"name", "set"}))},
+                   {"figure", list_of(table_of(properties_of(figure_keys()), {"channel"}))}}},
                  {"required", {"line"}},
                  {"additionalProperties", {{"description", "a component"}, {"oneOf", kinds}}},
                  {"$defs", definitions}};

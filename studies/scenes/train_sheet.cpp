@@ -75,7 +75,7 @@ std::string as_name(const std::string& said) {
   while (name.ends_with('_')) name.pop_back();
   const bool number = name.find_first_not_of("0123456789-_") == std::string::npos;
   const std::vector<std::string> taken = {"title",    "description", "line",  "branch",    "effects", "run",
-                                          "sequence", "operation",   "table", "constants", "case"};
+                                          "sequence", "operation",   "table", "constants", "case",    "figure"};
   const bool reserved = std::find(taken.begin(), taken.end(), name) != taken.end();
   return number || reserved ? "station_" + name : name;
 }

@@ -14,6 +14,7 @@
 #include "engine/orbit/follow_period.h"
 #include "studies/duty/motor_figures.h"
 #include "studies/duty/work_periods.h"
+#include "studies/figures/asked_figures.h"
 #include "studies/findings/report.h"
 #include "studies/limits/ratings.h"
 #include "studies/run/figures.h"
@@ -152,11 +153,11 @@ class CycleFigures {
         extremes_(wanted_of(m_)),
         angles_(point.vibrates() ? angles_of(m_) : std::vector<ExtremeOf>{}),
         ranges_(m_),
+        asked_(m_),
         equations_(map.shared_model(), true),
         drives_(equations_, drives_of(m_)) {
     turned_ = -link_angle(map.place(equations_, point.z));
-    outcome_ = follow_period(map, point, equations_, {.tolerance = tolerance, .extension = &drives_},
-                             {&extremes_, &angles_, &ranges_});
+    outcome_ = follow_period(map, point, equations_, {.tolerance = tolerance, .extension = &drives_}, observers());
     if (outcome_.diagnosis.empty()) turned_ += link_angle(outcome_.state);
   }
 
@@ -167,12 +168,19 @@ class CycleFigures {
     add_torques();
     add_works();
     add_drives();
+    FigureReporter report(round_.figures, false);
+    asked_.report(0, report);
     round_.outside_data = ranges_.sentences();
     round_.orders = orders_of_cycle(map_, point_, tolerance_, turned_);
     return std::move(round_);
   }
 
  private:
+  std::vector<Observer*> observers() {
+    std::vector<Observer*> list = {&extremes_, &angles_, &ranges_};
+    if (!asked_.empty()) list.push_back(&asked_);
+    return list;
+  }
   void add(Name name, double value, double scale) {
     round_.figures.push_back(Figure::defined(std::move(name), value, scale));
   }
@@ -283,6 +291,7 @@ class CycleFigures {
   const Model& m_;
   ExtremeRecorder extremes_, angles_;
   DataRangeRecorder ranges_;
+  AskedRecorder asked_;
   Equations equations_;
   DriveQuadratures drives_;
   RunOutcome outcome_;
