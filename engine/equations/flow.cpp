@@ -28,7 +28,7 @@ double twist_scale(const Model& m, const ElasticJoint& elastic, double tolerance
 }
 
 // What it transmits follows from the motion of all that is behind it, not from its own twist.
-bool is_rigid(const TorqueJoint& joint) { return joint.elastic < 0; }
+constexpr auto is_rigid = [](const TorqueJoint& joint) { return joint.elastic < 0; };
 
 }  // namespace
 
