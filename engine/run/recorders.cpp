@@ -318,8 +318,7 @@ void CycleRecorder::step(StepView& view) {
     if (t > from) {
       const double a0 = alpha(from), a1 = alpha(t), w0 = speed(from), w1 = speed(t);
       const double reach = (t - from) * (std::abs(a0) + std::abs(a1));
-      if (!runs_straight(a0, a1, (w1 - w0) / (t - from)) &&
-          (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_)) {
+      if (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) {
         const int parts = free ? 8 : 2;  // samples of one state are cheap
         double before = a0;
         for (int k = 1; k <= parts; ++k) {
