@@ -75,9 +75,8 @@ TEST(Troubles, AClosedClutchThatLetsGoOnTheWayIsSaid) {
   )");
   const std::vector<std::string> said = concluded(findings_of(r).claims);
   ASSERT_GE(said.size(), 2u);
-  EXPECT_EQ(
-      said[0],
-      "\"clutch\" slips once although it is closed, first at 1 s: the torque reaches the 120 N·m that it holds.");
+  EXPECT_EQ(said[0],
+            "\"clutch\" slips once although it is closed, first at 1 s: the torque reaches the 120 N·m that it holds.");
 }
 
 // It slips from 1 s on: (300 − 100) N·m stop 5 kg·m² at 100 rad/s after 2.5 s, 225 rad on, and hold it there.
