@@ -97,9 +97,13 @@ std::vector<AskedFigure> asked_figures(const Model& model) {
   return read(model, of_other_effects);
 }
 
-std::vector<std::string> figures_of_other_effects(const Model& model) {
+std::vector<std::string> figures_not_given(const Model& model, const std::vector<Figure>& given) {
   std::vector<std::string> notes;
-  read(model, notes);
+  for (const AskedFigure& asked : read(model, notes))
+    if (!find(given, asked.figure.name))
+      notes.push_back(fmt::format(
+          "[[figure]]: no {}: the run {}", asked.figure.name,
+          asked.step > 0 ? fmt::format("does not come to step {} of the sequence", asked.step) : "has no whole cycle"));
   return notes;
 }
 

@@ -31,8 +31,8 @@ struct AskedFigure {
 // Without those of channels that exist only under other effects, such as the twist of what is rigid. Throws SceneError for
 // a channel that no machine of these components has, and for a level that is not in its unit.
 std::vector<AskedFigure> asked_figures(const Model& model);
-// A note on each of those.
-std::vector<std::string> figures_of_other_effects(const Model& model);
+// A note on each that a run did not give: those, and others whose window it did not come to.
+std::vector<std::string> figures_not_given(const Model& model, const std::vector<Figure>& given);
 
 class AskedRecorder final : public Observer {
  public:

@@ -356,8 +356,7 @@ class Simulation {
     result_.coordinates = m.free_shafts + m.twist_count() + further_coordinates(m);
     result_.states = m.state_count();
     result_.explanation = m.explain();
-    result_.until = settings_.until;
-    result_.accuracy = settings_.accuracy;
+    result_.until = settings_.until, result_.accuracy = settings_.accuracy;
     result_.tolerance = tolerance;
     result_.figures = std::move(run.figures);
     result_.events = run.outcome.events;
@@ -383,8 +382,9 @@ class Simulation {
     drop_errors_after_unstable_start(result_);
     report_outside_data(*run.ranges, result_);
     for (std::string& note : regularised(run.outcome.regularised)) result_.notes.push_back(std::move(note));
-    for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects, &figures_of_other_effects})
+    for (auto* of : {&notes_on_arcs, &substitutes, &idle_effects})
       for (std::string& note : (*of)(m)) result_.notes.push_back(std::move(note));
+    for (std::string& note : figures_not_given(m, result_.figures)) result_.notes.push_back(std::move(note));
     if (std::string note = coarse_rows_note(*run.trajectory, run.outcome.statistics.stepper.steps); !note.empty())
       result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));

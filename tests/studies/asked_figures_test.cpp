@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "studies/dictionary/dictionary.h"
@@ -72,19 +73,27 @@ TEST(AskedFigures, TimeAboveALevelIsLocatedOnTheSolution) {
   expect(r.figures, "rms_twist.spring", std::sqrt(square), 1e-7);
 }
 
-// The rigid machine has no twist: said in a note, no fault of the scene.
-TEST(AskedFigures, OfAChannelOfOtherEffectsAreNoted) {
+// The rigid machine has no twist, nothing of it goes through cycles, and the sequence waits for ever: no faults of the scene.
+TEST(AskedFigures, ThatARunDoesNotGiveAreNoted) {
   const Result r = test::run(R"(
     line = ["a", "spring", "b"]
     a = { kind = "inertia", inertia = "0.5 kg*m2" }
     spring = { kind = "coupling", stiffness = "800 N*m/rad" }
     b = { kind = "inertia", inertia = "2 kg*m2" }
-    figure = [{ functional = "rms", channel = "twist.spring" }]
+    brake = { kind = "brake", on = "b", torque = "40 N*m" }
+    sequence = { steps = [{ at = "9 s", set = "brake", to = 0 }] }
+    figure = [{ functional = "rms", channel = "twist.spring" }, { channel = "speed.a", window = "cycle" },
+              { channel = "speed.a", step = 1 }, { channel = "speed.b" }]
     run = { until = "0.1 s" }
   )");
-  EXPECT_FALSE(r.find("rms_twist.spring"));
-  EXPECT_TRUE(std::ranges::any_of(
-      r.notes, [](const std::string& note) { return note.find("no channel \"twist.spring\"") != std::string::npos; }));
+  std::vector<std::string> notes;
+  std::ranges::copy_if(r.notes, std::back_inserter(notes),
+                       [](const std::string& n) { return n.starts_with("[[figure]]"); });
+  EXPECT_EQ(notes, (std::vector<std::string>{
+                       "[[figure]]: under these effects the machine has no channel \"twist.spring\"",
+                       "[[figure]]: no cycle_peak_speed.a: the run has no whole cycle",
+                       "[[figure]]: no step_peak_speed.1.a: the run does not come to step 1 of the sequence"}));
+  EXPECT_TRUE(r.find("peak_speed.b"));
 }
 
 // A brake of −40 N·m at any speed whose command is a trapezoid: from 1 at 0.2 s to ¼ within 0.2 s, from 0.6 s to ¾ within
