@@ -44,6 +44,7 @@ TEST(AskedFigures, OfASineOverARunAreThoseOfTheClosedForm) {
   expect(r.figures, "time_above_torque.7.drive", 1);
   expect(r.figures, "time_above_torque.12.5.drive", 0);
   expect(r.figures, "time_above_torque.-9.drive", 3);
+  ASSERT_TRUE(r.find("time_above_torque.7.drive"));
   EXPECT_EQ(r.find("time_above_torque.7.drive")->unit, "s");
   expect(r.figures, "max_torque.drive", 12, 1e-5);
   expect(r.figures, "min_torque.drive", -8, 1e-5);
@@ -130,6 +131,7 @@ TEST(AskedFigures, OfStepsOfASequenceAreThoseOfATrapezoid) {
   expect(r.figures, "step_mean_torque.3.brake", -30 * 0.05 / 0.2, 1e-4);
   // ∫ M dt/J up to 0.6 s: 0.2 s at 40, 0.2 s at 25 in the mean, 0.2 s at 10 N·m.
   expect(r.figures, "step_min_speed.1.wheel", 50 - 0.2 * (40 + 25 + 10) / 10, 1e-5);
+  ASSERT_TRUE(r.find("step_mean_torque.2.brake"));
   EXPECT_EQ(r.find("step_mean_torque.2.brake")->unit, "N*m");
 }
 
