@@ -381,4 +381,17 @@ double closure_of(const MotionAlong& along) {
   return (along.motion.back().omega - along.motion.front().omega) / along.mean_speed();
 }
 
+double still_to_come(const std::vector<double>& course, double noise) {
+  if (course.size() < 3) return HUGE_VAL;
+  const std::size_t last = course.size() - 1, quarter = std::max<std::size_t>(1, last / 4);
+  const double now = course[last] - course[last - quarter];
+  const double before = course[last - quarter] - course[last - 2 * quarter];
+  if (std::abs(now) <= noise) return 0;
+  constexpr double no_nearer =
+      0.999;  // of the quarter before: shrinking so slowly cannot be distinguished from a straight run
+  if (!(std::abs(now) < no_nearer * std::abs(before))) return HUGE_VAL;
+  const double ratio = now / before;
+  return std::abs(now) * (ratio > 0 ? ratio / (1 - ratio) : 1);
+}
+
 }  // namespace kurbel

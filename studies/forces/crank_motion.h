@@ -134,10 +134,15 @@ struct MotionAlong {
 };
 // Data of the cycle for options that request further positions.
 PrescribedCycle prescribed_cycle(OutputLoads& loads, double speed);
-// At this speed throughout.
 // The same path at speeds increased by this fraction.
 MotionAlong sped_up(MotionAlong along, double by);
 double closure_of(const MotionAlong& along);
+// At this speed throughout.
 MotionAlong steady_motion(OutputLoads& loads, double speed, int positions);
+
+// Remaining change of a quantity sampled once per cycle: the change d over the last quarter of its course, continued
+// as a geometric sequence with the ratio q to the quarter before: d q/(1 − q); for q < 0 (oscillating) |d|. ∞ if the
+// changes do not shrink (constant growth: q = 1), 0 if they are below `noise`.
+double still_to_come(const std::vector<double>& course, double noise);
 
 }  // namespace kurbel

@@ -49,6 +49,9 @@ class PassageRecorder final : public Observer {
     };
     // Each is located within the whole step, so that targets do not depend on others requested.
     const double from = view.t_previous();
+    const auto angle = [&](std::span<const double> y) { return direction_ * equations.angle_with_turns(tracked_, y); };
+    if (!passed.empty() && passed.size() < targets_.size())
+      turns_back = turns_back || !(angle(view.y()) > angle(view.y_previous()));
     while (passed.size() < targets_.size()) {
       Deadline::check();
       const double at_end = beyond(view.t()), at_begin = beyond(from);
@@ -63,6 +66,7 @@ class PassageRecorder final : public Observer {
     }
   }
   double first = 0, last = 0;  // when [s]
+  bool turns_back = false;     // or stops, between the first and the last
   std::vector<CrankMotion> passed;
   std::vector<MachineForces> machine;
 
@@ -216,7 +220,17 @@ struct MachineMotion::Sampled {
   MotionAlong along;
   std::vector<MachineForces> machine;
   std::vector<std::string> outside_data;  // of a run
+  bool turns_back = false;
+
+  void take(PassageRecorder& passages, int direction) {
+    along.motion = std::move(passages.passed), along.time = passages.last - passages.first;
+    machine = std::move(passages.machine);
+    turns_back = passages.turns_back || std::any_of(along.motion.begin(), along.motion.end(),
+                                                    [&](const CrankMotion& m) { return !(direction * m.omega > 0); });
+  }
 };
+constexpr const char* turns_back_in_words =
+    "the crank stops or turns back within the cycle, so that forces are not a function of its angle";
 
 std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, const Orbit& orbit,
                                                           std::string& why_not) const {
@@ -299,17 +313,9 @@ MachineMotion::Sampled MachineMotion::along_period(OutputLoads& loads, const Ret
   if (passages.passed.size() != where.size())
     throw std::invalid_argument(outcome.diagnosis.empty() ? "the motion ended before the crank's cycle"
                                                           : outcome.diagnosis);
-  out.along.motion = std::move(passages.passed), out.along.time = passages.last - passages.first;
-  out.machine = std::move(passages.machine);
-  check_sense(out.along, direction);
+  out.take(passages, direction);
+  if (out.turns_back) throw std::invalid_argument(turns_back_in_words);
   return out;
-}
-
-void MachineMotion::check_sense(const MotionAlong& along, int direction) const {
-  for (const CrankMotion& m : along.motion)
-    if (!(direction * m.omega > 0))
-      throw std::invalid_argument(
-          "the crank stops or turns back within the cycle, so that forces are none of its angle");
 }
 
 // --- the scene's run ---
@@ -349,8 +355,7 @@ MachineMotion::Sampled MachineMotion::one_run(const std::vector<Abscissa>& where
   if (passages.passed.size() != where.size())
     throw std::runtime_error(
         "the simulated crank does not repeat its motion between two tolerances; request more accuracy (run.accuracy)");
-  out.along.motion = std::move(passages.passed), out.along.time = passages.last - passages.first;
-  out.machine = std::move(passages.machine);
+  out.take(passages, direction);
   out.outside_data = ranges.sentences();
   return out;
 }
@@ -399,6 +404,10 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   if (direction < 0) std::reverse(where.begin(), where.end());
   SimulatedMotion motion;
   Sampled tight = one_run(where, cycle, origin, direction, tolerance);
+  if (tight.turns_back) {
+    out.notes.push_back(fmt::format("second problem omitted: {}", turns_back_in_words));
+    return {};
+  }
   MotionAlong loose = one_run(where, cycle, origin, direction, 30 * tolerance).along;
   std::optional<MotionAlong> before;
   if (direction * (first * cycle - direction * cycle - begin_angle) >= -1e-9)
@@ -432,19 +441,6 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   motion.along = std::move(tight.along), motion.machine = std::move(tight.machine);
   motion.outside_data = std::move(tight.outside_data);
   return motion;
-}
-
-double still_to_come(const std::vector<double>& course, double noise) {
-  if (course.size() < 3) return HUGE_VAL;
-  const std::size_t last = course.size() - 1, quarter = std::max<std::size_t>(1, last / 4);
-  const double now = course[last] - course[last - quarter];
-  const double before = course[last - quarter] - course[last - 2 * quarter];
-  if (std::abs(now) <= noise) return 0;
-  constexpr double no_nearer =
-      0.999;  // of the quarter before: shrinking so slowly cannot be distinguished from a straight run
-  if (!(std::abs(now) < no_nearer * std::abs(before))) return HUGE_VAL;
-  const double ratio = now / before;
-  return std::abs(now) * (ratio > 0 ? ratio / (1 - ratio) : 1);
 }
 
 }  // namespace kurbel

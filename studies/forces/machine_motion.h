@@ -81,7 +81,6 @@ class MachineMotion {
   double angle_in(const Equations& equations, std::span<const double> y) const {
     return equations.angle_with_turns(crank_.tracked, y) + crank_.phase;
   }
-  void check_sense(const MotionAlong& along, int direction) const;
 
   const ForcesOptions& options_;
   Moment at_;  // of the model
@@ -97,11 +96,6 @@ class MachineMotion {
 // can be made or its crank completes no cycle.
 std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effects& effects, OutputLoads& loads,
                                         const ForcesOptions& options);
-
-// Remaining change of a quantity sampled once per cycle: the change d over the last quarter of its course, continued
-// as a geometric sequence with the ratio q to the quarter before: d q/(1 − q); for q < 0 (oscillating) |d|. ∞ if the
-// changes do not shrink (constant growth: q = 1), 0 if they are below `noise`.
-double still_to_come(const std::vector<double>& course, double noise);
 
 // Crank speed of the first problem, and its source.
 struct CrankSpeed {

@@ -217,6 +217,9 @@ Approach approach_of(std::span<const double> values, double noise) {
       approach.remaining = std::max(*approach.remaining, *rest);
     }
   }
+  // A single ratio may be that of a faster motion, which dies away in it: none below a tenth is assumed.
+  if (const double change = std::abs(v[n] - v[n - 1]); n == 2 && approach.remaining && change > noise)
+    approach.remaining = std::max(*approach.remaining, change / 9);
   return approach;
 }
 

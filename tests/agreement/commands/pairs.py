@@ -160,6 +160,7 @@ def effects_and_advise(told):
     full = max((set_of(t["effects"]) for t in advise["tried"]), key=len, default=frozenset())
     if advise["tried"] and full != set_of(advise["tried"][0]["effects"]):
         return
+    left = LEFT_IS_ABOUT * left_of(told.get("run"))
     for tried in advise["tried"]:
         missing = full - set_of(tried["effects"])
         if len(missing) != 1 or not tried.get("figure") or set_of(tried["effects"]) - full:
@@ -170,7 +171,7 @@ def effects_and_advise(told):
                 continue
             for c in effect["changes"]:
                 if c["figure"] == tried["figure"] and number(c["relative"]) and number(tried["deviation"]):
-                    yield Same(f"change of {c['figure']} without {gone}", Value(c["relative"], c["error"], "effects relative"),
+                    yield Same(f"change of {c['figure']} without {gone}", plus(Value(c["relative"], c["error"], "effects relative"), left),
                                Value(tried["deviation"], tried["error"], "advise deviation"))
 
 
@@ -210,6 +211,13 @@ def run_and_figures(told):
 def last_cycle(figures):
     """The figures of a run's last cycle have the names of those of `steady`."""
     return lambda name: not name.startswith(("greatest_torque", "least_torque"))
+
+
+def left_of(run):
+    """What a run's mid speed still has to go, over itself; 0: it has none, or no steady motion to come to."""
+    left = ((run or {}).get("periods") or {}).get("remaining_to_limit")
+    mid = next((f["value"] for f in (run or {}).get("figures", ()) if f["name"].startswith("mid_speed")), None)
+    return abs(left / mid) if number(left) and number(mid) and mid else 0
 
 
 def run_and_steady(told):
@@ -390,7 +398,8 @@ def reduce_and_steady(told):
     work = cycle.get("driving_work_per_cycle")
     drive = order_of(reduced, "driving torque", 0)
     if mean and time and work and drive and abs(mean.value * time.value) > 1e-9:
-        yield Same("mean driving torque", drive, times(work, 1 / (mean.value * time.value)))
+        # Torques count along the motion.
+        yield Same("mean driving torque", drive, times(work, 1 / abs(mean.value * time.value)))
 
 
 def chains(told):
