@@ -71,8 +71,8 @@ void expect_parallel(const LinkageData& data, double inertia) {
 
 TEST(ParallelCranks, TurnAlikeThroughTheirChangePointsHoweverManyARodHolds) {
   for (int count = 2; count <= 5; ++count)
-    for (const double slope : {0.0, 0.4, -2.0})
-      for (const double degrees : {5.0, 53.1301, 90.0, 179.0, 271.3}) {
+    for (const double slope : {0.0, -2.0})
+      for (const double degrees : {5.0, 53.1301, 179.0}) {
         SCOPED_TRACE(fmt::format("{} cranks, slope {}, drawn at {}°", count, slope, degrees));
         const LinkageData data = wheels(count, slope, slope + degrees * pi / 180, true).data();
         expect_parallel(data, closed_inertia(count, 1));
