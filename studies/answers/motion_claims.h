@@ -33,7 +33,7 @@ Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Res
 Claims start_claims(const std::shared_ptr<const Model>& model);
 
 // Of a machine that started at rest without torque on any shaft and without later changes, and never moved: a dead centre
-// under load, or a balance. Empty: it did. What rounding moved is said by a claim (`start_unstable`).
+// under load, or a balance. Empty: it did, or the run is not complete. What rounding moved is said by a claim (`start_unstable`).
 std::string words_of_balance(const Equations& at_end, const RunOutcome& outcome);
 
 }  // namespace kurbel

@@ -139,6 +139,7 @@ Claims start_claims(const std::shared_ptr<const Model>& model) {
 
 std::string words_of_balance(const Equations& at_end, const RunOutcome& outcome) {
   constexpr double moved = 1e-6;  // [rad], [rad/s]
+  if (!outcome.complete) return {};
   const Model& m = at_end.model();
   for (std::size_t k = 0; k < m.free_shafts; ++k)
     if (std::abs(outcome.state[at_end.speed_index(static_cast<int>(k))]) > moved) return {};

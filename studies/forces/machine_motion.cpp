@@ -16,6 +16,7 @@
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/forces/passages.h"
 #include "studies/validity/outside_data.h"
 
 namespace kurbel {
@@ -25,79 +26,6 @@ constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10, enough = 1e-9;
 constexpr int most_turns = 64;           // of the crank until everything comes again
 constexpr int periods_undriven = 40;     // what nothing drives comes to rest, or has come again long before
 constexpr std::size_t most_edges = 200;  // events of a cycle; of more none is looked at from both sides
-constexpr double near_edge = 1e-7;       // of the crank: a run meets an edge this near to where its law has it [rad]
-
-// Motion and forces of the crank when it passes given angles. A value on one side of an edge is taken on that side of
-// the machine's event, wherever the run locates it within its tolerances: laws and motion change there together.
-class PassageRecorder final : public Observer {
- public:
-  PassageRecorder(std::size_t tracked, int node, const DeformedMechanism& forces, const std::vector<Abscissa>& where,
-                  std::vector<double> targets, int direction)
-      : tracked_(tracked),
-        node_(node),
-        forces_(forces),
-        where_(where),
-        targets_(std::move(targets)),
-        direction_(direction) {}
-  void step(StepView& view) override {
-    Equations& equations = view.equations();
-    const Model& m = equations.model();
-    const int shaft = m.shaft_of_node[at(node_)];
-    const double gain = m.gain_of_node[at(node_)];
-    const auto beyond = [&](double t) {
-      return direction_ * (equations.angle_with_turns(tracked_, view.at(t)) - targets_[passed.size()]);
-    };
-    // Each is located within the whole step, so that targets do not depend on others requested.
-    const double from = view.t_previous();
-    const auto angle = [&](std::span<const double> y) { return direction_ * equations.angle_with_turns(tracked_, y); };
-    if (!passed.empty() && passed.size() < targets_.size())
-      turns_back = turns_back || !(angle(view.y()) > angle(view.y_previous()));
-    while (passed.size() < targets_.size()) {
-      Deadline::check();
-      const double at_end = beyond(view.t()), at_begin = beyond(from);
-      if (at_end < where_[passed.size()].side * near_edge) return;
-      const double time = at_begin >= 0 ? from
-                          : at_end < 0  ? view.t()
-                                        : find_root(beyond, from, at_begin, view.t(), at_end);
-      const Snapshot& s = view.snapshot(time);
-      (passed.empty() ? first : last) = time;
-      passed.push_back({gain * s.now.speed[shaft], gain * s.alpha[shaft], acting_loads(m, forces_.element(), s.now)});
-      machine.push_back(forces_.at(s));
-    }
-  }
-  double first = 0, last = 0;  // when [s]
-  bool turns_back = false;     // or stops, between the first and the last
-  std::vector<CrankMotion> passed;
-  std::vector<MachineForces> machine;
-
- private:
-  std::size_t tracked_;
-  int node_;
-  const DeformedMechanism& forces_;
-  const std::vector<Abscissa>& where_;
-  std::vector<double> targets_;
-  int direction_;
-};
-
-// Angles of the crank at the steps' ends: events are among them.
-class StepEnds final : public Observer {
- public:
-  explicit StepEnds(std::size_t tracked) : tracked_(tracked) {}
-  void step(StepView& view) override {
-    t_.push_back(view.t());
-    angle_.push_back(view.equations().angle_with_turns(tracked_, view.y()));
-  }
-  double angle(double t) const {
-    const auto after = std::lower_bound(t_.begin(), t_.end(), t);
-    const auto i = static_cast<std::size_t>(after - t_.begin());
-    if (i == t_.size()) return angle_.back();
-    return angle_[i > 0 && t - t_[i - 1] < t_[i] - t ? i - 1 : i];
-  }
-
- private:
-  std::size_t tracked_;
-  std::vector<double> t_, angle_;
-};
 
 // Edges of the loads in each of several cycles, and edges by events, once each.
 std::vector<double> edges_of_all(const std::vector<double>& loads, double cycle, int cycles,
@@ -387,6 +315,11 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
     out.complete = false;
     out.diagnosis = outcome.diagnosis;
   }
+  const auto omitted = [&]() -> std::optional<SimulatedMotion> {
+    out.notes.push_back(fmt::format("second problem omitted: {}", turns_back_in_words));
+    return {};
+  };
+  if (why == turns_back_in_words) return omitted();
   const int direction = end_angle >= begin_angle ? 1 : -1;
   const double last =
       direction > 0 ? std::floor((end_angle - 2 * near_edge) / cycle) : std::ceil((end_angle + 2 * near_edge) / cycle);
@@ -404,10 +337,7 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   if (direction < 0) std::reverse(where.begin(), where.end());
   SimulatedMotion motion;
   Sampled tight = one_run(where, cycle, origin, direction, tolerance);
-  if (tight.turns_back) {
-    out.notes.push_back(fmt::format("second problem omitted: {}", turns_back_in_words));
-    return {};
-  }
+  if (tight.turns_back) return omitted();
   MotionAlong loose = one_run(where, cycle, origin, direction, 30 * tolerance).along;
   std::optional<MotionAlong> before;
   if (direction * (first * cycle - direction * cycle - begin_angle) >= -1e-9)

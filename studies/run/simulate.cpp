@@ -56,6 +56,7 @@ class Simulation {
     log(fmt::format("{}: {} coordinates, {} states; effects: {}; {:.6g} s to simulate", result_.label,
                     model_->free_shafts + model_->twist_count() + further_coordinates(*model_), model_->state_count(),
                     model_->effects.describe(), settings_.until));
+    if (!checkpoint_) equations_.snapshot(0, equations_.start(0));  // a place where the machine cannot stand is refused
     if (!options_.chosen_because.empty()) result_.notes.push_back(options_.chosen_because);
     tolerance_ = options_.first_tolerance.value_or(std::max(settings_.accuracy, 1e-12) / 10);
     fine_ = one_run(tolerance_);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -88,6 +89,32 @@ TEST(ForcesOfTheSteadyMotion, HaveTheSpeedsAndWorksOfTheSteadyCycle) {
         std::pair("tests/agreement/worn_pin_small.toml", "crank"), std::pair("scenes/shaper.toml", "shaper"),
         std::pair("scenes/four_bar_rocker.toml", "rocker")})
     expect_steady(name, *find_forces(test::scene_file(name), {}).simulated, link);
+}
+
+// A soft shaft lets the slider's weight turn the crank back, between two of the positions: it passes some angles three
+// times. With a little less weight it passes each once.
+TEST(ForcesOfTheSteadyMotion, OfACrankThatTurnsBackAreNone) {
+  const auto forces = [](const std::string& mass) {
+    return find_forces(test::scene_from(R"(
+      line = ["drive", "soft", "crank"]
+      drive = { kind = "prescribed speed", speed = "10 rad/s" }
+      soft = { kind = "coupling", stiffness = "8 N*m/rad", damping_ratio = 0.1 }
+      crank = { kind = "slider-crank", radius = "100 mm", rod = "400 mm", crank_inertia = "0.03 kg*m2", gravity = "9.81 m/s2", stroke_angle = "90 deg", slider_mass = ")" +
+                                        mass + R"(" }
+      effects = { elasticity = true }
+      run = { start = { speed = "10 rad/s" }, until = "10 s" }
+    )"),
+                       {});
+  };
+  EXPECT_TRUE(forces("3.05 kg").simulated);
+  for (const char* mass : {"3.06 kg", "3.2 kg", "4 kg"}) {
+    const Forces f = forces(mass);
+    EXPECT_FALSE(f.simulated) << mass;
+    EXPECT_TRUE(
+        std::any_of(f.notes.begin(), f.notes.end(),
+                    [](const std::string& note) { return note.find("stops or turns back") != std::string::npos; }))
+        << mass << fmt::format(": {}", fmt::join(f.notes, "\n"));
+  }
 }
 
 // Behind an elastic machine's curves stand those of the rigid one: what the study says of it alone, to the last bit.
