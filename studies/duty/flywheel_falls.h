@@ -2,6 +2,7 @@
 //
 //     fall = max (|ω(t₁)| − |ω(t₂)|), t₁ < t₂, while something drives
 //     speed_drop = fall/|ω(t₁)|,   energy_given = ½ J (ω(t₁)² − ω(t₂)²)
+// A fall of the size of rounding is none: of a wheel at the start, that is the whole of its speed.
 #pragma once
 
 #include <string>

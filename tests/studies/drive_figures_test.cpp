@@ -120,6 +120,30 @@ TEST(Flywheel, RunDownIsNoFall) {
   EXPECT_TRUE(!drop || drop->value < 1e-6);
 }
 
+// A run-up from rest behind soft and stiff couplings: what the wheel turns back by rounding in the first steps, all of the
+// speed that it then has, is no fall.
+TEST(Flywheel, RoundingAtTheStartIsNoFall) {
+  const Result r = test::run(R"(
+    line = ["motor", "c1", "j2", "c2", "j3", "c3", "j4", "c4", "wheel", "c5", "fan"]
+    motor = { kind = "dc shunt motor", stall_torque = "255.745 N*m", no_load_speed = "110.36 rad/s", inertia = "0.0741 kg*m2" }
+    c1 = { kind = "coupling", stiffness = "3.1297 kN*m/rad", damping = "2.374 N*m*s/rad" }
+    j2 = { kind = "inertia", inertia = "0.023 kg*m2" }
+    c2 = { kind = "coupling", stiffness = "165.7 kN*m/rad", damping = "6.919 N*m*s/rad" }
+    j3 = { kind = "inertia", inertia = "0.0437 kg*m2" }
+    c3 = { kind = "coupling", stiffness = "150 kN*m/rad", damping = "6.404 N*m*s/rad" }
+    j4 = { kind = "inertia", inertia = "0.3328 kg*m2" }
+    c4 = { kind = "coupling", stiffness = "8.853 kN*m/rad", damping = "5.034 N*m*s/rad" }
+    wheel = { kind = "flywheel", inertia = "1.6736 kg*m2" }
+    c5 = { kind = "coupling", stiffness = "37.7 kN*m/rad", damping = "11.61 N*m*s/rad" }
+    fan = { kind = "load", quadratic = "0.01833 N*m*s2/rad2", inertia = "0.5595 kg*m2" }
+    effects = { elasticity = true }
+    run = { start = "rest", until = "1 s", accuracy = 1e-2, method = "verner6" }
+  )",
+                             false);
+  EXPECT_FALSE(r.find("speed_drop.wheel"));
+  EXPECT_FALSE(r.find("energy_given.wheel"));
+}
+
 // It must pass 60 N·m · 3/(1 + 3) = 45 N·m on: holding 90 N·m it has twice that.
 TEST(Clutch, TorqueReserveIsWhatItHoldsOverWhatItPassesOn) {
   const Result r = test::run(R"(
