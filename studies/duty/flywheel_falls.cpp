@@ -12,8 +12,9 @@
 namespace kurbel {
 namespace {
 
-constexpr double likeness = 1e-4;   // falls that differ by less are the same one, come again
-constexpr double rounding = 1e-12;  // of the usual speed: a fall below it is none
+constexpr double likeness = 1e-4;  // falls that differ by less are the same one, come again
+constexpr double nothing =
+    1e-9;  // of the usual speed: a fall below it is none, as of a solution that rings in its first steps
 
 }  // namespace
 
@@ -74,7 +75,7 @@ void FlywheelFalls::report(const Model& model, const FlywheelFalls* seen, double
   for (const auto& [component, flywheel] : model.network.data.all<Flywheel>()) {
     const Wheel* wheel = nullptr;
     for (const Wheel& w : seen ? std::span(seen->wheels_) : std::span<const Wheel>())
-      if (w.component == component && w.from - w.to > rounding * model.speed_scale) wheel = &w;
+      if (w.component == component && w.from - w.to > nothing * model.speed_scale) wheel = &w;
     report("speed_drop", component, [&]() -> std::optional<Found> {
       if (!wheel) return {};
       return Found{(wheel->from - wheel->to) / wheel->from, 1, wheel->low_at};

@@ -2,7 +2,7 @@
 //
 //     fall = max (|ω(t₁)| − |ω(t₂)|), t₁ < t₂, while something drives
 //     speed_drop = fall/|ω(t₁)|,   energy_given = ½ J (ω(t₁)² − ω(t₂)²)
-// A fall of the size of rounding is none: of a wheel at the start, that is the whole of its speed.
+// A fall below a billionth of the usual speed is none: of a wheel at the start, it may be all of its speed.
 #pragma once
 
 #include <string>
