@@ -290,9 +290,10 @@ class SketchReader {
     }
     if (!valid_) return;
     if (to.rocks() && !k_.mounting.loads.empty())
-      valid_ = k_.refuse("load", fmt::format("load: {} rocks, so that torques act on it; write torque = …, or name an "
-                                             "output that slides, or a point",
-                                             output));
+      valid_ = k_.refuse(
+          "load", fmt::format("load: {} turns on the frame, so that torques act on it; write torque = …, or name an "
+                              "output that slides, or a point",
+                              output));
     if (!to.rocks() && !k_.torques.empty())
       valid_ = k_.refuse(&LinkageKeys::torques,
                          fmt::format("torque: {} has a way, so that forces act on it; write load = …", output));
