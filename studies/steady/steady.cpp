@@ -197,7 +197,14 @@ class Study {
       incomplete(is_interrupted(cycle) ? "interrupted"
                                        : fmt::format("no steady cycle ({}): {}", cycle.label, cycle.why));
     }
-    for (const std::string& note : cycle.notes) out_.notes.push_back(cycle.label + ": " + note);
+    for (const std::string& note : cycle.notes) {
+      const auto same = std::find(out_.notes.begin(), out_.notes.end(),
+                                  out_.cycles.empty() ? "" : out_.cycles.front().label + ": " + note);
+      if (same != out_.notes.end())
+        *same = note;  // of both models
+      else
+        out_.notes.push_back(cycle.label + ": " + note);
+    }
     out_.cycles.push_back(std::move(cycle));
   }
   void incomplete(const std::string& why) {
