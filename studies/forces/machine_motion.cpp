@@ -27,6 +27,13 @@ constexpr int most_turns = 64;           // of the crank until everything comes 
 constexpr int periods_undriven = 40;     // what nothing drives comes to rest, or has come again long before
 constexpr std::size_t most_edges = 200;  // events of a cycle; of more none is looked at from both sides
 
+// Neither the steady motion nor a cycle of the run is one over the crank's angle.
+struct TurnsBack : std::invalid_argument {
+  TurnsBack()
+      : std::invalid_argument(
+            "the crank stops or turns back within the cycle, so that forces are not a function of its angle") {}
+};
+
 // Edges of the loads in each of several cycles, and edges by events, once each.
 std::vector<double> edges_of_all(const std::vector<double>& loads, double cycle, int cycles,
                                  const std::vector<double>& events) {
@@ -96,8 +103,13 @@ std::optional<SimulatedMotion> MachineMotion::solve(OutputLoads& loads, Account 
 
 std::optional<SimulatedMotion> MachineMotion::motion_of(const Orbit& found, OutputLoads& loads, Account out) const {
   std::string why_not;
-  auto motion = kept_motion(loads, found, why_not);
-  if (!motion && found.kind != Orbit::Kind::interrupted) motion = last_cycle(loads, why_not, out);
+  std::optional<SimulatedMotion> motion;
+  try {
+    motion = kept_motion(loads, found, why_not);
+    if (!motion && found.kind != Orbit::Kind::interrupted) motion = last_cycle(loads, why_not, out);
+  } catch (const TurnsBack& refused) {
+    out.notes.push_back(fmt::format("second problem omitted: {}", refused.what()));
+  }
   if (found.kind == Orbit::Kind::interrupted) out.complete = false, out.diagnosis = found.words;
   if (motion) motion->effects = effects_, motion->deforms = deforms();
   return motion;
@@ -148,17 +160,15 @@ struct MachineMotion::Sampled {
   MotionAlong along;
   std::vector<MachineForces> machine;
   std::vector<std::string> outside_data;  // of a run
-  bool turns_back = false;
 
   void take(PassageRecorder& passages, int direction) {
     along.motion = std::move(passages.passed), along.time = passages.last - passages.first;
     machine = std::move(passages.machine);
-    turns_back = passages.turns_back || std::any_of(along.motion.begin(), along.motion.end(),
-                                                    [&](const CrankMotion& m) { return !(direction * m.omega > 0); });
+    if (passages.turns_back || std::any_of(along.motion.begin(), along.motion.end(),
+                                           [&](const CrankMotion& m) { return !(direction * m.omega > 0); }))
+      throw TurnsBack();
   }
 };
-constexpr const char* turns_back_in_words =
-    "the crank stops or turns back within the cycle, so that forces are not a function of its angle";
 
 std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, const Orbit& orbit,
                                                           std::string& why_not) const {
@@ -179,6 +189,8 @@ std::optional<SimulatedMotion> MachineMotion::kept_motion(OutputLoads& loads, co
     motion.outside_data = kurbel::outside_data(*orbit.map, orbit.point);
     motion.kept = true;
     return motion;
+  } catch (const TurnsBack&) {
+    throw;
   } catch (const std::invalid_argument& refused) {
     why_not = refused.what();
     return {};
@@ -242,7 +254,6 @@ MachineMotion::Sampled MachineMotion::along_period(OutputLoads& loads, const Ret
     throw std::invalid_argument(outcome.diagnosis.empty() ? "the motion ended before the crank's cycle"
                                                           : outcome.diagnosis);
   out.take(passages, direction);
-  if (out.turns_back) throw std::invalid_argument(turns_back_in_words);
   return out;
 }
 
@@ -315,11 +326,6 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
     out.complete = false;
     out.diagnosis = outcome.diagnosis;
   }
-  const auto omitted = [&]() -> std::optional<SimulatedMotion> {
-    out.notes.push_back(fmt::format("second problem omitted: {}", turns_back_in_words));
-    return {};
-  };
-  if (why == turns_back_in_words) return omitted();
   const int direction = end_angle >= begin_angle ? 1 : -1;
   const double last =
       direction > 0 ? std::floor((end_angle - 2 * near_edge) / cycle) : std::ceil((end_angle + 2 * near_edge) / cycle);
@@ -337,7 +343,6 @@ std::optional<SimulatedMotion> MachineMotion::last_cycle(OutputLoads& loads, con
   if (direction < 0) std::reverse(where.begin(), where.end());
   SimulatedMotion motion;
   Sampled tight = one_run(where, cycle, origin, direction, tolerance);
-  if (tight.turns_back) return omitted();
   MotionAlong loose = one_run(where, cycle, origin, direction, 30 * tolerance).along;
   std::optional<MotionAlong> before;
   if (direction * (first * cycle - direction * cycle - begin_angle) >= -1e-9)
