@@ -146,7 +146,7 @@ until = "1 s"
   EXPECT_TRUE(test::run(scene).complete);
   const Forces forces = find_forces(scene, {});
   EXPECT_TRUE(forces.front().reactions.empty());
-  // What does not hang on them: cranks turn alike, their centres of mass and the coupler's on circles.
+  // What does not depend on the reactions: all cranks turn alike, and the centres of mass move on circles.
   const double w = forces.front().mean_speed.value, r = std::hypot(0.1, 0.02);
   EXPECT_NEAR(forces.front().shaking_force.value, (2 * r / 2 + 4 * r) * w * w, 1e-9);
   EXPECT_LT(std::abs(forces.front().torque.value), 1e-9);

@@ -56,6 +56,17 @@ TEST(Approach, OfTwoTransientsIsThatOfTheSlowOne) {
   }
 }
 
+// Three cycles from a run-up give one ratio, that of the motion that dies fastest: a slower one is still counted.
+TEST(Approach, OfThreeCyclesAllowsForASlowerTransient) {
+  for (const double slow : {0.02, 0.06, 0.1}) {
+    const auto left = [&](int k) { return 5 * std::pow(0.01, k) + 0.2 * std::pow(slow, k); };
+    const Approach a = approach(3, [&](int k) { return 10 - left(k); });
+    ASSERT_TRUE(a.remaining) << slow;
+    EXPECT_GE(*a.remaining, left(2)) << slow;
+    EXPECT_LE(*a.remaining, std::abs(left(2) - left(1)) / 9 * (1 + 1e-12)) << slow;
+  }
+}
+
 TEST(Approach, ToAndFroIsBoundedByItsRange) {
   const Approach beats = approach(60, [](int k) { return 10 + 1e-3 * std::cos(0.7 * k); });
   EXPECT_NEAR(*beats.remaining, 2e-3, 3e-4);

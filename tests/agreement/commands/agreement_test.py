@@ -238,6 +238,10 @@ class Questions(unittest.TestCase):
         self.assertAlmostEqual(times[0], 20 + 10 * PERIOD)  # 0.1 a period: ten leave 1e-10
         self.assertAlmostEqual(times[2] - times[1], PERIOD)
 
+    def test_a_motion_that_the_machine_leaves_is_not_run_on(self):
+        note = "the machine comes to rest at 13.52 s and stays there; shown is the motion that it keeps after step 8"
+        self.assertIsNone(asked.settled("scenes/x.toml", {**SUMMARIES, "steady": {**STEADY, "notes": [note]}}))
+
     def test_effects_of_forces_are_asked_of_steady(self):
         forces = {"simulated": {"description": "steady motion of the machine (elasticity of a, b and joint friction), crank's cycle of 360°"}}
         self.assertEqual(asked.effects_of_forces(forces)[1], "elasticity:a,elasticity:b,joint_friction")
