@@ -117,8 +117,7 @@ class ReturnMap {
   bool variational_ = true;  // derivatives by variational equations, else by differences
   std::optional<PoincareSection> section_;
   double section_angle_ = 0, sense_ = 1, time_limit_ = 0, cost_ = 0;
-  std::int64_t most_flow_calls_ =
-      0;  // limit for a period: many times the calls of the cheapest completed one; 0: unknown
+  std::int64_t most_flow_calls_ = 0;  // limit for a period, by the cheapest completed one; 0: unknown
 };
 
 // A fixed point of the map.

@@ -41,7 +41,8 @@ struct KnownDerivatives {
   SimTK::Vector q1, q2, q3;
 };
 
-// The last derivatives of the coordinates that a reduction finds; what follows from later ones is left out.
+// The highest derivatives of the coordinates that a reduction computes: dq/dφ, with I_r alone (I_r′ and I_r″ stay 0), or
+// up to d³q/dφ³.
 enum class Upto { velocity, jerk };
 
 // A planar vector in precision T.

@@ -16,7 +16,8 @@
 
 namespace kurbel {
 
-// The motion of a group in parallel, in the order of its links; empty: it has none. `drawn`: the regularly closed position of the sketch; `size` [m]: of the linkage.
+// The motion of a group in parallel, in the order of its links; empty: it has none. `drawn`: the closed position of the
+// sketch; `size` [m]: of the linkage.
 std::optional<ParallelMotion> parallel_motion(const AssurGroup& group, const LinkageSketch& sketch,
                                               const LinkageStructure& structure, const LinkPoses& drawn,
                                               long double size);

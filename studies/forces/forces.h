@@ -196,7 +196,8 @@ struct Forces : SceneStudy {
   const ForceCycle& front() const { return simulated ? *simulated : *prescribed; }
 };
 
-// Throws SceneError if no machine can be made; std::invalid_argument if there is no mechanism or options are invalid; std::runtime_error with the position if the joints jam.
+// Throws SceneError if no machine can be made; std::invalid_argument if there is no mechanism or options are invalid;
+// std::runtime_error with the position if the joints jam.
 Forces find_forces(const Scene& scene, const ForcesOptions& options);
 
 // Orders 0 … highest of equidistant values over `turns` turns, both ends (trapezoidal rule, exact for smooth functions).
