@@ -18,7 +18,9 @@ namespace {
 std::size_t index(int number) { return static_cast<std::size_t>(number); }
 std::size_t shaft_of(const ShaftGain& g) { return index(g.shaft); }
 
-constexpr double at_rest = 1e-14;  // of the speed scale
+constexpr double at_rest = 1e-14;   // of the speed scale
+constexpr double balanced = 1e-14;  // change of a state in a pass, of its value
+constexpr int most_passes = 30;
 
 // Angles and twists of a scene's start; given angles of components are combined with the usual ones of the others.
 KnownMotion known_at_start(const Model& m, const StartSettings& start, int on) {
@@ -158,10 +160,20 @@ void Start::settle_modes(double t, std::span<double> y, bool equilibrium) {
   first_states(t, y);
   if (equilibrium) balance_twists(y, t);
   first_states(t, y);
+  // Deforming parts and the accelerations that load them depend on each other.
   const auto balance_followers = [&] {
     if (!equilibrium || !flow_.has_followers()) return;
-    flow_.evaluate(t, y);
-    flow_.balance_followers(y.data() + flow_.internal_begin());
+    const auto states = y.subspan(flow_.internal_begin(), flow_.state_count() - flow_.internal_begin());
+    std::vector<double> before;
+    for (int pass = 0; pass < most_passes; ++pass) {
+      before.assign(states.begin(), states.end());
+      flow_.evaluate(t, y);
+      flow_.balance_followers(states.data());
+      const bool stays = std::equal(states.begin(), states.end(), before.begin(), [](double now, double earlier) {
+        return std::abs(now - earlier) <= balanced * std::abs(now);
+      });
+      if (stays) return;
+    }
   };
   balance_followers();
   contacts_.settle(t, y, changes, nullptr);

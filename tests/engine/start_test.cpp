@@ -169,5 +169,24 @@ TEST(Start, IsTheSameWheneverItIsMade) {
   EXPECT_GT(scenes, 150);
 }
 
+// Deforming parts stand in balance with the accelerations of a machine that they load themselves: another balance leaves
+// every state where it is.
+TEST(Start, BalancesDeformingPartsWithTheMachine) {
+  const Scene scene = read_scene(test::source_path("scenes/flexible_rod.toml"), all_kinds());
+  ASSERT_TRUE(scene.run.start.equilibrium);
+  Equations equations(compile(scene, scene.effects), false);
+  const std::vector<double> y = equations.start(0);
+  ASSERT_TRUE(equations.has_followers());
+  equations.evaluate(0, y);
+  std::vector<double> again = y;
+  equations.balance_followers(again.data() + equations.internal_begin());
+  std::size_t deformed = 0;
+  for (std::size_t i = equations.internal_begin(); i < equations.state_count(); ++i) {
+    EXPECT_NEAR(again[i], y[i], 1e-13 * std::abs(y[i])) << i;
+    deformed += y[i] != 0;
+  }
+  EXPECT_GT(deformed, 0u);
+}
+
 }  // namespace
 }  // namespace kurbel::start_test
