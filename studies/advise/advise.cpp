@@ -21,8 +21,8 @@ std::string in_percent(double deviation, double error) { return with_error({100 
 constexpr std::ptrdiff_t tried_completely = 5;  // units: 2⁵ sets are run one and all
 constexpr double held_out_step = 0.2;           // loads and speeds ± 20 %
 
-// A set whose saving is within the noise of its cost is no gain.
-constexpr double same_time = 0.97;
+// Sets whose work differs by less count as equally cheap; the one with fewer effects is taken.
+constexpr double same_work = 0.97;
 
 class Adviser {
  public:
@@ -39,7 +39,8 @@ class Adviser {
     say("all effects", 0);
     all_ = fullest_set(scene_, a_.units);
     a_.full = must_run(all_, "full");
-    a_.tried.push_back({{}, all_, describe(a_.units, all_), a_.full.statistics.cpu_seconds, size_of(*a_.full.model)});
+    a_.tried.push_back({{}, all_, describe(a_.units, all_)});
+    set_cost(a_.tried.back(), a_.full);
     if (!a_.full.complete) {
       a_.break_off(a_.full.diagnosis);
       a_.conclusion = "The full model did not run to the end: " + a_.full.diagnosis;
@@ -93,8 +94,7 @@ class Adviser {
     const VariantRun run = runs_.run(set.words, scene_, effects(on));
     set.refused = run.failed;
     if (const Result& r = run.result; r.model) {
-      set.size = size_of(*r.model);
-      set.cpu_seconds = r.statistics.cpu_seconds;
+      set_cost(set, r);
       if (const std::vector<std::string> idle = idle_effects(*r.model); !idle.empty()) set.refused = idle.front();
       Deviation& by = set;
       by = judge(a_.full, r, options_.figures);
@@ -103,6 +103,12 @@ class Adviser {
     set.within = set.within && set.refused.empty();
     a_.tried.push_back(std::move(set));
     return a_.tried.back();
+  }
+  static void set_cost(TriedSet& set, const Result& r) {
+    const StepperStatistics& s = r.statistics.stepper;
+    set.size = size_of(*r.model);
+    set.cpu_seconds = r.statistics.cpu_seconds;
+    set.evaluations = s.flow_calls + s.jacobian_calls + s.factorisations;
   }
   Deviation judge(const Result& full, const Result& other, const std::vector<std::string>& figures) const {
     Deviation found = deviation_of(changes_between(full, other, figures), options_.within);
@@ -162,8 +168,8 @@ class Adviser {
       const TriedSet &t = a_.tried[i], &best = a_.tried[a_.chosen];
       if (!t.within) continue;
       const auto count = [](const TriedSet& s) { return std::count(s.on.begin(), s.on.end(), true); };
-      const bool cheaper = t.cpu_seconds < same_time * best.cpu_seconds;
-      const bool leaner = t.cpu_seconds < best.cpu_seconds / same_time && count(t) < count(best);
+      const bool cheaper = t.work() < same_work * best.work();
+      const bool leaner = t.work() < best.work() / same_work && count(t) < count(best);
       if (cheaper || leaner) a_.chosen = i;
     }
     refuse_to_drop();
@@ -213,7 +219,7 @@ class Adviser {
                                                    100 * alone->deviation, alone->figure);
     }
     if (!found->refused.empty()) return "keep: the machine does not run without it";
-    return found->within ? "keep: omitting it saves no time"
+    return found->within ? "keep: omitting it saves no work"
                          : fmt::format("keep: without it {} is {:.3g} % off", found->figure, 100 * found->deviation);
   }
 

@@ -1,5 +1,5 @@
-// advise.h — the cheapest set of effects whose figures stay within a tolerance of the fullest model: screened, then
-// run.
+// advise.h — the cheapest set of effects, by evaluations × states, whose figures stay within a tolerance of the fullest
+// model: screened, then run.
 #pragma once
 
 #include <string>
@@ -23,9 +23,13 @@ struct AdviseOptions {
 struct TriedSet : Deviation {
   EffectSet on = {};
   std::string words = {};
-  double cpu_seconds = 0;
+  double cpu_seconds = 0;        // measured: depends on what else the computer does
+  std::int64_t evaluations = 0;  // of the equations, their Jacobian and its factors
   ModelSize size = {};
   std::string refused = {};  // why it did not run
+
+  // What a run costs, the same in every run: the choice is made by it.
+  double work() const { return static_cast<double>(evaluations) * static_cast<double>(size.states); }
 };
 
 // The recommended set at an operating point that was not used for the choice.

@@ -56,6 +56,7 @@ Rows tried_table(const Advice& a) {
       .only_for_people("in", [](const TriedSet* t) { return or_dash(t->figure); })
       .only_for_people("time [ms]", &TriedSet::cpu_seconds, {.factor = 1e3, .digits = 3})
       .only_for_people("states", [](const TriedSet* t) { return t->size.states; })
+      .only_for_people("evaluations", &TriedSet::evaluations)
       .only_for_people("within", [&](const TriedSet* t) {
         if (!t->refused.empty()) return "does not run";
         return t == &a.tried[a.chosen] ? "yes, chosen" : t->within ? "yes" : "no";
@@ -77,7 +78,11 @@ Rows held_out_table(const Advice& a) {
 }
 
 Record tried_record(const Advice& a, const TriedSet& t) {
-  Record r = {{"effects", t.words}, {"cpu_seconds", t.cpu_seconds}, {"states", t.size.states}, {"within", t.within}};
+  Record r = {{"effects", t.words},
+              {"cpu_seconds", t.cpu_seconds},
+              {"states", t.size.states},
+              {"evaluations", t.evaluations},
+              {"within", t.within}};
   if (!t.refused.empty()) {
     r.push_back({"refused", t.refused});
   } else {
