@@ -62,10 +62,9 @@ struct OrderFigure {
   std::string record, channel, unit;
   double order = 0;
   std::optional<OrderPart> measured = {};
-  OrderPart shown = {};
-  std::optional<double> left = {};                               // magnitude of the difference
-  std::optional<double> scatter = {};                            // of the measured mean
-  std::optional<double> amplitude_error = {}, phase_error = {};  // 95 %, of a prediction
+  OrderPart shown = {};                // errors of a prediction: 95 %
+  std::optional<double> left = {};     // magnitude of the difference
+  std::optional<double> scatter = {};  // of the measured mean
 };
 
 // For a record over time: RMS within a frequency band (Hann window).

@@ -82,7 +82,7 @@ Rows order_table(const FitStudy& s, const char* key, const char* title, const st
   using R = OrderFigure;
   const bool predicted = key != std::string("orders");
   const auto part = [&s](std::optional<OrderPart> p, const R& r) {
-    return p ? std::optional(shown_in(s, r.unit, p->amplitude)) : std::nullopt;
+    return p ? std::optional(shown_in(s, r.unit, p->amplitude.value)) : std::nullopt;
   };
   const auto speed = [&s](std::optional<double> R::*member) {
     return [&s, member](const R& r) {
@@ -96,7 +96,11 @@ Rows order_table(const FitStudy& s, const char* key, const char* title, const st
       .column("order", "order", &R::order)
       .column("measured", "measured", [part](const R& r) { return part(r.measured, r); }, {.digits = 4})
       .only_for_programs("shown", [part](const R& r) { return part(r.shown, r); });
-  if (predicted) table.only_for_programs("amplitude_error", speed(&R::amplitude_error));
+  const auto amplitude_error = [&s](const R& r) {
+    const std::optional<double>& error = r.shown.amplitude.error;
+    return error ? std::optional(shown_in(s, r.unit, *error)) : std::nullopt;
+  };
+  if (predicted) table.only_for_programs("amplitude_error", amplitude_error);
   // With its error, if it has one.
   const auto with_its_error = [&](std::string heading, auto value, auto error) {
     if (!predicted)
@@ -110,16 +114,16 @@ Rows order_table(const FitStudy& s, const char* key, const char* title, const st
           "±");
   };
   with_its_error(
-      predicted ? "predicted" : "fitted", [part](const R& r) { return *part(r.shown, r); }, speed(&R::amplitude_error));
+      predicted ? "predicted" : "fitted", [part](const R& r) { return *part(r.shown, r); }, amplitude_error);
   table
       .column("measured_phase", "phase [deg]",
-              [](const R& r) { return r.measured ? std::optional(r.measured->phase) : std::nullopt; },
+              [](const R& r) { return r.measured ? std::optional(r.measured->phase.value) : std::nullopt; },
               {.factor = degrees, .digits = 4})
-      .only_for_programs("shown_phase", [](const R& r) { return r.shown.phase; });
-  if (predicted) table.only_for_programs("phase_error", &R::phase_error);
+      .only_for_programs("shown_phase", [](const R& r) { return r.shown.phase.value; });
+  if (predicted) table.only_for_programs("phase_error", [](const R& r) { return r.shown.phase.error; });
   with_its_error(
-      predicted ? "predicted [deg]" : "fitted [deg]", [](const R& r) { return degrees * r.shown.phase; },
-      [](const R& r) { return r.phase_error ? std::optional(degrees * *r.phase_error) : std::nullopt; });
+      predicted ? "predicted [deg]" : "fitted [deg]", [](const R& r) { return degrees * r.shown.phase.value; },
+      [](const R& r) { return (degrees * r.shown.phase).error; });
   table.column("left", "left", speed(&R::left), {.digits = 3});
   if (!predicted) table.column("scatter", "scatter of the mean", speed(&R::scatter), {.digits = 2});
   return table.column(

@@ -150,14 +150,14 @@ class Predicting {
           if (r.record == like_.name && r.channel == reported.channel && r.order == reported.order)
             left = *r.left / std::sqrt(2.0);
         // Along the phasor and across it.
-        const double cosine = std::cos(reported.shown.phase), sine = std::sin(reported.shown.phase);
+        const double cosine = std::cos(reported.shown.phase.value), sine = std::sin(reported.shown.phase.value);
         const auto parts = [&](const Eigen::VectorXd& points) -> Eigen::VectorXd {
           const Eigen::VectorXd z = orders.compared(points);
           return Eigen::Vector2d(cosine * z[i] + sine * z[i + 1], cosine * z[i + 1] - sine * z[i]);
         };
         if (const auto half = interval_of(parts, Eigen::Vector2d(left, left)).second)
-          reported.amplitude_error = (*half)[0],
-          reported.phase_error = (*half)[1] / std::max(reported.shown.amplitude, 1e-300);
+          reported.shown.amplitude.error = (*half)[0],
+          reported.shown.phase.error = (*half)[1] / std::max(reported.shown.amplitude.value, 1e-300);
         if (asked_.against.empty()) continue;
         reported.measured = order_part(orders.data()[i], orders.data()[i + 1]);
         reported.left = std::hypot(first[i] - orders.data()[i], first[i + 1] - orders.data()[i + 1]);

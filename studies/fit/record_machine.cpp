@@ -386,7 +386,7 @@ double ComparedRecord::independent() const {
 }
 
 OrderPart order_part(double real, double imaginary) {
-  return {std::hypot(real, imaginary), std::atan2(imaginary, real)};
+  return {{std::hypot(real, imaginary)}, {std::atan2(imaginary, real)}};
 }
 
 }  // namespace kurbel

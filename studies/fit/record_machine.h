@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/estimate.h"
 #include "engine/matrices/linear_algebra.h"
 #include "studies/fit/unknowns.h"
 #include "studies/measured/alignment.h"
@@ -108,7 +109,7 @@ class ComparedRecord {
 
 // For each channel and order if orders are compared: A, ψ.
 struct OrderPart {
-  double amplitude = 0, phase = 0;  // [rad]
+  Estimate amplitude, phase;  // [rad]
 };
 OrderPart order_part(double real, double imaginary);
 

@@ -65,7 +65,7 @@ class Reach {
     }
     const SpeedCycle cycle(s_.diagram, s_.cycle.mechanism, s_.exact.inertia, s_.mid_speed);
     DeltaReached exact;
-    exact.sized_by = by_work, exact.flywheel = s_.methods.front().flywheel;
+    exact.sized_by = by_work, exact.flywheel = s_.methods.front().flywheel.value;
     exact.crank.value = exact.motor.value = cycle.delta();
     exact.mid_speed = 0.5 * (cycle.fastest().value + cycle.slowest().value);
     for (int k = 0; k <= curve_points; ++k) {
@@ -83,7 +83,7 @@ class Reach {
     if (!is_elastic(*compile_at(scene_, elastic, options_.at))) elastic.all_elastic = true;
     const auto elastic_model = compile_at(scene_, elastic, options_.at);
     const Effects rigid = rigid_twin(*elastic_model);
-    const double flywheel = s_.methods.front().flywheel;
+    const double flywheel = s_.methods.front().flywheel.value;
     const SizedOrbit with_motor = ask(SizedModel::rigid, SizedBy::constant_drive, by_work, flywheel, rigid);
     const bool elastic_too = is_elastic(*elastic_model);
     s_.stalls = s_.operating && with_motor.stops;
@@ -98,7 +98,7 @@ class Reach {
     if (!s_.meeting || s_.meeting->name != s_.soft->name)
       take(*as_rigid_->orbit, SizedModel::rigid, SizedBy::slope, s_.soft->name);
     if (s_.soft->none_needed) return;
-    if (elastic_too) ask(SizedModel::elastic, SizedBy::slope, s_.soft->name, s_.soft->flywheel, elastic);
+    if (elastic_too) ask(SizedModel::elastic, SizedBy::slope, s_.soft->name, s_.soft->flywheel.value, elastic);
     if (s_.stalls && !s_.meeting) adopt(SizedModel::rigid, *as_rigid_, rigid, s_.soft->name);
   }
 
@@ -158,10 +158,9 @@ class Reach {
     const double on_shaft = found.orbit->flywheel + others_;
     return {name,
             on_shaft * s_.flywheel_ratio * s_.flywheel_ratio,
-            found.orbit->flywheel,
+            {found.orbit->flywheel, found.error},
             flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
             found.orbit->crank.value,
-            found.error,
             found.none_needed};
   }
   // A note found with several flywheels and models is given once.

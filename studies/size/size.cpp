@@ -271,7 +271,7 @@ class Sizer : MachineOnBasis {
     const double on_shaft = drive_inertia / square(s_.flywheel_ratio);
     SizeMethod m{name,
                  drive_inertia,
-                 on_shaft - others(),
+                 {on_shaft - others()},
                  flywheel_by_parts(on_shaft, s_.motor_inertia, s_.gearbox_inertia),
                  {}};
     m.delta = delta_of(drive_inertia);
@@ -293,7 +293,8 @@ class Sizer : MachineOnBasis {
     s_.methods = {method("Wittenbauer (exact)", s_.exact.inertia), method("Mertsalov", s_.approximate.inertia),
                   method("neglecting I_em", inertia_by_fluctuation(s_.diagram.fluctuation(), s_.mid_speed, s_.delta))};
     s_.delta_now = delta_of(constant_inertia_).value_or(std::nan(""));
-    s_.needed = s_.methods.front().flywheel > 0;
+    s_.needed = s_.methods.front().flywheel.value > 0;
+    s_.fluctuation.value = s_.diagram.fluctuation();
     s_.estimate = s_.basis == CycleBasis::classical && !beyond_.empty();
     if (looser_ && !s_.estimate) measure_errors(balanced(*looser_), looser_->mechanism);
   }
@@ -308,11 +309,11 @@ class Sizer : MachineOnBasis {
     const double by_tables = left_by_tables(scene_) * work;  // [J]
     for (std::size_t k = 0; k < std::size(other); ++k) {
       const double inertia = std::abs(s_.methods[k].drive_inertia);
-      s_.methods[k].error = (error(s_.methods[k].drive_inertia, other[k], inertia) +
-                             (by_tables > 0 ? by_tables / fluctuation * inertia : 0)) /
-                            square(s_.flywheel_ratio);
+      s_.methods[k].flywheel.error = (error(s_.methods[k].drive_inertia, other[k], inertia) +
+                                      (by_tables > 0 ? by_tables / fluctuation * inertia : 0)) /
+                                     square(s_.flywheel_ratio);
     }
-    s_.fluctuation_error = error(fluctuation, looser.fluctuation(), work) + by_tables;
+    s_.fluctuation.error = error(fluctuation, looser.fluctuation(), work) + by_tables;
   }
 
   // A tool that works during less than half of the cycle.
@@ -337,19 +338,21 @@ class Sizer : MachineOnBasis {
         method("punch-press form", inertia_by_fluctuation(s_.punch->from_flywheel(), s_.mid_speed, s_.delta)));
     // The classical estimate uses the stroke's energy without transmission losses.
     const bool lossless = std::abs(s_.diagram.work - energy) <= 1e-9 * energy;
-    if (lossless) s_.methods.back().error = s_.methods[2].error;
+    if (lossless) s_.methods.back().flywheel.error = s_.methods[2].flywheel.error;
   }
 
   void find_dimensions() {
-    if (!(s_.chosen().flywheel > 0)) return;
-    FlywheelRequest request{options_.form,        flywheel_material(options_.material),
-                            s_.chosen().flywheel, s_.mid_speed * (1 + s_.delta / 2) * std::abs(s_.flywheel_ratio),
-                            options_.diameter,    options_.rim_speed};
+    const Estimate& flywheel = s_.chosen().flywheel;
+    if (!(flywheel.value > 0)) return;
+    FlywheelRequest request{options_.form,     flywheel_material(options_.material),
+                            flywheel.value,    s_.mid_speed * (1 + s_.delta / 2) * std::abs(s_.flywheel_ratio),
+                            options_.diameter, options_.rim_speed};
     try {
       s_.dimensions = flywheel_dimensions(request);
-      request.inertia += s_.chosen().error.value_or(0);
-      const double mass = s_.dimensions->mass;
-      if (!s_.estimate) s_.mass_error = estimate_from(mass, flywheel_dimensions(request).mass, 1e-12 * mass).error;
+      request.inertia += flywheel.error.value_or(0);
+      s_.mass.value = s_.dimensions->mass;
+      if (!s_.estimate)
+        s_.mass = estimate_from(s_.mass.value, flywheel_dimensions(request).mass, 1e-12 * s_.mass.value);
     } catch (const std::invalid_argument& error) {
       if (options_.diameter > 0) throw;
       s_.dimensions_why = error.what();

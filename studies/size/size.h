@@ -33,12 +33,11 @@ struct SizeOptions {
 struct SizeMethod {
   std::string name;
   double drive_inertia = 0;      // I₀, on the reduction link [kg·m²]
-  double flywheel = 0;           // minus all other parts that turn at constant ratio, on its own shaft [kg·m²]
+  Estimate flywheel = {};        // minus all other parts that turn at constant ratio, on its own shaft [kg·m²]
   double flywheel_by_parts = 0;  // (theory 3.1)
   // Resulting δ at constant driving torque, exact, or in the steady motion; empty: the machine would stop.
   std::optional<double> delta;
-  std::optional<double> error = {};  // of the flywheel [kg·m²]
-  bool none_needed = false;          // δ is smaller than demanded without any flywheel
+  bool none_needed = false;  // δ is smaller than demanded without any flywheel
 };
 
 // Model of the machine with the sized flywheel.
@@ -68,7 +67,7 @@ struct Sizing : SceneStudy {
 
   MachineCycle cycle;
   WorkDiagram diagram;
-  std::optional<double> fluctuation_error;  // of the diagram's [J]
+  Estimate fluctuation;   // of energy, in the diagram [J]
   bool held = false;      // mid speed held by a torque added to the drive: its own start leads to no cycle
   bool estimate = false;  // effects omitted by the rigid machine at constant speed are not included: no error is given
   bool engine = false;    // the drive varies with the angle, the load is chosen to balance it
@@ -103,7 +102,7 @@ struct Sizing : SceneStudy {
   const SizeMethod& chosen() const { return meeting ? *meeting : methods.front(); }
 
   std::optional<FlywheelDimensions> dimensions;  // of the chosen one
-  std::optional<double> mass_error;              // of these [kg]
+  Estimate mass;                                 // of these [kg]
   std::string dimensions_why;
   std::optional<PunchPress> punch;  // for loads that act during a part of the cycle only
   std::vector<DeltaReached> reached;

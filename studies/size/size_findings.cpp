@@ -26,7 +26,7 @@ const DeltaReached* reached(const Sizing& s, SizedModel model) {
 
 std::string conclusion_of(const Sizing& s) {
   const SizeMethod& exact = exact_method(s);
-  if (s.needed && exact.flywheel <= 0)
+  if (s.needed && exact.flywheel.value <= 0)
     return fmt::format(
         "By the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
         "{:.4g}; {}",
@@ -36,23 +36,23 @@ std::string conclusion_of(const Sizing& s) {
         "{} flywheel is needed for δ = {:g}: without any, δ is smaller already; {}",
         s.estimate ? "By an estimate, the rigid machine without its losses, no" : "No", s.delta,
         exact.drive_inertia > 0
-            ? fmt::format("the drive could be lighter by {:.4g} kg·m² on \"{}\"", -exact.flywheel, s.flywheel)
+            ? fmt::format("the drive could be lighter by {:.4g} kg·m² on \"{}\"", -exact.flywheel.value, s.flywheel)
             : std::string("its torques would not make the speed fluctuate as much with any inertia"));
   std::string text = s.estimate ? fmt::format(
                                       "An estimate, by the rigid machine without its losses: a flywheel of about "
                                       "{:.3g} kg·m² on \"{}\" for δ = {:g} {}",
-                                      exact.flywheel, s.flywheel, s.delta, basis_of(s))
-                                : fmt::format("A flywheel of {:.4g} kg·m² on \"{}\" keeps δ at {:g} {}", exact.flywheel,
-                                              s.flywheel, s.delta, basis_of(s));
+                                      exact.flywheel.value, s.flywheel, s.delta, basis_of(s))
+                                : fmt::format("A flywheel of {:.4g} kg·m² on \"{}\" keeps δ at {:g} {}",
+                                              exact.flywheel.value, s.flywheel, s.delta, basis_of(s));
   text += fmt::format(", at a mid speed of {} of \"{}\" ({})", s.speed_unit.text(s.mid_speed, 4), s.link,
                       s.mid_speed_source);
   if (s.stalls) text += "; with the torques as they are over the speed the machine stalls with it";
   if (s.soft) {
-    const double less = 100 * (1 - s.soft->flywheel / exact.flywheel);
-    text += s.soft->none_needed
-                ? fmt::format("; with {} considered none is needed", slope_of_what(s))
-                : fmt::format("; with {} considered {:.4g} kg·m² {} ({:.3g} % {})", slope_of_what(s), s.soft->flywheel,
-                              less >= 0 ? "suffice" : "are needed", std::abs(less), less >= 0 ? "less" : "more");
+    const double less = 100 * (1 - s.soft->flywheel.value / exact.flywheel.value);
+    text += s.soft->none_needed ? fmt::format("; with {} considered none is needed", slope_of_what(s))
+                                : fmt::format("; with {} considered {:.4g} kg·m² {} ({:.3g} % {})", slope_of_what(s),
+                                              s.soft->flywheel.value, less >= 0 ? "suffice" : "are needed",
+                                              std::abs(less), less >= 0 ? "less" : "more");
   }
   if (!s.meeting_words.empty()) text += "; " + s.meeting_words;
   return text;
@@ -68,7 +68,7 @@ std::string words_of(const Sizing& s, const DeltaReached& r) {
 
 std::string comparison_with_scene(const Sizing& s) {
   if (s.flywheel_added) return fmt::format("The scene has no flywheel; it is put on the shaft of \"{}\".", s.link);
-  const double needed = s.chosen().flywheel;
+  const double needed = s.chosen().flywheel.value;
   const std::string now = std::isnan(s.delta_now) ? "the machine would stop within the cycle"
                                                   : fmt::format("δ = {:.4g} {}", s.delta_now, basis_of(s));
   return fmt::format("The scene's \"{}\" has {:.4g} kg·m²: {}; it is {}.", s.flywheel, s.flywheel_now, now,
@@ -87,7 +87,7 @@ void say_titled(Findings& f, Chapter in, Rows rows) {
 }
 
 auto ended_at_error(double SizeMethod::*inertia) {
-  return [inertia](const SizeMethod& m) { return figure_text({m.*inertia, m.error}).value; };
+  return [inertia](const SizeMethod& m) { return figure_text({m.*inertia, m.flywheel.error}).value; };
 }
 
 Rows methods_table(const Sizing& s) {
@@ -97,14 +97,12 @@ Rows methods_table(const Sizing& s) {
   return table_of("methods", "Flywheel by each method", std::move(all))
       .column("method", "method", &SizeMethod::name)
       .only_for_programs("drive_inertia", &SizeMethod::drive_inertia)
-      .only_for_programs("flywheel", &SizeMethod::flywheel)
-      .only_for_programs("flywheel_error", &SizeMethod::error)
+      .only_for_programs("flywheel", [](const SizeMethod& m) { return m.flywheel.value; })
+      .only_for_programs("flywheel_error", [](const SizeMethod& m) { return m.flywheel.error; })
       .only_for_programs("flywheel_by_parts", &SizeMethod::flywheel_by_parts)
       .only_for_people("I_drive on link [kg·m²]", ended_at_error(&SizeMethod::drive_inertia))
       .value_and_error("flywheel [kg·m²]",
-                       [](const SizeMethod& m, int digits) {
-                         return figure_text({m.flywheel, m.error}, digits);
-                       })
+                       [](const SizeMethod& m, int digits) { return figure_text(m.flywheel, digits); })
       .only_for_people("by theory 3.1 [kg·m²]", ended_at_error(&SizeMethod::flywheel_by_parts))
       .only_for_people(
           "against exact [%]",
@@ -288,7 +286,7 @@ void report_basis(Findings& f, const Sizing& s) {
   f.record("flywheel", Record{{"component", s.flywheel},
                               {"added", s.flywheel_added},
                               {"needed", s.needed},
-                              {"inertia", exact_method(s).flywheel},
+                              {"inertia", exact_method(s).flywheel.value},
                               {"unit", "kg*m2"},
                               {"in_scene", s.flywheel_now},
                               {"speed_ratio", s.flywheel_ratio},
@@ -321,18 +319,17 @@ DataTable diagrams_data(const Sizing& s) {
 // --- all of it ---
 
 void add_key_figures(Findings& f, const Sizing& s) {
-  if (s.meeting)
-    f.key("flywheel that meets δ", {s.meeting->flywheel, s.meeting->error}, "flywheel_that_meets", s.meeting->name);
-  f.key("flywheel", {exact_method(s).flywheel, exact_method(s).error}, "flywheel", "Wittenbauer, exact " + basis_of(s));
-  if (s.soft) f.key("flywheel with " + slope_of_what(s), {s.soft->flywheel, s.soft->error}, "flywheel_with_slope");
+  if (s.meeting) f.key("flywheel that meets δ", s.meeting->flywheel, "flywheel_that_meets", s.meeting->name);
+  f.key("flywheel", exact_method(s).flywheel, "flywheel", "Wittenbauer, exact " + basis_of(s));
+  if (s.soft) f.key("flywheel with " + slope_of_what(s), s.soft->flywheel, "flywheel_with_slope");
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
       f.key(fmt::format("δ at the crank, {}", name_of(r.model)), r.crank, "delta_reached");
       if (r.model == SizedModel::elastic && !s.motor.empty())
         f.key(fmt::format("δ at the motor, {}", name_of(r.model)), r.motor, "delta_reached");
     }
-  f.key("fluctuation of energy", {s.diagram.fluctuation(), s.fluctuation_error}, "fluctuation_of_energy");
-  if (s.dimensions) f.key("mass", {s.dimensions->mass, s.mass_error}, "flywheel_mass", s.dimensions->material.name);
+  f.key("fluctuation of energy", s.fluctuation, "fluctuation_of_energy");
+  if (s.dimensions) f.key("mass", s.mass, "flywheel_mass", s.dimensions->material.name);
 }
 
 void say_notes(Findings& f, Chapter in, const Sizing& s) {
@@ -358,8 +355,8 @@ void add_answers(Findings& f, const Sizing& s) {
         fmt::format(
             "{}the work equation gives {:.6g} kg·m², too small for δ = {:g}: simulated, δ is {:.4g} at the crank, "
             "{:.3g} times that",
-            s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²; ", s.flywheel, s.meeting->flywheel) : "",
-            exact_method(s).flywheel, s.delta, real->crank.value, real->crank.value / s.delta),
+            s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²; ", s.flywheel, s.meeting->flywheel.value) : "",
+            exact_method(s).flywheel.value, s.delta, real->crank.value, real->crank.value / s.delta),
         s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
 }
 

@@ -60,7 +60,7 @@ Formulas flywheel_formulas(const Sizing& s) {
              "I_drive = {:.7g} / {:.6g}² = {:.7g} kg·m²", exact.drive_inertia, s.flywheel_ratio, on_shaft);
   list.add("Flywheel with the scene's own inertias", "I_fly = I_drive − I_motor − I_gearbox − I_others",
            "I_fly = {:.7g} − {:.6g} − {:.6g} − {:.6g} = {:.7g} kg·m²", on_shaft, s.motor_inertia, s.gearbox_inertia,
-           s.other_inertia, exact.flywheel);
+           s.other_inertia, exact.flywheel.value);
   list.add("The same by the customary allowance for couplings (theory 3.1)",
            "I_fly = I_drive − 1.1 I_motor − I_gearbox", "I_fly = {:.7g} − 1.1 · {:.6g} − {:.6g} = {:.7g} kg·m²",
            on_shaft, s.motor_inertia, s.gearbox_inertia, exact.flywheel_by_parts);
@@ -119,8 +119,8 @@ Formulas motor_formulas(const Sizing& s) {
   else if (s.soft)
     list.add("Inertia that gives δ with these torques", "δ(I₀) = δ",
              "I₀ = {:.6g} kg·m², flywheel {:.6g} kg·m², {:.4g} % {} than without their slope", s.soft->drive_inertia,
-             s.soft->flywheel, std::abs(100 * (1 - s.soft->flywheel / s.methods.front().flywheel)),
-             s.soft->flywheel <= s.methods.front().flywheel ? "less" : "more")
+             s.soft->flywheel.value, std::abs(100 * (1 - s.soft->flywheel.value / s.methods.front().flywheel.value)),
+             s.soft->flywheel.value <= s.methods.front().flywheel.value ? "less" : "more")
         .note(fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.", s.speed_unit.text(s.soft_speed)));
   return list;
 }

@@ -117,7 +117,7 @@ std::vector<Plot> energy_mass_plots(const Sizing& s) {
 // Speed over the cycle: at constant torque before and after, with the motor, simulated.
 std::optional<Plot> speed_plot(const Sizing& s) {
   const double now = s.methods.front().drive_inertia +
-                     (s.flywheel_now - s.methods.front().flywheel) * s.flywheel_ratio * s.flywheel_ratio;
+                     (s.flywheel_now - s.methods.front().flywheel.value) * s.flywheel_ratio * s.flywheel_ratio;
   Plot p{.title = "Speed over the cycle, before and after",
          .x = {fmt::format("angle of {}", s.link), "°"},
          .y = {fmt::format("speed of {}", s.link), s.speed_unit.name}};

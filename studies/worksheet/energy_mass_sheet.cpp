@@ -210,8 +210,9 @@ class EnergyMassDrawer {
     const double others = s.motor_inertia + s.gearbox_inertia + s.other_inertia;
     return fmt::format(
         "On its own shaft (i = {:.5g}) {:.6g}, less {:.6g} kg·m² of all others:\nI_F = {:.6g} kg·m² of “{}”{}.",
-        s.flywheel_ratio, w_.exact.inertia / (s.flywheel_ratio * s.flywheel_ratio), others, s.methods.front().flywheel,
-        s.flywheel, s.flywheel_added ? "" : fmt::format(" (now {:.5g})", s.flywheel_now));
+        s.flywheel_ratio, w_.exact.inertia / (s.flywheel_ratio * s.flywheel_ratio), others,
+        s.methods.front().flywheel.value, s.flywheel,
+        s.flywheel_added ? "" : fmt::format(" (now {:.5g})", s.flywheel_now));
   }
 
   const ReduceSheet& sheet_;

@@ -181,7 +181,7 @@ press = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", slider_mass 
   ASSERT_TRUE(s.dimensions) << s.dimensions_why;
   const double fastest = 2.5 * 8 * 1.05;
   EXPECT_NEAR(s.dimensions->rim_speed, 0.45 * fastest, 1e-9);
-  EXPECT_NEAR(s.dimensions->energy, 0.5 * s.methods[0].flywheel * fastest * fastest, 1e-6 * s.dimensions->energy);
+  EXPECT_NEAR(s.dimensions->energy, 0.5 * s.methods[0].flywheel.value * fastest * fastest, 1e-6 * s.dimensions->energy);
 }
 
 // --- screens ---

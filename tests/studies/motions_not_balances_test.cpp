@@ -262,7 +262,7 @@ TEST(LossesByTheLoad, AreInTheFlywheelOfThePunchAndInItsMotor) {
   options.delta = 0.4, options.mid_speed = 216 * rpm;
   const Sizing s = size_flywheel(report("lossy_geared_punch"), options);
   const double right = 38.17 * delta_of_the_punch(38.17) / 0.4;
-  EXPECT_NEAR(s.methods.front().flywheel, right, 1e-4 * right);
+  EXPECT_NEAR(s.methods.front().flywheel.value, right, 1e-4 * right);
   ASSERT_TRUE(s.punch);
   EXPECT_NEAR(s.punch->power(), 10.5e3 * 36 * pi / 180 / 0.76 / (9 / (216 / 60.0)), 1);
 }

@@ -119,10 +119,10 @@ TEST(Size, FlywheelWithTheMotorsSlopeHasTheDemandedDeltaWithTheLagOfItsFluxes) {
   const Scene scene = test::scene_file("scenes/crank_press.toml");
   const Sizing s = size_flywheel(scene, demand(0.1, true));
   ASSERT_TRUE(s.soft) << s.soft_why;
-  EXPECT_NEAR(s.soft->flywheel, 385, 0.5);
-  EXPECT_NEAR(simulated_delta(scene, s, s.soft->flywheel), 0.1, 1e-6);
-  ASSERT_TRUE(s.soft->error);
-  EXPECT_LT(*s.soft->error, 1e-6 * s.soft->flywheel);
+  EXPECT_NEAR(s.soft->flywheel.value, 385, 0.5);
+  EXPECT_NEAR(simulated_delta(scene, s, s.soft->flywheel.value), 0.1, 1e-6);
+  ASSERT_TRUE(s.soft->flywheel.error);
+  EXPECT_LT(*s.soft->flywheel.error, 1e-6 * s.soft->flywheel.value);
 }
 
 // A motor that does most of the blow's work itself: without any flywheel δ is below the demanded one.
@@ -132,8 +132,8 @@ TEST(Size, MotorThatIsSteepEnoughNeedsNoFlywheel) {
   ASSERT_TRUE(s.needed);
   ASSERT_TRUE(s.soft) << s.soft_why;
   EXPECT_TRUE(s.soft->none_needed);
-  EXPECT_EQ(s.soft->flywheel, 0);
-  EXPECT_FALSE(s.soft->error);  // of a bound, not of a result
+  EXPECT_EQ(s.soft->flywheel.value, 0);
+  EXPECT_FALSE(s.soft->flywheel.error);  // of a bound, not of a result
   EXPECT_NEAR(*s.soft->delta, simulated_delta(scene, s, 0), *s.reached.back().crank.error + 1e-5 * *s.soft->delta);
   EXPECT_LT(*s.soft->delta, 0.2);
   const std::string page = html_of(output_of(s).report());
@@ -153,9 +153,9 @@ press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", slider_mass =
     const Sizing s = size_flywheel(scene, demand(delta, true));
     EXPECT_TRUE(s.stalls && s.complete);
     ASSERT_TRUE(s.soft) << s.soft_why;
-    EXPECT_GT(s.soft->flywheel, s.methods.front().flywheel);
-    EXPECT_NEAR(simulated_delta(scene, s, s.soft->flywheel), delta, 1e-5 * delta);
-    EXPECT_EQ(s.chosen().flywheel, s.soft->flywheel);
+    EXPECT_GT(s.soft->flywheel.value, s.methods.front().flywheel.value);
+    EXPECT_NEAR(simulated_delta(scene, s, s.soft->flywheel.value), delta, 1e-5 * delta);
+    EXPECT_EQ(s.chosen().flywheel.value, s.soft->flywheel.value);
     EXPECT_EQ(s.reached.size(), 1u);  // one search, one row
     EXPECT_NE(output_of(s).conclusion().find("the machine stalls with it"), std::string::npos);
   }
@@ -178,7 +178,7 @@ TEST(Size, TheSteeperTheMotorTheSmallerTheFlywheel) {
     EXPECT_NEAR(s.operating->slope, -slope, 1e-4 * slope);
     ASSERT_TRUE(s.soft) << s.soft_why;
     EXPECT_LT(s.soft->drive_inertia, std::min(last, s.exact.inertia));
-    EXPECT_NEAR(simulated_delta(press_with_slope(slope), s, s.soft->flywheel), 0.1, 1e-6);
+    EXPECT_NEAR(simulated_delta(press_with_slope(slope), s, s.soft->flywheel.value), 0.1, 1e-6);
     last = s.soft->drive_inertia;
   }
 }
@@ -211,11 +211,11 @@ press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia
   const Sizing fast = size_flywheel(scene(R"(["motor", "wheel", "gear", "press"])"), demand(0.1));
   EXPECT_NEAR(fast.flywheel_ratio, 4, 1e-14);
   EXPECT_NEAR(fast.exact.inertia, slow.exact.inertia, 1e-9 * slow.exact.inertia);
-  EXPECT_NEAR(16 * fast.methods[0].flywheel, slow.methods[0].flywheel, 1e-9 * slow.exact.inertia);
+  EXPECT_NEAR(16 * fast.methods[0].flywheel.value, slow.methods[0].flywheel.value, 1e-9 * slow.exact.inertia);
   // theory 3.1 on the flywheel's shaft: the motor by 1.1, the gearbox with both wheels.
   EXPECT_NEAR(slow.methods[0].flywheel_by_parts, slow.exact.inertia - 1.1 * 16 * 0.1 - (0.5 + 16 * 0.02), 1e-10);
   EXPECT_NEAR(fast.methods[0].flywheel_by_parts, slow.exact.inertia / 16 - 1.1 * 0.1 - (0.5 / 16 + 0.02), 1e-11);
-  EXPECT_NEAR(slow.methods[0].flywheel, slow.exact.inertia - 16 * 0.12 - 0.5, 1e-10);
+  EXPECT_NEAR(slow.methods[0].flywheel.value, slow.exact.inertia - 16 * 0.12 - 0.5, 1e-10);
 }
 
 TEST(Size, SceneWithoutAFlywheelGetsOneOnItsCrank) {
@@ -225,7 +225,7 @@ TEST(Size, SceneWithoutAFlywheelGetsOneOnItsCrank) {
       test::with(test::with(text, "\"wheel\", ", ""), "wheel    = { kind = \"flywheel\", inertia = \"60 kg*m2\" }", "");
   const Sizing without = size_flywheel(test::scene_from(text), demand(0.1, true));
   EXPECT_TRUE(without.flywheel_added);
-  EXPECT_NEAR(without.methods[0].flywheel, with.methods[0].flywheel, 1e-9 * with.methods[0].flywheel);
+  EXPECT_NEAR(without.methods[0].flywheel.value, with.methods[0].flywheel.value, 1e-9 * with.methods[0].flywheel.value);
   EXPECT_NEAR(reached(without, "elastic, simulated", "Wittenbauer").crank.value,
               reached(with, "elastic, simulated", "Wittenbauer").crank.value, 1e-7);
 }
@@ -236,7 +236,7 @@ TEST(Size, StartAtADeadCentreUnderLoadDoesNotMatterToSteadyMotion) {
                                            "run = { start = { speed = \"0 rpm\", angle = \"0 deg\" } }")),
                     demand(0.1, true));
   const Sizing running = size_flywheel(test::scene_from(press(straight(1200, 9))), demand(0.1, true));
-  EXPECT_NEAR(at_rest.methods[0].flywheel, running.methods[0].flywheel, 1e-9);
+  EXPECT_NEAR(at_rest.methods[0].flywheel.value, running.methods[0].flywheel.value, 1e-9);
   EXPECT_NEAR(reached(at_rest, "elastic, simulated", "Wittenbauer").crank.value,
               reached(running, "elastic, simulated", "Wittenbauer").crank.value, 1e-8);
   ASSERT_FALSE(at_rest.notes.empty());
@@ -269,7 +269,7 @@ TEST(Size, FlywheelThatIsNotNeededIsSaidSo) {
       test::with(press(straight(1200, 9)), "crank_inertia = \"1 kg*m2\"", "crank_inertia = \"9 kg*m2\"");
   const Sizing s = size_flywheel(test::scene_from(heavy), demand(1.5));
   EXPECT_FALSE(s.needed);
-  EXPECT_LE(s.methods[0].flywheel, 0);
+  EXPECT_LE(s.methods[0].flywheel.value, 0);
   EXPECT_NE(output_of(s).conclusion().find("No flywheel is needed"), std::string::npos);
   const Sizing large = size_flywheel(test::scene_from(press(straight(1200, 9), "5000 kg*m2")), demand(0.1));
   EXPECT_NE(output_of(large).text().find("already larger than needed"), std::string::npos);
@@ -280,9 +280,9 @@ TEST(Size, FlywheelThatIsNotNeededIsSaidSo) {
 TEST(Size, DimensionsAreThoseOfTheFlywheelThatMeetsTheDemand) {
   const Sizing s = size_flywheel(test::scene_file("scenes/crank_press.toml"), demand(0.1, true));
   ASSERT_TRUE(s.meeting && s.dimensions);
-  ASSERT_LT(s.methods.front().flywheel, s.flywheel_now);
-  ASSERT_GT(s.meeting->flywheel, s.flywheel_now);
-  EXPECT_NEAR(s.dimensions->inertia, s.meeting->flywheel, 1e-9 * s.meeting->flywheel);
+  ASSERT_LT(s.methods.front().flywheel.value, s.flywheel_now);
+  ASSERT_GT(s.meeting->flywheel.value, s.flywheel_now);
+  EXPECT_NEAR(s.dimensions->inertia, s.meeting->flywheel.value, 1e-9 * s.meeting->flywheel.value);
   EXPECT_NE(output_of(s).text().find("it is too small"), std::string::npos);
 }
 
