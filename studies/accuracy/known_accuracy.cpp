@@ -47,6 +47,9 @@ Json parsed(const std::filesystem::path& file, const std::string& text) {
     const std::size_t column = end - (newline == std::string::npos || end == 0 ? 0 : newline + 1) + 1;
     refuse(file, {static_cast<int>(line), static_cast<int>(column)},
            "--setting: is no JSON here; give the summary.json that kurbel accuracy SCENE wrote, unchanged");
+  } catch (const Json::out_of_range&) {
+    refuse(file, {},
+           "--setting: holds a number beyond 1e308; give the summary.json that kurbel accuracy SCENE wrote, unchanged");
   }
 }
 

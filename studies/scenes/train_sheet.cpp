@@ -16,6 +16,7 @@
 #include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "engine/tables/table_file.h"
+#include "engine/values/quantity_reader.h"
 
 namespace kurbel {
 namespace {
@@ -130,7 +131,7 @@ class Sheet {
 
   struct Column {
     std::size_t place = 0;
-    std::string unit;
+    std::string unit, si;
     double factor = 1;
   };
 
@@ -145,8 +146,9 @@ class Sheet {
       if (!found)
         refuse(heading.at, fmt::format("column {}: what is it?{} Allowed: {}", in_quotes(heading.text),
                                        suggestion(heading.name, allowed), listed(allowed, "and")));
-      const auto [place, fresh] = columns_.try_emplace(
-          found->key, Column{static_cast<std::size_t>(heading.column) - 1, heading.unit.value_or("")});
+      const auto [place, fresh] =
+          columns_.try_emplace(found->key, Column{static_cast<std::size_t>(heading.column) - 1,
+                                                  heading.unit.value_or(""), found->unit ? found->unit : ""});
       if (!fresh) refuse(heading.at, fmt::format("two columns give the {}; keep one", found->key));
       if (found->unit && *found->unit) check_unit(heading, *found, place->second);
     }
@@ -199,7 +201,13 @@ class Sheet {
     const double value = *number(row, key);
     if (value < 0) refuse(cell(row, key)->at, fmt::format("{} = {}: must be ≥ 0", key, cell(row, key)->text));
     const std::string digits = times == 1 ? cell(row, key)->text : fmt::format("{:.15g}", times * value);
-    return digits + " " + columns_.at(key).unit;
+    DocumentValue stated;
+    stated.type = DocumentValue::Type::text, stated.text = digits + " " + columns_.at(key).unit;
+    stated.at = cell(row, key)->at;
+    Messages messages(path_);
+    double in_si = 0;
+    if (!read_quantity(stated, columns_.at(key).si, any_number, key, messages, in_si)) messages.throw_if_any();
+    return stated.text;
   }
   std::size_t station_named(const std::string& said, Location at) const {
     for (std::size_t i = 0; i < stations_.size(); ++i)

@@ -45,6 +45,14 @@ TEST(Fuzz, EveryTextIsReadOrRefusedWithAPlace) { Attack("reader").expect_no_faul
 
 TEST(Fuzz, EveryTableIsReadOrRefusedWithAPlace) { Attack("csv").expect_no_fault(3000); }
 
+TEST(Fuzz, EveryWorkbookIsReadOrRefused) { Attack("xlsx").expect_no_fault(600); }
+
+TEST(Fuzz, EveryMatFileIsReadOrRefused) { Attack("mat").expect_no_fault(2000); }
+
+TEST(Fuzz, EveryMassElasticSheetBecomesASceneOrIsRefused) { Attack("sheet").expect_no_fault(800); }
+
+TEST(Fuzz, EveryCheckpointAndSummaryIsUsedOrRefused) { Attack("json").expect_no_fault(800); }
+
 TEST(Fuzz, EveryFormulaIsComputedOrRefusedWithAColumn) { Attack("formula").expect_no_fault(2000); }
 
 TEST(Fuzz, EverySceneThatCanBeReadIsCompiledOrRefusedWithAPlace) { Attack("compile").expect_no_fault(1200); }

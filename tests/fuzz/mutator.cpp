@@ -43,43 +43,6 @@ std::size_t line_start(const std::string& text, std::size_t at) {
   return newline == std::string::npos ? 0 : newline + 1;
 }
 
-void change_bytes(std::string& text, Random& random) {
-  const std::size_t at = random.index(text.size() + 1), end = std::min(text.size(), at + 1 + random.index(12));
-  switch (random.index(8)) {
-    case 0:
-      text.insert(at, random.one_of(words()));
-      break;
-    case 1:
-      text.erase(at, end - at);
-      break;
-    case 2:
-      if (at < text.size()) text[at] = static_cast<char>(random.bits());
-      break;
-    case 3:
-      text.insert(random.index(text.size() + 1), text.substr(at, end - at));
-      break;
-    case 4: {  // a line twice, or away
-      const std::size_t begin = line_start(text, at),
-                        stop = std::min(text.find('\n', at), text.size() - (text.empty() ? 0 : 1)) + 1;
-      const std::string line = text.substr(begin, stop > begin ? stop - begin : 0);
-      if (random.chance(0.5))
-        text.erase(begin, line.size());
-      else
-        text.insert(line_start(text, random.index(text.size() + 1)), line);
-      break;
-    }
-    case 5:
-      text.resize(at);
-      break;
-    case 6:
-      if (end < text.size()) std::swap(text[at], text[end]);
-      break;
-    default:
-      text.replace(at, end - at, random.one_of(words()));
-  }
-  if (text.size() > longest) text.resize(longest);
-}
-
 // --- the tree ---
 
 // A table with its keys, where they are known.
@@ -362,6 +325,43 @@ class TreeChange {
 };
 
 }  // namespace
+
+void change_bytes(std::string& text, Random& random) {
+  const std::size_t at = random.index(text.size() + 1), end = std::min(text.size(), at + 1 + random.index(12));
+  switch (random.index(8)) {
+    case 0:
+      text.insert(at, random.one_of(words()));
+      break;
+    case 1:
+      text.erase(at, end - at);
+      break;
+    case 2:
+      if (at < text.size()) text[at] = static_cast<char>(random.bits());
+      break;
+    case 3:
+      text.insert(random.index(text.size() + 1), text.substr(at, end - at));
+      break;
+    case 4: {  // a line twice, or away
+      const std::size_t begin = line_start(text, at),
+                        stop = std::min(text.find('\n', at), text.size() - (text.empty() ? 0 : 1)) + 1;
+      const std::string line = text.substr(begin, stop > begin ? stop - begin : 0);
+      if (random.chance(0.5))
+        text.erase(begin, line.size());
+      else
+        text.insert(line_start(text, random.index(text.size() + 1)), line);
+      break;
+    }
+    case 5:
+      text.resize(at);
+      break;
+    case 6:
+      if (end < text.size()) std::swap(text[at], text[end]);
+      break;
+    default:
+      text.replace(at, end - at, random.one_of(words()));
+  }
+  if (text.size() > longest) text.resize(longest);
+}
 
 std::string mutated_scene(const std::string& text, Random& random, const MutationStyle& style) {
   const std::size_t changes = 1 + random.index(static_cast<std::size_t>(style.most));

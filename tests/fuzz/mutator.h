@@ -15,6 +15,8 @@ struct MutationStyle {
   bool bad_ones_too = false;  // begins at scenes with faults, too
 };
 
+// Bytes, words or lines inserted, erased, repeated, exchanged or cut off, once.
+void change_bytes(std::string& text, Random& random);
 std::string mutated_scene(const std::string& text, Random& random, const MutationStyle& style = {});
 std::string mutated_table(const std::string& text, Random& random, const MutationStyle& = {});
 

@@ -48,6 +48,14 @@ const std::vector<Seed>& tables() {
   static const std::vector<Seed> seeds = from({"scenes/data", "tests/bad_scenes"}, ".csv");
   return seeds;
 }
+const std::vector<Seed>& train_sheets() {
+  static const std::vector<Seed> seeds = [] {
+    std::vector<Seed> sheets = from({"tests/cases"}, ".csv");
+    std::erase_if(sheets, [](const Seed& seed) { return !seed.name.starts_with("ts"); });
+    return sheets;
+  }();
+  return seeds;
+}
 
 std::string scene_path() { return KURBEL_SOURCE_DIR "/scenes/fuzzed.toml"; }
 

@@ -26,6 +26,7 @@
 #include "studies/scenes/kinds.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
+#include "tests/fuzz/files.h"
 #include "tests/fuzz/formulas.h"
 #include "tests/fuzz/random.h"
 #include "tests/fuzz/seeds.h"
@@ -292,6 +293,22 @@ const std::vector<Target>& targets() {
        3,
        formula_input,
        mutated_formula},
+      {"xlsx", "is every workbook read or refused?", {}, judge_sheet, 3, workbook_input, mutated_file},
+      {"mat", "is every MAT file read or refused?", {}, judge_sheet, 3, mat_input, mutated_file},
+      {"sheet",
+       "does every mass–elastic sheet become a scene that can be read, or is refused with a place?",
+       {},
+       judge_train_sheet,
+       3,
+       train_sheet_input,
+       mutated_table},
+      {"json",
+       "is every checkpoint and every summary of settings used or refused?",
+       {},
+       judge_json,
+       3,
+       json_input,
+       mutated_file},
   };
   return list;
 }
