@@ -42,9 +42,9 @@ class Value {
   Value& operator=(Value&&) noexcept;
   ~Value();
   template <std::same_as<bool> T>
-  Value(T v) : what_(v) {}
+  Value(T v);
   template <std::integral T>
-  requires(!std::same_as<T, bool>) Value(T v) : what_(static_cast<std::int64_t>(v)) {}
+  requires(!std::same_as<T, bool>) Value(T v);
   Value(double v);
   Value(Rounded v);
   Value(RoundedList v);
@@ -92,6 +92,10 @@ inline Value::Value(Value&&) noexcept = default;
 inline Value& Value::operator=(const Value&) = default;
 inline Value& Value::operator=(Value&&) noexcept = default;
 inline Value::~Value() = default;
+template <std::same_as<bool> T>
+Value::Value(T v) : what_(v) {}
+template <std::integral T>
+requires(!std::same_as<T, bool>) Value::Value(T v) : what_(static_cast<std::int64_t>(v)) {}
 inline Value::Value(double v) : what_(v) {}
 inline Value::Value(Rounded v) : what_(v) {}
 inline Value::Value(RoundedList v) : what_(std::move(v)) {}
