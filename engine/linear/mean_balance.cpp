@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/linear/base_motion.h"
+#include "engine/linear/linearise.h"
 #include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
@@ -101,10 +101,11 @@ class BaseMotion::Balance {
   explicit Balance(BaseMotion& base)
       : b_(base), m_(base.m_), n_(base.coordinates_.size()), states_(static_cast<Index>(m_.internal_states.size())) {
     Triplets kept;
+    const SparseRows twists = b_.twists_;
     for (std::size_t j = 0; j < m_.elastic.size(); ++j)
-      if (b_.has_spring(j) && b_.twists_.row(static_cast<Index>(j)).norm() > 0) springs_.push_back(static_cast<int>(j));
+      if (b_.has_spring(j) && twists.row(static_cast<Index>(j)).norm() > 0) springs_.push_back(static_cast<int>(j));
     for (std::size_t k = 0; k < springs_.size(); ++k) kept.emplace_back(static_cast<int>(k), springs_[k], 1.0);
-    spring_twists_ = matrix(static_cast<Index>(springs_.size()), b_.twists_.rows(), kept) * b_.twists_;
+    spring_twists_ = matrix(static_cast<Index>(springs_.size()), twists.rows(), kept) * twists;
     free_ = motions_without_twist(spring_twists_);
     find_loops();
     free_alpha_ = VectorXd::Zero(free_.cols());
@@ -307,9 +308,9 @@ class BaseMotion::Balance {
   const Model& m_;
   Index n_, states_;
   std::vector<int> springs_;  // elastic joints
-  SparseMatrix spring_twists_;
-  Eigen::MatrixXd free_;   // motions without twist
-  Eigen::MatrixXd loops_;  // per row: the twists of springs that add up to what a loop has locked in
+  SparseRows spring_twists_;  // row by row: a row of a SparseMatrix takes a visit to each column
+  Eigen::MatrixXd free_;      // motions without twist
+  Eigen::MatrixXd loops_;     // per row: the twists of springs that add up to what a loop has locked in
   VectorXd free_alpha_;
   std::vector<char> is_held_;  // per internal state
 };

@@ -33,6 +33,7 @@ void EventLocation::begin(double t, std::span<const double> y) {
 }
 
 std::vector<std::size_t> EventLocation::find() {
+  if (guard_.empty()) return {};
   find_guards(stepper_->t(), stepper_->y(), guard_);
   std::vector<std::size_t> fired = locate();
   if (fired.empty() && stepper_->at_edge()) fired = fired_at_edge();

@@ -45,13 +45,8 @@ class MeanSpeeds final : public Observer {
 
 // Motions of the coordinates in which no spring is twisted.
 MatrixXd free_motions(BaseMotion& base) {
-  SparseMatrix springs = base.twists();
-  for (std::size_t j = 0; j < base.model().elastic.size(); ++j)
-    if (!base.has_spring(j))
-      for (Index c = 0; c < springs.outerSize(); ++c)
-        for (SparseMatrix::InnerIterator it(springs, c); it; ++it)
-          if (it.row() == static_cast<Index>(j)) it.valueRef() = 0;
-  springs.prune(0.0);
+  SparseRows springs = base.twists();
+  springs.prune([&](Index joint, Index, double) { return base.has_spring(static_cast<std::size_t>(joint)); });
   return motions_without_twist(springs);
 }
 

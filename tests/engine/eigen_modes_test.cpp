@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -11,6 +12,7 @@
 #include "drivetrain/couplings/coupling.h"
 #include "drivetrain/loads/loads.h"
 #include "engine/events/equations.h"
+#include "engine/numerics/deadline.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::eigen_modes_test {
@@ -94,6 +96,21 @@ TEST(UndampedModes, FreeChainOfEqualInertiasHasSineFrequencies) {
       EXPECT_NEAR(m.omega[k], expected, 1e-10 * expected) << n << " inertias, mode " << k;
     }
   }
+}
+
+// A chain twenty times as long takes some twenty times as long; visits to all columns for each row took 170 times.
+TEST(LinearDrives, MatricesOfALongChainAreMadeInLinearTime) {
+  const auto seconds = [](int n) {
+    double least = HUGE_VAL;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const double begin = processor_time();
+      EXPECT_EQ(equal_chain(n, 0.01, 1e5).size(), n);
+      least = std::min(least, processor_time() - begin);
+    }
+    return least;
+  };
+  const double of_short = seconds(2000);
+  EXPECT_LT(seconds(40000), 70 * of_short);
 }
 
 // A gear of ratio i between two springs: reduced to the first shaft k₂/i², J₃/i².
