@@ -107,10 +107,10 @@ bool Linkage::check_links() {
 
 Linkage::Closed Linkage::close(long double phi, const Shifts& start) const {
   Closed out(sketch_.links.size());
+  out.shifts = start;
   out.poses.of(sketch_.driver).turn = Direction::of_variable(phi - drawn_at_);
   for (std::size_t k = 0; k < structure_.groups.size(); ++k) {
     const AssurGroup& group = structure_.groups[k];
-    if (!group.is_dyad()) out.shifts.push_back(start[out.shifts.size()]);
     if (group.parallel) {
       move_in_parallel(group, out.poses);
       const long double sine = group.changes() ? sine_of(*group.parallel, out.poses).value() : 1;
@@ -120,8 +120,8 @@ Linkage::Closed Linkage::close(long double phi, const Shifts& start) const {
     if (group.is_dyad()) {
       out.margin.push_back(close_dyad(group, structure_.joints, out.poses));
     } else {
-      out.how = close_by_newton(group, structure_.joints, size_, out.poses, out.shifts.back());
-      out.margin.push_back(out.how.closed ? out.how.pivot * out.how.pivot : 0);
+      const GroupClosure how = close_by_newton(group, structure_.joints, size_, out.poses, out.shifts[k]);
+      out.margin.push_back(how.closed ? how.pivot * how.pivot : 0);
     }
     if (out.margin.back() > 0) continue;
     out.failed = static_cast<int>(k);

@@ -60,7 +60,7 @@ class Linkage {
   std::vector<std::string> transmission_in_words() const;
 
  private:
-  using Shifts = std::vector<std::vector<LinkShift>>;  // of the groups solved by Newton's method, in their order
+  using Shifts = std::vector<std::vector<LinkShift>>;  // by group; empty of one that is not followed by Newton's method
   struct Node {
     long double phi = 0;
     Shifts shifts;
@@ -71,7 +71,6 @@ class Linkage {
     Shifts shifts;
     std::vector<long double> margin;  // by group; of groups solved by Newton's method the square of its pivot
     int failed = -1;                  // the group that cannot be closed
-    GroupClosure how;                 // of that group
   };
   bool check();
   bool check_links();
@@ -91,7 +90,9 @@ class Linkage {
   void find_margins();
   void refuse(const std::string& at, std::string text) { faults_.push_back({at, std::move(text)}); }
   bool touches(const Way& way, long double sense) const;
-  bool is_near(const Shifts& a, const Shifts& b, long double apart) const;  // of the size, and of a radian
+  // Of the size, and of a radian.
+  bool is_near(const std::vector<LinkShift>& a, const std::vector<LinkShift>& b, long double apart) const;
+  int first_astray(const Closed& closed, const Shifts& start, long double apart) const;
   std::string undetermined(const AssurGroup& group) const;
   void refuse_stop(const Closed& stopped, long double phi);
   void refuse_change_point(int group, long double phi);

@@ -28,8 +28,7 @@ std::string in_degrees_of(long double phi) {
 
 bool Linkage::start_at_sketch(Node& node) {
   node = {drawn_at_, {}};
-  for (const AssurGroup& group : structure_.groups)
-    if (!group.is_dyad()) node.shifts.emplace_back(group.links.size());
+  for (const AssurGroup& group : structure_.groups) node.shifts.emplace_back(group.is_dyad() ? 0 : group.links.size());
   const Closed closed = close(drawn_at_, node.shifts);
   std::optional<std::size_t> dead;
   for (std::size_t k = 0; k < closed.margin.size() && !dead; ++k)
@@ -51,9 +50,8 @@ bool Linkage::start_at_sketch(Node& node) {
 void Linkage::find_change_points(const LinkPoses& drawn, Node& node) {
   constexpr long double alike = 1e-9L;
   std::optional<Taylor> first;
-  std::size_t shifts = 0;  // of the group: there are none of a dyad
-  for (AssurGroup& group : structure_.groups) {
-    shifts += group.is_dyad() ? 0 : 1;
+  for (std::size_t g = 0; g < structure_.groups.size(); ++g) {
+    AssurGroup& group = structure_.groups[g];
     const auto motion = parallel_motion(group, sketch_, structure_, drawn, size_);
     if (!motion || !motion->changes) continue;
     const Taylor sine = sine_of(*motion, drawn);
@@ -63,7 +61,7 @@ void Linkage::find_change_points(const LinkPoses& drawn, Node& node) {
     for (int k = 0; k <= Taylor::order; ++k) same = same && std::fabs(sense * sine.c[k] - first->c[k]) < alike;
     if (!same) continue;
     group.parallel = motion;
-    if (!group.is_dyad()) node.shifts[shifts - 1].assign(group.links.size(), {});  // nothing to follow
+    node.shifts[g].clear();  // nothing to follow
   }
 }
 
@@ -86,16 +84,14 @@ Linkage::Way Linkage::march(const Node& from, long double angle) const {
     const long double phi = at_end ? end : last.phi + sense * step;
     const Shifts start = predicted(last, phi);
     Closed closed = close(phi, start);
-    if (closed.failed < 0 && is_near(start, closed.shifts, most_corrected)) {
+    closed.failed = first_astray(closed, start, most_corrected);
+    if (closed.failed < 0) {
       way.nodes.push_back({phi, std::move(closed.shifts)});
       step = std::min(1.5L * step, whole_turn / steps_of_turn);
       continue;
     }
     step /= 2;
     if (step > least_step) continue;
-    for (std::size_t g = 0; closed.failed < 0 && g < start.size(); ++g)
-      if (g + 1 == start.size() || !is_near({start[g]}, {closed.shifts[g]}, most_corrected))
-        closed.failed = static_cast<int>(g);
     way.stopped = std::move(closed);
     break;
   }
@@ -123,20 +119,24 @@ bool Linkage::touches(const Way& way, long double sense) const {
   while (std::next(from) != way.nodes.rend() && std::fabs(from->phi - phi) < before) ++from;
   const Shifts start = predicted(*from, phi);
   const Closed closed = close(phi, start);
-  const auto failed = static_cast<std::size_t>(way.stopped->failed);
-  if (closed.failed >= 0 && closed.failed <= way.stopped->failed) return false;
-  return structure_.groups[failed].is_dyad() || is_near(start, closed.shifts, before);
+  const int astray = first_astray(closed, start, before);
+  return astray < 0 || astray > way.stopped->failed;
 }
 
-bool Linkage::is_near(const Shifts& a, const Shifts& b, long double apart) const {
+bool Linkage::is_near(const std::vector<LinkShift>& a, const std::vector<LinkShift>& b, long double apart) const {
   const auto off = [](const Taylor& u, const Taylor& v) { return std::fabs(u.value() - v.value()); };
-  for (std::size_t g = 0; g < a.size(); ++g)
-    for (std::size_t i = 0; i < a[g].size(); ++i) {
-      const LinkShift &u = a[g][i], &v = b[g][i];
-      if (!(off(u.x, v.x) < apart * size_ && off(u.y, v.y) < apart * size_ && off(u.angle, v.angle) < apart))
-        return false;
-    }
-  return true;
+  return std::equal(a.begin(), a.end(), b.begin(), [&](const LinkShift& u, const LinkShift& v) {
+    return off(u.x, v.x) < apart * size_ && off(u.y, v.y) < apart * size_ && off(u.angle, v.angle) < apart;
+  });
+}
+
+// The first group that cannot be closed, or that Newton's method closes in a position farther off than `apart`; −1: none.
+int Linkage::first_astray(const Closed& closed, const Shifts& start, long double apart) const {
+  for (int g = 0; g < static_cast<int>(start.size()); ++g) {
+    const auto k = static_cast<std::size_t>(g);
+    if (g == closed.failed || !is_near(start[k], closed.shifts[k], apart)) return g;
+  }
+  return closed.failed;
 }
 
 void Linkage::explore() {
