@@ -56,6 +56,8 @@ class Linkage {
   std::string structure_in_words() const;
   // Position in which the driving link locks, such as "coupler and rocker lie in one line".
   std::string locks_in_words() const;
+  // What of the sketch was moved within its rounding, and why; empty: nothing.
+  const std::string& moved_in_words() const { return moved_; }
   // "transmission angle of RRR (coupler, rocker) at least 41.2° (φ = 0°)"
   std::vector<std::string> transmission_in_words() const;
 
@@ -75,10 +77,12 @@ class Linkage {
   bool check();
   bool check_links();
   Closed close(long double phi, const Shifts& start) const;
+  bool close_group(std::size_t k, Closed& out) const;
   Shifts predicted(const Node& from, long double phi) const;
   Shifts start_near(long double phi) const;
   bool start_at_sketch(Node& node);
-  void find_change_points(const LinkPoses& drawn, Node& node);
+  void take_as_parallel();
+  void find_change_point(AssurGroup& group, const LinkPoses& drawn, std::optional<Taylor>& first) const;
   void close_in_parallel();
   struct Way {
     std::vector<Node> nodes;
@@ -105,7 +109,7 @@ class Linkage {
   long double drawn_at_ = 0, size_ = 0;
   std::vector<Node> nodes_;  // ascending in φ; over the cycle if the driving link turns fully
   std::optional<CrankArc> arc_;
-  std::string lower_lock_, upper_lock_;
+  std::string lower_lock_, upper_lock_, moved_;
   int turns_ = 1;
   std::vector<LeastMargin> least_;
 };
@@ -119,7 +123,8 @@ std::vector<double> values_of(const LinkageData& data);  // all of them
 std::optional<CrankArc> arc_of(const LinkageData& data);
 std::string locks_of(const LinkageData& data);
 int turns_of(const LinkageData& data);
-double drawn_at(const LinkageData& data);  // φ of the sketch [rad]
+// φ of the sketch, of one in a change point beside it [rad]
+double drawn_at(const LinkageData& data);
 // The reason why reactions are undetermined; empty: they are determined.
 std::string undetermined_reactions(const LinkageData& data);
 
