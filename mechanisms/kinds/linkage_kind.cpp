@@ -146,6 +146,7 @@ class SketchReader {
     if (valid_) check_use();
     if (!valid_) return {};
     s_.gravity = k_.gravity, s_.elevation = k_.sketch_angle;
+    if (given.empty()) s_.rounded = 0.5 * k_.unit * last_place();
     report(take_lengths(s_, given));
     if (!valid_) return {};
     return s_;
@@ -206,6 +207,21 @@ class SketchReader {
       }
       s_.points.push_back({p.section().name, p.at[0] * k_.unit, p.at[1] * k_.unit});
     }
+  }
+  // Of all coordinates, in the sketch's unit; 0: there is none that a person writes.
+  double last_place() const {
+    constexpr int most_decimals = 9;
+    const auto ends = [](double value, double places) {
+      const double scaled = value * places;
+      return std::abs(scaled - std::round(scaled)) <= 1e-15 * std::abs(scaled);
+    };
+    double places = 1;
+    for (int k = 0; k <= most_decimals; ++k, places *= 10)
+      if (std::all_of(k_.points.begin(), k_.points.end(), [&](const Reading<PointKeys>& p) {
+            return std::all_of(p.at.begin(), p.at.end(), [&](double x) { return ends(x, places); });
+          }))
+        return 1 / places;
+    return 0;
   }
   void read_links() {
     for (const Reading<LinkKeys>& link : k_.links) {

@@ -22,7 +22,8 @@ class SketchAxes {
   SketchAxes(const LinkageSketch& sketch, int bearing);
   SketchSpot spot(double x, double y) const;  // [m] → [m]
   SketchSpot direction(double angle) const;   // [rad] → unit vector
-  double turned() const { return turned_; }   // angle of the mechanism's +x in the sketch [rad]
+  SketchSpot in_sketch(SketchSpot way) const { return {cos_ * way.x - sin_ * way.y, sin_ * way.x + cos_ * way.y}; }
+  double turned() const { return turned_; }  // angle of the mechanism's +x in the sketch [rad]
 
  private:
   long double x_ = 0, y_ = 0, cos_ = 1, sin_ = 0;

@@ -42,6 +42,7 @@ Linkage::Linkage(LinkageSketch sketch) : sketch_(std::move(sketch)) {
     joint_names_.push_back(lasting(j.slides ? "slide " + sketch_.name_of(j.carrier)
                                             : "pin " + sketch_.points[place_in_list(j.point)].name));
   for (std::size_t p = 0; p < sketch_.points.size(); ++p) size_ = std::max(size_, length(spot_of(static_cast<int>(p))));
+  if (sketch_.rounded > 0) take_as_parallel();
   for (const int p : sketch_.links[place_in_list(sketch_.driver)].points)
     if (p != structure_.bearing) {
       const auto &from = sketch_.points[place_in_list(structure_.bearing)], &to = sketch_.points[place_in_list(p)];
@@ -107,27 +108,28 @@ bool Linkage::check_links() {
 
 Linkage::Closed Linkage::close(long double phi, const Shifts& start) const {
   Closed out(sketch_.links.size());
+  out.shifts = start;
   out.poses.of(sketch_.driver).turn = Direction::of_variable(phi - drawn_at_);
-  for (std::size_t k = 0; k < structure_.groups.size(); ++k) {
-    const AssurGroup& group = structure_.groups[k];
-    if (!group.is_dyad()) out.shifts.push_back(start[out.shifts.size()]);
-    if (group.parallel) {
-      move_in_parallel(group, out.poses);
-      const long double sine = group.changes() ? sine_of(*group.parallel, out.poses).value() : 1;
-      out.margin.push_back(sine * sine);
-      continue;
-    }
-    if (group.is_dyad()) {
-      out.margin.push_back(close_dyad(group, structure_.joints, out.poses));
-    } else {
-      out.how = close_by_newton(group, structure_.joints, size_, out.poses, out.shifts.back());
-      out.margin.push_back(out.how.closed ? out.how.pivot * out.how.pivot : 0);
-    }
-    if (out.margin.back() > 0) continue;
-    out.failed = static_cast<int>(k);
-    return out;
-  }
+  for (std::size_t k = 0; k < structure_.groups.size() && close_group(k, out); ++k) continue;
   return out;
+}
+
+bool Linkage::close_group(std::size_t k, Closed& out) const {
+  const AssurGroup& group = structure_.groups[k];
+  if (group.parallel) {
+    move_in_parallel(group, out.poses);
+    const long double sine = group.changes() ? sine_of(*group.parallel, out.poses).value() : 1;
+    out.margin.push_back(sine * sine);
+    return true;
+  }
+  if (group.is_dyad()) {
+    out.margin.push_back(close_dyad(group, structure_.joints, out.poses));
+  } else {
+    const GroupClosure how = close_by_newton(group, structure_.joints, size_, out.poses, out.shifts[k]);
+    out.margin.push_back(how.closed ? how.pivot * how.pivot : 0);
+  }
+  if (!(out.margin.back() > 0)) out.failed = static_cast<int>(k);
+  return out.failed < 0;
 }
 
 Linkage::Shifts Linkage::predicted(const Node& from, long double phi) const {
@@ -224,14 +226,20 @@ std::vector<double> values_of(const LinkageData& data) {
 std::optional<CrankArc> arc_of(const LinkageData& data) { return data.linkage->arc(); }
 std::string locks_of(const LinkageData& data) { return data.linkage->locks_in_words(); }
 int turns_of(const LinkageData& data) { return data.linkage->turns(); }
-double drawn_at(const LinkageData& data) { return static_cast<double>(data.linkage->drawn_at()); }
+double drawn_at(const LinkageData& data) {
+  constexpr double beside = 0.3;
+  const Linkage& l = *data.linkage;
+  const auto at = static_cast<double>(l.drawn_at());
+  const auto sine = l.change_sine(l.poses(at));
+  return !sine || std::fabs(sine->value()) > 0.1L ? at : l.arc() ? l.arc()->middle : at + beside;
+}
 
-std::string undetermined_reactions(const LinkageData& data) {
+std::string shared_reactions_of(const LinkageData& data) {
   for (const AssurGroup& group : data.linkage->structure().groups)
     if (group.superfluous > 0)
       return fmt::format(
-          "reactions are not assessed: the links {} have {}, so that play "
-          "and elasticity share the forces out",
+          "the links {} have {}: reactions are those of joints of equal stiffness without play; play and lengths a "
+          "little off share them out otherwise",
           links_of(group, data.linkage->sketch()), superfluous_of(group));
   return {};
 }

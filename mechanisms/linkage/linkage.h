@@ -56,11 +56,13 @@ class Linkage {
   std::string structure_in_words() const;
   // Position in which the driving link locks, such as "coupler and rocker lie in one line".
   std::string locks_in_words() const;
+  // What of the sketch was moved within its rounding, and why; empty: nothing.
+  const std::string& moved_in_words() const { return moved_; }
   // "transmission angle of RRR (coupler, rocker) at least 41.2° (φ = 0°)"
   std::vector<std::string> transmission_in_words() const;
 
  private:
-  using Shifts = std::vector<std::vector<LinkShift>>;  // of the groups solved by Newton's method, in their order
+  using Shifts = std::vector<std::vector<LinkShift>>;  // by group; empty of one that is not followed by Newton's method
   struct Node {
     long double phi = 0;
     Shifts shifts;
@@ -71,15 +73,16 @@ class Linkage {
     Shifts shifts;
     std::vector<long double> margin;  // by group; of groups solved by Newton's method the square of its pivot
     int failed = -1;                  // the group that cannot be closed
-    GroupClosure how;                 // of that group
   };
   bool check();
   bool check_links();
   Closed close(long double phi, const Shifts& start) const;
+  bool close_group(std::size_t k, Closed& out) const;
   Shifts predicted(const Node& from, long double phi) const;
   Shifts start_near(long double phi) const;
   bool start_at_sketch(Node& node);
-  void find_change_points(const LinkPoses& drawn, Node& node);
+  void take_as_parallel();
+  void find_change_point(AssurGroup& group, const LinkPoses& drawn, std::optional<Taylor>& first) const;
   void close_in_parallel();
   struct Way {
     std::vector<Node> nodes;
@@ -91,7 +94,9 @@ class Linkage {
   void find_margins();
   void refuse(const std::string& at, std::string text) { faults_.push_back({at, std::move(text)}); }
   bool touches(const Way& way, long double sense) const;
-  bool is_near(const Shifts& a, const Shifts& b, long double apart) const;  // of the size, and of a radian
+  // Of the size, and of a radian.
+  bool is_near(const std::vector<LinkShift>& a, const std::vector<LinkShift>& b, long double apart) const;
+  int first_astray(const Closed& closed, const Shifts& start, long double apart) const;
   std::string undetermined(const AssurGroup& group) const;
   void refuse_stop(const Closed& stopped, long double phi);
   void refuse_change_point(int group, long double phi);
@@ -104,7 +109,7 @@ class Linkage {
   long double drawn_at_ = 0, size_ = 0;
   std::vector<Node> nodes_;  // ascending in φ; over the cycle if the driving link turns fully
   std::optional<CrankArc> arc_;
-  std::string lower_lock_, upper_lock_;
+  std::string lower_lock_, upper_lock_, moved_;
   int turns_ = 1;
   std::vector<LeastMargin> least_;
 };
@@ -118,8 +123,9 @@ std::vector<double> values_of(const LinkageData& data);  // all of them
 std::optional<CrankArc> arc_of(const LinkageData& data);
 std::string locks_of(const LinkageData& data);
 int turns_of(const LinkageData& data);
-double drawn_at(const LinkageData& data);  // φ of the sketch [rad]
-// The reason why reactions are undetermined; empty: they are determined.
-std::string undetermined_reactions(const LinkageData& data);
+// φ of the sketch, of one in a change point beside it [rad]
+double drawn_at(const LinkageData& data);
+// By what assumption reactions are found; empty: they need none.
+std::string shared_reactions_of(const LinkageData& data);
 
 }  // namespace kurbel

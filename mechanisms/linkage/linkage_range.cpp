@@ -26,45 +26,71 @@ std::string in_degrees_of(long double phi) {
 
 }  // namespace
 
+// Pins that the rounding of coordinates alone keeps from moving in parallel are moved: those of a group together with the
+// groups before it, else by itself.
+void Linkage::take_as_parallel() {
+  std::string links;
+  long double most = 0;
+  AssurGroup before;
+  for (const AssurGroup& group : structure_.groups) {
+    AssurGroup together = before;
+    together.links.insert(together.links.end(), group.links.begin(), group.links.end());
+    together.joints.insert(together.joints.end(), group.joints.begin(), group.joints.end());
+    together.superfluous += group.superfluous;
+    auto moved = parallel_pins(together, sketch_, structure_, size_);
+    if (!moved) together = group, moved = parallel_pins(group, sketch_, structure_, size_);
+    before = moved ? together : AssurGroup();
+    if (!moved || moved->empty()) continue;
+    for (const auto& [p, by] : *moved) {
+      LinkageSketch::Point& point = sketch_.points[static_cast<std::size_t>(p)];
+      point.x = static_cast<double>(point.x + by.x), point.y = static_cast<double>(point.y + by.y);
+      most = std::max(most, length(by));
+    }
+    links += (links.empty() ? "" : ", ") + links_of(group, sketch_);
+  }
+  if (links.empty()) return;
+  moved_ = fmt::format(
+      "the links {} are taken as parallel: their points are moved by up to {:.2g} mm, within the rounding of the "
+      "coordinates",
+      links, static_cast<double>(1e3L * most));
+  structure_ = structure_of(sketch_, faults_);
+}
+
 bool Linkage::start_at_sketch(Node& node) {
   node = {drawn_at_, {}};
-  for (const AssurGroup& group : structure_.groups)
-    if (!group.is_dyad()) node.shifts.emplace_back(group.links.size());
-  const Closed closed = close(drawn_at_, node.shifts);
-  std::optional<std::size_t> dead;
-  for (std::size_t k = 0; k < closed.margin.size() && !dead; ++k)
-    if (!(closed.margin[k] > (structure_.groups[k].is_dyad() ? least_margin : 0))) dead = k;
-  if (dead) {
-    const AssurGroup& group = structure_.groups[*dead];
+  for (const AssurGroup& group : structure_.groups) node.shifts.emplace_back(group.is_dyad() ? 0 : group.links.size());
+  Closed closed(sketch_.links.size());
+  closed.shifts = node.shifts;
+  closed.poses.of(sketch_.driver).turn = Direction::of_variable(0);
+  std::optional<Taylor> first;
+  for (std::size_t k = 0; k < structure_.groups.size(); ++k) {
+    AssurGroup& group = structure_.groups[k];
+    find_change_point(group, closed.poses, first);
+    if (group.parallel) closed.shifts[k].clear();  // nothing to follow
+    const bool closes = close_group(k, closed);
+    if (group.parallel || (closes && !(group.is_dyad() && closed.margin[k] <= least_margin))) continue;
     refuse("points",
            fmt::format("the linkage is drawn in a position in which {}, which leaves its branch open; draw it in "
                        "another position",
                        group.is_dyad() ? dead_position_of(group, sketch_) : undetermined(group)));
     return false;
   }
-  node.shifts = closed.shifts;
-  find_change_points(closed.poses, node);
+  node.shifts = std::move(closed.shifts);
   return true;
 }
 
-// All of them change together: change points in other positions than the first group's are refused.
-void Linkage::find_change_points(const LinkPoses& drawn, Node& node) {
-  constexpr long double alike = 1e-9L;
-  std::optional<Taylor> first;
-  std::size_t shifts = 0;  // of the group: there are none of a dyad
-  for (AssurGroup& group : structure_.groups) {
-    shifts += group.is_dyad() ? 0 : 1;
-    const auto motion = parallel_motion(group, sketch_, structure_, drawn, size_);
-    if (!motion || !motion->changes) continue;
-    const Taylor sine = sine_of(*motion, drawn);
-    if (!first) first = sine;
-    const long double sense = sine.value() * first->value() < 0 ? -1 : 1;
-    bool same = true;
-    for (int k = 0; k <= Taylor::order; ++k) same = same && std::fabs(sense * sine.c[k] - first->c[k]) < alike;
-    if (!same) continue;
-    group.parallel = motion;
-    if (!group.is_dyad()) node.shifts[shifts - 1].assign(group.links.size(), {});  // nothing to follow
-  }
+// All of them change together, by one sine: a group with change points in other positions than the first one's is not
+// followed through them.
+void Linkage::find_change_point(AssurGroup& group, const LinkPoses& drawn, std::optional<Taylor>& first) const {
+  const long double alike = sketch_.rounded > 0 ? 1e-3L : 1e-9L;
+  const auto motion = parallel_motion(group, sketch_, structure_, drawn, size_);
+  if (!motion || !motion->changes) return;
+  const Taylor sine = sine_of(*motion, drawn);
+  if (!first) first = sine;
+  const long double sense = sine.value() * first->value() + sine.slope() * first->slope() < 0 ? -1 : 1;
+  for (int k = 0; k <= Taylor::order; ++k)
+    if (!(std::fabs(sense * sine.c[k] - first->c[k]) < alike)) return;
+  group.parallel = motion;
 }
 
 // Where Newton's method has found no change point, the closed form is exact and costs less.
@@ -86,16 +112,14 @@ Linkage::Way Linkage::march(const Node& from, long double angle) const {
     const long double phi = at_end ? end : last.phi + sense * step;
     const Shifts start = predicted(last, phi);
     Closed closed = close(phi, start);
-    if (closed.failed < 0 && is_near(start, closed.shifts, most_corrected)) {
+    closed.failed = first_astray(closed, start, most_corrected);
+    if (closed.failed < 0) {
       way.nodes.push_back({phi, std::move(closed.shifts)});
       step = std::min(1.5L * step, whole_turn / steps_of_turn);
       continue;
     }
     step /= 2;
     if (step > least_step) continue;
-    for (std::size_t g = 0; closed.failed < 0 && g < start.size(); ++g)
-      if (g + 1 == start.size() || !is_near({start[g]}, {closed.shifts[g]}, most_corrected))
-        closed.failed = static_cast<int>(g);
     way.stopped = std::move(closed);
     break;
   }
@@ -123,20 +147,24 @@ bool Linkage::touches(const Way& way, long double sense) const {
   while (std::next(from) != way.nodes.rend() && std::fabs(from->phi - phi) < before) ++from;
   const Shifts start = predicted(*from, phi);
   const Closed closed = close(phi, start);
-  const auto failed = static_cast<std::size_t>(way.stopped->failed);
-  if (closed.failed >= 0 && closed.failed <= way.stopped->failed) return false;
-  return structure_.groups[failed].is_dyad() || is_near(start, closed.shifts, before);
+  const int astray = first_astray(closed, start, before);
+  return astray < 0 || astray > way.stopped->failed;
 }
 
-bool Linkage::is_near(const Shifts& a, const Shifts& b, long double apart) const {
+bool Linkage::is_near(const std::vector<LinkShift>& a, const std::vector<LinkShift>& b, long double apart) const {
   const auto off = [](const Taylor& u, const Taylor& v) { return std::fabs(u.value() - v.value()); };
-  for (std::size_t g = 0; g < a.size(); ++g)
-    for (std::size_t i = 0; i < a[g].size(); ++i) {
-      const LinkShift &u = a[g][i], &v = b[g][i];
-      if (!(off(u.x, v.x) < apart * size_ && off(u.y, v.y) < apart * size_ && off(u.angle, v.angle) < apart))
-        return false;
-    }
-  return true;
+  return std::equal(a.begin(), a.end(), b.begin(), [&](const LinkShift& u, const LinkShift& v) {
+    return off(u.x, v.x) < apart * size_ && off(u.y, v.y) < apart * size_ && off(u.angle, v.angle) < apart;
+  });
+}
+
+// The first group that cannot be closed, or that Newton's method closes in a position farther off than `apart`; −1: none.
+int Linkage::first_astray(const Closed& closed, const Shifts& start, long double apart) const {
+  for (int g = 0; g < static_cast<int>(start.size()); ++g) {
+    const auto k = static_cast<std::size_t>(g);
+    if (g == closed.failed || !is_near(start[k], closed.shifts[k], apart)) return g;
+  }
+  return closed.failed;
 }
 
 void Linkage::explore() {

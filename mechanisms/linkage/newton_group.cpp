@@ -141,10 +141,7 @@ GroupClosure close_by_newton(const AssurGroup& g, const std::vector<LinkageJoint
   for (int i = 0; i < most_steps; ++i) {
     closures.put(shifts, poses);
     factors.compute(closures.derivative(poses));
-    if (factors.rank() < closures.columns()) {
-      out.singular = true;
-      return out;
-    }
+    if (factors.rank() < closures.columns()) return out;
     const Column step = factors.solve(-closures.error(poses, 0));
     const long double way = step.lpNorm<Eigen::Infinity>();
     if (!(way < too_far * size)) return out;
@@ -153,8 +150,8 @@ GroupClosure close_by_newton(const AssurGroup& g, const std::vector<LinkageJoint
     near = way < nearly * size;
   }
   closures.put(shifts, poses);
-  out.misfit = closures.error(poses, 0).lpNorm<Eigen::Infinity>();
-  if (!near || !(out.misfit <= fitting * size)) return out;
+  const long double misfit = closures.error(poses, 0).lpNorm<Eigen::Infinity>();  // of redundant closures
+  if (!near || !(misfit <= fitting * size)) return out;
   for (int k = 1; k <= Taylor::order; ++k) {
     add_to(shifts, factors.solve(-closures.error(poses, k)), size, k);
     closures.put(shifts, poses);

@@ -19,9 +19,7 @@ struct LinkShift {
 
 struct GroupClosure {
   bool closed = false;
-  long double misfit = 0;  // residual of redundant closures in the least-squares solution [m]
-  bool singular = false;   // Newton's matrix is rank deficient
-  long double pivot = 0;   // its smallest pivot over its greatest, 0 in a change point
+  long double pivot = 0;  // of Newton's matrix the smallest pivot over the greatest, 0 in a change point
 };
 
 // Adds the poses of the group's links. `shifts`: one for each link; on entry values near the solution, on return the

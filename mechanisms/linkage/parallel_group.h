@@ -16,11 +16,20 @@
 
 namespace kurbel {
 
-// The motion of a group in parallel, in the order of its links; empty: it has none. `drawn`: the closed position of the
-// sketch; `size` [m]: of the linkage.
+// The motion of a group in parallel, in the order of its links; empty: it has none. `poses`: of the links before it, in the
+// sketch, which may be a change point; `size` [m]: of the linkage.
 std::optional<ParallelMotion> parallel_motion(const AssurGroup& group, const LinkageSketch& sketch,
-                                              const LinkageStructure& structure, const LinkPoses& drawn,
+                                              const LinkageStructure& structure, const LinkPoses& poses,
                                               long double size);
+
+// Pins to be moved [m, axes of the sketch] so that the group moves in parallel, if no more than the rounding of the
+// sketch's coordinates prevents it; else empty.
+struct MovedPoint {
+  int point = 0;
+  SketchSpot by;
+};
+std::optional<std::vector<MovedPoint>> parallel_pins(const AssurGroup& group, const LinkageSketch& sketch,
+                                                     const LinkageStructure& structure, long double size);
 
 // Adds the poses of the group's links.
 void move_in_parallel(const AssurGroup& group, LinkPoses& poses);

@@ -50,6 +50,7 @@ struct LinkageSketch {
   Output output;
   double gravity = 0;    // [m/s²], ≥ 0
   double elevation = 0;  // of +x of the sketch above the horizontal [rad]
+  double rounded = 0;    // half a unit of the last decimal place that coordinates are given with [m]; 0: they are exact
 
   bool has(int body, int point) const {
     const std::vector<int>& list = body == frame ? frame_points : links[static_cast<std::size_t>(body)].points;
